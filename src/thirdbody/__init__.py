@@ -1,0 +1,75 @@
+"""Contact of rough surfaces with particles between them.
+
+Populations say what lies in the interface, laws say what one contact does, a `Contact`
+integrates laws over populations, and `solve` finds the separation that balances the load.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+from . import asperity, particle
+from .citations import cite
+from .contact import Contact
+from .distributions import (
+    Distribution,
+    Histogram,
+    LogNormal,
+    Mixture,
+    Monodisperse,
+    TruncatedGaussian,
+    Uniform,
+    Weibull,
+)
+from .equilibrium import Equilibrium, roots, solve
+from .errors import InvalidValue, NoEquilibrium, NoTransition, RangeWarning, ThirdBodyError
+from .materials import Material, MaterialPair, materials
+from .particles import Particles
+from .surfaces import Roughness
+from .sweep import sweep
+from .transitions import Critical, Transitions, TurningPoint, transitions
+
+__version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from . import plot
+
+__all__ = [
+    "Contact",
+    "Critical",
+    "Distribution",
+    "Equilibrium",
+    "Histogram",
+    "InvalidValue",
+    "LogNormal",
+    "Material",
+    "MaterialPair",
+    "Mixture",
+    "Monodisperse",
+    "NoEquilibrium",
+    "NoTransition",
+    "Particles",
+    "RangeWarning",
+    "Roughness",
+    "ThirdBodyError",
+    "Transitions",
+    "TruncatedGaussian",
+    "TurningPoint",
+    "Uniform",
+    "Weibull",
+    "asperity",
+    "cite",
+    "materials",
+    "particle",
+    "plot",
+    "roots",
+    "solve",
+    "sweep",
+    "transitions",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "plot":
+        from importlib import import_module
+
+        return import_module(".plot", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

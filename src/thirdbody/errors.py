@@ -1,0 +1,33 @@
+"""What can go wrong, in one hierarchy.
+
+A message says what, where, what is allowed, and the likely cause.
+"""
+
+__all__ = ["InvalidValue", "NoEquilibrium", "NoTransition", "RangeWarning", "ThirdBodyError"]
+
+
+class ThirdBodyError(Exception):
+    """Base class of every error that this library raises on purpose."""
+
+
+class InvalidValue(ThirdBodyError, ValueError):
+    """An input has no meaning: negative, NaN, wrong dimension, unknown name.
+
+    ``problems`` holds one sentence per mistake, so that a user mends all of them at once.
+    """
+
+    def __init__(self, *problems: str):
+        self.problems = problems
+        super().__init__("\n".join(problems))
+
+
+class NoEquilibrium(ThirdBodyError, RuntimeError):
+    """No separation inside the searched range carries the load."""
+
+
+class NoTransition(ThirdBodyError, RuntimeError):
+    """The contact mode does not change inside the loads searched."""
+
+
+class RangeWarning(UserWarning):
+    """A model is used outside the range for which it was derived or published."""

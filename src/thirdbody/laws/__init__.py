@@ -1,0 +1,1 @@
+"""Contact laws: one file each, one battery of tests for all."""

@@ -1,0 +1,208 @@
+r"""What a contact law is.
+
+A law says what one contact does. For an asperity it is stated in reduced form: with the
+interference of first yield ω_1, the interference :math:`y = \omega/\omega_1`,
+
+.. math:: F = \pi R\,\omega_1 H\, f(y), \qquad A = \pi R\,\omega_1\, a(y),
+
+as a sequence of smooth branches between the `breakpoints`. Everything else (contact radius,
+mean pressure, stiffness, energy, regime, sums over a population) follows from the branches,
+so a new law is one file with its equations.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+import numpy as np
+
+from ..numerics import panel_rule
+from ..values import Value
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["REGIMES", "AbstractAsperityLaw", "AbstractParticleLaw", "Branch", "Law"]
+
+REGIMES = ("elastic", "elastoplastic", "plastic")
+
+
+class Branch(NamedTuple):
+    """One smooth piece of a law, in reduced form."""
+
+    regime: str
+    force: Callable[[Array], Array]
+    """f(y) = F/(πRω_1 H)"""
+    area: Callable[[Array], Array]
+    """a(y) = A/(πRω_1)"""
+    stiffness: Callable[[Array], Array]
+    """df/dy"""
+
+
+class Law(Value):
+    """What every law, for asperities or particles, says of itself."""
+
+    __slots__ = ()
+
+    name: ClassVar[str]
+    """The word that study files use."""
+    title: ClassVar[str]
+    year: ClassVar[int]
+    citation: ClassVar[str]
+    doi: ClassVar[str] = ""
+    provenance: ClassVar[str]
+    """seen in the source, derived, recalled, or reconstructed"""
+    valid_range: ClassVar[str]
+
+    def __init_subclass__(cls, **kwargs) -> None:  # noqa: ANN003
+        super().__init_subclass__(**kwargs)
+        if "name" in vars(cls):
+            cls.registry[cls.name] = cls
+
+    registry: ClassVar[dict[str, type[Law]]] = {}
+    """Every law of one kind by name: a law enters it when its module is imported."""
+
+
+class AbstractAsperityLaw(Law):
+    """A frictionless contact of one tip of radius R with a flat.
+
+    A subclass is a frozen, slotted, keyword-only dataclass. It gives `yield_interference`,
+    `breakpoints` and `branches` (one more branch than breakpoints), the class data of `Law`,
+    and, where the published formulas are not continuous, `jumps`.
+    """
+
+    __slots__ = ()
+    registry: ClassVar[dict[str, type[Law]]] = {}
+
+    jumps: ClassVar[dict[float, float]] = {}
+    """Declared relative jumps of the load at breakpoints, {y: jump}."""
+
+    @abstractmethod
+    def yield_interference(self, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike) -> Array:
+        """Interference of first yield ω_1 [m]."""
+
+    @property
+    @abstractmethod
+    def breakpoints(self) -> tuple[float, ...]:
+        """Reduced interferences y = ω/ω_1 where the formula changes; the upper branch holds there."""
+
+    @property
+    @abstractmethod
+    def branches(self) -> tuple[Branch, ...]:
+        """The formulas between the breakpoints, from zero interference upward."""
+
+    # ---------------------------------------------------------------- reduced form
+    def reduced(self, quantity: str, y: ArrayLike) -> Array:
+        """f(y), a(y) or df/dy (``"force"``, ``"area"``, ``"stiffness"``); zero without interference."""
+        y = np.asarray(y, dtype=float)
+        out = np.zeros_like(y)
+        which = np.searchsorted(self.breakpoints, y, side="right")
+        for i, branch in enumerate(self.branches):
+            here = (which == i) & (y > 0)
+            if np.any(here):
+                out[here] = getattr(branch, quantity)(y[here])
+        return out
+
+    # ---------------------------------------------------------------- one contact
+    def force(self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike) -> Array:
+        """Load F [N] of one contact.
+
+        Parameters
+        ----------
+        omega : array_like
+            Interference ω [m]; zero or negative gives zero.
+        R, E_star, H : array_like
+            Tip radius [m], contact modulus [Pa], hardness of the softer body [Pa].
+        """
+        omega_1 = self.yield_interference(R=R, E_star=E_star, H=H)
+        return np.pi * R * omega_1 * H * self.reduced("force", np.asarray(omega) / omega_1)
+
+    def area(self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike) -> Array:
+        """Contact area A [m²] of one contact; arguments as in `force`."""
+        omega_1 = self.yield_interference(R=R, E_star=E_star, H=H)
+        return np.pi * R * omega_1 * self.reduced("area", np.asarray(omega) / omega_1)
+
+    def stiffness(
+        self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike
+    ) -> Array:
+        """dF/dω [N/m] of one contact; arguments as in `force`."""
+        omega_1 = self.yield_interference(R=R, E_star=E_star, H=H)
+        return np.pi * R * H * self.reduced("stiffness", np.asarray(omega) / omega_1)
+
+    def contact_radius(
+        self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike
+    ) -> Array:
+        """a = √(A/π) [m] of one contact; arguments as in `force`."""
+        return np.sqrt(self.area(omega, R=R, E_star=E_star, H=H) / np.pi)
+
+    def mean_pressure(
+        self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike
+    ) -> Array:
+        """p = F/A [Pa] of one contact, zero without contact; arguments as in `force`."""
+        area = self.area(omega, R=R, E_star=E_star, H=H)
+        force = self.force(omega, R=R, E_star=E_star, H=H)
+        return np.divide(force, area, out=np.zeros_like(force), where=area > 0)
+
+    def energy(self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike) -> Array:
+        """Work ∫F dω [J] done in one loading to ω; arguments as in `force`."""
+        omega = np.asarray(omega, dtype=float)
+        omega_1 = np.asarray(self.yield_interference(R=R, E_star=E_star, H=H))
+        y = np.maximum(omega / omega_1, 0.0)
+        splits = np.array([0.0, *self.breakpoints])
+        edges = np.concatenate([np.minimum(y[..., None], splits), y[..., None]], axis=-1)
+        # panels in √y: every law starts like y^(3/2)
+        root, weight = panel_rule(np.sqrt(edges), 40)
+        work = np.sum(weight * 2 * root * self.reduced("force", root**2), axis=-1)
+        return np.pi * R * omega_1**2 * H * work
+
+    def regime(
+        self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike
+    ) -> NDArray[np.str_]:
+        """``"none"``, ``"elastic"``, ``"elastoplastic"`` or ``"plastic"``; arguments as in `force`."""
+        y = np.asarray(omega) / self.yield_interference(R=R, E_star=E_star, H=H)
+        names = np.array([branch.regime for branch in self.branches])
+        return np.where(y > 0, names[np.searchsorted(self.breakpoints, y, side="right")], "none")
+
+
+class AbstractParticleLaw(Law):
+    """What a particle caught between two surfaces does.
+
+    `response` binds the law to an interface and returns a `ParticleResponse`.
+    """
+
+    __slots__ = ()
+    registry: ClassVar[dict[str, type[Law]]] = {}
+
+    datum: ClassVar[float] = 0.0
+    """Mean asperity height in the coordinate of d, in units of σ; a law may make it a field."""
+
+    @abstractmethod
+    def response(self, surfaces, roughness, particles) -> ParticleResponse:  # noqa: ANN001
+        """The particles' answer as a function of d."""
+
+    def warnings(self, surfaces, roughness, particles) -> list[str]:  # noqa: ANN001
+        """Where this interface leaves the law's range, one sentence each."""
+        return []
+
+
+class ParticleResponse:
+    """Particles between two surfaces, per nominal area, as functions of the separation d [m]."""
+
+    reach: float
+    """Separation [m] above which no particle is loaded (or the load is negligible)."""
+    monotone: bool = True
+    """The load falls with d everywhere."""
+    resolution: float = np.inf
+    """Step of d [m] that resolves the load, where it is not monotone."""
+
+    def load(self, d: Array) -> tuple[Array, Array]:
+        """Pressure F_sa and shadow ς with first and second derivative: two arrays (N, 3)."""
+        raise NotImplementedError
+
+    def fields(self, d: Array) -> dict[str, Array]:
+        """F_sa [Pa], A_e, A_ep, A_p on surface 1, A_sa2 on surface 2, and the shadow ς."""
+        raise NotImplementedError

@@ -1,0 +1,17 @@
+"""Laws of particles between two surfaces. A new law is one file here and one import line below."""
+
+from ..base import AbstractParticleLaw, ParticleResponse
+from .horng2022 import PRESETS, Horng2022
+from .series import Series
+
+REGISTRY = AbstractParticleLaw.registry
+"""Every law by the word that study files use."""
+
+__all__ = [
+    "PRESETS",
+    "REGISTRY",
+    "AbstractParticleLaw",
+    "Horng2022",
+    "ParticleResponse",
+    "Series",
+]

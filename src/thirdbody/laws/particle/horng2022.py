@@ -1,0 +1,256 @@
+"""The particle law of Horng et al. 2022 as printed, and the readings that reproduce its figures."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...errors import InvalidValue
+from ...materials import reduced_modulus
+from ...values import choice, quantity
+from ..base import AbstractParticleLaw, ParticleResponse
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ...distributions import Distribution
+    from ...materials import MaterialPair
+    from ...particles import Particles
+    from ...surfaces import Roughness
+
+    Array = NDArray[np.float64]
+
+__all__ = ["PRESETS", "Horng2022"]
+
+PRESETS: dict[str, dict[str, Any]] = {
+    "published": dict(h_e_sigma=3.11, chi=0.00738, hardness_rule="sum"),
+    "window": dict(h_e_sigma=3.25, chi=1 / 16, plastic=False),
+    "all_terms": dict(h_e_sigma=3.15, chi=0.0185),
+    "window_E2": dict(h_e_sigma=2.39, kappa_C=2.0, plastic=False),
+    "literal": dict(h_e_rule="approach"),
+}
+"""What each reading of the printed equations changes; the rest is as printed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Horng2022(AbstractParticleLaw):
+    r"""Particle load and area of eqs. (1), (2) and (13) of Horng et al. 2022, slips as switches.
+
+    .. math:: \Sigma = C\int_{d-h_e}^{d} w\,\varphi_a\,dx + \int_d^{x_{max}} w_p\,\varphi_a\,dx,
+        \qquad C=\frac{9\pi^2}{4}\left(\frac{H_{s1}^2}{E_1^2}+\frac{H_{s2}^2}{E_2^2}\right)
+    .. math:: A_{sa}=\frac{\pi H_{s2}}{H_{s1}+H_{s2}}\,\chi\eta_a\Sigma, \qquad
+              F_{sa}=H_{s1}A_{sa}
+
+    ``Horng2022(preset="window")`` sets every switch as that reading does; switches given beside
+    it override. The first integral gives a load to every particle caught between surface 1 and
+    the level of the highest asperities, d − h_e < x < d, and none to larger ones: particles are
+    released once they exceed the gap. That is an artefact of the printed equations (and why the
+    load need not fall with d), not physics; use `Series` to predict.
+
+    Parameters
+    ----------
+    preset : {"published", "window", "all_terms", "window_E2", "literal"}
+        A reading of the paper. ``published`` reproduces most of its statements.
+    weight : {"x2", "xa2"}
+        w = x² or, as printed, x_a².
+    plastic : bool
+        Keep the second integral.
+    plastic_weight : {"x2", "xxd"}
+        w_p = w as printed, or x(x − d) from the balance of indentations.
+    h_e_rule : {"level", "approach"}
+        ``level``: h_e = h_e_sigma σ + h_e_diameter x_a; ``approach``: h_e = C x_a/2.
+    h_e_sigma, h_e_diameter : float
+        Level of the highest asperities over σ, and its part over x_a [1].
+    second_modulus : {"ss", "sa"}
+        E_2 is that of the surfaces (as printed) or of particle and surface 2.
+    kappa_C : float
+        Modulus convention in C: 1 for E*, 2 for E' = 2E* [1].
+    chi : float
+        Factor χ on the particle density [1].
+    shadow : {"d", "xmin", "none"}
+        Lower limit of the area correction, which counts the footprint of the second integral:
+        d, the smallest particle (as eq. 1 prints), or no correction.
+    hardness_rule : {"surface", "softer", "replace2", "sum"}
+        How the particle hardness enters: not at all (as printed), as the softer of each
+        contact, in place of H_s2, or as a mean pressure H_s1 + H_a. The last is inferred from
+        the published numbers; it is in no printed equation and is not physical.
+    particle_regime : {"plastic", "split"}
+        Book all particle area as plastic (eq. 13) or the first integral as elastic.
+    datum : float
+        Centre of the asperity heights in the coordinate of d, in units of σ [1]; eq. (8)
+        prints 1.
+    normalise : bool
+        Divide the truncated density by its mass; as printed: no.
+
+    References
+    ----------
+    Horng et al. 2022, Lubricants 10(7), 164, doi:10.3390/lubricants10070164.
+
+    Examples
+    --------
+    >>> Horng2022(preset="window").plastic
+    False
+    """
+
+    name = "horng2022"
+    title = "Horng et al. 2022 as printed, with switches"
+    year = 2022
+    citation = "Horng et al. 2022, Lubricants 10(7), 164"
+    doi = "10.3390/lubricants10070164"
+    provenance = "seen"
+    valid_range = "d > 0; reproduces the paper, does not predict"
+
+    preset: str = choice("reading of the paper", *PRESETS, default="published")
+    weight: str = choice("weight of the particle integrals", "x2", "xa2", default="x2")
+    plastic: bool = True
+    plastic_weight: str = choice("weight of the plastic integral", "x2", "xxd", default="x2")
+    h_e_rule: str = choice("meaning of h_e", "level", "approach", default="level")
+    h_e_sigma: float = quantity("h_e/σ", "1", "level of the highest asperities", default=0.0, ge=0)
+    h_e_diameter: float = quantity("h_e/x_a", "1", "part of h_e over x_a", default=0.0, ge=0)
+    second_modulus: str = choice("modulus of the second contact", "ss", "sa", default="ss")
+    kappa_C: float = quantity("κ_C", "1", "modulus convention in C", default=1.0, gt=0)
+    chi: float = quantity("χ", "1", "factor on the particle density", default=1.0, gt=0)
+    shadow: str = choice("lower limit of the area correction", "d", "xmin", "none", default="d")
+    hardness_rule: str = choice(
+        "how H_a enters", "surface", "softer", "replace2", "sum", default="surface"
+    )
+    particle_regime: str = choice("regime of particle area", "plastic", "split", default="plastic")
+    datum: float = quantity("μ_0/σ", "1", "centre of asperity heights", default=1.0)
+    normalise: bool = False
+
+    def __init__(self, *, preset: str = "published", **switches: Any):
+        fields = {item.name: item for item in dataclasses.fields(type(self))}
+        if unknown := [key for key in switches if key not in fields]:
+            known = ", ".join(fields)
+            raise InvalidValue(
+                *(f"Horng2022 has no switch {key!r}; it has {known}" for key in unknown)
+            )
+        values = {key: item.default for key, item in fields.items()}
+        values |= {"preset": preset} | PRESETS.get(preset, {}) | switches
+        for key, value in values.items():
+            object.__setattr__(self, key, value)
+        self.__post_init__()
+
+    def _problems(self) -> list[str]:
+        return [
+            f"Horng2022.{key} = {getattr(self, key)!r} must be true or false"
+            for key in ("plastic", "normalise")
+            if not isinstance(getattr(self, key), bool)
+        ]
+
+    def response(
+        self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
+    ) -> ParticleResponse:
+        return PrintedIntegrals(self, surfaces, roughness, particles)
+
+
+class PrintedIntegrals(ParticleResponse):
+    """The printed integrals in closed form, as functions of d."""
+
+    monotone = False
+
+    def __init__(
+        self, law: Horng2022, surfaces: MaterialPair, roughness: Roughness, particles: Particles
+    ):
+        self.law, self.sizes = law, particles.diameter
+        H1, H2, Ha = surfaces.first.H, surfaces.second.H, particles.material.H
+        if law.hardness_rule == "softer":
+            H1, H2 = min(H1, Ha), min(H2, Ha)
+        elif law.hardness_rule == "replace2":
+            H2 = Ha
+        E1 = law.kappa_C * reduced_modulus(surfaces.first, particles.material)
+        second = (
+            surfaces.E_star
+            if law.second_modulus == "ss"
+            else reduced_modulus(surfaces.second, particles.material)
+        )
+        self.C = 9 * math.pi**2 / 4 * ((H1 / E1) ** 2 + (H2 / (law.kappa_C * second)) ** 2)
+        self.x_a = nominal_diameter(self.sizes)
+        if law.h_e_rule == "approach":
+            self.h_e = self.C * self.x_a / 2
+        else:
+            self.h_e = law.h_e_sigma * roughness.sigma + law.h_e_diameter * self.x_a
+        eta = law.chi * particles.areal_density
+        if not law.normalise:
+            eta *= self.sizes.retained_mass
+        if law.hardness_rule == "sum":
+            self.area_factor = math.pi * eta * Ha / (H1 + Ha)
+            self.pressure = H1 + Ha
+        else:
+            self.area_factor = math.pi * eta * H2 / (H1 + H2)
+            self.pressure = H1
+        self.shadow_factor = math.pi * eta * H1 / (H1 + H2)
+        low, high = self.sizes.support
+        self.reach = high + self.h_e
+        width = (high - low) / 6 or self.x_a
+        self.resolution = min(roughness.sigma, self.h_e or np.inf, width) / 40
+
+    def _moment(self, weight: str, a: Array | float, b: Array | float) -> Array:
+        if weight == "xa2":
+            return self.x_a**2 * self.sizes.partial_moment(0, a, b)
+        return self.sizes.partial_moment(2, a, b)
+
+    def _density(self, x: Array) -> Array:
+        """w(x) φ_a(x)."""
+        scale = self.x_a if self.law.weight == "xa2" else x
+        return scale**2 * self.sizes.pdf(x)
+
+    def _window(self, d: Array) -> Array:
+        return self.C * self._moment(self.law.weight, d - self.h_e, d)
+
+    def _above(self, d: Array) -> Array:
+        """∫_d^x_max w_p φ_a dx, the plastic footprint."""
+        if not self.law.plastic:
+            return np.zeros_like(d)
+        if self.law.plastic_weight == "xxd":
+            m2 = self.sizes.partial_moment(2, d, np.inf)
+            return m2 - d * self.sizes.partial_moment(1, d, np.inf)
+        return self._moment(self.law.weight, d, np.inf)
+
+    def _above_slope(self, d: Array) -> Array:
+        if not self.law.plastic:
+            return np.zeros_like(d)
+        if self.law.plastic_weight == "xxd":
+            return -self.sizes.partial_moment(1, d, np.inf)
+        return -self._density(d)
+
+    def _shadow(self, d: Array) -> Array:
+        if self.law.shadow == "none":
+            return np.zeros_like(d)
+        lower = d if self.law.shadow == "d" else np.zeros_like(d)
+        return self.shadow_factor * self._above(lower)
+
+    def load(self, d: Array) -> tuple[Array, Array]:
+        force, shadow = np.zeros((len(d), 3)), np.zeros((len(d), 3))
+        window_slope = self.C * (self._density(d) - self._density(d - self.h_e))
+        force[:, 0] = self._window(d) + self._above(d)
+        force[:, 1] = window_slope + self._above_slope(d)
+        force *= self.pressure * self.area_factor
+        shadow[:, 0] = self._shadow(d)
+        if self.law.shadow == "d":
+            shadow[:, 1] = self.shadow_factor * self._above_slope(d)
+        over = shadow[:, 0] >= 1
+        shadow[over] = [1.0, 0.0, 0.0]
+        return force, shadow
+
+    def fields(self, d: Array) -> dict[str, Array]:
+        window, above = (self.area_factor * part for part in (self._window(d), self._above(d)))
+        elastic = window if self.law.particle_regime == "split" else np.zeros_like(d)
+        total = window + above
+        return {
+            "F_sa": self.pressure * total,
+            "A_e": elastic,
+            "A_ep": np.zeros_like(d),
+            "A_p": total - elastic,
+            "A_sa2": total,
+            "shadow": np.minimum(self._shadow(d), 1.0),
+        }
+
+
+def nominal_diameter(sizes: Distribution) -> float:
+    """x_a as the paper means it: the centre of the Gaussian, or the mean of another law [m]."""
+    return getattr(sizes, "mean", None) or sizes.mean_diameter

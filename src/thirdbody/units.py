@@ -1,0 +1,198 @@
+"""Numbers with a unit, as a user writes them: "300 nm", "5 GPa", "1e11 / m^2".
+
+Everything else in the library is a plain number in SI; strings are read here and nowhere else.
+The unit registry (pint) is loaded with the first string that has a unit.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+from .errors import InvalidValue
+
+__all__ = ["EXAMPLES", "to_si"]
+
+EXAMPLES = {"m": '"300 nm"', "Pa": '"5 GPa"', "1/m^2": '"1e11 / m^2"', "1": "0.5"}
+"""How a value in each of the library's units may be written."""
+
+_KINDS = {
+    "": "a pure number",
+    "m": "a length",
+    "Pa": "a pressure",
+    "1/m**2": "a number per area",
+    "1/m**3": "a number per volume",
+    "1/m": "a number per length",
+    "m**2": "an area",
+    "m**3": "a volume",
+    "N": "a force",
+    "N/m": "a force per length",
+    "kg": "a mass",
+    "kg/m**3": "a mass density",
+    "kg/m**2": "a mass per area",
+    "mol/m**3": "a molar concentration",
+    "s": "a time",
+    "m/s": "a speed",
+    "K": "a temperature",
+    "J": "an energy",
+    "rad/s": "a rate",
+    "Pa*s": "a viscosity",
+    "A": "an electric current (angstrom is written angstrom)",
+}
+_USUAL = ("nm", "um", "µm", "mm", "m", "angstrom", "Pa", "kPa", "MPa", "GPa", "bar", "psi")
+
+_NUMBER = re.compile(
+    r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?(?:infinity|inf|nan)\b", re.IGNORECASE
+)
+_FACTOR = re.compile(
+    r"\s*(?P<sign>[*/·×]?)\s*(?P<name>[^\W\d_]+|%|1)(?:(?:\s*(?:\^|\*\*)\s*)?(?P<power>-?\d\d?))?"
+)
+_SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+
+
+def to_si(value: Any, unit: str) -> float:
+    """One number in SI from a plain number or a string with a unit.
+
+    Parameters
+    ----------
+    value : float or str
+        A plain number is taken as SI already.
+    unit : str
+        The SI unit that is needed: "m", "Pa", "1/m^2", or "1" for a pure number.
+
+    Returns
+    -------
+    float
+        The value in ``unit``; NaN and infinity pass, whoever knows the range refuses them.
+
+    Raises
+    ------
+    InvalidValue
+        One sentence that begins with the value: no number, unknown unit, wrong dimension.
+
+    Examples
+    --------
+    >>> to_si("300 nm", "m"), to_si("5 GPa", "Pa"), to_si("1e11 / m^2", "1/m^2"), to_si(0.3, "1")
+    (3e-07, 5000000000.0, 100000000000.0, 0.3)
+    >>> to_si("300 GPa", "m")
+    Traceback (most recent call last):
+    thirdbody.errors.InvalidValue: "300 GPa" is a pressure, but a length [m] is needed, e.g. "300 nm"
+    """
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        try:
+            return float(value)
+        except OverflowError:
+            return math.inf
+    if not isinstance(value, str):
+        return _refuse(f"{_say(value)} must be {_needed(unit)}")
+    text = value.strip()
+    shown = _say(value)
+    number = _NUMBER.match(text)
+    if number is None:
+        return _refuse(f"{shown} has no number in front; it must be {_needed(unit)}")
+    rest = text[number.end() :].strip()
+    if re.match(r",\d", rest):
+        return _refuse(f"{shown} has a decimal comma; write a point: {shown.replace(',', '.')}")
+    if not rest:
+        return float(number.group())
+    return _scaled(number.group(), _normal(rest, shown, unit), shown, unit)
+
+
+def _refuse(sentence: str) -> float:
+    raise InvalidValue(sentence)
+
+
+def _say(value: Any) -> str:
+    """A value as it stands in a study file, shortened."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value if len(value) <= 60 else value[:57] + "..."}"'
+    if isinstance(value, dict):
+        value = "{ " + ", ".join(f"{key} = {_say(item)}" for key, item in value.items()) + " }"
+    elif isinstance(value, (list, tuple)):
+        value = "[" + ", ".join(_say(item) for item in value) + "]"
+    text = str(value)
+    return text if len(text) <= 80 else text[:76] + " ..."
+
+
+def _needed(unit: str) -> str:
+    kind = _KINDS.get("" if unit == "1" else unit.replace("^", "**"), "a quantity")
+    if unit == "1":
+        return f"{kind}, e.g. {EXAMPLES['1']}"
+    return f"{kind}: a number in SI [{unit}] or with a unit, e.g. {EXAMPLES.get(unit, unit)}"
+
+
+def _normal(rest: str, shown: str, unit: str) -> str:
+    """The unit in the one spelling that the registry reads; nothing else gets through."""
+    rest = re.sub(r"\bparticles?\b", "count", rest.translate(_SUPERSCRIPTS))
+    out, at = "1", 0
+    while at < len(rest):
+        factor = _FACTOR.match(rest, at)
+        if factor is None or len(rest) > 60:
+            _refuse(f"{shown} cannot be read; it must be {_needed(unit)}")
+        sign, name, power = factor["sign"], factor["name"], factor["power"]
+        out += f" {'/' if sign == '/' else '*'} {'percent' if name == '%' else name}"
+        out += f"**({power})" if power else ""
+        at = factor.end()
+    return out
+
+
+@cache
+def _registry() -> Any:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def _scaled(number: str, body: str, shown: str, unit: str) -> float:
+    registry = _registry()
+    wanted = "" if unit == "1" else unit.replace("^", "**")
+    try:
+        found = registry.parse_units(body)
+    except Exception:
+        return _refuse(_unknown(body, shown, unit))
+    if found.dimensionality == registry.parse_units(wanted).dimensionality:
+        factor = registry.convert(1.0, found, wanted)
+        exponent = round(math.log10(factor)) if factor > 0 else 0
+        if math.isfinite(float(number)) and math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
+            # "300 nm" is the double 300e-9, not 300 * 1e-9
+            return float(Fraction(number) * Fraction(10) ** exponent)
+        return float(number) * factor
+    kinds = (
+        name
+        for kind, name in _KINDS.items()
+        if registry.parse_units(kind).dimensionality == found.dimensionality
+    )
+    kind = next(kinds, f"in {registry.get_base_units(found)[1]:~C}")
+    if unit == "1":
+        return _refuse(f"{shown} is {kind}, but a pure number is needed, e.g. {EXAMPLES['1']}")
+    return _refuse(
+        f"{shown} is {kind}, but {_KINDS.get(wanted, 'a quantity')} [{unit}] is needed, "
+        f"e.g. {EXAMPLES.get(unit, unit)}"
+    )
+
+
+def _unknown(body: str, shown: str, unit: str) -> str:
+    registry = _registry()
+    for word in re.findall(r"[^\W\d_]+", body):
+        if word in registry:
+            continue
+        if word in ("HV", "HB", "HK"):
+            return (
+                f"{shown} is a hardness number, not a pressure; one unit of {word} is 1 kgf/mm^2, "
+                f"so write {shown.replace(word, 'kgf/mm^2')}"
+            )
+        folded = {name.lower(): name for name in reversed(_USUAL)}
+        near = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
+        guess = f"; did you mean {folded[near[0]]}?" if near else ""
+        example = EXAMPLES.get(unit, unit)
+        return (
+            f"{shown} has the unit {word}, which is not known (upper and lower case matter), "
+            f"e.g. {example}{guess}"
+        )
+    return f"{shown} has a unit that cannot be read; it must be {_needed(unit)}"

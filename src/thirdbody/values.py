@@ -1,0 +1,171 @@
+"""Value objects: what a user builds is frozen, checked once, comparable, and has a JSON round trip.
+
+Each physical field is declared with `quantity`, which keeps symbol, unit, meaning and the
+allowed range beside the field: constructor checks, study files and the documentation read
+the same declaration.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import MISSING, field
+from typing import Any, ClassVar, Self
+
+from .errors import InvalidValue
+
+__all__ = ["Value", "choice", "quantity"]
+
+
+def quantity(
+    symbol: str,
+    unit: str,
+    meaning: str,
+    *,
+    default: Any = MISSING,
+    gt: float | None = None,
+    ge: float | None = None,
+    lt: float | None = None,
+    le: float | None = None,
+    hint: str = "",
+) -> Any:
+    """A dataclass field that holds one finite number in SI.
+
+    Parameters
+    ----------
+    symbol, unit, meaning : str
+        As in the nomenclature; ``unit`` is "1" for a pure number.
+    default : float or None, optional
+        None makes the field optional.
+    gt, ge, lt, le : float, optional
+        Allowed range.
+    hint : str, optional
+        The likely cause of a mistake, appended to the message.
+    """
+    about = dict(symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint)
+    return field(default=default, metadata={"quantity": about})
+
+
+def choice(meaning: str, *options: str, default: str) -> Any:
+    """A dataclass field that holds one of a few words."""
+    return field(default=default, metadata={"choice": {"meaning": meaning, "options": options}})
+
+
+def allowed_range(about: dict[str, Any]) -> str:
+    """The allowed range of a quantity in words, e.g. ``"must be > 0 [Pa]"``."""
+    limits = [
+        f"{sign} {about[key]:g}"
+        for key, sign in (("gt", ">"), ("ge", ">="), ("lt", "<"), ("le", "<="))
+        if about[key] is not None
+    ]
+    text = " and ".join(limits) if limits else "a finite number"
+    unit = "" if about["unit"] == "1" else f" [{about['unit']}]"
+    return f"must be {text}{unit}"
+
+
+def problem_with(about: dict[str, Any], value: Any) -> str | None:
+    """Why ``value`` cannot stand for this quantity, or None when it can."""
+    if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
+        return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return f"must be one number in SI units [{about['unit']}]"
+    outside = (
+        not math.isfinite(number)
+        or (about["gt"] is not None and not number > about["gt"])
+        or (about["ge"] is not None and not number >= about["ge"])
+        or (about["lt"] is not None and not number < about["lt"])
+        or (about["le"] is not None and not number <= about["le"])
+    )
+    if not outside:
+        return None
+    return allowed_range(about) + (f"; {about['hint']}" if about["hint"] else "")
+
+
+class Value:
+    """Base class of the frozen, slotted, keyword-only dataclasses a user builds."""
+
+    __slots__ = ()
+    _classes: ClassVar[dict[str, type[Value]]] = {}
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        Value._classes[cls.__name__] = cls
+
+    def __post_init__(self) -> None:
+        problems: list[str] = []
+        for item in dataclasses.fields(self):  # type: ignore[arg-type]
+            value = getattr(self, item.name)
+            where = f"{type(self).__name__}.{item.name} = {value!r}"
+            if about := item.metadata.get("quantity"):
+                if value is None and item.default is None:
+                    continue
+                if why := problem_with(about, value):
+                    problems.append(f"{where} {why}")
+                else:
+                    object.__setattr__(self, item.name, float(value))
+            elif (about := item.metadata.get("choice")) and value not in about["options"]:
+                options = ", ".join(repr(option) for option in about["options"])
+                problems.append(f"{where} must be one of {options}")
+        if not problems:
+            problems = self._problems()
+        if problems:
+            raise InvalidValue(*problems)
+
+    def _problems(self) -> list[str]:
+        """Mistakes that concern several fields at once; subclasses override."""
+        return []
+
+    def replace(self, **changes: Any) -> Self:
+        """A copy with some fields changed; dots reach inside, e.g. ``**{"diameter.mean": 1e-7}``."""
+        now: dict[str, Any] = {}
+        inner: dict[str, dict[str, Any]] = {}
+        names = {item.name for item in dataclasses.fields(self)}  # type: ignore[arg-type]
+        for key, value in changes.items():
+            head, _, rest = key.partition(".")
+            if head not in names:
+                raise InvalidValue(
+                    f"{type(self).__name__} has no field {head!r}; it has {', '.join(sorted(names))}"
+                )
+            if rest:
+                inner.setdefault(head, {})[rest] = value
+            else:
+                now[head] = value
+        for head, deeper in inner.items():
+            part = now.get(head, getattr(self, head))
+            if not isinstance(part, Value):
+                raise InvalidValue(f"{type(self).__name__}.{head} has no fields of its own")
+            now[head] = part.replace(**deeper)
+        return dataclasses.replace(self, **now)  # type: ignore[type-var]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Every field in SI, ready for JSON; ``type`` names the class."""
+        out: dict[str, Any] = {"type": type(self).__name__}
+        for item in dataclasses.fields(self):  # type: ignore[arg-type]
+            out[item.name] = _plain(getattr(self, item.name))
+        return out
+
+    @staticmethod
+    def from_dict(data: dict[str, Any]) -> Any:
+        """The inverse of `to_dict`."""
+        kind = data.get("type")
+        if kind not in Value._classes:
+            raise InvalidValue(f"type = {kind!r} is not a class of this library")
+        return Value._classes[kind](**{k: _revive(v) for k, v in data.items() if k != "type"})
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Value):
+        return value.to_dict()
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    return value
+
+
+def _revive(value: Any) -> Any:
+    if isinstance(value, dict):
+        return Value.from_dict(value)
+    if isinstance(value, list):
+        return tuple(_revive(item) for item in value)
+    return value
