@@ -115,27 +115,35 @@ class PiecewiseChebyshev:
         second = np.stack([_derivative(c) for c in first]) / self.half[:, None, None]
         self.with_derivatives = np.stack([self.coefficients, first, second], axis=-1)
 
-    def _basis(self, x: Array) -> tuple[Array, Array]:
+    def _evaluate(self, x: Array, coefficients: Array) -> Array:
+        """Σ_k T_k(s) c_k panel by panel: (N, ...) for coefficients (P, n, ...)."""
         panel = np.clip(np.searchsorted(self.edges, x, side="right") - 1, 0, len(self.half) - 1)
-        s = (x - self.middle[panel]) / self.half[panel]
-        basis = np.empty((len(x), self.coefficients.shape[1]))
-        basis[:, 0] = 1.0
-        basis[:, 1] = s
-        for k in range(2, basis.shape[1]):
-            np.multiply(2 * s, basis[:, k - 1], out=basis[:, k])
-            basis[:, k] -= basis[:, k - 2]
-        return panel, basis
+        order = np.argsort(panel.astype(np.int16), kind="stable")
+        where = panel[order]
+        s = (x[order] - self.middle[where]) / self.half[where]
+        basis = np.empty((coefficients.shape[1], len(x)))
+        basis[0], basis[1] = 1.0, s
+        for k in range(2, len(basis)):
+            np.multiply(s, basis[k - 1], out=basis[k])
+            basis[k] *= 2
+            basis[k] -= basis[k - 2]
+        flat = coefficients.reshape(*coefficients.shape[:2], -1)
+        sorted_values = np.empty((len(x), flat.shape[2]))
+        starts = np.searchsorted(where, np.arange(len(self.half) + 1))
+        for p in np.unique(where):
+            part = slice(starts[p], starts[p + 1])
+            np.matmul(basis[:, part].T, flat[p], out=sorted_values[part])
+        out = np.empty_like(sorted_values)
+        out[order] = sorted_values
+        return out.reshape(len(x), *coefficients.shape[2:])
 
     def __call__(self, x: Array) -> Array:
         """Values (N, K) at ``x`` (N,)."""
-        panel, basis = self._basis(x)
-        return np.einsum("sn,snk->sk", basis, self.coefficients[panel])
+        return self._evaluate(x, self.coefficients)
 
     def derivatives(self, x: Array, columns: tuple[int, ...]) -> Array:
         """Value, first and second derivative of some columns: (N, len(columns), 3)."""
-        panel, basis = self._basis(x)
-        chosen = self.with_derivatives[:, :, list(columns), :]
-        return np.einsum("sn,snkd->skd", basis, chosen[panel])
+        return self._evaluate(x, self.with_derivatives[:, :, list(columns), :])
 
 
 def _derivative(coefficients: Array) -> Array:

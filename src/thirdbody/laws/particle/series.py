@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import special
-from scipy.optimize import brentq
-from scipy.optimize.elementwise import find_root
 
 from ...distributions import Distribution, Monodisperse
 from ...errors import InvalidValue
@@ -54,6 +52,8 @@ class Side:
     def _cap(self) -> float:
         """Reduced interference at which the area reaches the great circle."""
 
+        from scipy.optimize import brentq
+
         def excess(y: float) -> float:
             return float(self.law.reduced("area", y)) - self.full
 
@@ -83,6 +83,8 @@ class Side:
 
     def indentation(self, force: float) -> float:
         """Inverse of `force` below the limit."""
+
+        from scipy.optimize import brentq
 
         def excess(log_delta: float) -> float:
             return float(self.force(np.array([math.exp(log_delta)]))[0]) - force
@@ -129,6 +131,8 @@ class SqueezedParticle:
         self.panels = np.concatenate(splits)
 
     def _solve_split(self, eps: Array) -> Array:
+        from scipy.optimize.elementwise import find_root
+
         one, two = self.sides
         root = find_root(
             lambda t, e: one.force(t * e) - two.force((1 - t) * e),
@@ -144,6 +148,8 @@ class SqueezedParticle:
 
     def _area_crossings(self) -> list[float]:
         """Values of ε at which the two contact areas change order."""
+        from scipy.optimize import brentq
+
         grid = np.geomspace(self.kinks[0], self.kinks[-1], 400)
 
         def difference(eps: ArrayLike) -> Array:
