@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .contact import Contact
+from .laws.base import Law
 
 __all__ = ["cite"]
 
@@ -19,7 +20,7 @@ def cite(contact: Contact) -> str:
     >>> print(cite(contact).splitlines()[0])
     Zhao, Maietta, Chang 2000, J. Tribol. 122, 86, doi:10.1115/1.555332
     """
-    laws = [contact.asperity_law]
+    laws: list[Law] = [contact.asperity_law]
     sources = [contact.surfaces.first.source, contact.surfaces.second.source]
     if contact.particles is not None and not contact.two_body:
         laws.append(contact.particle_law)

@@ -192,7 +192,7 @@ class Interface:
 
     def __init__(self, contact: Contact):
         self.contact = contact
-        datum = 0.0 if contact.two_body else contact.particle_law.datum
+        datum = 0.0 if contact.two_body else contact.particle_law.centre
         self.asperities = asperity_sum(
             contact.asperity_law, contact.roughness, contact.surfaces, datum
         )

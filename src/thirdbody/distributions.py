@@ -258,10 +258,7 @@ class TruncatedGaussian(Distribution):
         narrow = (B - A < 1) | (n > 2)
         if np.any(narrow):
             nodes, weights = gauss_legendre(16)
-            if n > 2:
-                edges = np.linspace(lo, hi, 13)
-            else:
-                edges = np.stack([lo, hi])
+            edges = np.linspace(lo, hi, 13) if n > 2 else np.stack([lo, hi])
             half = 0.5 * np.diff(edges, axis=0)[..., None]
             x = 0.5 * (edges[1:] + edges[:-1])[..., None] + half * nodes
             u = (x - self.mean) / self.std

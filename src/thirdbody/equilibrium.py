@@ -22,10 +22,11 @@ from .numerics import halley_root
 __all__ = ["Equilibrium", "roots", "solve"]
 
 Array = NDArray[np.float64]
+Index = NDArray[np.intp]
 Number = float | Array
 
 DEEPEST = -3.0
-"""Lowest separation searched, in σ_s from the mean asperity height: below, no asperity sum holds."""
+"""Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
 HIGHEST = 37.0
 """Highest separation searched, in σ_s: above, the Gaussian density underflows."""
 CHUNK = 16_384
@@ -288,8 +289,8 @@ class LoadScan:
         self.d, self.log_F = d[useful][::-1], np.log(F[useful][::-1])
 
     # ------------------------------------------------------------------ brackets
-    def cells(self, target: Array, branch: str) -> Array:
-        """Index i of the grid cell (d[i] > root >= d[i+1]) for each load, −1 where there is none."""
+    def cells(self, target: Array, branch: str) -> Index:
+        """Index i of the cell d[i] > root >= d[i+1] for each load, −1 where there is none."""
         log_target = np.log(target)
         if branch == "loading" or self.bound.monotone:
             # first separation, coming down, at which the load is reached
@@ -303,7 +304,7 @@ class LoadScan:
             cell = np.where(cell >= len(self.d) - 1, -1, cell)
         return np.where(log_target <= self.log_F[0], -1, cell)
 
-    def all_cells(self, target: float) -> tuple[Array, Array]:
+    def all_cells(self, target: float) -> tuple[Index, Index]:
         """Every cell in which the load is crossed, and whether the load falls with d there."""
         above = self.log_F >= np.log(target)
         cells = np.flatnonzero(above[1:] != above[:-1])
@@ -325,7 +326,7 @@ class LoadScan:
         )
 
     # ------------------------------------------------------------------ roots
-    def polish(self, target: Array, cells: Array, *, falling: bool = True) -> tuple[Array, Array]:
+    def polish(self, target: Array, cells: Index, *, falling: bool = True) -> tuple[Array, Array]:
         """Roots inside their cells, to rounding."""
         high, low = self.d[cells], self.d[cells + 1]
         log_target = np.log(target)
@@ -335,7 +336,7 @@ class LoadScan:
         part = np.where(np.isfinite(part), np.clip(part, 0.0, 1.0), 0.5)
         start = high + part * (low - high)
 
-        def imbalance(d: Array, which: Array) -> tuple[Array, Array, Array]:
+        def imbalance(d: Array, which: Index) -> tuple[Array, Array, Array]:
             F, F1, F2 = self.bound.load(d).T
             slope = F1 / F
             return np.log(F) - log_target[which], slope, F2 / F - slope**2

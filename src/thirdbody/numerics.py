@@ -153,7 +153,7 @@ def _derivative(coefficients: Array) -> Array:
 
 
 def halley_root(
-    function: Callable[[Array, Array], tuple[Array, Array, Array]],
+    function: Callable[[Array, NDArray[np.intp]], tuple[Array, Array, Array]],
     low: Array,
     high: Array,
     start: Array,

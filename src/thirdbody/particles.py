@@ -47,7 +47,7 @@ class Particles(Value):
     )
 
     def _problems(self) -> list[str]:
-        out = []
+        out: list[str] = []
         if not isinstance(self.material, Material):
             out.append(f"Particles.material = {self.material!r} must be a Material")
         if not isinstance(self.diameter, Distribution):

@@ -84,13 +84,14 @@ def sweep(
         changes = {name: vary[name][i] for name, i in zip(vary, index, strict=True)}
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RangeWarning)
-            result = solve(varied(contact, changes), **{load: loads})
+            state = varied(contact, changes)
+            result = solve(state, **{load: loads})  # type: ignore[arg-type]
         notes |= dict.fromkeys(result.warnings)
-        for name, values in result.columns().items():
+        for name, column in result.columns().items():
             if name not in columns:
-                kind = object if values.dtype.kind in "UO" else values.dtype
+                kind = object if column.dtype.kind in "UO" else column.dtype
                 columns[name] = np.empty(shape, dtype=kind)
-            columns[name][index] = values
+            columns[name][index] = column
     dims = (*vary, load)
     columns.pop(load)
     coords: dict[str, Any] = {load: (load, loads, _attributes(load) | {"units": LOAD_UNITS[load]})}

@@ -118,16 +118,15 @@ class Value:
         return []
 
     def replace(self, **changes: Any) -> Self:
-        """A copy with some fields changed; dots reach inside, e.g. ``**{"diameter.mean": 1e-7}``."""
+        """A copy with some fields changed; dots reach inside: ``**{"diameter.mean": 1e-7}``."""
         now: dict[str, Any] = {}
         inner: dict[str, dict[str, Any]] = {}
         names = {item.name for item in dataclasses.fields(self)}  # type: ignore[arg-type]
         for key, value in changes.items():
             head, _, rest = key.partition(".")
             if head not in names:
-                raise InvalidValue(
-                    f"{type(self).__name__} has no field {head!r}; it has {', '.join(sorted(names))}"
-                )
+                known = ", ".join(sorted(names))
+                raise InvalidValue(f"{type(self).__name__} has no field {head!r}; it has {known}")
             if rest:
                 inner.setdefault(head, {})[rest] = value
             else:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,12 @@ from ..values import Value
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from ..materials import MaterialPair
+    from ..particles import Particles
+    from ..surfaces import Roughness
+
     Array = NDArray[np.float64]
+    Number = float | Array
 
 __all__ = ["REGIMES", "AbstractAsperityLaw", "AbstractParticleLaw", "Branch", "Law"]
 
@@ -58,7 +63,7 @@ class Law(Value):
     """seen in the source, derived, recalled, or reconstructed"""
     valid_range: ClassVar[str]
 
-    def __init_subclass__(cls, **kwargs) -> None:  # noqa: ANN003
+    def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         if "name" in vars(cls):
             cls.registry[cls.name] = cls
@@ -82,13 +87,13 @@ class AbstractAsperityLaw(Law):
     """Declared relative jumps of the load at breakpoints, {y: jump}."""
 
     @abstractmethod
-    def yield_interference(self, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike) -> Array:
+    def yield_interference(self, *, R: Number, E_star: Number, H: Number) -> Number:
         """Interference of first yield ω_1 [m]."""
 
     @property
     @abstractmethod
     def breakpoints(self) -> tuple[float, ...]:
-        """Reduced interferences y = ω/ω_1 where the formula changes; the upper branch holds there."""
+        """Values of y = ω/ω_1 where the formula changes; the upper branch holds there."""
 
     @property
     @abstractmethod
@@ -97,7 +102,7 @@ class AbstractAsperityLaw(Law):
 
     # ---------------------------------------------------------------- reduced form
     def reduced(self, quantity: str, y: ArrayLike) -> Array:
-        """f(y), a(y) or df/dy (``"force"``, ``"area"``, ``"stiffness"``); zero without interference."""
+        """f(y), a(y) or df/dy (``"force"``, ``"area"``, ``"stiffness"``); zero for y <= 0."""
         y = np.asarray(y, dtype=float)
         out = np.zeros_like(y)
         which = np.searchsorted(self.breakpoints, y, side="right")
@@ -108,7 +113,7 @@ class AbstractAsperityLaw(Law):
         return out
 
     # ---------------------------------------------------------------- one contact
-    def force(self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike) -> Array:
+    def force(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Load F [N] of one contact.
 
         Parameters
@@ -121,33 +126,27 @@ class AbstractAsperityLaw(Law):
         omega_1 = self.yield_interference(R=R, E_star=E_star, H=H)
         return np.pi * R * omega_1 * H * self.reduced("force", np.asarray(omega) / omega_1)
 
-    def area(self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike) -> Array:
+    def area(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Contact area A [m²] of one contact; arguments as in `force`."""
         omega_1 = self.yield_interference(R=R, E_star=E_star, H=H)
         return np.pi * R * omega_1 * self.reduced("area", np.asarray(omega) / omega_1)
 
-    def stiffness(
-        self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike
-    ) -> Array:
+    def stiffness(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """dF/dω [N/m] of one contact; arguments as in `force`."""
         omega_1 = self.yield_interference(R=R, E_star=E_star, H=H)
         return np.pi * R * H * self.reduced("stiffness", np.asarray(omega) / omega_1)
 
-    def contact_radius(
-        self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike
-    ) -> Array:
+    def contact_radius(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """a = √(A/π) [m] of one contact; arguments as in `force`."""
         return np.sqrt(self.area(omega, R=R, E_star=E_star, H=H) / np.pi)
 
-    def mean_pressure(
-        self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike
-    ) -> Array:
+    def mean_pressure(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """p = F/A [Pa] of one contact, zero without contact; arguments as in `force`."""
         area = self.area(omega, R=R, E_star=E_star, H=H)
         force = self.force(omega, R=R, E_star=E_star, H=H)
         return np.divide(force, area, out=np.zeros_like(force), where=area > 0)
 
-    def energy(self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike) -> Array:
+    def energy(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Work ∫F dω [J] done in one loading to ω; arguments as in `force`."""
         omega = np.asarray(omega, dtype=float)
         omega_1 = np.asarray(self.yield_interference(R=R, E_star=E_star, H=H))
@@ -159,10 +158,8 @@ class AbstractAsperityLaw(Law):
         work = np.sum(weight * 2 * root * self.reduced("force", root**2), axis=-1)
         return np.pi * R * omega_1**2 * H * work
 
-    def regime(
-        self, omega: ArrayLike, *, R: ArrayLike, E_star: ArrayLike, H: ArrayLike
-    ) -> NDArray[np.str_]:
-        """``"none"``, ``"elastic"``, ``"elastoplastic"`` or ``"plastic"``; arguments as in `force`."""
+    def regime(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> NDArray[np.str_]:
+        """One of `REGIMES`, or ``"none"`` without contact; arguments as in `force`."""
         y = np.asarray(omega) / self.yield_interference(R=R, E_star=E_star, H=H)
         names = np.array([branch.regime for branch in self.branches])
         return np.where(y > 0, names[np.searchsorted(self.breakpoints, y, side="right")], "none")
@@ -177,14 +174,20 @@ class AbstractParticleLaw(Law):
     __slots__ = ()
     registry: ClassVar[dict[str, type[Law]]] = {}
 
-    datum: ClassVar[float] = 0.0
-    """Mean asperity height in the coordinate of d, in units of σ; a law may make it a field."""
+    @property
+    def centre(self) -> float:
+        """Mean asperity height in the coordinate of d, in units of σ."""
+        return 0.0
 
     @abstractmethod
-    def response(self, surfaces, roughness, particles) -> ParticleResponse:  # noqa: ANN001
+    def response(
+        self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
+    ) -> ParticleResponse:
         """The particles' answer as a function of d."""
 
-    def warnings(self, surfaces, roughness, particles) -> list[str]:  # noqa: ANN001
+    def warnings(
+        self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
+    ) -> list[str]:
         """Where this interface leaves the law's range, one sentence each."""
         return []
 

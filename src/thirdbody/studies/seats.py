@@ -23,11 +23,8 @@ import thirdbody as tb
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["OFFSETS", "SEATS", "contact", "explicit_particles", "figure", "main"]
+__all__ = ["STATED_AGREEMENT", "contact", "explicit_particles", "figure", "main"]
 
-SEATS = ("rough", "plane", "offset")
-OFFSETS = (1.0, 2.5)
-"""Seat heights h_0/σ for which an independent solution is kept [1]."""
 STATED_AGREEMENT = {200e-9: 0.10, 300e-9: 0.06, 600e-9: 0.02}
 """Relative difference of the load share that the ``rough`` seat stays within, 1e-5 ≤ F* ≤ 3e-4."""
 
@@ -159,9 +156,12 @@ def figure(*, h_0: float = 2.5, loads: np.ndarray | None = None) -> Figure:
                 handles.append(bars)
         ax.set_xscale("log")
         ax.set_yscale("log")
-        ax.set_ylim(0.008, 1.4)
+        ax.set_ylim(0.007, 1.4)
         ax.set_xlim(loads[0], loads[-1])
-        ax.set_title(rf"$x/\sigma$ = {diameter / sigma:.2g}", fontsize="medium")
+        ax.set_title(
+            rf"$x/\sigma$ = {diameter / sigma:.2g}   ($x$ = {diameter * 1e9:.0f} nm)",
+            fontsize="medium",
+        )
         ax.grid(visible=True, color="0.9", linewidth=0.6)
         ax.set_axisbelow(True)
         ax.tick_params(which="both", direction="in", top=True, right=True)

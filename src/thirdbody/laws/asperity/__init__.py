@@ -7,4 +7,4 @@ from .zmc import ZMC
 REGISTRY = AbstractAsperityLaw.registry
 """Every law by the word that study files use."""
 
-__all__ = ["REGISTRY", "AbstractAsperityLaw", "Branch", "Hermite", "ZMC"]
+__all__ = ["REGISTRY", "ZMC", "AbstractAsperityLaw", "Branch", "Hermite"]

@@ -142,6 +142,10 @@ class Horng2022(AbstractParticleLaw):
             if not isinstance(getattr(self, key), bool)
         ]
 
+    @property
+    def centre(self) -> float:
+        return self.datum
+
     def response(
         self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
     ) -> ParticleResponse:

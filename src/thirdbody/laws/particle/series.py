@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -228,8 +229,8 @@ class SizeAverage:
         edge = 0 if isinstance(sizes, Monodisperse) else 2
         self.powers = np.array([2.0 + edge] * 6 + [float(edge)])
         gaps = [x * (1 - eps) for x in sizes.kinks for eps in (0.0, *particle.kinks)]
-        gaps = np.unique([g for g in gaps if self.bottom <= g <= self.top] + [self.bottom])
-        knots = np.unique(np.sqrt(np.maximum(self.top - gaps, 0.0)))
+        inside = [g for g in gaps if self.bottom <= g <= self.top] + [self.bottom]
+        knots = np.unique(np.sqrt(np.maximum(self.top - np.array(inside), 0.0)))
         merged = [0.0] + [u for u in knots if u > 1e-12 * knots[-1]]
         self.table = PiecewiseChebyshev(self._reduced, np.array(merged))
         self.floor = self.average(np.array([math.sqrt(self.top - self.bottom)]))[0]
@@ -452,7 +453,7 @@ class Series(AbstractParticleLaw):
         self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
     ) -> ParticleResponse:
         sides = contact_sides(surfaces, particles.material)
-        parts = []
+        parts: list[PlaneSeat | RoughSeat] = []
         for weight, sizes in particles.diameter.components:
             scale, shape = sizes.standardised()
             average = size_average(self.law, *sides, shape)
@@ -533,7 +534,7 @@ class RoughSeat:
         self.floor_gap = scale * average.bottom
         self.floor = factor * average.floor
 
-    def _chunks(self, d: Array):  # noqa: ANN202
+    def _chunks(self, d: Array) -> Iterator[tuple[slice, Array, Array]]:
         size = max(1, 400_000 // len(self.gaps))
         for start in range(0, len(d), size):
             part = slice(start, start + size)
@@ -584,7 +585,7 @@ class SeatedParticles(ParticleResponse):
         self._shadow_column = COLUMNS.index(shadow) if shadow in COLUMNS else 0
 
     def load(self, d: Array) -> tuple[Array, Array]:
-        total = sum(part.load(d, self._shadow_column) for part in self.parts)
+        total = np.sum([part.load(d, self._shadow_column) for part in self.parts], axis=0)
         force, shadow = total[:, 0], total[:, 1]
         return force, self._shadow(shadow)
 
@@ -597,7 +598,7 @@ class SeatedParticles(ParticleResponse):
         return fixed
 
     def fields(self, d: Array) -> dict[str, Array]:
-        total = sum(part.columns(d) for part in self.parts)
+        total = np.sum([part.columns(d) for part in self.parts], axis=0)
         return {
             "F_sa": total[:, 0],
             "A_e": total[:, 1],
