@@ -30,6 +30,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import PercentFormatter
 
 from .equilibrium import Equilibrium, solve
@@ -77,8 +78,8 @@ def _tint(colour: str, strength: float) -> tuple[float, float, float]:
 
 MODES = ("p-s", "hybrid", "s-s")
 MODE_COLOURS = {
-    "p-s": _tint(OKABE_ITO["vermilion"], 0.55),
-    "hybrid": _tint(OKABE_ITO["yellow"], 0.5),
+    "p-s": _tint(OKABE_ITO["vermilion"], 0.65),
+    "hybrid": _tint(OKABE_ITO["yellow"], 0.45),
     "s-s": _tint(OKABE_ITO["sky"], 0.6),
 }
 """Fill of each contact mode; they differ in lightness as well as in hue."""
@@ -249,13 +250,21 @@ def _column(curve: Curve, name: str) -> NDArray[np.float64]:
 
 
 def _lines(
-    data: xarray.Dataset | Equilibrium, ax: Axes | None, against: str, quantity: str, *, ylog: bool
+    data: xarray.Dataset | Equilibrium,
+    ax: Axes | None,
+    against: str,
+    quantity: str,
+    *,
+    ylog: bool,
+    per_load: bool = False,
 ) -> Axes:
     ax = _axes(ax)
     curves = _curves(data)
     for curve, style in zip(curves, _styles(curves), strict=True):
-        label = curve.label or None
-        ax.plot(_column(curve, against), _column(curve, quantity), label=label, **style)
+        y = _column(curve, quantity)
+        if per_load:
+            y = y / _column(curve, "F_star")
+        ax.plot(_column(curve, against), y, label=curve.label or None, **style)
     _dress(ax, against, quantity, xlog=against in ("F_star", "pressure"), ylog=ylog)
     if any(curve.label for curve in curves):
         ax.legend(frameon=False, fontsize="small")
@@ -268,6 +277,7 @@ def area(
     *,
     against: str = "F_star",
     quantity: str = "A_t",
+    per_load: bool = False,
 ) -> Axes:
     """Real contact area per nominal area against load, on logarithmic axes.
 
@@ -281,6 +291,9 @@ def area(
         Load on the abscissa: F* = F/(A_n E_ss) [1] or F/A_n [Pa].
     quantity : {"A_t", "A_ss", "A_sa", "A_e", "A_ep", "A_p"}, optional
         Which area [1].
+    per_load : bool, optional
+        Divide the area by F*. Area is nearly proportional to load, so this is what tells curves
+        apart; E_ss over it is the mean real pressure.
 
     Returns
     -------
@@ -300,7 +313,12 @@ def area(
     >>> ax.get_ylabel()
     'Real contact area $A_t/A_n$ [1]'
     """
-    return _lines(data, ax, against, quantity, ylog=True)
+    ax = _lines(data, ax, against, quantity, ylog=True, per_load=per_load)
+    if per_load:
+        name = AXIS_LABELS.get(quantity, quantity).removesuffix(" [1]")
+        ax.set_ylabel(f"{name} over load $F^*$ [1]")
+        ax.set_yscale("linear")
+    return ax
 
 
 def shares(
@@ -441,7 +459,7 @@ def regimes(
     ax.set_ylim(0, 1)
     ax.yaxis.set_major_formatter(PercentFormatter(1, symbol=""))
     ax.set_xlim(np.nanmin(x), np.nanmax(x))
-    ax.set_axisbelow(False)
+    ax.grid(visible=False)
     handles, labels = ax.get_legend_handles_labels()
     ax.legend(handles[::-1], labels[::-1], fontsize="small", framealpha=0.9, edgecolor="none")
     return ax
@@ -547,20 +565,24 @@ def modes(
     )
     for load, name in marks:
         ax.axvline(load, color="0.25", linewidth=0.8, linestyle=":")
+        # the side on which both curves lie at 0 or 100 %
+        side = -1 if "cr1" in name else 1
         ax.annotate(
             f"{name} = {_scientific(load)}" if against == "F_star" else name,
             (load, 0.5),
-            xytext=(3, 0),
+            xytext=(3 * side, 0),
             textcoords="offset points",
             rotation=90,
             va="center",
-            ha="left",
+            ha="right" if side < 0 else "left",
             fontsize="small",
         )
     ax.set_ylabel("Part of the real area [%]")
     _share_axis(ax)
     ax.set_xlim(x.min(), x.max())
-    ax.legend(fontsize="small", framealpha=0.85, edgecolor="none", loc="center left")
+    ax.legend(
+        fontsize="small", frameon=False, ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.08)
+    )
     return ax
 
 
@@ -680,7 +702,8 @@ def mode_map(
     for i, name in enumerate(MODES):
         inside = index == i
         if inside.mean() > 0.02:
-            ax.text(*_middle(inside, sizes, loads), name, ha="center", va="center")
+            text = ax.text(*_middle(inside, sizes, loads), name, ha="center", va="center")
+            text.set_path_effects([withStroke(linewidth=4, foreground=MODE_COLOURS[name])])
     if np.nanmin(share) < 0.5 < np.nanmax(share):
         ax.contour(sizes, loads, share.T, [0.5], colors="black", linestyles="--", linewidths=1.2)
         line = Line2D([], [], color="black", linestyle="--", linewidth=1.2)

@@ -15,7 +15,7 @@ from typing import Any
 
 from .errors import InvalidValue
 
-__all__ = ["EXAMPLES", "to_si"]
+__all__ = ["EXAMPLES", "say", "to_si"]
 
 EXAMPLES = {"m": '"300 nm"', "Pa": '"5 GPa"', "1/m^2": '"1e11 / m^2"', "1": "0.5"}
 """How a value in each of the library's units may be written."""
@@ -80,7 +80,8 @@ def to_si(value: Any, unit: str) -> float:
     (3e-07, 5000000000.0, 100000000000.0, 0.3)
     >>> to_si("300 GPa", "m")
     Traceback (most recent call last):
-    thirdbody.errors.InvalidValue: "300 GPa" is a pressure, but a length [m] is needed, e.g. "300 nm"
+    ...
+    thirdbody.errors.InvalidValue: "300 GPa" is a pressure, but a length [m] is needed...
     """
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         try:
@@ -88,9 +89,9 @@ def to_si(value: Any, unit: str) -> float:
         except OverflowError:
             return math.inf
     if not isinstance(value, str):
-        return _refuse(f"{_say(value)} must be {_needed(unit)}")
+        return _refuse(f"{say(value)} must be {_needed(unit)}")
     text = value.strip()
-    shown = _say(value)
+    shown = say(value)
     number = _NUMBER.match(text)
     if number is None:
         return _refuse(f"{shown} has no number in front; it must be {_needed(unit)}")
@@ -106,16 +107,16 @@ def _refuse(sentence: str) -> float:
     raise InvalidValue(sentence)
 
 
-def _say(value: Any) -> str:
-    """A value as it stands in a study file, shortened."""
+def say(value: Any) -> str:
+    """A value as it stands in a study file, shortened if long."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
         return f'"{value if len(value) <= 60 else value[:57] + "..."}"'
     if isinstance(value, dict):
-        value = "{ " + ", ".join(f"{key} = {_say(item)}" for key, item in value.items()) + " }"
+        value = "{ " + ", ".join(f"{key} = {say(item)}" for key, item in value.items()) + " }"
     elif isinstance(value, (list, tuple)):
-        value = "[" + ", ".join(_say(item) for item in value) + "]"
+        value = "[" + ", ".join(say(item) for item in value) + "]"
     text = str(value)
     return text if len(text) <= 80 else text[:76] + " ..."
 
@@ -189,10 +190,6 @@ def _unknown(body: str, shown: str, unit: str) -> str:
             )
         folded = {name.lower(): name for name in reversed(_USUAL)}
         near = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
-        guess = f"; did you mean {folded[near[0]]}?" if near else ""
-        example = EXAMPLES.get(unit, unit)
-        return (
-            f"{shown} has the unit {word}, which is not known (upper and lower case matter), "
-            f"e.g. {example}{guess}"
-        )
+        guess = f"did you mean {folded[near[0]]}?" if near else f"it must be {_needed(unit)}"
+        return f"{shown} has the unit {word}, which is not known (case matters); {guess}"
     return f"{shown} has a unit that cannot be read; it must be {_needed(unit)}"

@@ -118,6 +118,16 @@ def figure(*, h_0: float = 2.5, loads: np.ndarray | None = None) -> Figure:
             height = h_0 * sigma if seat == "offset" else 0.0
             share = tb.solve(contact(diameter, seat, height), F_star=loads).particle_load_share
             share = np.where(np.asarray(share) > 0, share, np.nan)
+            if np.all(np.isnan(share)):
+                ax.text(
+                    0.97,
+                    0.035,
+                    "on the mean asperity plane: no load at all",
+                    color=colour,
+                    fontsize="x-small",
+                    transform=ax.transAxes,
+                    ha="right",
+                )
             (line,) = ax.plot(
                 loads,
                 share,

@@ -14,7 +14,7 @@ from scipy import special
 from ...distributions import Distribution, Monodisperse
 from ...errors import InvalidValue
 from ...materials import reduced_modulus
-from ...numerics import PiecewiseChebyshev, panel_rule
+from ...numerics import PiecewiseChebyshev, panel_rule, subdivide
 from ...values import choice, quantity
 from ..asperity.hermite import Hermite
 from ..base import REGIMES, AbstractAsperityLaw, AbstractParticleLaw, ParticleResponse
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ...surfaces import Roughness
 
     Array = NDArray[np.float64]
+    Index = NDArray[np.intp]
 
 __all__ = ["Series", "SqueezedParticle"]
 
@@ -119,8 +120,10 @@ class SqueezedParticle:
                 force = float(side.force(np.array([delta]))[0])
                 if self.equal:
                     kinks.add(2 * delta)
-                elif force < other.limit:
+                elif force < other.limit * (1 - 1e-12):
                     kinks.add(delta + other.indentation(force))
+                elif force < other.limit * (1 + 1e-12):
+                    kinks.add(delta + other.kinks[-1] * other.delta_1)
         self.kinks = np.array(sorted(kinks))
         self._split_table = None if self.equal else self._tabulate_split()
         if not self.equal:
@@ -152,12 +155,14 @@ class SqueezedParticle:
         from scipy.optimize import brentq
 
         grid = np.geomspace(self.kinks[0], self.kinks[-1], 400)
+        smallest = 1e-13 * math.pi / 4
 
         def difference(eps: ArrayLike) -> Array:
             one, two = self.indentations(np.atleast_1d(np.asarray(eps, dtype=float)))
             return self.sides[0].area(one) - self.sides[1].area(two)
 
-        sign = np.sign(difference(grid))
+        values = difference(grid)
+        sign = np.where(np.abs(values) > smallest, np.sign(values), 0.0)
         return [
             brentq(lambda e: float(difference(e)[0]), grid[i], grid[i + 1], xtol=1e-16)
             for i in np.flatnonzero(sign[1:] * sign[:-1] < 0)
@@ -215,9 +220,10 @@ class SizeAverage:
 
     .. math:: P(g) = \int_g^\infty \varphi_a(x)\, x^2\,\hat q\!\left(\frac{x-g}{x}\right) dx
 
-    Tabulated once per shape of the distribution and material triple as Chebyshev series in
-    :math:`u=\sqrt{x_{max}-g}`, between the gaps where a size or a regime sets in; relative
-    error 1e-13 down to the last particle. Lengths are those of the standardised distribution.
+    Tabulated once per shape of the distribution and material triple as Chebyshev series between
+    the gaps where a size or a regime sets in: in the gap itself for small gaps, and in
+    :math:`u=\sqrt{x_{max}-g}` near the largest size, where P sets in like a power of u.
+    Lengths are those of the standardised distribution.
     """
 
     def __init__(self, particle: SqueezedParticle, sizes: Distribution):
@@ -228,38 +234,52 @@ class SizeAverage:
         # leading powers of u as the last particle loses contact
         edge = 0 if isinstance(sizes, Monodisperse) else 2
         self.powers = np.array([2.0 + edge] * 6 + [float(edge)])
+        self.join = max(0.5 * self.top, self.bottom)
         gaps = [x * (1 - eps) for x in sizes.kinks for eps in (0.0, *particle.kinks)]
-        inside = [g for g in gaps if self.bottom <= g <= self.top] + [self.bottom]
-        knots = np.unique(np.sqrt(np.maximum(self.top - np.array(inside), 0.0)))
-        merged = [0.0] + [u for u in knots if u > 1e-12 * knots[-1]]
-        self.table = PiecewiseChebyshev(self._reduced, np.array(merged))
-        self.floor = self.average(np.array([math.sqrt(self.top - self.bottom)]))[0]
+        gaps += [x * f for x in sizes.pieces for f in (0.25, 0.5) if x > 1e-4 * self.top]
+        known = np.array(sorted({g for g in gaps if self.bottom < g < self.top}))
+        # the sizes are known to rounding, so their densities to rounding over their width
+        tolerance = 1e-13 + 2e-15 * self.top / max(self.top - low, 1e-12)
+        rise = np.sqrt(self.top - np.append(known[known > self.join], self.join)[::-1])
+        self.upper = PiecewiseChebyshev(
+            self._reduced, _distinct(np.array([0.0, *rise[::-1]])), tolerance=tolerance
+        )
+        self.lower = None
+        if self.bottom < self.join:
+            gaps_below = [self.bottom, *known[known < self.join], self.join]
+            self.lower = PiecewiseChebyshev(
+                lambda g: self.average(g, self.top - g),
+                _distinct(np.array(gaps_below)),
+                tolerance=tolerance,
+            )
+        bottom = np.array([self.bottom])
+        self.floor = self.average(bottom, self.top - bottom)[0]
 
     def _reduced(self, u: Array) -> Array:
-        return self.average(u) / u[:, None] ** self.powers
+        return self.average(self.top - u * u, u * u) / u[:, None] ** self.powers
 
-    def average(self, u: Array) -> Array:
-        """P at the gap x_max − u² by direct quadrature: (N, 7).
+    def average(self, gap: Array, rise: Array) -> Array:
+        """P(gap) by direct quadrature: (N, 7). Panels in √δ, split at every regime.
 
-        Panels in √δ, split at every regime. The distance u² to the largest particle is the
-        argument because the gap itself would lose it to rounding.
+        ``rise`` = x_max − gap is given beside the gap because near the largest size the gap
+        alone would lose it to rounding.
         """
         if isinstance(self.sizes, Monodisperse):
-            return self.sizes.mean**2 * self.particle(u * u / self.sizes.mean)
-        out = np.empty((len(u), len(COLUMNS)))
-        for part in np.array_split(np.arange(len(u)), max(1, len(u) // 200)):
-            out[part] = self._average(u[part, None])
+            return self.sizes.mean**2 * self.particle(rise / self.sizes.mean)
+        out = np.empty((len(gap), len(COLUMNS)))
+        for part in np.array_split(np.arange(len(gap)), max(1, len(gap) // 200)):
+            out[part] = self._average(gap[part, None], rise[part, None])
         return out
 
-    def _average(self, u: Array) -> Array:
+    def _average(self, gap: Array, rise: Array) -> Array:
         particle, sizes = self.particle, self.sizes
         low, high = sizes.support
-        gap = high - u * u
+        pieces = np.array(sizes.pieces)
         # δ at which a size, or a regime of some size, sets in; x = δ/ε must be positive
-        of_sizes = u * u - (high - np.array(sizes.pieces))
+        of_sizes = np.where(gap > 0.5 * high, rise - (high - pieces), pieces - gap)
         of_regimes = gap * (particle.panels / (1 - particle.panels))
         deltas = np.concatenate([of_sizes, of_regimes], axis=1)
-        deltas = np.clip(deltas, np.maximum(u * u - (high - low), 0.0), u * u)
+        deltas = np.clip(deltas, np.maximum(of_sizes[:, :1], 0.0), rise)
         root, weight = panel_rule(np.sort(np.sqrt(deltas), axis=1), 16)
         delta = root * root
         diameter = np.clip(gap + delta, low, high)
@@ -270,20 +290,21 @@ class SizeAverage:
         return np.einsum("gn,gnk->gk", density, values)
 
     def __call__(self, gaps: Array) -> Array:
-        """P(g) from the table: (N, 7)."""
+        """P(g) from the tables: (N, 7)."""
         u = np.sqrt(np.maximum(self.top - gaps, 0.0))
-        values = self.table(u) * u[:, None] ** self.powers
-        return np.where((gaps < self.bottom)[:, None], self.floor, values)
+        values = self.upper(np.minimum(u, self.upper.edges[-1])) * u[:, None] ** self.powers
+        if self.lower is not None and np.any(low := gaps < self.join):
+            values[low] = self.lower(np.maximum(gaps[low], self.bottom))
+        values[gaps < self.bottom] = self.floor
+        return values
 
     def derivatives(self, gaps: Array, columns: tuple[int, ...]) -> Array:
         """P, P′ and P″ of some columns: (N, len(columns), 3)."""
         u = np.sqrt(np.maximum(self.top - gaps, 0.0))
-        inside = (u > 0) & (gaps >= self.bottom)
-        u = np.where(u > 0, u, 1.0)
-        c = self.table.derivatives(u, columns)
+        v = np.clip(u, 1e-150, self.upper.edges[-1])[:, None]
+        c = self.upper.derivatives(v[:, 0], columns)
         p = self.powers[list(columns)]
         value, first, second = c[..., 0], c[..., 1], c[..., 2]
-        v = u[:, None]
         lead = v**p
         # with respect to u, then dg = −2u du
         du = lead * (first + p * value / v)
@@ -292,10 +313,41 @@ class SizeAverage:
         out[..., 0] = lead * value
         out[..., 1] = -du / (2 * v)
         out[..., 2] = (ddu - du / v) / (4 * v * v)
-        out[~inside] = 0.0
+        out[u == 0] = 0.0
+        if self.lower is not None and np.any(low := gaps < self.join):
+            out[low] = self.lower.derivatives(np.maximum(gaps[low], self.bottom), columns)
         below = gaps < self.bottom
+        out[below] = 0.0
         out[below, :, 0] = self.floor[list(columns)]
         return out
+
+    def nodes(self, width: float) -> tuple[Array, Array, Array]:
+        """Gauss nodes in the gap, weights and P there, in panels no wider than ``width``.
+
+        The panels of the tables, cut: increasing gaps (M,), weights (M,), values (M, 7).
+        """
+        u, weight = panel_rule(_cut(self.upper.edges**2, width) ** 0.5, SEAT_NODES)
+        gaps, weights = self.top - u * u, 2 * u * weight
+        values = self.upper(u) * u[:, None] ** self.powers
+        gaps, weights, values = gaps[::-1], weights[::-1], values[::-1]
+        if self.lower is not None:
+            g, weight = panel_rule(_cut(self.lower.edges, width), SEAT_NODES)
+            gaps = np.concatenate([g, gaps])
+            weights = np.concatenate([weight, weights])
+            values = np.concatenate([self.lower(g), values])
+        return gaps, weights, values
+
+
+def _distinct(edges: Array) -> Array:
+    """Increasing edges without the slivers that rounding leaves between equal ones."""
+    keep = np.append(np.diff(edges) > 1e-12 * np.max(np.abs(edges)), True)
+    keep[0] = True
+    out = edges[keep]
+    return np.delete(out, 1) if len(out) > 2 and out[1] - out[0] <= 0 else out
+
+
+def _cut(edges: Array, width: float) -> Array:
+    return np.concatenate([edges[:1], subdivide(edges, width=width)[1:]])
 
 
 @lru_cache(maxsize=256)
@@ -513,33 +565,41 @@ class RoughSeat:
     ):
         self.offset, self.width = offset, width
         self.reach = scale * average.top - offset + NORMAL_REACH * width
-        s = width / scale
-        # nodes in u = √(top − g), panels of the table cut to the width of the seat
-        edges = [0.0]
-        for a, b in zip(average.table.edges[:-1], average.table.edges[1:], strict=True):
-            count = max(1, math.ceil((b * b - a * a) / s))
-            edges += list(np.sqrt(np.linspace(a * a, b * b, count + 1)[1:]))
-        if len(edges) > MAX_PANELS:
+        span = scale * (average.top - average.bottom) / width
+        if span > WIDEST:
             raise InvalidValue(
-                f"particle sizes span {average.top - average.bottom:.3g} mean diameters and the "
-                f"seat is only {s:.3g} of one wide: use seat = 'plane'"
+                f"particle diameters range over {span:.3g} widths of the seat, more than "
+                f"{WIDEST:g}: the surface is smooth for such particles, use seat = 'plane'"
             )
-        u, weight = panel_rule(np.array(edges), 16)
-        self.gaps = scale * (average.top - u * u)
-        values = average.table(u) * u[:, None] ** average.powers
+        gaps, weight, values = average.nodes(width / scale)
+        self.gaps = scale * gaps
         factor = density * scale**2
         self.weights = (factor * scale / width / math.sqrt(2 * math.pi)) * (
-            (2 * u * weight)[:, None] * values
+            weight[:, None] * values
         )
         self.floor_gap = scale * average.bottom
         self.floor = factor * average.floor
 
-    def _chunks(self, d: Array) -> Iterator[tuple[slice, Array, Array]]:
-        size = max(1, 400_000 // len(self.gaps))
-        for start in range(0, len(d), size):
-            part = slice(start, start + size)
-            z = ((d[part] + self.offset)[:, None] - self.gaps) / self.width
-            yield part, z, np.exp(-0.5 * z * z)
+    def _chunks(self, d: Array) -> Iterator[tuple[Index, slice, Array, Array]]:
+        """States with the local gaps that matter to them: z and exp(−z²/2)."""
+        order = np.argsort(d, kind="stable")
+        gap = d[order] + self.offset
+        start = 0
+        while start < len(d):
+            # as many neighbours as fill a cache and lie within a few widths
+            size = max(1, int(400_000 // min(len(self.gaps), 1000)))
+            stop = min(start + size, np.searchsorted(gap, gap[start] + 4 * self.width) + 1)
+            stop = max(start + 1, min(stop, len(d)))
+            near = self.gaps > min(gap[start], self.gaps[-1]) - 2 * NORMAL_REACH * self.width
+            near &= self.gaps < gap[stop - 1] + NORMAL_REACH * self.width
+            first, last = np.searchsorted(near, [True]), len(near)
+            inside = np.flatnonzero(near)
+            if len(inside):
+                first, last = inside[0], inside[-1] + 1
+                which = slice(int(first), int(last))
+                z = (gap[start:stop, None] - self.gaps[which]) / self.width
+                yield order[start:stop], which, z, np.exp(-0.5 * z * z)
+            start = stop
 
     def _floor_share(self, d: Array) -> tuple[Array, Array]:
         """P(local gap < floor) and the argument of the normal distribution."""
@@ -547,9 +607,10 @@ class RoughSeat:
         return special.ndtr(z), z
 
     def load(self, d: Array, shadow: int) -> Array:
-        out = np.empty((len(d), 2, 3))
-        weights = self.weights[:, [0, shadow]]
-        for part, z, e in self._chunks(d):
+        out = np.zeros((len(d), 2, 3))
+        columns = self.weights[:, [0, shadow]]
+        for part, which, z, e in self._chunks(d):
+            weights = columns[which]
             out[part, :, 0] = e @ weights
             ze = z * e
             out[part, :, 1] = -(ze @ weights) / self.width
@@ -565,14 +626,16 @@ class RoughSeat:
         return out
 
     def columns(self, d: Array) -> Array:
-        out = np.empty((len(d), len(COLUMNS)))
-        for part, _, e in self._chunks(d):
-            out[part] = e @ self.weights
+        out = np.zeros((len(d), len(COLUMNS)))
+        for part, which, _, e in self._chunks(d):
+            out[part] = e @ self.weights[which]
         return out + self._floor_share(d)[0][:, None] * self.floor
 
 
 NORMAL_REACH = 9.0
-MAX_PANELS = 40_000
+"""Standard deviations of the seat beyond which nothing is counted."""
+SEAT_NODES = 14
+WIDEST = 1e5
 
 
 class SeatedParticles(ParticleResponse):

@@ -1,0 +1,457 @@
+"""The command line: ``thirdbody solve STUDY.toml`` and its neighbours.
+
+Standard output holds the answer and nothing else; progress, warnings and errors go to standard
+error. Exit status: 0 done, 2 bad input, 3 no equilibrium or no transition in the range searched.
+"""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+import json
+import os
+import sys
+import warnings
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+
+from .errors import InvalidValue, NoEquilibrium, NoTransition
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+__all__ = ["app", "main"]
+
+BAD_INPUT, NO_ANSWER, INTERRUPTED, BROKEN_PIPE = 2, 3, 130, 141
+MOST_ROWS = 20
+PAPERS = ("horng2022",)
+
+
+class Commands(TyperGroup):
+    """Turns errors and warnings of every command into lines on standard error."""
+
+    def invoke(self, ctx: Any) -> Any:
+        with warnings.catch_warnings():
+            warnings.showwarning = _one_line
+            try:
+                answer = super().invoke(ctx)
+                sys.stdout.flush()
+                return answer
+            except InvalidValue as error:
+                _complain(error.problems)
+                raise typer.Exit(BAD_INPUT) from None
+            except (NoEquilibrium, NoTransition) as error:
+                _complain([str(error)])
+                raise typer.Exit(NO_ANSWER) from None
+            except KeyboardInterrupt:
+                _complain(["interrupted"])
+                raise typer.Exit(INTERRUPTED) from None
+            except BrokenPipeError:
+                # whoever read the output has gone: leave quietly, also at the last flush
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+                raise typer.Exit(BROKEN_PIPE) from None
+            except OSError as error:
+                where = f" {error.filename}" if error.filename else " the output"
+                _complain([f"cannot read or write{where}: {error.strerror or error}"])
+                raise typer.Exit(BAD_INPUT) from None
+
+
+def _complain(sentences: Iterable[str]) -> None:
+    for sentence in sentences:
+        for line in sentence.splitlines():
+            print(f"error: {line}", file=sys.stderr)
+
+
+def _one_line(message: Warning | str, *_: Any, **__: Any) -> None:
+    print(f"warning: {' '.join(str(message).split())}", file=sys.stderr)
+
+
+app = typer.Typer(
+    cls=Commands,
+    name="thirdbody",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help="Contact of rough surfaces with particles between them.",
+)
+
+
+def main() -> None:
+    """Entry point of the command ``thirdbody``."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    app()
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from . import __version__
+
+        print(f"thirdbody {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Contact of rough surfaces with particles between them."""
+
+
+# -------------------------------------------------------------------------- solve
+@app.command()
+def solve(
+    study: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")],
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object and nothing else.")
+    ] = False,
+    csv_file: Annotated[
+        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per state.")
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="KEY=VALUE",
+            help='Change a key of the file, e.g. particles.mean="500 nm"; may be repeated.',
+        ),
+    ] = None,
+) -> None:
+    """Separation, real contact area, load shares and contact mode under the loads of a study."""
+    from .study import load_study, run_study
+
+    if as_json and csv_file is not None:
+        raise typer.BadParameter("--json and --csv exclude each other; run the command twice")
+    asked = load_study(study, settings or ())
+    for sentence in asked.notes:
+        _one_line(sentence)
+    result = run_study(asked)
+    for sentence in result["warnings"][len(asked.notes) :]:
+        _one_line(sentence)
+    statuses = result["states"]["status"]
+    solved = statuses.count("ok")
+    if as_json:
+        print(json.dumps(result, indent=1, allow_nan=False))
+    elif solved and csv_file is not None:
+        _write_csv(csv_file, result["states"])
+        print(f"{len(statuses)} states written to {csv_file}", file=sys.stderr)
+    elif solved:
+        _show(result)
+    if not solved:
+        more = f" (and so for all {len(statuses)} states)" if len(statuses) > 1 else ""
+        raise NoEquilibrium(statuses[0] + more)
+
+
+def _write_csv(path: Path, states: dict[str, list[Any]]) -> None:
+    from .equilibrium import COLUMNS
+    from .files import write_text
+
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    units = {name: COLUMNS[name]["unit"] for name in states}
+    writer.writerow(f"{name} [{unit}]" if unit else name for name, unit in units.items())
+    writer.writerows(zip(*states.values(), strict=True))
+    write_text(path, text.getvalue())
+
+
+def _console() -> Console:
+    from rich.console import Console
+
+    # a pipe has no width of its own
+    width = None if sys.stdout.isatty() else 120
+    return Console(file=sys.stdout, width=width, highlight=False, markup=False, emoji=False)
+
+
+def _table(headers: Iterable[str], *, right: bool = False) -> Any:
+    from rich import box
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for header in headers:
+        table.add_column(header, justify="right" if right else "left", overflow="fold")
+    return table
+
+
+def _show(result: dict[str, Any]) -> None:
+    """The result for a reader: states, transitions, one sentence."""
+    console = _console()
+    states, scales = result["states"], result["scales"]
+    three_body = result["inputs"]["particles"] is not None
+    console.print(f"{result['title'] or 'Study'} (thirdbody {result['version']})")
+    console.print(f"E_ss = {scales['E_ss'] / 1e9:.4g} GPa, sigma = {_length(scales['sigma'])}")
+
+    columns: dict[str, Callable[[int], str]] = {
+        "F*": lambda i: _number(states["F_star"][i]),
+        "pressure": lambda i: _pressure(states["pressure"][i]),
+        "d": lambda i: _length(states["d"][i]),
+        "d/sigma": lambda i: _number(states["d_star"][i]),
+        "A_t": lambda i: _number(states["A_t"][i]),
+        "A_ss": lambda i: _number(states["A_ss"][i]),
+    }
+    if three_body:
+        columns |= {
+            "A_sa": lambda i: _number(states["A_sa"][i]),
+            "particles' load": lambda i: _percent(states["particle_load_share"][i]),
+            "particles' area": lambda i: _percent(states["particle_area_share"][i]),
+            "mode": lambda i: states["mode"][i] or "-",
+        }
+    table = _table(columns, right=True)
+    total = len(states["status"])
+    rows = min(total, MOST_ROWS)
+    for row in range(rows):
+        i = round(row * (total - 1) / max(rows - 1, 1))
+        table.add_row(*(cell(i) for cell in columns.values()))
+    console.print(table)
+    if rows < total:
+        console.print(f"{rows} of {total} states shown; --csv FILE writes all\n")
+    for status in dict.fromkeys(states["status"]):
+        if status != "ok":
+            console.print(f"{states['status'].count(status)} state(s) unsolved: {status}")
+    if three_body:
+        console.print(_transition_table(result["transitions"], scales["E_ss"]))
+    console.print(summary(result))
+
+
+def _transition_table(critical: dict[str, Any], E_ss: float) -> Any:
+    turning = critical["F_tpca"]
+    rows = {
+        "F_cr1: asperities come into contact (p-s to hybrid)": critical["F_cr1"],
+        "F_cr2: particles have little of the contact left (hybrid to s-s)": critical["F_cr2"],
+        "F_tpca A: largest particle share": turning["A"],
+        "F_tpca B: equal loads": turning["B"],
+        "F_tpca C: strongest bend of the area": turning["C"],
+    }
+    table = _table(("critical load", "F*", "pressure", "status"))
+    for name, entry in rows.items():
+        value = entry["value"]
+        pressure = None if value is None else value * E_ss
+        table.add_row(name, _number(value), _pressure(pressure), entry["status"])
+    return table
+
+
+def summary(result: dict[str, Any]) -> str:
+    """The result in plain words."""
+    states = result["states"]
+    known = [i for i, status in enumerate(states["status"]) if status == "ok"]
+    three_body = result["inputs"]["particles"] is not None
+    words = {
+        "p-s": "nearly all real contact is on particles (p-s)",
+        "hybrid": "real contact is on particles and on asperities (hybrid)",
+        "s-s": "nearly all real contact is on asperities (s-s)",
+    }
+
+    def state(i: int) -> str:
+        gap = f"separation {_length(states['d'][i])} ({states['d_star'][i]:.3g} sigma)"
+        area = f"real contact area {_percent(states['A_t'][i])} of the nominal area"
+        if not three_body:
+            return f"{gap}, {area}"
+        share = f"particles carry {_percent(states['particle_load_share'][i])} of the load"
+        return f"{words[states['mode'][i]]}; {share}, {gap}, {area}"
+
+    def load(i: int) -> str:
+        return f"{_pressure(states['pressure'][i])} (F* = {_number(states['F_star'][i])})"
+
+    known.sort(key=lambda i: states["pressure"][i])
+    first, last = known[0], known[-1]
+    if first == last:
+        return f"At {load(first)}: {state(first)}."
+    modes = [states["mode"][i] for i in known]
+    path = [mode for i, mode in enumerate(modes) if i == 0 or mode != modes[i - 1]]
+    passes = f" In between the mode goes {' -> '.join(path)}." if len(path) > 1 else ""
+    return f"At {load(first)}: {state(first)}. At {load(last)}: {state(last)}.{passes}"
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.4g}"
+
+
+def _percent(value: float | None) -> str:
+    if value is None:
+        return "-"
+    return f"{100 * value:.3g} %" if value < 0.9995 or value == 1 else f"{100 * value:.5g} %"
+
+
+def _pressure(value: float | None) -> str:
+    return _prefixed(value, "Pa", {"G": 1e9, "M": 1e6, "k": 1e3})
+
+
+def _length(value: float | None) -> str:
+    return _prefixed(value, "m", {"": 1.0, "m": 1e-3, "u": 1e-6, "n": 0.0})
+
+
+def _prefixed(value: float | None, unit: str, thresholds: dict[str, float]) -> str:
+    if value is None:
+        return "-"
+    sizes = {"G": 1e9, "M": 1e6, "k": 1e3, "": 1.0, "m": 1e-3, "u": 1e-6, "n": 1e-9}
+    prefix = next((name for name, least in thresholds.items() if abs(value) >= least), "")
+    return f"{value / sizes[prefix]:.4g} {prefix}{unit}"
+
+
+# -------------------------------------------------------------------------- reproduce
+@app.command()
+def reproduce(
+    paper: Annotated[str, typer.Argument(help=f"One of: {', '.join(PAPERS)}.")],
+    out: Annotated[
+        Path | None, typer.Option("--out", metavar="DIR", help="Folder for figures and ledger.")
+    ] = None,
+    preset: Annotated[
+        str, typer.Option("--preset", metavar="NAME", help="Reading of the paper.")
+    ] = "published",
+) -> None:
+    """Every figure and the ledger of claims of a paper."""
+    from importlib import import_module
+
+    from .particle import PRESETS
+
+    problems = []
+    if paper not in PAPERS:
+        problems.append(f"paper = {paper!r} must be one of {', '.join(PAPERS)}")
+    if preset not in PRESETS:
+        problems.append(f"--preset {preset} must be one of {', '.join(PRESETS)}")
+    folder = out or Path(paper)
+    if folder.exists() and not folder.is_dir():
+        problems.append(f"--out {folder} must be a folder, and a file of that name exists")
+    if problems:
+        raise InvalidValue(*problems)
+    study = import_module(f".studies.{paper}", __package__)
+    with _progress() as progress:
+        done = study.reproduce(folder, preset=preset, progress=progress)
+    for line in done.lines():
+        print(line)
+
+
+class _progress:
+    """Progress on standard error: a bar on a terminal, a line a stage elsewhere."""
+
+    def __enter__(self) -> Callable[[str, int, int], None]:
+        self.bar = None
+        self.tasks: dict[str, Any] = {}
+        if sys.stderr.isatty():
+            from rich.console import Console
+            from rich.progress import Progress
+
+            self.bar = Progress(console=Console(stderr=True), transient=True)
+            self.bar.start()
+        return self.report
+
+    def report(self, stage: str, done: int, total: int) -> None:
+        if self.bar is not None:
+            if stage not in self.tasks:
+                self.tasks[stage] = self.bar.add_task(stage, total=total)
+            self.bar.update(self.tasks[stage], completed=done, total=total)
+        elif stage not in self.tasks:
+            self.tasks[stage] = None
+            print(f"{stage} ...", file=sys.stderr, flush=True)
+
+    def __exit__(self, *_: Any) -> None:
+        if self.bar is not None:
+            self.bar.stop()
+
+
+# -------------------------------------------------------------------------- what there is
+@app.command()
+def laws(
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """The laws of asperities and particles, with citation and range."""
+    from . import asperity, particle
+    from .units import say
+
+    kinds = {"asperity": asperity.REGISTRY, "particle": particle.REGISTRY}
+    found = {
+        kind: [_about_law(law) for law in registry.values()] for kind, registry in kinds.items()
+    }
+    if as_json:
+        print(json.dumps(found, indent=1, allow_nan=False))
+        return
+    console = _console()
+    for kind, entries in found.items():
+        table = _table(("name", "law", "valid range", "citation"))
+        for entry in entries:
+            doi = f", doi:{entry['doi']}" if entry["doi"] else ""
+            table.add_row(
+                entry["name"],
+                f"{entry['title']} ({entry['year']})",
+                entry["valid_range"],
+                f"{entry['citation']}{doi} ({entry['provenance']})",
+            )
+        console.print(f"[{kind}_law]")
+        console.print(table)
+        for entry in entries:
+            table = _table((f"options of {entry['name']}", "default", "allowed", "meaning"))
+            for option in entry["options"]:
+                table.add_row(
+                    option["key"], say(option["default"]), option["allowed"], option["meaning"]
+                )
+            console.print(table)
+
+
+def _about_law(law: type) -> dict[str, Any]:
+    about = ("name", "title", "year", "citation", "doi", "provenance", "valid_range")
+    usual = law()
+    options = [_about_option(item, getattr(usual, item.name)) for item in dataclasses.fields(law)]
+    return {key: getattr(law, key) for key in about} | {"options": options}
+
+
+def _about_option(item: dataclasses.Field, default: Any) -> dict[str, Any]:
+    from .units import say
+    from .values import allowed_range
+
+    default = getattr(default, "name", default)
+    allowed, meaning, unit = "", "", ""
+    if about := item.metadata.get("quantity"):
+        allowed, unit = allowed_range(about).removeprefix("must be "), about["unit"]
+        meaning = f"{about['meaning']} {about['symbol']}"
+    elif about := item.metadata.get("choice"):
+        allowed, meaning = ", ".join(map(say, about["options"])), about["meaning"]
+    elif isinstance(default, bool):
+        allowed = "true, false"
+    elif isinstance(default, str):
+        allowed = "name of an asperity law, or a table with its options"
+    return {
+        "key": item.name,
+        "default": default,
+        "allowed": allowed,
+        "unit": unit,
+        "meaning": meaning,
+    }
+
+
+@app.command("materials")
+def list_materials(
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """The materials of the library, with source and range."""
+    from .materials import materials
+
+    entries = materials.entries()
+    if as_json:
+        print(json.dumps(entries, indent=1, allow_nan=False))
+        return
+    table = _table(("name", "E", "nu", "H", "what", "source"))
+    for name, entry in entries.items():
+        doi = f", doi:{entry['doi']}" if entry.get("doi") else ""
+        table.add_row(
+            name,
+            _pressure(entry["E"]) + _spread(entry, "E", 1e9),
+            f"{entry['nu']:g}" + _spread(entry, "nu", 1.0),
+            _pressure(entry["H"]) + _spread(entry, "H", 1e9),
+            entry.get("about", ""),
+            entry["source"] + doi,
+        )
+    _console().print(table)
+
+
+def _spread(entry: dict[str, Any], key: str, scale: float) -> str:
+    """The range met between sources, where the library states one."""
+    ends = entry.get("range", {}).get(key)
+    return f" ({ends[0] / scale:g} to {ends[1] / scale:g})" if ends else ""

@@ -1,0 +1,857 @@
+"""Study files: what a user writes in TOML, checked as a whole before anything is computed.
+
+The keys of a table, their units and their ranges are those of the class the table stands for
+(`quantity`, `choice`); law names and options come from the registries. For the file at hand a
+pydantic model is put together from them, so that one validation finds every mistake.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import math
+import os
+import re
+import tomllib
+import warnings
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+from pydantic import AfterValidator, ConfigDict, PlainValidator, ValidationError, create_model
+
+from . import asperity, particle
+from .citations import cite
+from .contact import Contact
+from .distributions import (
+    Histogram,
+    LogNormal,
+    Mixture,
+    Monodisperse,
+    TruncatedGaussian,
+    Uniform,
+    Weibull,
+)
+from .equilibrium import Equilibrium, solve
+from .errors import InvalidValue, RangeWarning, ThirdBodyError
+from .materials import Material, MaterialPair, materials
+from .particles import Particles
+from .surfaces import Roughness
+from .transitions import Critical, Transitions, TurningPoint, transitions
+from .units import EXAMPLES, say, to_si
+from .values import allowed_range, problem_with, quantity
+
+__all__ = ["DISTRIBUTIONS", "LOADS", "Study", "load_study", "run_study"]
+
+DISTRIBUTIONS = {
+    "truncated-gaussian": TruncatedGaussian,
+    "log-normal": LogNormal,
+    "weibull": Weibull,
+    "uniform": Uniform,
+    "histogram": Histogram,
+    "monodisperse": Monodisperse,
+    "mixture": Mixture,
+}
+"""Every size distribution by the word that study files use."""
+
+LOADS = {
+    name: declared.metadata["quantity"]
+    for name, declared in {
+        "F_star": quantity("F*", "1", "load F/(A_n E_ss)", gt=0),
+        "pressure": quantity("p", "Pa", "nominal pressure", gt=0, hint="MPa are 5e6 or '5 MPa'"),
+        "separation": quantity("d", "m", "separation from the mean asperity height"),
+    }.items()
+}
+"""The ways to give a load, as quantities."""
+
+_ONE_OF = {"load": tuple(LOADS), "roughness": ("eta", "eta_R_sigma")}
+"""Keys of a table of which only one can be given."""
+_UNITS_OF_LISTS = {"edges": "m", "counts": "1", "weights": "1"}
+_MOST_POINTS = 1_000_000
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Study:
+    """What a study file asks for.
+
+    Parameters
+    ----------
+    title : str
+        As in the file.
+    contact : Contact
+        The interface.
+    load : {"F_star", "pressure", "separation"}
+        Which load is given.
+    values : array (N,)
+        Its values: F* [1], p [Pa] or d [m].
+    notes : tuple of str
+        What is allowed but looks like a slip, one sentence each.
+    """
+
+    title: str
+    contact: Contact
+    load: str
+    values: np.ndarray
+    notes: tuple[str, ...] = ()
+
+    def solve(self) -> Equilibrium:
+        """Every state, as arrays; see `thirdbody.solve`."""
+        given = {"d" if self.load == "separation" else self.load: self.values}
+        return solve(self.contact, **given)
+
+
+# -------------------------------------------------------------------------- reading a file
+def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> Study:
+    """Read a study file.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file.
+    overrides : iterable of str, optional
+        ``"particles.mean=500 nm"``: keys to set after reading, values as in TOML; text that is
+        not TOML counts as a string. One load takes the place of the load in the file.
+
+    Returns
+    -------
+    Study
+
+    Raises
+    ------
+    InvalidValue
+        Every mistake of the file, one sentence each in ``problems``: the key, its value, what
+        is allowed, and the likely cause.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> file = Path(tempfile.mkdtemp()) / "study.toml"
+    >>> _ = file.write_text('''
+    ... [surfaces]
+    ... first = "S45C"
+    ... second = "S45C"
+    ... [roughness]
+    ... sigma = "100 nm"
+    ... R = "2.8 um"
+    ... [load]
+    ... pressure = "5 MPa"
+    ... ''')
+    >>> study = load_study(file, ["roughness.sigma=200 nm"])
+    >>> study.contact.roughness.sigma, study.values.tolist()
+    (2e-07, [5000000.0])
+    """
+    data = _override(_read(Path(path)), list(overrides))
+    return _Reader().study(data)
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        near = difflib.get_close_matches(
+            path.name, [p.name for p in _toml_files(path)], n=1, cutoff=0.75
+        )
+        guess = f"; did you mean {path.with_name(near[0])}?" if near else ""
+        raise InvalidValue(f"cannot read {path}: there is no such file{guess}") from None
+    except IsADirectoryError:
+        raise InvalidValue(f"cannot read {path}: it is a folder, not a study file") from None
+    except UnicodeDecodeError as error:
+        line = path.read_bytes()[: error.start].count(b"\n") + 1
+        raise InvalidValue(
+            f"cannot read {path}: line {line} is not UTF-8 text; save the file as UTF-8, "
+            "or write um instead of µm"
+        ) from None
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise InvalidValue(f"cannot read {path}: {why.lower()}") from None
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InvalidValue(_syntax(path, text, str(error))) from None
+    except RecursionError:
+        raise InvalidValue(f"{path} is nested too deeply to be a study file") from None
+
+
+def _toml_files(path: Path) -> list[Path]:
+    try:
+        return list(path.parent.glob("*.toml"))
+    except OSError:
+        return []
+
+
+def _syntax(path: Path, text: str, message: str) -> str:
+    """A TOML syntax error with its line and the likely cause."""
+    where = re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)", message)
+    lines = text.splitlines() or [""]
+    number = int(where[1]) if where and where[1] else len(lines)
+    line = lines[min(number, len(lines)) - 1].split("#")[0].strip()
+    what = message[: where.start()] if where else message
+    out = f"{path}, line {number}: {what[:1].lower()}{what[1:]}, in: {line}"
+    key, equals, value = (part.strip() for part in line.partition("="))
+    if "overwrite" in what:
+        return f"{out}; {key} is given twice"
+    if equals and re.fullmatch(r"[+-]?[\d.,]+(?:[eE][+-]?\d+)?\s*[^\d\s,.\]}].*", value):
+        return f'{out}; a value with a unit stands in quotes: {key} = "{value}"'
+    if equals and re.fullmatch(r"[A-Za-zµ][\w .-]*", value):
+        return f'{out}; words stand in quotes: {key} = "{value}"'
+    if equals and re.fullmatch(r"[+-]?(\d+,\d+|\.\d+.*|\d+\.)", value):
+        return f"{out}; numbers have a decimal point between digits: 2.8, 0.4, 5.0"
+    return out
+
+
+def _override(data: dict[str, Any], overrides: list[str]) -> dict[str, Any]:
+    """The data with keys set; one of several exclusive keys drives out the others."""
+    problems = []
+    for text in overrides:
+        path, equals, value = text.partition("=")
+        keys = [key.strip() for key in path.split(".")]
+        if not equals or not all(keys):
+            problems.append(f'--set {text!r} must be KEY=VALUE, e.g. --set particles.mean="500 nm"')
+            continue
+        table, walked = data, []
+        for key in keys[:-1]:
+            walked.append(key)
+            table = table.setdefault(key, {})
+            if not isinstance(table, dict):
+                break
+        if not isinstance(table, dict):
+            whole = ".".join(walked)
+            problems.append(
+                f"--set {text}: {whole} = {say(table)} is not a table, so {keys[-1]} cannot be "
+                f"set in it; set {whole} as a whole, e.g. --set '{whole}={{ ... }}'"
+            )
+            continue
+        group = _ONE_OF.get(".".join(keys[:-1]), ())
+        for other in group if keys[-1] in group else ():
+            table.pop(other, None)
+        table[keys[-1]] = _toml_value(value)
+    if problems:
+        raise InvalidValue(*problems)
+    return data
+
+
+def _toml_value(text: str) -> Any:
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except (tomllib.TOMLDecodeError, RecursionError):
+        return text.strip()
+    return parsed["value"] if set(parsed) == {"value"} else text.strip()
+
+
+# -------------------------------------------------------------------------- checking it
+class _Key(NamedTuple):
+    """One key of a table: the type pydantic checks, whether it must stand, what it is."""
+
+    type: Any
+    required: bool
+    about: str
+
+
+class _Reader:
+    """Puts together the pydantic model that fits one file, and tells its mistakes."""
+
+    def __init__(self) -> None:
+        self.problems: list[str] = []
+        self.notes: list[str] = []
+        self.keys: dict[str, dict[str, str]] = {}
+        """Known keys of every table met, and what they are."""
+        self.variants: dict[str, tuple[str, dict[str, set[str]]]] = {}
+        """Tables whose keys depend on a word: that word's key, and the keys of each variant."""
+
+    # ------------------------------------------------------------------ the whole file
+    def study(self, data: dict[str, Any]) -> Study:
+        part = {key: data.get(key) for key in ("surfaces", "roughness", "particles", "load")}
+        keys = {
+            "title": _Key(self.text("title"), False, "a line of text"),
+            "surfaces": _Key(
+                self.surfaces("surfaces", part["surfaces"]),
+                True,
+                'a table [surfaces] with the two materials, e.g. first = "S45C", second = "S45C"',
+            ),
+            "roughness": _Key(
+                self.roughness("roughness", part["roughness"]),
+                True,
+                'a table [roughness], e.g. sigma = "100 nm", R = "2.8 um"',
+            ),
+            "asperity_law": _Key(
+                self.law("asperity_law", data.get("asperity_law"), asperity.REGISTRY), False, ""
+            ),
+            "particles": _Key(self.particles("particles", part["particles"]), False, ""),
+            "particle_law": _Key(
+                self.law("particle_law", data.get("particle_law"), particle.REGISTRY), False, ""
+            ),
+            "load": _Key(
+                self.load("load", part["load"]),
+                True,
+                'a table [load] with one of F_star, pressure, separation, e.g. pressure = "5 MPa"',
+            ),
+        }
+        model = self.table("", keys, self.build)
+        try:
+            return _validate(model, data)
+        except ValidationError as error:
+            self.problems = [*self.tell(error), *self.problems]
+        raise InvalidValue(*dict.fromkeys(self.problems))
+
+    def build(self, values: dict[str, Any]) -> Study:
+        if self.problems:
+            raise InvalidValue(*self.problems)
+        load, loads = values.pop("load")
+        title = values.pop("title", "")
+        if "particles" not in values and values.pop("particle_law", None) is not None:
+            self.notes.append("[particle_law] has no effect, because there is no [particles] table")
+        contact = self.make(Contact, "", values)
+        return Study(
+            title=title,
+            contact=contact,
+            load=load,
+            values=loads,
+            notes=tuple(dict.fromkeys(self.notes)),
+        )
+
+    # ------------------------------------------------------------------ tables
+    def surfaces(self, path: str, data: Any) -> Any:
+        keys = {}
+        for side in ("first", "second"):
+            reader = self.material(f"{path}.{side}", _get(data, side))
+            keys[side] = _Key(
+                reader, True, 'a material, e.g. "S45C" or { E = "205 GPa", nu = 0.29, H = "5 GPa" }'
+            )
+        return self.table(path, keys, lambda values: self.make(MaterialPair, path, values))
+
+    def roughness(self, path: str, data: Any) -> Any:
+        keys = self.keys_of(Roughness, path, data)
+        if isinstance(data, dict) and "topography" in data:
+            keys = {name: key._replace(required=False) for name, key in keys.items()}
+            keys["topography"] = _Key(self.refused(f"{path}.topography"), False, "")
+        spare = self.only_one(path, data)
+
+        def build(values: dict[str, Any]) -> Roughness:
+            kept = {key: value for key, value in values.items() if key not in spare}
+            return self.make(Roughness, path, kept)
+
+        return self.table(path, keys, build)
+
+    def material(self, path: str, data: Any) -> Any:
+        if isinstance(data, dict):
+            keys = self.keys_of(Material, path, data)
+            return self.table(path, keys, lambda values: self.make(Material, path, values))
+
+        def from_library(value: Any) -> Material:
+            if isinstance(value, str) and value in materials:
+                return materials[value]
+            near = _near(str(value), materials)
+            raise InvalidValue(
+                f"{path} = {say(value)} is not a material of the library "
+                f"({', '.join(materials)})"
+                + (f"; did you mean {say(near)}?" if near else "")
+                + '; another material is written { E = "205 GPa", nu = 0.29, H = "5 GPa" }'
+            )
+
+        return _plain(from_library)
+
+    def particles(self, path: str, data: Any) -> Any:
+        own = self.keys_of(Particles, path, data)
+        del own["diameter"]
+        material = own["material"]
+        own["material"] = material._replace(
+            about='what the particles are made of, e.g. material = "SiO2"'
+        )
+        names = {item.name for item in dataclasses.fields(Particles)}
+
+        def build(values: dict[str, Any]) -> Particles:
+            sizes = {key: value for key, value in values.items() if key not in names}
+            mine = {key: value for key, value in values.items() if key in names}
+            kind = DISTRIBUTIONS[sizes.pop("distribution")]
+            mine["diameter"] = self.make(kind, path, sizes)
+            return self.make(Particles, path, mine)
+
+        return self.variant(path, data, "distribution", DISTRIBUTIONS, build, own)
+
+    def sizes(self, path: str, data: Any) -> Any:
+        def build(values: dict[str, Any]) -> Any:
+            return self.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
+
+        return self.variant(path, data, "distribution", DISTRIBUTIONS, build, {})
+
+    def law(self, path: str, data: Any, registry: Mapping[str, type]) -> Any:
+        def build(values: dict[str, Any]) -> Any:
+            return self.make(registry[values.pop("name")], path, values)
+
+        if isinstance(data, str):
+            word = self.word(path, registry)
+            return Annotated[
+                Any, PlainValidator(word), AfterValidator(lambda name: build({"name": name}))
+            ]
+        return self.variant(path, data, "name", registry, build, {})
+
+    def load(self, path: str, data: Any) -> Any:
+        keys = {
+            name: _Key(
+                self.amounts(f"{path}.{name}", about, _get(data, name)), False, _about(name, about)
+            )
+            for name, about in LOADS.items()
+        }
+        self.only_one(path, data)
+
+        def build(values: dict[str, Any]) -> tuple[str, np.ndarray]:
+            for name in LOADS:
+                if name in values:
+                    return name, values[name]
+            raise InvalidValue(
+                f"[{path}] is empty; give exactly one of {', '.join(LOADS)}, "
+                'e.g. pressure = "5 MPa"'
+            )
+
+        return self.table(path, keys, build)
+
+    def only_one(self, path: str, data: Any) -> list[str]:
+        """Tell of keys that say the same thing twice; the ones to leave out."""
+        given = [key for key in _ONE_OF[path] if _get(data, key) is not None]
+        if len(given) > 1:
+            shown = ", ".join(f"{path}.{key} = {say(data[key])}" for key in given)
+            self.problems.append(f"{shown}: only one of these can be given; remove the other")
+        return given[1:]
+
+    def amounts(self, path: str, about: dict[str, Any], data: Any) -> Any:
+        """One value, a list of values, or a range."""
+        number = self.number(path, about)
+        if isinstance(data, dict):
+            return self.range(path, about, data)
+        if not isinstance(data, list):
+            return _plain(lambda value: np.array([number(value)]))
+
+        def read(value: list[Any]) -> np.ndarray:
+            if not value:
+                raise InvalidValue(f"{path} = [] is empty; give at least one value")
+            numbers, problems = [], []
+            for i, item in enumerate(value):
+                try:
+                    numbers.append(self.number(f"{path}[{i}]", about)(item))
+                except InvalidValue as error:
+                    problems += error.problems
+            if problems:
+                raise InvalidValue(*problems)
+            return np.array(numbers)
+
+        return _plain(read)
+
+    def range(self, path: str, about: dict[str, Any], data: dict[str, Any]) -> Any:
+        spacings = ("linear", "log") if about["gt"] is None else ("log", "linear")
+        ends = f'e.g. {{ from = 5e-7, to = 2.4e-4, points = 200, spacing = "{spacings[0]}" }}'
+        number = {end: self.number(f"{path}.{end}", about) for end in ("from", "to")}
+        keys = {
+            "from": _Key(_plain(number["from"]), True, f"the lowest value, {ends}"),
+            "to": _Key(_plain(number["to"]), True, f"the highest value, {ends}"),
+            "points": _Key(_plain(self.count(f"{path}.points")), True, f"how many values, {ends}"),
+            "spacing": _Key(_plain(self.word(f"{path}.spacing", spacings)), False, ""),
+        }
+        log = data.get("spacing", spacings[0]) == "log"
+        low, high = (_quietly(number[end], data.get(end)) for end in ("from", "to"))
+        wrong = []
+        if low >= high:
+            wrong.append(
+                f"{path} is an empty range: from = {say(data['from'])} must be below "
+                f"to = {say(data['to'])}"
+                + ("; exchange them" if low > high else "; for one value write it alone")
+            )
+        if log and low <= 0:
+            wrong.append(
+                f'{path}.from = {say(data["from"])} must be > 0 with spacing = "log"; '
+                'use spacing = "linear"'
+            )
+        self.problems += wrong
+
+        def build(values: dict[str, Any]) -> np.ndarray:
+            if wrong:
+                return np.empty(0)
+            space = np.geomspace if log else np.linspace
+            return space(values["from"], values["to"], values["points"])
+
+        return self.table(path, keys, build)
+
+    # ------------------------------------------------------------------ one value
+    def number(self, path: str, about: dict[str, Any]) -> Callable[[Any], float]:
+        def read(value: Any) -> float:
+            try:
+                number = to_si(value, about["unit"])
+            except InvalidValue as error:
+                elsewhere = "; a load in Pa goes under the key pressure"
+                cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
+                raise InvalidValue(f"{path} = {error}{cause}") from None
+            if not math.isfinite(number):
+                allowed = allowed_range(about).removeprefix("must be ")
+                allowed = "" if allowed.startswith("a finite") else f"; it must be {allowed}"
+                raise InvalidValue(f"{path} = {say(value)} is not a finite number{allowed}")
+            if why := problem_with(about, number):
+                meant = "" if about["hint"] else f"; it is the {about['meaning']}"
+                raise InvalidValue(f"{path} = {say(value)} {_words(why)}{meant}")
+            self.plausible(path, about["unit"], value, number)
+            return number
+
+        return read
+
+    def plausible(self, path: str, unit: str, value: Any, number: float) -> None:
+        """Note a number that is allowed but looks like a forgotten unit."""
+        usual = None
+        if unit == "m" and abs(number) >= 0.01:
+            usual = "nm" if abs(number) >= 10 else "um"
+        elif unit == "Pa" and number < 1e5 and not path.startswith("load"):
+            usual = "GPa"
+        if usual is None:
+            return
+        if isinstance(value, str) and re.search(r"[^\d\s.+-]", value):
+            cause = "check its unit (upper and lower case matter)"
+        else:
+            cause = f'a number without a unit is in SI; was "{number:g} {usual}" meant?'
+        self.notes.append(f"{path} = {say(value)} is taken as {number:g} {unit}: {cause}")
+
+    def count(self, path: str) -> Callable[[Any], int]:
+        def read(value: Any) -> int:
+            whole = isinstance(value, (int, float)) and not isinstance(value, bool)
+            if not (whole and value == value // 1 and 1 <= value <= _MOST_POINTS):
+                raise InvalidValue(
+                    f"{path} = {say(value)} must be a whole number from 1 to {_MOST_POINTS}"
+                )
+            return int(value)
+
+        return read
+
+    def word(self, path: str, options: Iterable[str]) -> Callable[[Any], str]:
+        def read(value: Any) -> str:
+            if isinstance(value, str) and value in options:
+                return value
+            near = _near(str(value), options)
+            raise InvalidValue(
+                f"{path} = {say(value)} must be one of {', '.join(map(say, options))}"
+                + (f"; did you mean {say(near)}?" if near else "")
+            )
+
+        return read
+
+    def text(self, path: str) -> Any:
+        def read(value: Any) -> str:
+            if isinstance(value, str):
+                return value
+            raise InvalidValue(f'{path} = {say(value)} must be text in quotes, e.g. "{value}"')
+
+        return _plain(read)
+
+    def switch(self, path: str) -> Any:
+        def read(value: Any) -> bool:
+            if isinstance(value, bool):
+                return value
+            raise InvalidValue(f"{path} = {say(value)} must be true or false, without quotes")
+
+        return _plain(read)
+
+    def numbers(self, path: str, unit: str) -> Any:
+        """A list of numbers; the class of the table checks their range."""
+
+        def read(value: Any) -> tuple[float, ...]:
+            if not isinstance(value, list):
+                raise InvalidValue(
+                    f"{path} = {say(value)} must be a list, e.g. [{EXAMPLES[unit]}, ...]"
+                )
+            out, problems = [], []
+            for i, item in enumerate(value):
+                try:
+                    out.append(to_si(item, unit))
+                except InvalidValue as error:
+                    problems.append(f"{path}[{i}] = {error}")
+            if problems:
+                raise InvalidValue(*problems)
+            return tuple(out)
+
+        return _plain(read)
+
+    def parts(self, path: str, data: Any) -> Any:
+        """The components of a mixture, a list of tables."""
+        if isinstance(data, list) and data:
+            kinds = tuple(self.sizes(f"{path}[{i}]", item) for i, item in enumerate(data))
+            return tuple[kinds]  # type: ignore[valid-type]
+
+        def refuse(value: Any) -> None:
+            raise InvalidValue(
+                f"{path} = {say(value)} must be a list of size distributions, e.g. "
+                '[{ distribution = "monodisperse", mean = "100 nm" }, ...]'
+            )
+
+        return _plain(refuse)
+
+    def refused(self, path: str) -> Any:
+        def refuse(value: Any) -> None:
+            raise InvalidValue(
+                f"{path} = {say(value)} is not supported by this version; give the RMS height "
+                "sigma and the mean asperity radius R of the measured surface instead, and its "
+                "bandwidth alpha and asperity density eta where they are known"
+            )
+
+        return _plain(refuse)
+
+    # ------------------------------------------------------------------ machinery
+    def keys_of(self, kind: type, path: str, data: Any) -> dict[str, _Key]:
+        """The keys of a table that stands for a value class."""
+        out = {}
+        for item in dataclasses.fields(kind):
+            where, value = f"{path}.{item.name}", _get(data, item.name)
+            required = item.default is dataclasses.MISSING
+            required = required and item.default_factory is dataclasses.MISSING
+            declared = str(getattr(item.type, "__name__", item.type))
+            about = ""
+            if meta := item.metadata.get("quantity"):
+                reader, about = _plain(self.number(where, meta)), _about(item.name, meta)
+            elif meta := item.metadata.get("choice"):
+                reader, about = _plain(self.word(where, meta["options"])), meta["meaning"]
+            elif declared == "Material":
+                reader = self.material(where, value)
+            elif declared == "AbstractAsperityLaw":
+                reader = self.law(where, value, asperity.REGISTRY)
+            elif declared == "tuple[Distribution, ...]":
+                reader, about = self.parts(where, value), "a list of size distributions"
+            elif item.name in _UNITS_OF_LISTS:
+                unit = _UNITS_OF_LISTS[item.name]
+                reader, about = self.numbers(where, unit), f"a list of numbers [{unit}]"
+            elif declared == "bool":
+                reader = self.switch(where)
+            elif declared == "str":
+                reader = self.text(where)
+            else:
+                reader = Any
+            out[item.name] = _Key(reader, required, about)
+        return out
+
+    def variant(
+        self,
+        path: str,
+        data: Any,
+        tag: str,
+        kinds: Mapping[str, type],
+        build: Callable[[dict[str, Any]], Any],
+        common: dict[str, _Key],
+    ) -> Any:
+        """A table whose other keys depend on the word under ``tag``.
+
+        When the word is missing or misspelt, the rest of the table is checked all the same:
+        against the nearest kind, or against what any kind would take.
+        """
+        word = _get(data, tag)
+        chosen = word if isinstance(word, str) and word in kinds else _near(str(word), kinds)
+        self.variants[path] = (
+            tag,
+            {
+                name: {item.name for item in dataclasses.fields(kind)}
+                for name, kind in kinds.items()
+            },
+        )
+        words = ", ".join(map(say, kinds))
+        keys = {tag: _Key(_plain(self.word(f"{path}.{tag}", kinds)), True, f"one of {words}")}
+        if chosen is not None:
+            keys |= self.keys_of(kinds[chosen], path, data) | common
+        else:
+            for kind in kinds.values():
+                any_kind = self.keys_of(kind, path, data)
+                for name, key in any_kind.items():
+                    keys.setdefault(name, key._replace(required=False))
+            keys |= common
+        return self.table(path, keys, build)
+
+    def table(
+        self, path: str, keys: dict[str, _Key], build: Callable[[dict[str, Any]], Any]
+    ) -> Any:
+        """A pydantic model for the table, followed by the object it stands for."""
+        self.keys[path] = {name: key.about for name, key in keys.items()}
+        fields: dict[str, Any] = {
+            name: (key.type, ... if key.required else None) for name, key in keys.items()
+        }
+        config = ConfigDict(extra="forbid", arbitrary_types_allowed=True, protected_namespaces=())
+        model = create_model(path or "study", __config__=config, **fields)
+
+        def finish(values: Any) -> Any:
+            return build({name: getattr(values, name) for name in values.model_fields_set})
+
+        return Annotated[model, AfterValidator(finish)]
+
+    def make(self, kind: type, path: str, values: dict[str, Any]) -> Any:
+        """The object, its own complaints told with the keys of the file."""
+        try:
+            return kind(**values)
+        except InvalidValue as error:
+            raise InvalidValue(
+                *(_retold(problem, kind.__name__, path, values) for problem in error.problems)
+            ) from None
+
+    # ------------------------------------------------------------------ telling mistakes
+    def tell(self, error: ValidationError) -> list[str]:
+        out = []
+        found = error.errors()
+        guessed = set()
+        for item in found:
+            path, key = _split(item["loc"])
+            if item["type"] == "extra_forbidden":
+                sentence, near = self.unknown(path, key, item["input"])
+                out.append(sentence)
+                guessed.add((path, near))
+            elif item["type"] == "value_error":
+                out += item["ctx"]["error"].problems
+            elif item["type"] == "missing":
+                out.append((path, key))
+            else:
+                where = _join(path, key)
+                out.append(
+                    f"{where} = {say(item['input'])} must be a table"
+                    + (f", written [{where}]" if "." not in where else " { ... }")
+                )
+        return [
+            item if isinstance(item, str) else self.missing(*item)
+            for item in out
+            if isinstance(item, str) or item not in guessed
+        ]
+
+    def missing(self, path: str, key: str) -> str:
+        about = self.keys.get(path, {}).get(key, "")
+        return f"{_join(path, key)} is missing" + (f": {about}" if about else "")
+
+    def unknown(self, path: str, key: str, value: Any) -> tuple[str, str | None]:
+        """The sentence for a key that is not known, and the key that was probably meant."""
+        known = self.keys.get(path, {})
+        if not path and isinstance(value, dict):
+            near = _near(key, known)
+            guess = f"did you mean [{near}]?" if near else f"known here: {', '.join(known)}"
+            return f"[{key}] is not a known table; {guess}", near
+        start = f"{_join(path, key)} = {say(value)} is not a known key"
+        tag, variants = self.variants.get(path, ("", {}))
+        homes = [say(name) for name, keys in variants.items() if key in keys]
+        if homes:
+            return f"{start} here: it goes with {tag} = {' or '.join(homes)}", None
+        near = _near(key, known)
+        homes = [table for table, keys in self.keys.items() if key in keys and table != path]
+        if near is None and homes:
+            home = f"[{homes[0]}]" if homes[0] else "the top of the file, before the first table"
+            return f"{start} here; it belongs to {home}", None
+        if near is None and len(key) > 2:
+            word = key.lower().replace("_", " ")
+            meanings = {name: about.partition(", e.g.")[0] for name, about in known.items()}
+            near = next((name for name, text in meanings.items() if word in text.lower()), None)
+        if near is not None:
+            return f"{start}; did you mean {near}?", near
+        return f"{start}; known here: {', '.join(known)}", None
+
+
+def _retold(problem: str, name: str, path: str, values: dict[str, Any]) -> str:
+    """A sentence of a value class in the words of the file, with the value where it lacks."""
+    prefix = f"{path}." if path else ""
+    problem = re.sub(rf"^{name}\b(?!\.)", path, problem).replace(f"{name}.", prefix)
+    for key, value in values.items():
+        start = f"{prefix}{key} must"
+        if problem.startswith(start):
+            problem = f"{prefix}{key} = {say(value)} must" + problem.removeprefix(start)
+    return _words(problem)
+
+
+def _validate(model: Any, data: dict[str, Any]) -> Any:
+    from pydantic import TypeAdapter
+
+    return TypeAdapter(model).validate_python(data)
+
+
+def _plain(read: Callable[[Any], Any]) -> Any:
+    return Annotated[Any, PlainValidator(read)]
+
+
+def _quietly(read: Callable[[Any], float], value: Any) -> float:
+    try:
+        return read(value)
+    except InvalidValue:
+        return math.nan
+
+
+def _get(data: Any, key: str) -> Any:
+    return data.get(key) if isinstance(data, dict) else None
+
+
+def _join(path: str, key: str) -> str:
+    return f"{path}.{key}" if path and key else path or key
+
+
+def _split(loc: tuple[Any, ...]) -> tuple[str, str]:
+    """Path of the table and the key, with list positions in brackets."""
+    parts: list[str] = []
+    for item in loc:
+        if isinstance(item, int):
+            parts[-1] += f"[{item}]"
+        else:
+            parts.append(str(item))
+    return ".".join(parts[:-1]), parts[-1] if parts else ""
+
+
+def _about(name: str, about: dict[str, Any]) -> str:
+    unit, symbol = about["unit"], about["symbol"]
+    example = EXAMPLES.get(unit, f"1 [{unit}]")
+    shown = f"{about['meaning']}" + (f" {symbol}" if symbol != name else "")
+    return shown + (f" [{unit}]" if unit != "1" else "") + f", e.g. {name} = {example}"
+
+
+def _near(word: str, options: Iterable[str]) -> str | None:
+    """The option that was probably meant."""
+    folded = {option.lower(): option for option in options}
+    found = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
+    return folded[found[0]] if found else None
+
+
+def _words(sentence: str) -> str:
+    """Class names of the library in the words of study files."""
+    for name, kind in DISTRIBUTIONS.items():
+        sentence = re.sub(rf"\b{kind.__name__}\b(?!\.)", f'distribution = "{name}"', sentence)
+    return sentence
+
+
+# -------------------------------------------------------------------------- running it
+def run_study(study: Study) -> dict[str, Any]:
+    """Everything a study file asks for, as plain data ready for JSON.
+
+    Parameters
+    ----------
+    study : Study
+
+    Returns
+    -------
+    dict
+        Title, version, inputs (SI), scales, states (a list each), transitions, warnings,
+        citations. A state that cannot be solved keeps its place with None and a status that
+        says why.
+    """
+    from . import __version__
+
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", RangeWarning)
+        state = study.solve()
+        critical = _transitions(study.contact)
+    sentences = [*study.notes, *state.warnings, *(str(item.message) for item in heard)]
+    states = {name: [_json(item) for item in column] for name, column in state.columns().items()}
+    states["mode"] = [mode or None for mode in states["mode"]]
+    return {
+        "title": study.title,
+        "version": __version__,
+        "inputs": study.contact.to_dict() | {"load": {study.load: study.values.tolist()}},
+        "scales": state.scales,
+        "states": {"status": states.pop("status"), **states},
+        "transitions": critical.to_dict(),
+        "warnings": list(dict.fromkeys(sentences)),
+        "citations": cite(study.contact).splitlines(),
+    }
+
+
+def _transitions(contact: Contact) -> Transitions:
+    try:
+        return transitions(contact)
+    except ThirdBodyError as error:
+        none = Critical(None, f"none: {str(error).splitlines()[0]}")
+        return Transitions(none, none, TurningPoint(none, none, none))
+
+
+def _json(value: Any) -> Any:
+    value = value.item() if isinstance(value, np.generic) else value
+    return None if isinstance(value, float) and not math.isfinite(value) else value
