@@ -255,6 +255,8 @@ def summary(result: dict[str, Any]) -> str:
         if not three_body:
             return f"{gap}, {area}"
         share = f"particles carry {_percent(states['particle_load_share'][i])} of the load"
+        if states["mode"][i] is None:
+            return f"no contact, {gap}"
         return f"{words[states['mode'][i]]}; {share}, {gap}, {area}"
 
     def load(i: int) -> str:
@@ -264,7 +266,7 @@ def summary(result: dict[str, Any]) -> str:
     first, last = known[0], known[-1]
     if first == last:
         return f"At {load(first)}: {state(first)}."
-    modes = [states["mode"][i] for i in known]
+    modes = [states["mode"][i] or "no contact" for i in known]
     path = [mode for i, mode in enumerate(modes) if i == 0 or mode != modes[i - 1]]
     passes = f" In between the mode goes {' -> '.join(path)}." if len(path) > 1 else ""
     return f"At {load(first)}: {state(first)}. At {load(last)}: {state(last)}.{passes}"

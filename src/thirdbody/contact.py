@@ -139,7 +139,7 @@ class AsperitySum:
         self.columns = np.stack([force, *areas, force * self.t, force * self.t**2], axis=1)
         self.half_square = 0.5 * self.t**2
         span = np.array([-self.DEEPEST, 0.0, 3.0, 8.0, 16.0, self.HIGHEST])
-        self._table = PiecewiseChebyshev(self._sum, span)
+        self._table = PiecewiseChebyshev(self._sum, span, kinds=(0, 1, 1, 1, 2, 3))
 
     def _sum(self, h: Array) -> Array:
         """Σ columns · exp(−ht − t²/2) for (N,) separations in σ_s: (N, 6)."""

@@ -78,6 +78,8 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
     with whole(path) as draft:
         try:
             draft.write_text(text, encoding="utf-8", newline="")
+        except BrokenPipeError:
+            raise
         except OSError as error:
             raise InvalidValue(f"cannot write {path}: {_why(error, draft)}") from None
 

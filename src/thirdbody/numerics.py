@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -68,6 +68,9 @@ class PiecewiseChebyshev:
     tolerance : float
         Relative to the largest value of each column on a panel: panels are halved until the
         last coefficients fall below it.
+    kinds : sequence of int, optional
+        A number for each column. On a panel where a column stays below 1e-13 of the largest
+        column of its kind, it does not ask for more panels.
     """
 
     def __init__(
@@ -78,6 +81,7 @@ class PiecewiseChebyshev:
         degree: int = 17,
         tolerance: float = 3e-14,
         max_depth: int = 12,
+        kinds: Sequence[int] | None = None,
     ):
         n = degree + 1
         theta = np.pi * (np.arange(n) + 0.5) / n
@@ -96,7 +100,13 @@ class PiecewiseChebyshev:
             coefs = np.einsum("ij,pjk->pik", transform, values.reshape(len(pending), n, -1))
             size = np.max(np.abs(values.reshape(len(pending), n, -1)), axis=1)
             tail = np.max(np.abs(coefs[:, -2:]), axis=1)
-            good = np.all(tail <= tolerance * size + 1e-300, axis=1) | (depth == max_depth)
+            largest = size
+            if kinds is not None:
+                largest = np.stack(
+                    [size[:, np.equal(kinds, kind)].max(axis=1) for kind in kinds], axis=1
+                )
+            exact = (tail <= tolerance * size) | (size <= 1e-13 * largest) | (size < 1e-300)
+            good = np.all(exact, axis=1) | (depth == max_depth)
             done += [(*pending[i], coefs[i]) for i in np.flatnonzero(good)]
             pending = [
                 half_panel
@@ -111,8 +121,10 @@ class PiecewiseChebyshev:
         self.half = 0.5 * np.diff(self.edges)
         self.middle = 0.5 * (self.edges[1:] + self.edges[:-1])
         self.coefficients = np.stack([panel[2] for panel in done])  # (P, n, K)
-        first = np.stack([_derivative(c) for c in self.coefficients]) / self.half[:, None, None]
-        second = np.stack([_derivative(c) for c in first]) / self.half[:, None, None]
+        slope = np.zeros((n, n))
+        slope[:-1] = np.polynomial.chebyshev.chebder(np.eye(n))
+        first = slope @ self.coefficients / self.half[:, None, None]
+        second = slope @ first / self.half[:, None, None]
         self.with_derivatives = np.stack([self.coefficients, first, second], axis=-1)
 
     def _evaluate(self, x: Array, coefficients: Array) -> Array:
@@ -144,12 +156,6 @@ class PiecewiseChebyshev:
     def derivatives(self, x: Array, columns: tuple[int, ...]) -> Array:
         """Value, first and second derivative of some columns: (N, len(columns), 3)."""
         return self._evaluate(x, self.with_derivatives[:, :, list(columns), :])
-
-
-def _derivative(coefficients: Array) -> Array:
-    out = np.zeros_like(coefficients)
-    out[:-1] = np.polynomial.chebyshev.chebder(coefficients)
-    return out
 
 
 def halley_root(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -34,6 +33,9 @@ __all__ = ["Series", "SqueezedParticle"]
 COLUMNS = ("force", "elastic", "elastoplastic", "plastic", "second", "footprint", "projected")
 """What one particle contributes: load, area on surface 1 by regime, area on surface 2, larger of
 the two areas, projected area πx²/4."""
+
+KINDS = (0, 1, 1, 1, 1, 1, 1)
+"""Which columns are measured against each other: load, areas."""
 
 
 class Side:
@@ -240,9 +242,12 @@ class SizeAverage:
         known = np.array(sorted({g for g in gaps if self.bottom < g < self.top}))
         # the sizes are known to rounding, so their densities to rounding over their width
         tolerance = 1e-13 + 2e-15 * self.top / max(self.top - low, 1e-12)
-        rise = np.sqrt(self.top - np.append(known[known > self.join], self.join)[::-1])
+        rise = np.sqrt(self.top - np.array([self.join, *known[known > self.join]]))
         self.upper = PiecewiseChebyshev(
-            self._reduced, _distinct(np.array([0.0, *rise[::-1]])), tolerance=tolerance
+            self._reduced,
+            _distinct(np.array([0.0, *np.sort(rise)])),
+            tolerance=tolerance,
+            kinds=KINDS,
         )
         self.lower = None
         if self.bottom < self.join:
@@ -251,6 +256,7 @@ class SizeAverage:
                 lambda g: self.average(g, self.top - g),
                 _distinct(np.array(gaps_below)),
                 tolerance=tolerance,
+                kinds=KINDS,
             )
         bottom = np.array([self.bottom])
         self.floor = self.average(bottom, self.top - bottom)[0]
@@ -340,10 +346,8 @@ class SizeAverage:
 
 def _distinct(edges: Array) -> Array:
     """Increasing edges without the slivers that rounding leaves between equal ones."""
-    keep = np.append(np.diff(edges) > 1e-12 * np.max(np.abs(edges)), True)
-    keep[0] = True
-    out = edges[keep]
-    return np.delete(out, 1) if len(out) > 2 and out[1] - out[0] <= 0 else out
+    wide = np.diff(edges) > 1e-12 * np.max(np.abs(edges))
+    return np.append(edges[:-1][wide], edges[-1])
 
 
 def _cut(edges: Array, width: float) -> Array:
@@ -557,14 +561,14 @@ class PlaneSeat:
 class RoughSeat:
     """Particles of one size distribution on a Gaussian seat; local gap = d + offset − ζ.
 
-    The average over seats is a fixed sum over local gaps weighted with the density of ζ.
+    The average over seats is a sum over local gaps weighted with the density of ζ, tabulated
+    once as Chebyshev series in d + offset.
     """
 
     def __init__(
         self, average: SizeAverage, scale: float, density: float, *, offset: float, width: float
     ):
         self.offset, self.width = offset, width
-        self.reach = scale * average.top - offset + NORMAL_REACH * width
         span = scale * (average.top - average.bottom) / width
         if span > WIDEST:
             raise InvalidValue(
@@ -579,57 +583,50 @@ class RoughSeat:
         )
         self.floor_gap = scale * average.bottom
         self.floor = factor * average.floor
+        low = self.floor_gap - NORMAL_REACH * width
+        high = scale * average.top + NORMAL_REACH * width
+        self.reach = high - offset
+        panels = min(math.ceil((high - low) / (3 * width)), 32)
+        self.table = PiecewiseChebyshev(
+            self._over_seats,
+            np.linspace(low, high, panels + 1),
+            tolerance=1e-12,
+            max_depth=20,
+            kinds=KINDS,
+        )
 
-    def _chunks(self, d: Array) -> Iterator[tuple[Index, slice, Array, Array]]:
-        """States with the local gaps that matter to them: z and exp(−z²/2)."""
-        order = np.argsort(d, kind="stable")
-        gap = d[order] + self.offset
-        start = 0
-        while start < len(d):
-            # as many neighbours as fill a cache and lie within a few widths
-            size = max(1, int(400_000 // min(len(self.gaps), 1000)))
-            stop = min(start + size, np.searchsorted(gap, gap[start] + 4 * self.width) + 1)
-            stop = max(start + 1, min(stop, len(d)))
-            near = self.gaps > min(gap[start], self.gaps[-1]) - 2 * NORMAL_REACH * self.width
-            near &= self.gaps < gap[stop - 1] + NORMAL_REACH * self.width
-            first, last = np.searchsorted(near, [True]), len(near)
-            inside = np.flatnonzero(near)
-            if len(inside):
-                first, last = inside[0], inside[-1] + 1
-                which = slice(int(first), int(last))
-                z = (gap[start:stop, None] - self.gaps[which]) / self.width
-                yield order[start:stop], which, z, np.exp(-0.5 * z * z)
-            start = stop
-
-    def _floor_share(self, d: Array) -> tuple[Array, Array]:
-        """P(local gap < floor) and the argument of the normal distribution."""
-        z = (self.floor_gap - d - self.offset) / self.width
-        return special.ndtr(z), z
+    def _over_seats(self, mean_gap: Array) -> Array:
+        """The columns averaged over seats by quadrature: (N, 7)."""
+        z = (self.floor_gap - mean_gap) / self.width
+        out = special.ndtr(z)[:, None] * self.floor
+        order = np.argsort(mean_gap)
+        at_once = max(1, 400_000 // min(len(self.gaps), 1000))
+        for part in np.array_split(order, math.ceil(len(order) / at_once)):
+            lowest, highest = mean_gap[part[0]], min(mean_gap[part[-1]], self.gaps[-1])
+            near = slice(
+                np.searchsorted(self.gaps, min(lowest, highest) - 2 * NORMAL_REACH * self.width),
+                np.searchsorted(self.gaps, highest + NORMAL_REACH * self.width),
+            )
+            z = (mean_gap[part, None] - self.gaps[near]) / self.width
+            out[part] += np.exp(-0.5 * z * z) @ self.weights[near]
+        return out
 
     def load(self, d: Array, shadow: int) -> Array:
-        out = np.zeros((len(d), 2, 3))
-        columns = self.weights[:, [0, shadow]]
-        for part, which, z, e in self._chunks(d):
-            weights = columns[which]
-            out[part, :, 0] = e @ weights
-            ze = z * e
-            out[part, :, 1] = -(ze @ weights) / self.width
-            ze *= z
-            ze -= e
-            out[part, :, 2] = (ze @ weights) / self.width**2
-        share, z = self._floor_share(d)
-        density = np.exp(-0.5 * z * z) / math.sqrt(2 * math.pi)
-        floor = self.floor[[0, shadow]]
-        out[..., 0] += share[:, None] * floor
-        out[..., 1] -= density[:, None] * floor / self.width
-        out[..., 2] -= (z * density)[:, None] * floor / self.width**2
+        gap = d + self.offset
+        low, high = self.table.edges[[0, -1]]
+        out = self.table.derivatives(np.clip(gap, low, high), (0, shadow))
+        out[gap > high] = 0.0
+        out[gap < low] = 0.0
+        out[gap < low, :, 0] = self.floor[[0, shadow]]
         return out
 
     def columns(self, d: Array) -> Array:
-        out = np.zeros((len(d), len(COLUMNS)))
-        for part, which, _, e in self._chunks(d):
-            out[part] = e @ self.weights[which]
-        return out + self._floor_share(d)[0][:, None] * self.floor
+        gap = d + self.offset
+        low, high = self.table.edges[[0, -1]]
+        out = self.table(np.clip(gap, low, high))
+        out[gap > high] = 0.0
+        out[gap < low] = self.floor
+        return out
 
 
 NORMAL_REACH = 9.0

@@ -24,10 +24,6 @@ Array = NDArray[np.float64]
 Measure = Callable[..., Measurement]
 MEASURES: dict[str, Measure] = {}
 
-RECURRENCE = 0.9
-"""A maximum of the particle share counts when the share falls below this part of it on both sides,
-as in `thirdbody.transitions`."""
-
 
 def measure(function: Measure) -> Measure:
     """Make a function known to the data file by its name."""
@@ -90,26 +86,30 @@ def _crossing(F: Array, share: Array, i: int, threshold: float) -> float:
     return float(F[i] * (F[i + 1] / F[i]) ** part)
 
 
-def interior_peak_of(curve: Curve) -> tuple[float, float] | None:
-    """Load and height of the largest particle share, when it lies inside the load range."""
+def interior_peak_of(curve: Curve, *, turns: bool) -> tuple[float, float] | None:
+    """Load and height of the largest particle share, when it lies inside the load range.
+
+    With ``turns`` the share must fall below a stated part of its maximum on both sides, as in
+    `thirdbody.transitions`; without, any maximum counts that is not at an end.
+    """
     part = inside(curve)
     F, share = curve.F[part], curve.particle_share[part]
     top = int(np.argmax(share))
-    if not max(share[: top + 1].min(), share[top:].min()) < RECURRENCE * share[top]:
+    limit = study_data()["definitions"]["turn_share"] if turns else 1 - 1e-6
+    if not max(share[: top + 1].min(), share[top:].min()) < limit * share[top]:
         return None
-    left, right = max(top - 1, 0), min(top + 2, len(F))
-    log_F = np.log(F[left:right])
-    if right - left == 3:
-        a, b, _ = np.polyfit(log_F, share[left:right], 2)
-        if a < 0:
-            vertex = float(np.clip(-b / (2 * a), log_F[0], log_F[-1]))
-            return math.exp(vertex), float(share[top])
-    return float(F[top]), float(share[top])
+    if not 0 < top < len(F) - 1:
+        return None
+    # the top of the parabola through three points
+    log_F = np.log(F[top - 1 : top + 2])
+    a, b, _ = np.polyfit(log_F - log_F[1], share[top - 1 : top + 2], 2)
+    step = float(np.clip(-b / (2 * a), log_F[0] - log_F[1], log_F[2] - log_F[1]))
+    return float(F[top]) * math.exp(step), float(share[top])
 
 
 def tpca(curves: Curves, material: str, sigma: float, x_a: float) -> float:
     """F_tpca*, NaN when there is none."""
-    peak = interior_peak_of(curves(material, sigma, x_a))
+    peak = interior_peak_of(curves(material, sigma, x_a), turns=False)
     return peak[0] if peak else math.nan
 
 
@@ -554,7 +554,7 @@ def turning_point_ratio(curves: Curves, sigma: float, x_a: float) -> Measurement
 
 @measure
 def interior_peak(curves: Curves, material: str, sigma: float, x_a: float) -> Measurement:
-    peak = interior_peak_of(curves(material, sigma, x_a))
+    peak = interior_peak_of(curves(material, sigma, x_a), turns=True)
     if peak is None:
         return Measurement.absent(NO_PEAK)
     return Measurement.of(peak[1], note=f"at F* = {peak[0]:.2e}")
@@ -570,7 +570,7 @@ def turning_point_confined(
     peak: float,
 ) -> Measurement:
     def turns(x_a: float) -> bool:
-        found = interior_peak_of(curves(material, sigma, x_a))
+        found = interior_peak_of(curves(material, sigma, x_a), turns=True)
         return found is not None and found[1] > peak
 
     wrong = [x for x in without if turns(x)] + [x for x in with_peak if not turns(x)]
