@@ -85,7 +85,7 @@ app = typer.Typer(
 def main() -> None:
     """Entry point of the command ``thirdbody``."""
     for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
+        if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     app()
 
@@ -391,9 +391,8 @@ def laws(
         for entry in entries:
             table = _table((f"options of {entry['name']}", "default", "allowed", "meaning"))
             for option in entry["options"]:
-                table.add_row(
-                    option["key"], say(option["default"]), option["allowed"], option["meaning"]
-                )
+                default = "-" if option["default"] is None else say(option["default"])
+                table.add_row(option["key"], default, option["allowed"], option["meaning"])
             console.print(table)
 
 

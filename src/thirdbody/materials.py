@@ -104,9 +104,14 @@ class MaterialPair(Value):
         return reduced_modulus(self.first, self.second)
 
     @property
+    def softer(self) -> Material:
+        """The body that yields first."""
+        return self.first if self.first.H <= self.second.H else self.second
+
+    @property
     def H(self) -> float:
         """Hardness of the softer body [Pa]."""
-        return min(self.first.H, self.second.H)
+        return self.softer.H
 
 
 class MaterialLibrary(Mapping[str, Material]):

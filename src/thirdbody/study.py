@@ -70,6 +70,14 @@ _ONE_OF = {"load": tuple(LOADS), "roughness": ("eta", "eta_R_sigma")}
 """Keys of a table of which only one can be given."""
 _UNITS_OF_LISTS = {"edges": "m", "counts": "1", "weights": "1"}
 _MOST_POINTS = 1_000_000
+_ALSO_CALLED = {
+    "normal": "truncated-gaussian",
+    "gauss": "truncated-gaussian",
+    "rosin-rammler": "weibull",
+    "delta": "monodisperse",
+    "single": "monodisperse",
+}
+"""Other words for distributions, to suggest the right one."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -98,7 +106,7 @@ class Study:
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
-        given = {"d" if self.load == "separation" else self.load: self.values}
+        given: dict[str, Any] = {"d" if self.load == "separation" else self.load: self.values}
         return solve(self.contact, **given)
 
 
@@ -695,7 +703,7 @@ class _Reader:
                 out.append(sentence)
                 guessed.add((path, near))
             elif item["type"] == "value_error":
-                out += item["ctx"]["error"].problems
+                out += item.get("ctx", {})["error"].problems
             elif item["type"] == "missing":
                 out.append((path, key))
             else:
@@ -797,6 +805,7 @@ def _about(name: str, about: dict[str, Any]) -> str:
 def _near(word: str, options: Iterable[str]) -> str | None:
     """The option that was probably meant."""
     folded = {option.lower(): option for option in options}
+    word = _ALSO_CALLED.get(word.lower(), word)
     found = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
     return folded[found[0]] if found else None
 

@@ -11,7 +11,7 @@ import math
 import re
 from fractions import Fraction
 from functools import cache
-from typing import Any
+from typing import Any, NoReturn
 
 from .errors import InvalidValue
 
@@ -103,7 +103,7 @@ def to_si(value: Any, unit: str) -> float:
     return _scaled(number.group(), _normal(rest, shown, unit), shown, unit)
 
 
-def _refuse(sentence: str) -> float:
+def _refuse(sentence: str) -> NoReturn:
     raise InvalidValue(sentence)
 
 
@@ -189,7 +189,7 @@ def _unknown(body: str, shown: str, unit: str) -> str:
                 f"so write {shown.replace(word, 'kgf/mm^2')}"
             )
         folded = {name.lower(): name for name in reversed(_USUAL)}
-        near = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
+        near = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.7)
         guess = f"did you mean {folded[near[0]]}?" if near else f"it must be {_needed(unit)}"
         return f"{shown} has the unit {word}, which is not known (case matters); {guess}"
     return f"{shown} has a unit that cannot be read; it must be {_needed(unit)}"

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
@@ -83,8 +83,18 @@ class AbstractAsperityLaw(Law):
     __slots__ = ()
     registry: ClassVar[dict[str, type[Law]]] = {}
 
-    jumps: ClassVar[dict[float, float]] = {}
-    """Declared relative jumps of the load at breakpoints, {y: jump}."""
+    @property
+    def jumps(self) -> dict[float, float]:
+        """Declared relative jumps of the load at breakpoints, {y: jump}."""
+        return {}
+
+    def bound(self, *, E_star: Number, H: Number, nu: float | None = None) -> Self:
+        """The law with what it needs to know of the bodies beyond R, E* and H; itself by default.
+
+        A law whose formulas hold a material constant (Poisson ratio ν of the softer body, yield
+        strain) keeps it as an optional field and returns a copy with the field filled.
+        """
+        return self
 
     @abstractmethod
     def yield_interference(self, *, R: Number, E_star: Number, H: Number) -> Number:
@@ -113,6 +123,14 @@ class AbstractAsperityLaw(Law):
         return out
 
     # ---------------------------------------------------------------- one contact
+    def _scaled(
+        self, omega: ArrayLike, R: Number, E_star: Number, H: Number
+    ) -> tuple[Self, Number, Array]:
+        """The bound law, ω_1 and ω/ω_1."""
+        law = self.bound(E_star=E_star, H=H)
+        omega_1 = law.yield_interference(R=R, E_star=E_star, H=H)
+        return law, omega_1, np.asarray(omega, dtype=float) / omega_1
+
     def force(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Load F [N] of one contact.
 
@@ -120,21 +138,21 @@ class AbstractAsperityLaw(Law):
         ----------
         omega : array_like
             Interference ω [m]; zero or negative gives zero.
-        R, E_star, H : array_like
+        R, E_star, H : float or array
             Tip radius [m], contact modulus [Pa], hardness of the softer body [Pa].
         """
-        omega_1 = self.yield_interference(R=R, E_star=E_star, H=H)
-        return np.pi * R * omega_1 * H * self.reduced("force", np.asarray(omega) / omega_1)
+        law, omega_1, y = self._scaled(omega, R, E_star, H)
+        return np.pi * R * omega_1 * H * law.reduced("force", y)
 
     def area(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Contact area A [m²] of one contact; arguments as in `force`."""
-        omega_1 = self.yield_interference(R=R, E_star=E_star, H=H)
-        return np.pi * R * omega_1 * self.reduced("area", np.asarray(omega) / omega_1)
+        law, omega_1, y = self._scaled(omega, R, E_star, H)
+        return np.pi * R * omega_1 * law.reduced("area", y)
 
     def stiffness(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """dF/dω [N/m] of one contact; arguments as in `force`."""
-        omega_1 = self.yield_interference(R=R, E_star=E_star, H=H)
-        return np.pi * R * H * self.reduced("stiffness", np.asarray(omega) / omega_1)
+        law, _, y = self._scaled(omega, R, E_star, H)
+        return np.pi * R * H * law.reduced("stiffness", y)
 
     def contact_radius(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """a = √(A/π) [m] of one contact; arguments as in `force`."""
@@ -148,21 +166,20 @@ class AbstractAsperityLaw(Law):
 
     def energy(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Work ∫F dω [J] done in one loading to ω; arguments as in `force`."""
-        omega = np.asarray(omega, dtype=float)
-        omega_1 = np.asarray(self.yield_interference(R=R, E_star=E_star, H=H))
-        y = np.maximum(omega / omega_1, 0.0)
-        splits = np.array([0.0, *self.breakpoints])
+        law, omega_1, y = self._scaled(omega, R, E_star, H)
+        y = np.maximum(y, 0.0)
+        splits = np.array([0.0, *law.breakpoints])
         edges = np.concatenate([np.minimum(y[..., None], splits), y[..., None]], axis=-1)
         # panels in √y: every law starts like y^(3/2)
         root, weight = panel_rule(np.sqrt(edges), 40)
-        work = np.sum(weight * 2 * root * self.reduced("force", root**2), axis=-1)
+        work = np.sum(weight * 2 * root * law.reduced("force", root**2), axis=-1)
         return np.pi * R * omega_1**2 * H * work
 
     def regime(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> NDArray[np.str_]:
         """One of `REGIMES`, or ``"none"`` without contact; arguments as in `force`."""
-        y = np.asarray(omega) / self.yield_interference(R=R, E_star=E_star, H=H)
-        names = np.array([branch.regime for branch in self.branches])
-        return np.where(y > 0, names[np.searchsorted(self.breakpoints, y, side="right")], "none")
+        law, _, y = self._scaled(omega, R, E_star, H)
+        names = np.array([branch.regime for branch in law.branches])
+        return np.where(y > 0, names[np.searchsorted(law.breakpoints, y, side="right")], "none")
 
 
 class AbstractParticleLaw(Law):

@@ -1,10 +1,28 @@
 """Laws of one asperity. A new law is one file here and one import line below."""
 
 from ..base import AbstractAsperityLaw, Branch
+from .ceb import CEB
+from .elliptic import EllipticCEB, EllipticZMC, elliptic_hertz
+from .gw import GW
 from .hermite import Hermite
+from .jg import JG
+from .ke import KE
 from .zmc import ZMC
 
 REGISTRY = AbstractAsperityLaw.registry
 """Every law by the word that study files use."""
 
-__all__ = ["REGISTRY", "ZMC", "AbstractAsperityLaw", "Branch", "Hermite"]
+__all__ = [
+    "CEB",
+    "GW",
+    "JG",
+    "KE",
+    "REGISTRY",
+    "ZMC",
+    "AbstractAsperityLaw",
+    "Branch",
+    "EllipticCEB",
+    "EllipticZMC",
+    "Hermite",
+    "elliptic_hertz",
+]

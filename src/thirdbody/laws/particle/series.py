@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
     Index = NDArray[np.intp]
+    Body = tuple[float, float, float]
 
 __all__ = ["Series", "SqueezedParticle"]
 
@@ -45,12 +46,12 @@ class Side:
     great circle π/4; from there on the load is mean pressure × π/4.
     """
 
-    def __init__(self, law: AbstractAsperityLaw, E_star: float, H: float):
-        self.law, self.H = law, H
-        self.delta_1 = float(law.yield_interference(R=0.5, E_star=E_star, H=H))
+    def __init__(self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float):
+        self.law, self.H = law.bound(E_star=E_star, H=H, nu=nu), H
+        self.delta_1 = float(self.law.yield_interference(R=0.5, E_star=E_star, H=H))
         self.full = 0.5 / self.delta_1  # reduced area of the great circle
         self.cap = self._cap()
-        self.kinks = sorted({*law.breakpoints, self.cap})
+        self.kinks = sorted({*self.law.breakpoints, self.cap})
         self.limit = float(self.force(np.array([2 * self.kinks[-1] * self.delta_1]))[0])
 
     def _cap(self) -> float:
@@ -109,9 +110,7 @@ class SqueezedParticle:
         Values of ε where the response changes its formula; beyond the last it is constant.
     """
 
-    def __init__(
-        self, law: AbstractAsperityLaw, first: tuple[float, float], second: tuple[float, float]
-    ):
+    def __init__(self, law: AbstractAsperityLaw, first: Body, second: Body):
         self.sides = (Side(law, *first), Side(law, *second))
         self.equal = first == second
         one, two = self.sides
@@ -210,10 +209,8 @@ class SqueezedParticle:
 
 
 @lru_cache(maxsize=512)
-def squeezed_particle(
-    law: AbstractAsperityLaw, first: tuple[float, float], second: tuple[float, float]
-) -> SqueezedParticle:
-    """The cached response of one particle; sides are (E*, H)."""
+def squeezed_particle(law: AbstractAsperityLaw, first: Body, second: Body) -> SqueezedParticle:
+    """The cached response of one particle; sides are (E*, H, ν)."""
     return SqueezedParticle(law, first, second)
 
 
@@ -357,22 +354,22 @@ def _cut(edges: Array, width: float) -> Array:
 @lru_cache(maxsize=256)
 def size_average(
     law: AbstractAsperityLaw,
-    first: tuple[float, float],
-    second: tuple[float, float],
+    first: Body,
+    second: Body,
     sizes: Distribution,
 ) -> SizeAverage:
-    """The cached size average; sides are (E*, H)."""
+    """The cached size average; sides are (E*, H, ν)."""
     return SizeAverage(squeezed_particle(law, first, second), sizes)
 
 
-def contact_sides(
-    surfaces: MaterialPair, particle: Material
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """(E*, H of the softer) where the particle meets surface 1 and surface 2."""
-    return tuple(
-        (reduced_modulus(body, particle), min(body.H, particle.H))
-        for body in (surfaces.first, surfaces.second)
-    )  # type: ignore[return-value]
+def contact_sides(surfaces: MaterialPair, particle: Material) -> tuple[Body, Body]:
+    """E*, and H and ν of the softer body, where the particle meets surface 1 and surface 2."""
+
+    def side(surface: Material) -> Body:
+        softer = min(surface, particle, key=lambda body: body.H)
+        return reduced_modulus(surface, particle), softer.H, softer.nu
+
+    return side(surfaces.first), side(surfaces.second)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -157,9 +157,7 @@ def two_body_departure(curves: Curves, material: str, sigma: float, x_a: float) 
 
 
 @measure
-def smallest_asperity_share(
-    curves: Curves, material: str, sigma: float, x_a: float
-) -> Measurement:
+def smallest_asperity_share(curves: Curves, material: str, sigma: float, x_a: float) -> Measurement:
     curve = curves(material, sigma, x_a)
     return Measurement.of(np.min(curve.asperity_share[inside(curve)]))
 
@@ -255,9 +253,7 @@ def silica_over_steel_area(curves: Curves, sigma: float, x_a: list[float]) -> Me
 
 
 @measure
-def area_by_roughness(
-    curves: Curves, material: str, sigma: list[float], x_a: float
-) -> Measurement:
+def area_by_roughness(curves: Curves, material: str, sigma: list[float], x_a: float) -> Measurement:
     found = []
     for smoother, rougher in pairwise(sigma):
         curve = curves(material, rougher, x_a)
@@ -282,9 +278,7 @@ def area_between_sizes(
 
 
 @measure
-def steel_area_surplus(
-    curves: Curves, sigma: list[float], x_a: float, load: float
-) -> Measurement:
+def steel_area_surplus(curves: Curves, sigma: list[float], x_a: float, load: float) -> Measurement:
     found = [
         area_at(curves, STEEL, s, x_a, load) / area_at(curves, SILICA, s, x_a, load) - 1
         for s in sigma
@@ -371,9 +365,7 @@ def mean_particle_share(
 
 
 @measure
-def largest_particle_share(
-    curves: Curves, material: str, sigma: float, x_a: float
-) -> Measurement:
+def largest_particle_share(curves: Curves, material: str, sigma: float, x_a: float) -> Measurement:
     curve = curves(material, sigma, x_a)
     return Measurement.of(np.max(curve.particle_share[inside(curve)]))
 
@@ -387,9 +379,7 @@ def particle_share_at(
 
 
 @measure
-def particle_share_step(
-    curves: Curves, material: str, sigma: float, x_a: float
-) -> Measurement:
+def particle_share_step(curves: Curves, material: str, sigma: float, x_a: float) -> Measurement:
     curve = curves(material, sigma, x_a)
     start = critical_load_1(curve)
     if not math.isfinite(start):
@@ -416,11 +406,7 @@ def mode_sequence(curves: Curves, material: str, sigma: float, x_a: float) -> Me
     p_s = not math.isnan(first)
     hybrid = (first if p_s else RANGE[0]) < RANGE[1] and second > RANGE[0]
     s_s = second <= RANGE[1]
-    missing = [
-        name
-        for name, met in (("p-s", p_s), ("hybrid", hybrid), ("s-s", s_s))
-        if not met
-    ]
+    missing = [name for name, met in (("p-s", p_s), ("hybrid", hybrid), ("s-s", s_s)) if not met]
     return Measurement.of(
         p_s + hybrid + s_s, note=f"no {' and no '.join(missing)}" if missing else ""
     )
@@ -433,17 +419,13 @@ def silica_minus_steel_asperity_share(
     found = []
     for x in x_a:
         silica, steel = curves(SILICA, sigma, x), curves(STEEL, sigma, x)
-        found.append(
-            silica.at(load, silica.asperity_share) - steel.at(load, steel.asperity_share)
-        )
+        found.append(silica.at(load, silica.asperity_share) - steel.at(load, steel.asperity_share))
     return Measurement.of(max(found))
 
 
 # ------------------------------------------------------------------ critical loads
 @measure
-def first_critical_load(
-    curves: Curves, material: str, sigma: float, x_a: float
-) -> Measurement:
+def first_critical_load(curves: Curves, material: str, sigma: float, x_a: float) -> Measurement:
     value = first_load(curves, material, sigma, x_a)
     if not math.isfinite(value):
         return Measurement.absent(NEVER_P_S if math.isnan(value) else ALWAYS_P_S)
@@ -451,9 +433,7 @@ def first_critical_load(
 
 
 @measure
-def second_critical_load(
-    curves: Curves, material: str, sigma: float, x_a: float
-) -> Measurement:
+def second_critical_load(curves: Curves, material: str, sigma: float, x_a: float) -> Measurement:
     value = second_load(curves, material, sigma, x_a)
     return Measurement.of(value) if math.isfinite(value) else Measurement.absent(NEVER_S_S)
 
@@ -515,20 +495,14 @@ def second_material_ratios(curves: Curves, pairs: list[list[float]]) -> Measurem
 
 
 @measure
-def smallest_second_material_ratio(
-    curves: Curves, sigma: float, x_a: list[float]
-) -> Measurement:
-    rows = [
-        [second_load(curves, material, sigma, x) for material in (STEEL, SILICA)] for x in x_a
-    ]
+def smallest_second_material_ratio(curves: Curves, sigma: float, x_a: list[float]) -> Measurement:
+    rows = [[second_load(curves, material, sigma, x) for material in (STEEL, SILICA)] for x in x_a]
     return _ordered(rows, False, NEVER_S_S)
 
 
 @measure
 def first_steel_over_silica(curves: Curves, sigma: float, x_a: list[float]) -> Measurement:
-    rows = [
-        [first_load(curves, material, sigma, x) for material in (SILICA, STEEL)] for x in x_a
-    ]
+    rows = [[first_load(curves, material, sigma, x) for material in (SILICA, STEEL)] for x in x_a]
     return _ordered(rows, True, "a size is never p-s, or always p-s with both materials")
 
 
@@ -591,9 +565,7 @@ def load_share_past_turning_point(
 
 # ------------------------------------------------------------------ deformation regimes
 @measure
-def regime_share_step(
-    curves: Curves, sigma: float, regime: str, extreme: str
-) -> Measurement:
+def regime_share_step(curves: Curves, sigma: float, regime: str, extreme: str) -> Measurement:
     bare = curves.two_body(sigma)
     share = bare.share(regime)[inside(bare)]
     steps = share[1:] / share[:-1]

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...contact import Contact
 from ...distributions import TruncatedGaussian
-from ...equilibrium import solve
+from ...equilibrium import Equilibrium, solve
 from ...errors import RangeWarning
 from ...laws.particle import AbstractParticleLaw, Horng2022, Series
 from ...materials import MaterialPair, materials
@@ -64,6 +64,8 @@ class Reading:
         Centre of the asperity heights in the coordinate of the reported d, in units of σ [1].
     F_star_scale : float
         Modulus of the reading's F* over E_ss: 2 where the paper's E is taken as E' = 2E*.
+    paper_booking : bool
+        Book the area under particles as eqs. (1), (2) and (13) do: F_sa/H_s, all of it plastic.
     adjusted : str
         What was chosen so that the paper's numbers come out.
     """
@@ -79,6 +81,7 @@ class Reading:
     areal_density: float = 1e11
     datum: float = 1.0
     F_star_scale: float = 1.0
+    paper_booking: bool = False
     adjusted: str = ""
 
     def contact(self, material: str, sigma: float, x_a: float) -> Contact:
@@ -229,6 +232,9 @@ READINGS: dict[str, Reading] = {
 """Every reading that the ledger scores, by the name that ``preset`` takes."""
 
 
+AREAS = ("A_t", "A_ss", "A_sa", "A_e", "A_ep", "A_p")
+
+
 @dataclass(frozen=True, eq=False)
 class Curve:
     """One contact under the loads F*, in the paper's terms; areas per nominal area."""
@@ -290,17 +296,26 @@ class Curves:
             # several readings leave the range of the laws on purpose
             warnings.simplefilter("ignore", RangeWarning)
             state = solve(contact, F_star=loads * self.reading.F_star_scale)
+            areas = {name: getattr(state, name) for name in AREAS}
+            if self.reading.paper_booking and x_a:
+                areas = self._as_the_paper_books(state, contact)
         # h has one meaning in every law; the reading says how far below it counts d
         d = state.h - contact.roughness.y_s + self.reading.datum * sigma * NM
         return Curve(
             F=np.asarray(loads),
-            A_t=state.A_t,
-            A_ss=state.A_ss,
-            A_sa=state.A_sa,
-            A_e=state.A_e,
-            A_ep=state.A_ep,
-            A_p=state.A_p,
             d=d,
             d_star=d / (sigma * NM),
             load_share=state.particle_load_share,
+            **areas,
         )
+
+    def _as_the_paper_books(self, state: Equilibrium, contact: Contact) -> dict[str, Array]:
+        """Areas with A_sa = F_sa/H_s, all plastic; the asperities keep theirs."""
+        bare = solve(contact.replace(particles=None), d=state.d)
+        asperities = {name: (1 - state.shadow) * getattr(bare, name) for name in AREAS}
+        A_sa = state.F_sa_star * contact.E_ss / contact.surfaces.first.H
+        return asperities | {
+            "A_sa": A_sa,
+            "A_p": asperities["A_p"] + A_sa,
+            "A_t": asperities["A_t"] + A_sa,
+        }

@@ -1,0 +1,59 @@
+# thirdbody: everything runs in its own environment, .venv, made on first use.
+#
+#   make demo     solve an example, redraw the figures of the paper, say where they are
+#   make test     all tests
+#   make bench    speed
+#   make format   tidy the code
+#   make clean    remove what these commands made
+#
+# Another interpreter: make PYTHON=python3.12 test
+
+PYTHON  ?= python3
+VENV    := .venv
+RUN     := $(VENV)/bin
+OUT     ?= demo
+WORKERS ?= auto
+
+# one thread for each worker: the arrays are small, and workers must not fight for cores
+export OMP_NUM_THREADS ?= 1
+export OPENBLAS_NUM_THREADS ?= 1
+export MPLBACKEND ?= Agg
+
+.PHONY: help demo test bench format clean
+
+help:
+	@sed -n '3,9s/^# \{0,1\}//p' Makefile
+
+$(RUN)/python:
+	$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(v < (3, 11) and f"thirdbody needs Python 3.11 or newer; {sys.executable} is {v.major}.{v.minor}. Try make PYTHON=python3.12 ...")'
+	$(PYTHON) -m venv $(VENV)
+
+# editable, so that what you change is what runs
+$(VENV)/installed: pyproject.toml | $(RUN)/python
+	$(RUN)/python -m pip install --quiet --editable .
+	@touch $@
+
+$(VENV)/installed-test: pyproject.toml | $(RUN)/python
+	$(RUN)/python -m pip install --quiet --editable '.[test]'
+	@touch $@ $(VENV)/installed
+
+demo: $(VENV)/installed
+	$(RUN)/thirdbody solve examples/dusty_ball_screw.toml
+	$(RUN)/thirdbody reproduce horng2022 --out $(OUT)
+	@echo
+	@echo "Figures, tables and the ledger of the paper's statements are in $(abspath $(OUT)):"
+	@ls -1 $(OUT)
+
+test: $(VENV)/installed-test
+	$(RUN)/python -m pytest -q -n $(WORKERS) --dist worksteal --durations 10
+
+bench: $(VENV)/installed
+	@for script in benchmarks/*.py; do echo "$$script"; $(RUN)/python "$$script" || exit 1; done
+
+format: $(VENV)/installed-test
+	$(RUN)/ruff check --fix .
+	$(RUN)/ruff format .
+
+clean:
+	rm -rf $(VENV) $(OUT) build dist src/*.egg-info .ruff_cache .mypy_cache .hypothesis
+	find src tests -name __pycache__ -type d -prune -exec rm -rf {} +

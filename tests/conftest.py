@@ -1,0 +1,38 @@
+"""What all tests share."""
+
+import json
+import os
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+HERE = Path(__file__).parent
+# the oracle and the twins are plain modules beside this file; importlib mode adds no path
+sys.path.insert(0, str(HERE))
+
+settings.register_profile(
+    "quick",
+    deadline=None,
+    max_examples=int(os.environ.get("THIRDBODY_EXAMPLES", "25")),
+    derandomize=True,
+    database=None,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.register_profile("search", settings.get_profile("quick"), derandomize=False)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
+
+
+@pytest.fixture(scope="session")
+def shared_reference():
+    """Loader of the reference values that live beside a checkout; skips without them."""
+    folder = HERE.parent.parent / "shared" / "reference"
+
+    def load(name: str):
+        path = folder / name
+        if not path.is_file():
+            pytest.skip(f"no reference folder beside this checkout ({folder.name}/{name})")
+        return json.loads(path.read_text("utf-8"))
+
+    return load

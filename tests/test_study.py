@@ -1,0 +1,617 @@
+"""Study files: what is read, and what a user is told about each kind of mistake."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.study import DISTRIBUTIONS, LOADS, load_study, run_study
+
+EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))
+
+GOOD = """
+title = "Dust"
+[surfaces]
+first = "S45C"
+second = { E = "205 GPa", nu = 0.29, H = "5 GPa" }
+[roughness]
+sigma = "100 nm"
+R = "2.8 um"
+alpha = 5.0
+eta_R_sigma = 0.0455
+[asperity_law]
+name = "zmc"
+k = 0.4
+[particles]
+material = "SiO2"
+distribution = "truncated-gaussian"
+mean = "300 nm"
+std = "24 nm"
+n = 3
+areal_density = "1e11 / m^2"
+[particle_law]
+name = "series"
+seat = "rough"
+[load]
+F_star = { from = 5e-7, to = 2.4e-4, points = 5, spacing = "log" }
+"""
+
+
+@pytest.fixture
+def write(tmp_path):
+    """A study file with parts of the good one replaced."""
+
+    def write(*changes, text=GOOD):
+        for old, new in changes:
+            assert old in text
+            text = text.replace(old, new)
+        path = tmp_path / "study.toml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture
+def problems(write):
+    """What is said about a study file that is wrong."""
+
+    def problems(*changes, text=GOOD, overrides=()):
+        with pytest.raises(tb.InvalidValue) as caught:
+            load_study(write(*changes, text=text), overrides)
+        for problem in caught.value.problems:
+            assert "\n" not in problem
+        assert len(set(caught.value.problems)) == len(caught.value.problems)
+        return list(caught.value.problems)
+
+    return problems
+
+
+def only(found, *words):
+    """There is one problem and it holds these words."""
+    assert len(found) == 1, found
+    for word in words:
+        assert word in found[0], (word, found[0])
+
+
+# ---------------------------------------------------------------------------- what is read
+def test_reads_the_documented_file(write):
+    study = load_study(write())
+    steel = tb.materials["S45C"]
+    assert study.title == "Dust"
+    assert study.notes == ()
+    assert study.load == "F_star"
+    assert np.array_equal(study.values, np.geomspace(5e-7, 2.4e-4, 5))
+    assert study.contact == tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6, alpha=5.0, eta_R_sigma=0.0455),
+        asperity_law=tb.asperity.ZMC(k=0.4),
+        particles=tb.Particles(
+            material=tb.materials["SiO2"],
+            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9, n=3),
+            areal_density=1e11,
+        ),
+        particle_law=tb.particle.Series(seat="rough"),
+    )
+
+
+def test_tables_that_may_be_left_out(write):
+    text = re.sub(r"\[(asperity_law|particles|particle_law)\][^[]*", "", GOOD)
+    text = text.replace('title = "Dust"', "").replace("eta_R_sigma = 0.0455", "")
+    contact = load_study(write(text=text)).contact
+    assert contact.particles is None
+    assert contact.two_body
+    assert contact.asperity_law == tb.asperity.ZMC()
+    assert contact.roughness == tb.Roughness(sigma=100e-9, R=2.8e-6)
+
+
+@pytest.mark.parametrize(
+    ("keys", "expected"),
+    [
+        (
+            'distribution = "log-normal"\nmedian = "50 nm"\ngsd = 1.3',
+            tb.LogNormal(median=50e-9, gsd=1.3),
+        ),
+        ('distribution = "weibull"\nscale = "1 um"\nshape = 2', tb.Weibull(scale=1e-6, shape=2)),
+        ('distribution = "uniform"\nlow = 0\nhigh = "1 um"', tb.Uniform(low=0, high=1e-6)),
+        ('distribution = "monodisperse"\nmean = 1e-7', tb.Monodisperse(mean=1e-7)),
+        (
+            'distribution = "histogram"\nedges = [0, "0.1 um", 3e-7]\ncounts = [1, 2]',
+            tb.Histogram(edges=(0, 1e-7, 3e-7), counts=(1, 2)),
+        ),
+        (
+            'distribution = "mixture"\nweights = [3, 1]\nparts = ['
+            '{ distribution = "monodisperse", mean = "100 nm" },'
+            '{ distribution = "uniform", low = "1 nm", high = "9 nm" }]',
+            tb.Mixture(
+                parts=(tb.Monodisperse(mean=1e-7), tb.Uniform(low=1e-9, high=9e-9)), weights=(3, 1)
+            ),
+        ),
+    ],
+    ids=lambda value: type(value).__name__ if not isinstance(value, str) else "",
+)
+def test_every_distribution(write, keys, expected):
+    old = GOOD[GOOD.index("distribution") : GOOD.index("areal_density")]
+    assert load_study(write((old, keys + "\n"))).contact.particles.diameter == expected
+
+
+def test_every_distribution_of_the_library_has_a_word():
+    words = {kind.__name__: word for word, kind in DISTRIBUTIONS.items()}
+    public = {
+        name
+        for name in tb.__all__
+        if isinstance(getattr(tb, name), type) and issubclass(getattr(tb, name), tb.Distribution)
+    }
+    assert public - {"Distribution"} == set(words)
+
+
+@pytest.mark.parametrize("kind", [tb.asperity, tb.particle], ids=["asperity", "particle"])
+def test_every_registered_law_can_be_named(write, kind):
+    table = "asperity_law" if kind is tb.asperity else "particle_law"
+    old = re.search(rf"\[{table}\][^[]*", GOOD)[0]
+    for name, law in kind.REGISTRY.items():
+        study = load_study(write((old, f'[{table}]\nname = "{name}"\n')))
+        assert getattr(study.contact, table) == law()
+
+
+def test_options_of_laws(write):
+    law = 'name = "series"\nseat = "offset"\nh_0 = "250 nm"\nshadow = "none"\n'
+    law += 'law = { name = "zmc", k = 0.5 }'
+    study = load_study(write(('name = "series"\nseat = "rough"', law)))
+    assert study.contact.particle_law == tb.particle.Series(
+        law=tb.asperity.ZMC(k=0.5), seat="offset", h_0=250e-9, shadow="none"
+    )
+    law = 'name = "horng2022"\npreset = "window"\nplastic = true\nchi = 0.5'
+    study = load_study(write(('name = "series"\nseat = "rough"', law)))
+    assert study.contact.particle_law == tb.particle.Horng2022(
+        preset="window", plastic=True, chi=0.5
+    )
+
+
+@pytest.mark.parametrize(
+    ("load", "name", "values"),
+    [
+        ('pressure = "5 MPa"', "pressure", [5e6]),
+        ("pressure = [1e6, '2 MPa']", "pressure", [1e6, 2e6]),
+        ("F_star = 1e-5", "F_star", [1e-5]),
+        ("separation = [-1e-8, '50 nm']", "separation", [-1e-8, 5e-8]),
+        ("separation = { from = 0, to = '4 nm', points = 3 }", "separation", [0, 2e-9, 4e-9]),
+        ("F_star = { from = 1e-6, to = 1e-4, points = 3 }", "F_star", [1e-6, 1e-5, 1e-4]),
+        (
+            "pressure = { from = '1 MPa', to = '3 MPa', points = 3, spacing = 'linear' }",
+            "pressure",
+            [1e6, 2e6, 3e6],
+        ),
+    ],
+)
+def test_loads(write, load, name, values):
+    text = GOOD[: GOOD.index("[load]")] + f"[load]\n{load}\n"
+    study = load_study(write(text=text))
+    assert study.load == name
+    assert study.values == pytest.approx(values, rel=1e-14)
+
+
+# ---------------------------------------------------------------------------- mistakes
+def test_wrong_dimension(problems):
+    found = problems(('sigma = "100 nm"', 'sigma = "300 GPa"'))
+    only(found, 'roughness.sigma = "300 GPa"', "is a pressure", "a length [m]", '"300 nm"')
+
+
+def test_wrong_dimension_of_a_load(problems):
+    text = GOOD[: GOOD.index("[load]")] + '[load]\nF_star = "5 MPa"\n'
+    only(problems(text=text), 'load.F_star = "5 MPa"', "pure number", "key pressure")
+
+
+@pytest.mark.parametrize("value", ["0", "-0.5", '"-100 nm"', '"0 nm"'])
+def test_negative_and_zero_lengths(problems, value):
+    found = problems(('sigma = "100 nm"', f"sigma = {value}"))
+    only(found, f"roughness.sigma = {value} must be > 0 [m]", "'100 nm'")
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "-inf", '"nan"', '"inf nm"'])
+def test_not_finite(problems, value):
+    found = problems(('R = "2.8 um"', f"R = {value}"))
+    only(found, f"roughness.R = {value} is not a finite number; it must be > 0 [m]")
+
+
+@pytest.mark.parametrize("value", ["-1", "-1.5", "0.51", "29"])
+def test_poisson_ratio(problems, value):
+    found = problems(("nu = 0.29", f"nu = {value}"))
+    only(found, f"surfaces.second.nu = {value} must be > -1 and <= 0.5", "Poisson ratio")
+
+
+@pytest.mark.parametrize("value", ["0.5", "-0.99"])
+def test_poisson_ratio_at_its_ends(write, value):
+    study = load_study(write(("nu = 0.29", f"nu = {value}")))
+    assert study.contact.surfaces.second.nu == float(value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("\nsigma =", "\nsgima =", ["roughness.sgima", '"100 nm"', "did you mean sigma?"]),
+        ("mean =", "diameter =", ["particles.diameter", "did you mean mean?"]),
+        ("areal_density =", "eta_a =", ["particles.eta_a", "areal_density"]),
+        ("H = ", "hardness = ", ["surfaces.second.hardness", "did you mean H?"]),
+        ("k = 0.4", "seat = 1", ["asperity_law.seat = 1", "belongs to [particle_law]"]),
+        ("n = 3", "median = 3", ["particles.median", 'goes with distribution = "log-normal"']),
+        ("n = 3", "qqq = 3", ["particles.qqq = 3", "known here", "distribution", "areal_density"]),
+        ("[load]", "[laod]", ["[laod]", "did you mean [load]?"]),
+        ("[load]", "[friction]\nmu = 0.1\n[load]", ["[friction]", "not a known table", "load"]),
+        ("points =", "point =", ["load.F_star.point", "did you mean points?"]),
+        ('title = "Dust"', "k = 3", ["k = 3", "belongs to [asperity_law]"]),
+    ],
+)
+def test_unknown_keys(problems, old, new, words):
+    found = [item for item in problems((old, new)) if "is missing" not in item]
+    only(found, "not a known", *words)
+
+
+def test_unknown_key_that_is_meant_for_a_missing_one_is_told_once(problems):
+    assert len(problems(("\nsigma =", "\nsgima ="), ("mean =", "mena ="))) == 2
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        (
+            'sigma = "100 nm"\n',
+            ["roughness.sigma is missing", "surface heights", "[m]", '"300 nm"'],
+        ),
+        ('first = "S45C"\n', ["surfaces.first is missing", "a material", '"S45C"']),
+        ('material = "SiO2"\n', ["particles.material is missing", "SiO2"]),
+        ('areal_density = "1e11 / m^2"\n', ["particles.areal_density is missing", '"1e11 / m^2"']),
+        ('std = "24 nm"\n', ["particles.std is missing", "standard deviation"]),
+        ('distribution = "truncated-gaussian"\n', ["particles.distribution is missing", "weibull"]),
+        ('name = "series"\n', ["particle_law.name is missing", '"series"', '"horng2022"']),
+        ("points = 5, ", ["load.F_star.points is missing", "how many"]),
+        (", nu = 0.29", ["surfaces.second.nu is missing", "Poisson"]),
+    ],
+)
+def test_missing_keys(problems, line, words):
+    only(problems((line, "")), *words)
+
+
+def test_an_empty_file_misses_three_tables(problems):
+    found = problems(text="")
+    assert [item.split()[0] for item in found] == ["surfaces", "roughness", "load"]
+    assert all("is missing" in item for item in found)
+
+
+def test_unknown_material(problems):
+    found = problems(('first = "S45C"', 'first = "S45"'))
+    only(found, 'surfaces.first = "S45"', "S45C, SiO2", 'did you mean "S45C"?', "E = ")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('name = "zmc"', 'name = "zmcc"', ["asperity_law.name", '"hermite"', 'mean "zmc"?']),
+        ('name = "series"', 'name = "serial"', ["particle_law.name", 'mean "series"?']),
+        ('seat = "rough"', 'seat = "Rough"', ["particle_law.seat", '"plane"', 'mean "rough"?']),
+        ('"truncated-gaussian"', '"gausian"', ["particles.distribution", '"log-normal"']),
+        ('"log"', '"logarithmic"', ["load.F_star.spacing", '"linear"']),
+        ('"truncated-gaussian"', '"normal"', ['mean "truncated-gaussian"?']),
+        ("k = 0.4", "k = 1.2", ["asperity_law.k = 1.2", "> 0 and < 1"]),
+        ("alpha = 5.0", "alpha = 1.5", ["roughness.alpha = 1.5", "> 1.5"]),
+    ],
+)
+def test_words_and_ranges_of_options(problems, old, new, words):
+    only(problems((old, new)), *words)
+
+
+def test_misspelt_word_does_not_hide_other_mistakes(problems):
+    found = problems(('"truncated-gaussian"', '"truncated"'), ('"24 nm"', "-1"))
+    assert [item.split(" = ")[0] for item in found] == ["particles.distribution", "particles.std"]
+    found = problems(('distribution = "truncated-gaussian"', ""), ('"24 nm"', "-1"))
+    assert len(found) == 2
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        ("{ from = 1e-5, to = 1e-4, points = 0 }", ["points = 0", "whole number from 1"]),
+        ("{ from = 1e-5, to = 1e-4, points = -3 }", ["points = -3", "whole number from 1"]),
+        ("{ from = 1e-5, to = 1e-4, points = 2.5 }", ["points = 2.5", "whole number"]),
+        ("{ from = 1e-5, to = 1e-4, points = 10000000000 }", ["points", "to 1000000"]),
+        ("{ from = 1e-4, to = 1e-5, points = 3 }", ["empty range", "below", "exchange them"]),
+        ("{ from = 1e-4, to = 1e-4, points = 3 }", ["empty range", "write it alone"]),
+        ("{ from = 0, to = 1e-4, points = 3 }", ["load.F_star.from = 0", "> 0"]),
+        ("[]", ["load.F_star = [] is empty"]),
+        ("[1e-5, -1e-5]", ["load.F_star[1] = -1e-05", "> 0"]),
+        ("-1e-5", ["load.F_star = -1e-05", "> 0", "F/(A_n E_ss)"]),
+    ],
+)
+def test_empty_ranges_and_bad_loads(problems, value, words):
+    text = GOOD[: GOOD.index("[load]")] + f"[load]\nF_star = {value}\n"
+    only([item for item in problems(text=text) if '"log"' not in item], *words)
+
+
+def test_logarithm_of_nothing(problems):
+    load = 'separation = { from = 0, to = "9 nm", points = 3, spacing = "log" }'
+    text = GOOD[: GOOD.index("[load]")] + f"[load]\n{load}\n"
+    only(problems(text=text), "load.separation.from = 0", "> 0", 'spacing = "linear"')
+
+
+def test_two_loads_and_none(problems):
+    found = problems(("[load]", '[load]\npressure = "5 MPa"'))
+    only(found, "load.F_star = {", 'load.pressure = "5 MPa"', "only one")
+    text = GOOD[: GOOD.index("[load]")] + "[load]\n"
+    only(problems(text=text), "[load]", "exactly one of F_star, pressure, separation", '"5 MPa"')
+
+
+def test_two_densities(problems):
+    found = problems(("alpha = 5.0", 'eta = "1e11 / m^2"'))
+    only(found, 'roughness.eta = "1e11 / m^2"', "roughness.eta_R_sigma = 0.0455", "only one")
+
+
+def test_topography_is_not_supported_yet(problems):
+    found = problems(('sigma = "100 nm"', ""), ('R = "2.8 um"', 'topography = "part.x3p"'))
+    only(found, 'roughness.topography = "part.x3p"', "not supported", "sigma", "R", "eta")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("1e11", "1e14", ["particles.areal_density", "jammed", "7.1"]),
+        ('std = "24 nm"', "std = 0", ["particles.std = 0", '"monodisperse"']),
+        ('seat = "rough"', 'seat = "plane"\nh_0 = "3 nm"', ["particle_law.h_0", "offset"]),
+        ('seat = "rough"', 'law = { name = "hermite", k = 0.95 }', ["particle_law.law.k = 0.95"]),
+        ('seat = "rough"', 'law = "zmcc"', ["particle_law.law", '"zmc"']),
+        ('name = "series"\nseat = "rough"', 'name = "horng2022"\nplastic = 1', ["true or false"]),
+        ('title = "Dust"', "title = 5", ["title = 5", "text"]),
+    ],
+)
+def test_rules_of_the_objects_are_told_with_the_keys_of_the_file(problems, old, new, words):
+    found = problems((old, new))
+    only(found, *words)
+    assert not re.search(r"\b(Particles|Series|Hermite|Roughness|TruncatedGaussian)\b", found[0])
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ('"histogram"\nedges = [3, 2, 1]\ncounts = [1, 2]', ["particles.edges", "increase"]),
+        ('"histogram"\nedges = ["1 GPa"]\ncounts = "x"', ["particles.edges[0]", "pressure"]),
+        ('"uniform"\nlow = "3 nm"\nhigh = "1 nm"', ["particles.high", "above particles.low"]),
+        ('"mixture"\nweights = [1]\nparts = []', ["particles.parts = []", "list of size"]),
+        (
+            '"mixture"\nweights = [1]\nparts = [{ distribution = "monodisperse", mean = -1 }]',
+            ["particles.parts[0].mean = -1", "> 0"],
+        ),
+    ],
+)
+def test_mistakes_in_distributions(problems, keys, words):
+    old = GOOD[GOOD.index("distribution") : GOOD.index("areal_density")]
+    found = problems((old, f"distribution = {keys}\n"))
+    only(found[:1], *words)
+
+
+def test_tables_that_are_not_tables(problems):
+    text = 'surfaces = "S45C"\nroughness = [1]\nparticles = []\nasperity_law = 3\nload = 5e6\n'
+    found = problems(text=text)
+    assert len(found) == 5
+    for name, problem in zip(
+        ("surfaces", "roughness", "asperity_law", "particles", "load"), found, strict=True
+    ):
+        assert problem.startswith(f"{name} = ")
+        assert f"must be a table, written [{name}]" in problem
+
+
+def test_all_mistakes_at_once(problems):
+    found = problems(
+        ('first = "S45C"', 'first = "S45"'),
+        ("nu = 0.29", "nu = 0.6"),
+        ('sigma = "100 nm"', 'sigma = "300 GPa"'),
+        ('R = "2.8 um"', "R = 0"),
+        ("alpha = 5.0", "alhpa = nan"),
+        ("k = 0.4", "k = inf"),
+        ('material = "SiO2"\n', ""),
+        ('mean = "300 nm"', 'mean = "-300 nm"'),
+        ('name = "series"', 'name = "serie"'),
+        ("from = 5e-7", "from = 5e-3"),
+        ("points = 5", "points = 0"),
+        ("[load]", '[load]\npressure = "5 mmm"'),
+    )
+    places = [
+        "surfaces.first",
+        "surfaces.second.nu",
+        "roughness.sigma",
+        "roughness.R",
+        "roughness.alhpa",
+        "asperity_law.k",
+        "particles.material",
+        "particles.mean",
+        "particle_law.name",
+        "load.F_star.points",
+        "load.F_star is an empty range",
+        "load.pressure",
+        "load.F_star = ",
+    ]
+    for place in places:
+        assert sum(item.startswith(place) for item in found) == 1, place
+    assert len(found) == len(places)
+
+
+# ---------------------------------------------------------------------------- files
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('"100 nm"', "100 nm", ["line 7", "in quotes", 'sigma = "100 nm"']),
+        ('first = "S45C"', "first = S45C", ["line 4", 'first = "S45C"']),
+        ('"2.8 um"', "2,8", ["line 8", "decimal point"]),
+        ("alpha = 5.0", "sigma = 5.0", ["line 9", "sigma is given twice"]),
+        ("[roughness]", "[roughness", ["line 6", "[roughness"]),
+    ],
+)
+def test_syntax_errors_name_the_line(problems, old, new, words):
+    only(problems((old, new)), "study.toml", *words)
+
+
+def test_files_that_cannot_be_read(tmp_path):
+    def told(path):
+        with pytest.raises(tb.InvalidValue) as caught:
+            load_study(path)
+        return list(caught.value.problems)
+
+    (tmp_path / "study.toml").write_text(GOOD)
+    only(told(tmp_path / "stduy.toml"), "no such file", "did you mean", "study.toml")
+    only(told(tmp_path / "else.toml"), "no such file")
+    only(told(tmp_path / "none" / "study.toml"), "no such file")
+    only(told(tmp_path), "folder")
+    (tmp_path / "latin.toml").write_bytes('a = 1\ntitle = "Stäube"'.encode("latin-1"))
+    only(told(tmp_path / "latin.toml"), "line 2", "UTF-8")
+
+
+def test_byte_order_mark_and_windows_line_ends(tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_bytes(b"\xef\xbb\xbf" + GOOD.replace("\n", "\r\n").encode())
+    assert load_study(path).title == "Dust"
+
+
+# ---------------------------------------------------------------------------- overrides
+def test_overrides(write):
+    study = load_study(
+        write(),
+        ["particles.mean=500 nm", "asperity_law.k=0.5", "particles.material=S45C", "title=x = y"],
+    )
+    assert study.contact.particles.diameter.mean == 500e-9
+    assert study.contact.particles.material == tb.materials["S45C"]
+    assert study.contact.asperity_law.k == 0.5
+    assert study.title == "x = y"
+
+
+def test_override_of_a_load_takes_its_place(write):
+    study = load_study(write(), ["load.pressure=[1e6, '2 MPa']"])
+    assert (study.load, study.values.tolist()) == ("pressure", [1e6, 2e6])
+    assert len(load_study(write(), ["load.F_star.points=9"]).values) == 9
+    study = load_study(write(), ["roughness.eta=1.6e11 / m^2"])
+    assert study.contact.roughness == tb.Roughness(sigma=100e-9, R=2.8e-6, eta=1.6e11)
+
+
+def test_override_adds_a_table(write):
+    text = re.sub(r"\[asperity_law\][^[]*", "", GOOD)
+    study = load_study(write(text=text), ["asperity_law.name=hermite"])
+    assert study.contact.asperity_law == tb.asperity.Hermite()
+
+
+@pytest.mark.parametrize(
+    ("override", "words"),
+    [
+        ("particles.mean", ["particles.mean", "KEY=VALUE"]),
+        ("=3", ["KEY=VALUE"]),
+        ("a..b=3", ["KEY=VALUE"]),
+        ("surfaces.first.E=3", ['surfaces.first = "S45C" is not a table', "as a whole"]),
+        ("particles.mean=300 GPa", ['particles.mean = "300 GPa"', "is a pressure"]),
+        ("particles.maen=1", ["particles.maen = 1", "did you mean mean?"]),
+        ("particle.mean=1", ["[particle]", "did you mean [particles]?"]),
+    ],
+)
+def test_overrides_that_make_no_sense(problems, override, words):
+    only(problems(overrides=[override]), *words)
+
+
+# ---------------------------------------------------------------------------- likely slips
+def test_forgotten_units_are_noted(write):
+    study = load_study(write(('"100 nm"', "100"), ('"205 GPa"', "205"), ('"2.8 um"', "2.8")))
+    assert len(study.notes) == 3
+    assert "surfaces.second.E = 205 is taken as 205 Pa" in study.notes[0]
+    assert 'was "205 GPa" meant?' in study.notes[0]
+    assert 'was "100 nm" meant?' in study.notes[1]
+    assert 'was "2.8 um" meant?' in study.notes[2]
+    (note,) = load_study(write(('"205 GPa"', '"205 mPa"'))).notes
+    assert "0.205 Pa" in note
+    assert "case" in note
+
+
+def test_law_without_particles_is_noted(write):
+    text = re.sub(r"\[particles\][^[]*", "", GOOD)
+    study = load_study(write(text=text))
+    assert study.contact.two_body
+    assert "no [particles]" in study.notes[0]
+
+
+# ---------------------------------------------------------------------------- running
+def test_numbers_are_those_of_the_python_interface(write):
+    study = load_study(write())
+    result = run_study(study)
+    state = tb.solve(study.contact, F_star=np.geomspace(5e-7, 2.4e-4, 5))
+    for name, column in state.columns().items():
+        assert result["states"][name] == column.tolist(), name
+    assert result["transitions"] == tb.transitions(study.contact).to_dict()
+    assert result["scales"] == state.scales
+    assert result["citations"] == tb.cite(study.contact).splitlines()
+    inputs = dict(result["inputs"])
+    assert inputs.pop("load") == {"F_star": np.geomspace(5e-7, 2.4e-4, 5).tolist()}
+    assert tb.Contact.from_dict(inputs) == study.contact
+
+
+def test_strings_and_plain_numbers_give_the_same_study(write):
+    plain = write(
+        ('"205 GPa"', "205e9"), ('"5 GPa"', "5e9"), ('"100 nm"', "100e-9"), ('"2.8 um"', "2.8e-6"),
+        ('"300 nm"', "300e-9"), ('"24 nm"', "24e-9"), ('"1e11 / m^2"', "1e11"),
+    )  # fmt: skip
+    first = load_study(plain).contact
+    assert first == load_study(write()).contact
+
+
+def test_unsolved_states_keep_their_place(write):
+    result = run_study(load_study(write(), ["load.F_star=[1e-5, 1e3, 1e-4]"]))
+    states = result["states"]
+    assert [status == "ok" for status in states["status"]] == [True, False, True]
+    assert states["d"][1] is None
+    assert states["mode"][1] is None
+    assert "no equilibrium" in states["status"][1]
+    assert states["F_star"][1] == 1e3
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_are_sensible(path):
+    study = load_study(path)
+    assert study.title
+    assert study.notes == ()
+    result = run_study(study)
+    states = result["states"]
+    assert set(states["status"]) == {"ok"}
+    assert result["warnings"] == []
+    assert max(states["residual"]) < 1e-9
+    order = np.argsort(states["F_star"])
+    d, area = (np.array(states[name])[order] for name in ("d", "A_t"))
+    assert np.all(np.diff(d) < 0)
+    assert np.all(np.diff(area) > 0)
+    assert max(area) < 0.2
+    total = np.array(states["F_ss_star"]) + states["F_sa_star"]
+    assert total == pytest.approx(states["F_star"], rel=1e-9)
+    if study.contact.particles is not None:
+        share = np.array(states["particle_load_share"])[order]
+        assert np.all(np.diff(share) <= 1e-15)
+        assert share[-1] < share[0]
+
+
+def example(name):
+    (path,) = (path for path in EXAMPLES if path.stem == name)
+    return path
+
+
+def test_what_the_examples_say():
+    """The comments of the example files are true."""
+    soft = run_study(load_study(example("soft_ptfe_particles"), ["load.pressure=[1.2e6, 30e6]"]))
+    hard = ["load.pressure=[1.2e6, 30e6]", "particles.material=SiO2"]
+    hard = run_study(load_study(example("soft_ptfe_particles"), hard))
+    assert soft["states"]["particle_load_share"][0] < 0.5
+    assert soft["states"]["particle_area_share"][0] > 0.9
+    assert hard["states"]["particle_load_share"][1] > 0.98
+    small = run_study(load_study(example("nanoparticle_additive")))["states"]
+    assert 0.06 < small["particle_load_share"][0] < 0.08
+    assert 0.025 < small["particle_load_share"][-1] < 0.035
+    debris = run_study(load_study(example("bearing_wear_debris")))["states"]
+    assert debris["particle_load_share"][0] > 0.999
+    clean = run_study(load_study(example("two_body_reference")))["states"]
+    for area, elastoplastic in zip(clean["A_t"], clean["A_ep"], strict=True):
+        assert elastoplastic > 0.5 * area
+
+
+def test_loads_are_documented():
+    assert list(LOADS) == ["F_star", "pressure", "separation"]
