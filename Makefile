@@ -48,7 +48,7 @@ test: $(VENV)/installed-test
 	$(RUN)/python -m pytest -q -n $(WORKERS) --dist worksteal --durations 10
 
 bench: $(VENV)/installed
-	@for script in benchmarks/*.py; do echo "$$script"; $(RUN)/python "$$script" || exit 1; done
+	$(RUN)/python benchmarks/run.py
 
 format: $(VENV)/installed-test
 	$(RUN)/ruff check --fix .

@@ -573,7 +573,7 @@ def horng_state(d: float, interface: Interface, law: Horng) -> dict[str, float]:
         share, pressure = H_2 / (H_1 + H_2), H_1
     area = math.pi * density * share
     start = {"d": d, "xmin": -math.inf, "none": math.inf}[law.shadow]
-    surfaces = interface.first.H / (interface.first.H + interface.second.H)
+    surfaces = H_1 / (H_1 + H_2)
     # only plastic particles shade, each by its own footprint
     shade = w_p if law.shadow == "d" else w
     shadow = math.pi * density * surfaces * between(shade, start, math.inf) if law.plastic else 0.0

@@ -15,6 +15,7 @@ import thirdbody as tb
 
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+SOURCES = [name for name in ("src", "tests", "benchmarks") if (ROOT / name).is_dir()]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 
 
@@ -38,12 +39,12 @@ def tool(name):
 
 # ---------------------------------------------------------------- tools
 def test_lint():
-    status, text = run(*tool("ruff"), "check", "--no-cache", "src", "tests")
+    status, text = run(*tool("ruff"), "check", "--no-cache", *SOURCES)
     assert status == 0, text
 
 
 def test_format():
-    status, text = run(*tool("ruff"), "format", "--check", "--no-cache", "src", "tests")
+    status, text = run(*tool("ruff"), "format", "--check", "--no-cache", *SOURCES)
     assert status == 0, text
 
 
@@ -304,7 +305,7 @@ def test_scripts_are_well_formed():
 
 
 def test_make_knows_its_targets():
-    for target in ("demo", "test", "format", "clean"):
+    for target in ("demo", "test", "bench", "format", "clean"):
         try:
             status, text = run("make", "-n", target)
         except FileNotFoundError:

@@ -1,13 +1,15 @@
 """Study files: what is read, and what a user is told about each kind of mistake."""
 
+import copy
 import re
+import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import thirdbody as tb
-from thirdbody.study import DISTRIBUTIONS, LOADS, load_study, run_study
+from thirdbody.study import DISTRIBUTIONS, LOADS, check, load_study, run_study
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))
 
@@ -433,6 +435,40 @@ def test_all_mistakes_at_once(problems):
     for place in places:
         assert sum(item.startswith(place) for item in found) == 1, place
     assert len(found) == len(places)
+
+
+ODD = [None, 0, -1, True, "", "x", "5 nm", "5 GPa", [], {}, [1], [[1]], [{}], {"name": "x"}]
+ODD += [float("nan"), 10**400, {"from": 1}, {"E": 1}, "9e99999 nm", "x" * 5000]
+
+
+def _places(data, path=()):
+    for key, value in data.items():
+        yield (*path, key)
+        if isinstance(value, dict):
+            yield from _places(value, (*path, key))
+
+
+def test_any_value_anywhere_is_read_or_refused_in_sentences():
+    """No value of any type, under any key, ends in another error."""
+    good = tomllib.loads(GOOD)
+    places = [*_places(good), ("particle_law", "law"), ("particles", "parts"), ("load", "pressure")]
+    refused = 0
+    for place in places:
+        for value in ODD:
+            data = copy.deepcopy(good)
+            *tables, key = place
+            table = data
+            for name in tables:
+                table = table[name]
+            table.pop(key, None) if value is None else table.update({key: value})
+            try:
+                check(data)
+            except tb.InvalidValue as error:
+                refused += 1
+                for problem in error.problems:
+                    assert len(problem) < 900
+                    assert "\n" not in problem
+    assert refused > 0.8 * len(places) * len(ODD)
 
 
 # ---------------------------------------------------------------------------- files

@@ -118,7 +118,7 @@ class AsperitySum:
         self.sigma_s = rough.sigma_s
         self.centre = datum * rough.sigma
         H, E_star = surfaces.H, surfaces.E_star
-        law = law.bound(E_star=E_star, H=H, nu=surfaces.softer.nu)
+        law = law.bound(R=rough.R, E_star=E_star, H=H, nu=surfaces.softer.nu)
         omega_1 = float(law.yield_interference(R=rough.R, E_star=E_star, H=H))
         w = omega_1 / self.sigma_s
         end = self.DEEPEST + math.sqrt(self.DEEPEST**2 + self.DROP)

@@ -43,7 +43,7 @@ from .transitions import Critical, Transitions, TurningPoint, transitions
 from .units import EXAMPLES, say, to_si
 from .values import allowed_range, problem_with, quantity
 
-__all__ = ["DISTRIBUTIONS", "LOADS", "Study", "load_study", "run_study"]
+__all__ = ["DISTRIBUTIONS", "LOADS", "Study", "check", "load_study", "run_study"]
 
 DISTRIBUTIONS = {
     "truncated-gaussian": TruncatedGaussian,
@@ -150,7 +150,11 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
     >>> study.contact.roughness.sigma, study.values.tolist()
     (2e-07, [5000000.0])
     """
-    data = _override(_read(Path(path)), list(overrides))
+    return check(_override(_read(Path(path)), list(overrides)))
+
+
+def check(data: dict[str, Any]) -> Study:
+    """The study that a parsed file describes; raises as `load_study`."""
     return _Reader().study(data)
 
 

@@ -84,15 +84,21 @@ class AbstractAsperityLaw(Law):
     registry: ClassVar[dict[str, type[Law]]] = {}
 
     @property
+    def start(self) -> float:
+        """Reduced interference at which the contact exists; negative where adhesion stretches it."""
+        return 0.0
+
+    @property
     def jumps(self) -> dict[float, float]:
         """Declared relative jumps of the load at breakpoints, {y: jump}."""
         return {}
 
-    def bound(self, *, E_star: Number, H: Number, nu: float | None = None) -> Self:
-        """The law with what it needs to know of the bodies beyond R, E* and H; itself by default.
+    def bound(self, *, R: Number, E_star: Number, H: Number, nu: float | None = None) -> Self:
+        """The law with what its formulas need to know of the contact; itself by default.
 
-        A law whose formulas hold a material constant (Poisson ratio ν of the softer body, yield
-        strain) keeps it as an optional field and returns a copy with the field filled.
+        A law whose reduced form holds a constant of the contact (Poisson ratio ν of the softer
+        body, yield strain, a length over R) keeps it as an optional field and returns a copy
+        with the field filled.
         """
         return self
 
@@ -112,12 +118,13 @@ class AbstractAsperityLaw(Law):
 
     # ---------------------------------------------------------------- reduced form
     def reduced(self, quantity: str, y: ArrayLike) -> Array:
-        """f(y), a(y) or df/dy (``"force"``, ``"area"``, ``"stiffness"``); zero for y <= 0."""
+        """f(y), a(y) or df/dy (``"force"``, ``"area"``, ``"stiffness"``); zero without contact."""
         y = np.asarray(y, dtype=float)
         out = np.zeros_like(y)
+        start = self.start
         which = np.searchsorted(self.breakpoints, y, side="right")
         for i, branch in enumerate(self.branches):
-            here = (which == i) & (y > 0)
+            here = (which == i) & (y > start)
             if np.any(here):
                 out[here] = getattr(branch, quantity)(y[here])
         return out
@@ -127,7 +134,7 @@ class AbstractAsperityLaw(Law):
         self, omega: ArrayLike, R: Number, E_star: Number, H: Number
     ) -> tuple[Self, Number, Array]:
         """The bound law, ω_1 and ω/ω_1."""
-        law = self.bound(E_star=E_star, H=H)
+        law = self.bound(R=R, E_star=E_star, H=H)
         omega_1 = law.yield_interference(R=R, E_star=E_star, H=H)
         return law, omega_1, np.asarray(omega, dtype=float) / omega_1
 
@@ -179,7 +186,9 @@ class AbstractAsperityLaw(Law):
         """One of `REGIMES`, or ``"none"`` without contact; arguments as in `force`."""
         law, _, y = self._scaled(omega, R, E_star, H)
         names = np.array([branch.regime for branch in law.branches])
-        return np.where(y > 0, names[np.searchsorted(law.breakpoints, y, side="right")], "none")
+        return np.where(
+            y > law.start, names[np.searchsorted(law.breakpoints, y, side="right")], "none"
+        )
 
 
 class AbstractParticleLaw(Law):

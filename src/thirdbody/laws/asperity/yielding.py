@@ -40,7 +40,7 @@ class PeakPressureLaw(AbstractAsperityLaw):
             )
         return 0.454 + 0.41 * self.nu
 
-    def bound(self, *, E_star, H, nu: float | None = None) -> Self:
+    def bound(self, *, R, E_star, H, nu: float | None = None) -> Self:
         """With the Poisson ratio of the softer body, unless one was given."""
         return self if self.nu is not None or nu is None else self.replace(nu=nu)
 

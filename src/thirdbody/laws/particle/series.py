@@ -47,7 +47,7 @@ class Side:
     """
 
     def __init__(self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float):
-        self.law, self.H = law.bound(E_star=E_star, H=H, nu=nu), H
+        self.law, self.H = law.bound(R=0.5, E_star=E_star, H=H, nu=nu), H
         self.delta_1 = float(self.law.yield_interference(R=0.5, E_star=E_star, H=H))
         self.full = 0.5 / self.delta_1  # reduced area of the great circle
         self.cap = self._cap()

@@ -660,7 +660,7 @@ def _draw_quoted(
                 va="bottom",
                 ha="right" if mark.left else "left",
                 fontsize=7.5,
-                color=colour,
+                color="0.2",
             )
 
 
