@@ -140,23 +140,24 @@ def asperity_sums(
     s = rough.sigma_s
     h = (d - centre) / s
     w_1, w_2 = tip.omega_1 / s, tip.omega_2 / s
-    # the exponent h t + t²/2 has dropped by 45 (from its largest value) beyond this height
-    end = -h + math.sqrt(h * h + 90) if h > 0 else -h + 9.5
     scale = min(1.0, 1 / max(h, 1.0))
-    splits = {0.0, end, *(scale * j for j in (0.25, 1, 2, 4, 8, 16, 32))}
+    splits = {scale * j for j in (0.25, 1, 2, 4, 8, 16, 32)}
     if h < 0:
         splits |= {-h + j for j in (-4, -2, -1, 0, 1, 2, 4)}
     splits |= {w_1, w_2, w_1 / 10}
     out = {}
-    zones = ((0.0, min(w_1, end)), (w_1, min(w_2, end)), (w_2, end))
-    names = ("A_e", "A_ep", "A_p")
+    zones = (("A_e", 0.0, w_1), ("A_ep", w_1, w_2), ("A_p", w_2, math.inf))
     force = 0.0
-    for name, (a, b) in zip(names, zones, strict=True):
-        if b <= a:
+    for name, a, b in zones:
+        # beyond this height the density has dropped by e^-45 from its largest value in the zone
+        peak = max(h + a, 0.0)
+        end = min(b, math.sqrt(peak**2 + 90) - h)
+        if end <= a:
             out[name] = 0.0
             continue
+        inner = {t for t in (*splits, *(a + t for t in splits)) if a < t < end}
         # v = √t makes the t^(3/2) of Hertz smooth
-        roots = [math.sqrt(t) for t in (a, b, *(t for t in splits if a < t < b))]
+        roots = [math.sqrt(t) for t in (a, end, *inner)]
 
         def sum_of(f: Callable[[float], float], edges: list[float] = roots) -> float:
             return integrate(lambda v: 2 * v * f(s * v * v) * normal(h + v * v), edges)
@@ -286,11 +287,12 @@ def truncated_gaussian(mean: float, std: float, n: float = 3.0, normalise: bool 
 
 
 def lognormal(median: float, gsd: float) -> Sizes:
+    """Cut where the tail holds 1e-17, as the library says it does."""
     s = math.log(gsd)
     return Sizes(
         lambda x: normal(math.log(x / median) / s) / (s * x),
-        median * math.exp(-9 * s),
-        median * math.exp((9 + 2 * s) * s),
+        median * math.exp(-8.5 * s),
+        median * math.exp((8.5 + 2 * s) * s),
         tuple(median * math.exp(0.75 * j * s) for j in range(-10, 13)),
     )
 
@@ -300,9 +302,9 @@ def weibull(scale: float, shape: float) -> Sizes:
         t = x / scale
         return shape / scale * t ** (shape - 1) * math.exp(-(t**shape))
 
-    levels = (1e-8, 1e-6, 1e-4, 0.01, 0.1, 0.5, 1, 2, 4, 8, 16, 30)
+    levels = (1e-12, 1e-8, 1e-5, 1e-3, 0.03, 0.2, 0.5, 1, 2, 4, 8, 16, 30)
     return Sizes(
-        density, 1e-12 * scale, scale * 45 ** (1 / shape), tuple(scale * v for v in levels)
+        density, 1e-12 * scale, scale * 45 ** (1 / shape), tuple(scale * v ** (1 / shape) for v in levels)
     )
 
 

@@ -282,6 +282,13 @@ def test_an_empty_file_misses_three_tables(problems):
     assert all("is missing" in item for item in found)
 
 
+def test_what_a_file_cannot_express_is_not_a_key(problems):
+    found = problems(("alpha = 5.0", 'heights = "exponential"'))
+    only(found, "roughness.heights", "not a known key")
+    found = problems(("n = 3", 'diameter = "1 nm"'))
+    only(found, "particles.diameter", "did you mean mean?")
+
+
 def test_unknown_material(problems):
     found = problems(('first = "S45C"', 'first = "S45"'))
     only(found, 'surfaces.first = "S45"', "S45C, SiO2", 'did you mean "S45C"?', "E = ")
@@ -452,9 +459,11 @@ def test_any_value_anywhere_is_read_or_refused_in_sentences():
     """No value of any type, under any key, ends in another error."""
     good = tomllib.loads(GOOD)
     places = [*_places(good), ("particle_law", "law"), ("particles", "parts"), ("load", "pressure")]
-    refused = 0
-    for place in places:
-        for value in ODD:
+    refused = tried = 0
+    for i, place in enumerate(places):
+        # a fifth of the odd values at each place, all of them over the file
+        for value in ODD[i % 5 :: 5]:
+            tried += 1
             data = copy.deepcopy(good)
             *tables, key = place
             table = data
@@ -468,7 +477,7 @@ def test_any_value_anywhere_is_read_or_refused_in_sentences():
                 for problem in error.problems:
                     assert len(problem) < 900
                     assert "\n" not in problem
-    assert refused > 0.8 * len(places) * len(ODD)
+    assert refused > 0.8 * tried
 
 
 # ---------------------------------------------------------------------------- files

@@ -205,7 +205,11 @@ def series_twins(draw, seats=("plane", "offset", "rough"), kinds=None) -> Twin: 
     h_0 = sigma * draw(st.floats(0.1, 4.0)) if seat == "offset" else 0.0
     # a size inside the population, squeezed by a fraction of itself
     x = float(distributions[0].ppf(np.float64(draw(st.floats(0.02, 0.98)))))
-    level = draw(st.floats(-1.5, 3.0)) * sigma - interface.rough.y_s if seat == "rough" else h_0
+    zeta_mean = draw(st.floats(-1.0, 1.0)) if seat == "rough" else 0.0
+    zeta_std = draw(st.floats(0.3, 1.5)) if seat == "rough" else 1.0
+    level = h_0
+    if seat == "rough":
+        level = (zeta_mean + zeta_std * draw(st.floats(-1.5, 4.0))) * sigma - interface.rough.y_s
     d = level + x * (1 - draw(decades(1e-4, 1.1)))
     return series_twin(
         interface,
@@ -215,8 +219,8 @@ def series_twins(draw, seats=("plane", "offset", "rough"), kinds=None) -> Twin: 
         d,
         seat=seat,
         h_0=h_0,
-        zeta_mean=draw(st.floats(-1.0, 1.0)) if seat == "rough" else 0.0,
-        zeta_std=draw(st.floats(0.3, 1.5)) if seat == "rough" else 1.0,
+        zeta_mean=zeta_mean,
+        zeta_std=zeta_std,
         shadow=draw(st.sampled_from(("footprint", "projected", "covered", "none"))),
         rule=draw(st.sampled_from(("hermite", "log"))),
     )

@@ -21,6 +21,14 @@ from .distributions import (
 )
 from .equilibrium import Equilibrium, roots, solve
 from .errors import InvalidValue, NoEquilibrium, NoTransition, RangeWarning, ThirdBodyError
+from .heights import (
+    ExponentialHeights,
+    GaussianHeights,
+    Heights,
+    HistogramHeights,
+    JohnsonHeights,
+    WeibullHeights,
+)
 from .materials import Material, MaterialPair, materials
 from .particles import Particles
 from .surfaces import Roughness
@@ -37,8 +45,13 @@ __all__ = [
     "Critical",
     "Distribution",
     "Equilibrium",
+    "ExponentialHeights",
+    "GaussianHeights",
+    "Heights",
     "Histogram",
+    "HistogramHeights",
     "InvalidValue",
+    "JohnsonHeights",
     "LogNormal",
     "Material",
     "MaterialPair",
@@ -55,6 +68,7 @@ __all__ = [
     "TurningPoint",
     "Uniform",
     "Weibull",
+    "WeibullHeights",
     "asperity",
     "cite",
     "materials",

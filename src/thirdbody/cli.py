@@ -312,13 +312,9 @@ def reproduce(
     """Every figure and the ledger of claims of a paper."""
     from importlib import import_module
 
-    from .particle import PRESETS
-
     problems = []
     if paper not in PAPERS:
         problems.append(f"paper = {paper!r} must be one of {', '.join(PAPERS)}")
-    if preset not in PRESETS:
-        problems.append(f"--preset {preset} must be one of {', '.join(PRESETS)}")
     folder = out or Path(paper)
     if folder.exists() and not folder.is_dir():
         problems.append(f"--out {folder} must be a folder, and a file of that name exists")
@@ -388,7 +384,7 @@ def laws(
             )
         console.print(f"[{kind}_law]")
         console.print(table)
-        for entry in entries:
+        for entry in filter(lambda entry: entry["options"], entries):
             table = _table((f"options of {entry['name']}", "default", "allowed", "meaning"))
             for option in entry["options"]:
                 default = "-" if option["default"] is None else say(option["default"])

@@ -6,18 +6,16 @@ r"""A contact: laws integrated over populations, at a given separation.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .asperities import asperity_sum
 from .laws.asperity import ZMC, AbstractAsperityLaw
-from .laws.base import REGIMES
 from .laws.particle import AbstractParticleLaw, Series
 from .materials import MaterialPair
-from .numerics import PiecewiseChebyshev, panel_rule, subdivide
 from .particles import Particles
 from .surfaces import Roughness
 from .values import Value
@@ -90,102 +88,6 @@ class Contact(Value):
     def two_body(self) -> bool:
         """No particles between the surfaces."""
         return self.particles is None or self.particles.areal_density == 0
-
-
-class AsperitySum:
-    r"""Loads and areas of all asperities as functions of the separation.
-
-    The integrals :math:`\int q(\omega)\,\phi(d+\omega)\,d\omega` over a Gaussian are sums over
-    fixed interferences: panels split where the law changes its formula, none wider than 1.5 σ_s.
-    With heights in units of σ_s, the sum needs one exponential a node, and the derivatives with
-    respect to d come from the same nodes, jumps of the law included. The sums are tabulated once
-    as Chebyshev series in h.
-
-    Relative error 1e-12 for d from −4 to +12 σ_s about the mean asperity height.
-    """
-
-    WIDTH, NODES = 1.5, 20
-    DEEPEST = 5.0
-    """Separations below −DEEPEST σ_s are outside every asperity model."""
-    DROP = 100.0
-    """Where the exponent has fallen by DROP/2 the rest is left out."""
-    HIGHEST = 38.0
-    """Separations [σ_s] above HIGHEST underflow."""
-
-    def __init__(
-        self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
-    ):
-        self.sigma_s = rough.sigma_s
-        self.centre = datum * rough.sigma
-        H, E_star = surfaces.H, surfaces.E_star
-        law = law.bound(R=rough.R, E_star=E_star, H=H, nu=surfaces.softer.nu)
-        omega_1 = float(law.yield_interference(R=rough.R, E_star=E_star, H=H))
-        w = omega_1 / self.sigma_s
-        end = self.DEEPEST + math.sqrt(self.DEEPEST**2 + self.DROP)
-        kinks = {y * w for y in law.breakpoints if y * w < end}
-        edges = np.array(sorted({0.0, 0.1, 0.4, end} | kinks))
-        edges = subdivide(edges, width=self.WIDTH, ratio=4.0)
-        # √ω as variable in the first panel, where the load starts like ω^(3/2)
-        root, root_weight = panel_rule(np.sqrt(edges[:2]), self.NODES)
-        t, weight = panel_rule(edges[1:], self.NODES)
-        self.t = np.concatenate([root**2, t])
-        weight = np.concatenate([2 * root * root_weight, weight])
-        y = self.t / w
-        scale = rough.density * math.pi * rough.R * omega_1 * weight / math.sqrt(2 * math.pi)
-        force = scale * H * law.reduced("force", y)
-        area = scale * law.reduced("area", y)
-        which = np.searchsorted(law.breakpoints, y, side="right")
-        regime = np.array([branch.regime for branch in law.branches])[which]
-        areas = [np.where(regime == name, area, 0.0) for name in REGIMES]
-        self.columns = np.stack([force, *areas, force * self.t, force * self.t**2], axis=1)
-        self.half_square = 0.5 * self.t**2
-        span = np.array([-self.DEEPEST, 0.0, 3.0, 8.0, 16.0, self.HIGHEST])
-        self._table = PiecewiseChebyshev(self._sum, span, kinds=(0, 1, 1, 1, 2, 3))
-
-    def _sum(self, h: Array) -> Array:
-        """Σ columns · exp(−ht − t²/2) for (N,) separations in σ_s: (N, 6)."""
-        out = np.empty((len(h), self.columns.shape[1]))
-        size = max(1, 200_000 // len(self.t))
-        for start in range(0, len(h), size):
-            part = slice(start, start + size)
-            e = np.multiply.outer(-h[part], self.t)
-            e -= self.half_square
-            np.maximum(e, -700.0, out=e)
-            np.exp(e, out=e)
-            out[part] = e @ self.columns
-        return out
-
-    def _reduced(self, d: Array) -> tuple[Array, Array]:
-        """The sums, the common factor exp(−h²/2) left out, and h."""
-        h = (d - self.centre) / self.sigma_s
-        out = self._table(h)
-        beyond = (h < -self.DEEPEST) | (h > self.HIGHEST)
-        if np.any(beyond):
-            out[beyond] = self._sum(h[beyond])
-        return out, h
-
-    def load(self, d: Array) -> Array:
-        """F_ss without shadow [Pa], and its first and second derivative: (N, 3)."""
-        sums, h = self._reduced(d)
-        m0, m1, m2 = sums[:, 0], sums[:, 4], sums[:, 5]
-        out = np.empty((len(h), 3))
-        out[:, 0] = m0
-        out[:, 1] = -(h * m0 + m1) / self.sigma_s
-        out[:, 2] = ((h * h - 1) * m0 + 2 * h * m1 + m2) / self.sigma_s**2
-        return out * np.exp(-0.5 * h * h)[:, None]
-
-    def fields(self, d: Array) -> Array:
-        """F_ss [Pa], A_e, A_ep, A_p without shadow: (N, 4)."""
-        sums, h = self._reduced(d)
-        return sums[:, :4] * np.exp(-0.5 * h * h)[:, None]
-
-
-@lru_cache(maxsize=512)
-def asperity_sum(
-    law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
-) -> AsperitySum:
-    """The cached `AsperitySum` of a rough surface."""
-    return AsperitySum(law, rough, surfaces, datum)
 
 
 class Interface:

@@ -27,8 +27,6 @@ Number = float | Array
 
 DEEPEST = -3.0
 """Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
-HIGHEST = 37.0
-"""Highest separation searched, in σ_s: above, the Gaussian density underflows."""
 CHUNK = 16_384
 """States solved together: their arrays stay in the processor's cache."""
 P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
@@ -265,12 +263,12 @@ class LoadScan:
         self.bound = bound
         asperities = bound.asperities
         sigma_s, centre = asperities.sigma_s, asperities.centre
-        low, high = centre + DEEPEST * sigma_s, centre + HIGHEST * sigma_s
-        grid = [
-            centre
-            + sigma_s
-            * np.concatenate([np.arange(DEEPEST, 10, 0.2), np.arange(10, HIGHEST + 0.5, 1.0)])
-        ]
+        low, high = centre + DEEPEST * sigma_s, centre + asperities.highest * sigma_s
+        near = np.arange(DEEPEST, min(10.0, asperities.highest), 0.2)
+        far = np.arange(10.0, asperities.highest, 1.0)
+        # the last asperity of a bounded distribution sets in like a power of its distance
+        edge = asperities.highest - np.geomspace(1e-6, 0.2, 12)
+        grid = [centre + sigma_s * np.concatenate([near, far, edge])]
         particles = bound.particles
         if particles is not None:
             top = particles.reach
@@ -281,7 +279,7 @@ class LoadScan:
             else:
                 count = int(np.ceil((top - low) / particles.resolution))
                 grid.append(np.linspace(low, top, min(max(count, 2), 20_000)))
-                high = max(centre + HIGHEST * sigma_s, top)
+                high = max(high, top)
         d = np.unique(np.concatenate(grid))
         d = d[d <= max(high, low)] if particles is None else d
         F = bound.load(d)[:, 0]

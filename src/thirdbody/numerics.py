@@ -54,6 +54,10 @@ def subdivide(edges: Array, *, width: float, ratio: float = np.inf) -> Array:
     return np.concatenate(out)
 
 
+MOST_PANELS = 200
+"""So many panels that still ask to be halved are noise, not structure."""
+
+
 class PiecewiseChebyshev:
     """A vector function on [a, b], Chebyshev series between given breakpoints, split until exact.
 
@@ -106,7 +110,7 @@ class PiecewiseChebyshev:
                     [size[:, np.equal(kinds, kind)].max(axis=1) for kind in kinds], axis=1
                 )
             exact = (tail <= tolerance * size) | (size <= 1e-13 * largest) | (size < 1e-300)
-            good = np.all(exact, axis=1) | (depth == max_depth)
+            good = np.all(exact, axis=1) | (depth == max_depth) | (len(pending) > MOST_PANELS)
             done += [(*pending[i], coefs[i]) for i in np.flatnonzero(good)]
             pending = [
                 half_panel

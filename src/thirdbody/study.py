@@ -366,7 +366,6 @@ class _Reader:
 
     def particles(self, path: str, data: Any) -> Any:
         own = self.keys_of(Particles, path, data)
-        del own["diameter"]
         material = own["material"]
         own["material"] = material._replace(
             about='what the particles are made of, e.g. material = "SiO2"'
@@ -605,7 +604,10 @@ class _Reader:
 
     # ------------------------------------------------------------------ machinery
     def keys_of(self, kind: type, path: str, data: Any) -> dict[str, _Key]:
-        """The keys of a table that stands for a value class."""
+        """The keys of a table that stands for a value class.
+
+        A field of a kind that a file cannot express is left out, and so is not a known key.
+        """
         out = {}
         for item in dataclasses.fields(kind):
             where, value = f"{path}.{item.name}", _get(data, item.name)
@@ -631,7 +633,7 @@ class _Reader:
             elif declared == "str":
                 reader = self.text(where)
             else:
-                reader = Any
+                continue
             out[item.name] = _Key(reader, required, about)
         return out
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from .heights import GaussianHeights, Heights
 from .values import Value, quantity
 
 __all__ = ["ETA_R_SIGMA", "Roughness"]
@@ -32,6 +33,8 @@ class Roughness(Value):
         The product ηRσ [1]; 0.0455 when neither it nor ``eta`` is given.
     eta : float, optional
         Asperity density η [1/m²], instead of ``eta_R_sigma``.
+    heights : Heights, optional
+        Distribution of asperity heights over σ_s; Gaussian by default.
 
     Raises
     ------
@@ -57,10 +60,13 @@ class Roughness(Value):
     alpha: float = quantity("α", "1", "Nayak bandwidth", default=5.0, gt=1.5)
     eta_R_sigma: float | None = quantity("ηRσ", "1", "product ηRσ", default=None, gt=0)
     eta: float | None = quantity("η", "1/m^2", "asperity density", default=None, gt=0)
+    heights: Heights = field(default_factory=GaussianHeights)
 
     def _problems(self) -> list[str]:
         if self.eta is not None and self.eta_R_sigma is not None:
             return ["Roughness.eta and Roughness.eta_R_sigma say the same thing; give one of them"]
+        if not isinstance(self.heights, Heights):
+            return [f"Roughness.heights = {self.heights!r} must be a height distribution"]
         return []
 
     @property

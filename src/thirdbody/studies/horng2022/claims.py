@@ -87,7 +87,7 @@ class Claim:
             low, high = self.interval()
             return f"{number(low)} to {number(high)}"
         words = {"at_most": "≤", "at_least": "≥", "below": "<", "above": ">"}
-        return f"{words[kind]} {number(value)}"
+        return f"{words[kind]} {value:.5g}".replace("-", "−")
 
     def interval(self) -> tuple[float, float]:
         """Allowed interval of every number measured."""
@@ -154,7 +154,9 @@ def number(value: float) -> str:
     """Three or four digits, loads as powers of ten."""
     if not math.isfinite(value):
         return "–"
-    if value != 0 and not 1e-3 <= abs(value) < 1e4:
+    if abs(value) < 1e-12:
+        return "0"
+    if not 1e-3 <= abs(value) < 1e4:
         mantissa, exponent = f"{value:.2e}".split("e")
         return f"{mantissa}e{int(exponent)}".replace("-", "−")
     return f"{value:.4g}".replace("-", "−")

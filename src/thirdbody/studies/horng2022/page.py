@@ -23,7 +23,7 @@ STYLE = """
 :root { --ink: #1c1c1c; --soft: #5b5b5b; --line: #d9d9d9; --pass: #dcefe6; --fail: #fbe3d6;
   --none: #eeeeee; }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 76rem; padding: 1.5rem 1.25rem 4rem; color: var(--ink);
+body { margin: 0 auto; max-width: 92rem; padding: 1.5rem 1.25rem 4rem; color: var(--ink);
   background: #fff; font: 16px/1.5 system-ui, -apple-system, "Segoe UI", sans-serif; }
 h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 .25rem; }
 h2 { font-size: 1.25rem; margin: 2.5rem 0 .5rem; }
@@ -38,13 +38,16 @@ th, td { padding: .3rem .55rem; text-align: left; vertical-align: top;
 thead th { background: #f4f4f4; border-bottom: 2px solid #bbb; }
 td.n, th.n { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
 .bar { display: inline-block; height: .7rem; background: #0072B2; vertical-align: middle; }
-.ledger td.v { white-space: nowrap; font-variant-numeric: tabular-nums; }
+.ledger td.v { font-variant-numeric: tabular-nums; overflow-wrap: normal; }
 .pass { background: var(--pass); } .fail { background: var(--fail); }
 .none { background: var(--none); }
-.ledger { min-width: 84rem; }
-.ledger td:nth-child(2) { width: 26rem; }
+.ledger { table-layout: fixed; width: 100%; min-width: 80rem; font-size: .8rem; }
+.ledger th:nth-child(1) { width: 5.2rem; }
+.ledger th:nth-child(2) { width: 21rem; }
+.ledger th:nth-child(3) { width: 11rem; }
+.ledger th:nth-child(4) { width: 8rem; }
 .ledger-box { max-height: 85vh; overflow: auto; border: 1px solid var(--line); }
-.ledger thead th { position: sticky; top: 0; }
+.ledger thead th { position: sticky; top: 0; z-index: 1; }
 details summary { cursor: pointer; color: var(--soft); font-size: .8rem; }
 details ul { margin: .25rem 0 .25rem 1.1rem; padding: 0; font-size: .8rem; }
 .figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(34rem, 100%), 1fr));
@@ -61,7 +64,7 @@ def page(
     """The whole page; images are name, content, note and SVG of each panel."""
     paper = study_data()["paper"]
     body = [
-        f"<h1>What can be reproduced of {escape(paper['authors'])} {paper['year']}</h1>",
+        "<h1>What can be reproduced of Horng et al. 2022</h1>",
         f"<p class=soft>{escape(paper['title'])}. {escape(paper['journal'])}, "
         f"doi:{escape(paper['doi'])}. Figures drawn with reading {drawn.key} "
         f"({escape(drawn.name)}).</p>",
@@ -190,15 +193,17 @@ def _ledger(ledger: Ledger) -> str:
     head = ["claim", "statement", "measured", "paper, allowed", *(r.key for r in READINGS.values())]
     return (
         "<h2 id=ledger>Ledger</h2><p>✓ met, ✗ not met, – no such quantity in this reading. "
-        "“Allowed” is the judge; it was fixed before anything was computed. Open a row for the "
-        "reasons in words.</p>"
+        "“Allowed” is the tolerance of the statement; none was adjusted to a result. Where a "
+        "statement leaves open for which loads or which material it holds, the inputs in "
+        "claims.json and the definitions below say what was taken. Open a row for the reasons in "
+        "words.</p>"
         + _table(head, rows, "ledger").replace("class=scroll", "class=ledger-box", 1)
     )
 
 
 def _verdict(verdict: Verdict) -> str:
     kind = {"pass": "pass", "fail": "fail"}.get(verdict.word, "none")
-    text = verdict.measured.text if verdict.measured.exists else ""
+    text = verdict.measured.text.replace(" … ", " …<br>") if verdict.measured.exists else ""
     return (
         f"<td class='v {kind}' title='{escape(verdict.why, quote=True)}'>"
         f"{SIGNS[verdict.word]} {text}</td>"

@@ -158,7 +158,7 @@ READINGS: dict[str, Reading] = {
             R=2.8e-6,
             spread=0.08,
             cut=3.0,
-            adjusted="R, σ_a, h_e; χ follows from errata 4 and 6",
+            adjusted="R, σ_a, h_e; χ follows from errata 7 and 9",
         ),
         _printed(
             "V",

@@ -1,0 +1,205 @@
+r"""Sums over all asperities of a rough surface, as functions of the separation.
+
+.. math:: F_{ss}(d) = \eta \int F_1(\omega)\,
+          \phi\!\left(\frac{d+\omega-\mu_0}{\sigma_s}\right)\frac{d\omega}{\sigma_s}
+
+and areas alike. Sums are tabulated once per surface and law as Chebyshev series in the separation.
+Because S(ω) jumps are inside the integral, derivatives with respect to d hold jumps of the law.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .heights import GaussianHeights
+from .laws.base import REGIMES, AbstractAsperityLaw
+from .materials import MaterialPair
+from .numerics import PiecewiseChebyshev, panel_rule, subdivide
+from .surfaces import Roughness
+
+__all__ = ["AsperitySum", "DensitySum", "GaussianSum", "asperity_sum"]
+
+Array = NDArray[np.float64]
+KINDS = (0, 1, 1, 1)
+"""Which columns are measured against each other: load, areas by regime."""
+
+
+class AsperitySum:
+    """One law on one rough surface: what its subclasses, made for a kind of heights, share."""
+
+    NODES = 20
+    DEEPEST = 5.0
+    """Separations below −DEEPEST σ_s are outside every asperity model."""
+    highest: float
+    """Separation [σ_s] above which no asperity is in contact, or the density underflows."""
+
+    def __init__(
+        self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
+    ):
+        E_star, H = surfaces.E_star, surfaces.H
+        self.law = law.bound(R=rough.R, E_star=E_star, H=H, nu=surfaces.softer.nu)
+        self.heights = rough.heights
+        self.sigma_s = rough.sigma_s
+        self.centre = datum * rough.sigma
+        omega_1 = float(self.law.yield_interference(R=rough.R, E_star=E_star, H=H))
+        self.w = omega_1 / self.sigma_s
+        self.start = self.law.start * self.w
+        self.area_unit = rough.density * math.pi * rough.R * omega_1
+        self.force_unit = self.area_unit * H
+
+    def _per_asperity(self, t: Array) -> Array:
+        """Load [Pa] and area by regime of asperities pressed by t = ω/σ_s: (..., 4)."""
+        y = t / self.w
+        which = np.searchsorted(self.law.breakpoints, y, side="right")
+        regime = np.array([branch.regime for branch in self.law.branches])[which]
+        area = self.area_unit * self.law.reduced("area", y)
+        areas = [np.where(regime == name, area, 0.0) for name in REGIMES]
+        return np.stack([self.force_unit * self.law.reduced("force", y), *areas], axis=-1)
+
+    def _kinks(self, end: float) -> list[float]:
+        """Interferences [σ_s] where the law changes its formula."""
+        return [y * self.w for y in self.law.breakpoints if self.start < y * self.w < end]
+
+    def load(self, d: Array) -> Array:
+        """F_ss without shadow [Pa], and its first and second derivative: (N, 3)."""
+        raise NotImplementedError
+
+    def fields(self, d: Array) -> Array:
+        """F_ss [Pa], A_e, A_ep, A_p without shadow: (N, 4)."""
+        raise NotImplementedError
+
+
+class GaussianSum(AsperitySum):
+    """Gaussian heights: sums over fixed interferences, one exponential a node.
+
+    With h = (d − μ_0)/σ_s the density is exp(−h²/2)·exp(−ht − t²/2): the first factor is taken
+    out, so nothing underflows, and the derivatives with respect to h come from the moments of
+    the same nodes. Relative error 1e-12 for h from −4 to +12.
+    """
+
+    WIDTH = 1.5
+    DROP = 100.0
+    """Where the exponent has fallen by DROP/2 the rest is left out."""
+    highest = 37.0
+
+    def __init__(
+        self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
+    ):
+        super().__init__(law, rough, surfaces, datum)
+        end = self.DEEPEST + math.sqrt(self.DEEPEST**2 + self.DROP)
+        edges = np.array(sorted({0.0, 0.1, 0.4, end, *self._kinks(end)}))
+        if self.start < 0:
+            edges = np.concatenate([[self.start], edges])
+        edges = subdivide(edges, width=self.WIDTH, ratio=4.0)
+        # the root as variable in the first panel, where the load starts like a power of it
+        root, root_weight = panel_rule(np.sqrt(edges[:2] - self.start), self.NODES)
+        t, weight = panel_rule(edges[1:], self.NODES)
+        self.t = np.concatenate([self.start + root**2, t])
+        weight = np.concatenate([2 * root * root_weight, weight]) / math.sqrt(2 * math.pi)
+        columns = weight[:, None] * self._per_asperity(self.t)
+        force = columns[:, :1]
+        self.columns = np.hstack([columns, force * self.t[:, None], force * self.t[:, None] ** 2])
+        span = np.array([-self.DEEPEST, 0.0, 3.0, 8.0, 16.0, self.highest + 1])
+        self.table = PiecewiseChebyshev(self._sum, span, kinds=(*KINDS, 2, 3))
+
+    def _sum(self, h: Array) -> Array:
+        """Σ columns · exp(−ht − t²/2) for (N,) separations in σ_s: (N, 6)."""
+        out = np.empty((len(h), self.columns.shape[1]))
+        size = max(1, 200_000 // len(self.t))
+        for start in range(0, len(h), size):
+            part = slice(start, start + size)
+            e = np.multiply.outer(-h[part], self.t)
+            e -= 0.5 * self.t**2
+            np.maximum(e, -700.0, out=e)
+            np.exp(e, out=e)
+            out[part] = e @ self.columns
+        return out
+
+    def _reduced(self, d: Array) -> tuple[Array, Array]:
+        """The sums, the common factor exp(−h²/2) left out, and h."""
+        h = (d - self.centre) / self.sigma_s
+        out = self.table(h)
+        low, high = self.table.edges[[0, -1]]
+        if np.any(beyond := (h < low) | (h > high)):
+            out[beyond] = self._sum(h[beyond])
+        return out, h
+
+    def load(self, d: Array) -> Array:
+        sums, h = self._reduced(d)
+        m0, m1, m2 = sums[:, 0], sums[:, 4], sums[:, 5]
+        out = np.empty((len(h), 3))
+        out[:, 0] = m0
+        out[:, 1] = -(h * m0 + m1) / self.sigma_s
+        out[:, 2] = ((h * h - 1) * m0 + 2 * h * m1 + m2) / self.sigma_s**2
+        return out * np.exp(-0.5 * h * h)[:, None]
+
+    def fields(self, d: Array) -> Array:
+        sums, h = self._reduced(d)
+        return sums[:, :4] * np.exp(-0.5 * h * h)[:, None]
+
+
+class DensitySum(AsperitySum):
+    """Any other heights: panels split where the law or the density changes its formula."""
+
+    def __init__(
+        self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
+    ):
+        super().__init__(law, rough, surfaces, datum)
+        pieces = np.array(self.heights.pieces)
+        self.highest = float(self.heights.highest - self.start)
+        end = pieces[-1] + self.DEEPEST
+        marks = [self.start, *self._kinks(end)]
+        edges = np.array(sorted({*marks, 0.0, 0.1, 0.4, end}))
+        self.marks = subdivide(edges, width=np.inf, ratio=4.0)
+        knots = {z - t for z in self.heights.kinks for t in marks}
+        inside = sorted(k for k in knots if -self.DEEPEST < k < self.highest)
+        span = np.array([-self.DEEPEST, *inside, self.highest])
+        span = subdivide(span, width=4.0)
+        self.table = PiecewiseChebyshev(self._sum, span, tolerance=1e-13, max_depth=30, kinds=KINDS)
+
+    def _sum(self, h: Array) -> Array:
+        """∫ columns(t) φ(h + t) dt for (N,) separations in σ_s: (N, 4)."""
+        pieces = np.array(self.heights.pieces)
+        shape = (len(h), len(self.marks))
+        edges = np.concatenate([pieces - h[:, None], np.broadcast_to(self.marks, shape)], axis=1)
+        low = np.maximum(self.start, pieces[0] - h)[:, None]
+        edges = np.clip(edges, low, np.maximum(low, pieces[-1] - h[:, None]))
+        root, weight = panel_rule(np.sort(np.sqrt(edges - self.start), axis=1), 16)
+        t = self.start + root**2
+        density = self.heights.pdf(h[:, None] + t) * 2 * root * weight
+        used = density > 0
+        columns = np.zeros((*t.shape, 4))
+        columns[used] = self._per_asperity(t[used])
+        return np.einsum("hn,hnk->hk", density, columns)
+
+    def load(self, d: Array) -> Array:
+        h = (d - self.centre) / self.sigma_s
+        low, high = self.table.edges[[0, -1]]
+        out = self.table.derivatives(np.clip(h, low, high), (0,))[:, 0]
+        out[h > high] = 0.0
+        if np.any(below := h < low):
+            out[below] = np.nan
+            out[below, 0] = self._sum(h[below])[:, 0]
+        return out / self.sigma_s ** np.arange(3)
+
+    def fields(self, d: Array) -> Array:
+        h = (d - self.centre) / self.sigma_s
+        low, high = self.table.edges[[0, -1]]
+        out = self.table(np.clip(h, low, high))
+        out[h > high] = 0.0
+        if np.any(below := h < low):
+            out[below] = self._sum(h[below])
+        return out
+
+
+@lru_cache(maxsize=512)
+def asperity_sum(
+    law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
+) -> AsperitySum:
+    """The cached sum over the asperities of a rough surface."""
+    kind = GaussianSum if isinstance(rough.heights, GaussianHeights) else DensitySum
+    return kind(law, rough, surfaces, datum)
