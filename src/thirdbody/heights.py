@@ -327,8 +327,7 @@ def _johnson(skewness: float, kurtosis: float) -> tuple[str, tuple[float, float,
                 break
         if best.cost < 1e-24:
             break
-    assert best is not None
-    if best.cost > 1e-16:
+    if best is None or best.cost > 1e-16:
         raise InvalidValue(
             f"JohnsonHeights: no member of the family has skewness {skewness:g} and kurtosis "
             f"{kurtosis:g}; they lie too close to the limit kurtosis = skewness² + 1"

@@ -85,7 +85,7 @@ class AbstractAsperityLaw(Law):
 
     @property
     def start(self) -> float:
-        """Reduced interference at which the contact exists; negative where adhesion stretches it."""
+        """Reduced interference at which contact begins; negative where adhesion stretches it."""
         return 0.0
 
     @property

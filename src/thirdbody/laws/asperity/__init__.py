@@ -1,6 +1,7 @@
 """Laws of one asperity. A new law is one file here and one import line below."""
 
 from ..base import AbstractAsperityLaw, Branch
+from .adhesive import DMT, JKR
 from .ceb import CEB
 from .elliptic import EllipticCEB, EllipticZMC, elliptic_hertz
 from .gw import GW
@@ -14,8 +15,10 @@ REGISTRY = AbstractAsperityLaw.registry
 
 __all__ = [
     "CEB",
+    "DMT",
     "GW",
     "JG",
+    "JKR",
     "KE",
     "REGISTRY",
     "ZMC",

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
-from typing import Any
+from typing import Any, SupportsFloat
 
 __all__ = ["Claim", "Errata", "Measurement", "Verdict", "claims", "errata", "study_data"]
 
@@ -27,7 +27,7 @@ class Measurement:
     note: str = ""
 
     @classmethod
-    def of(cls, *values: float, note: str = "") -> Measurement:
+    def of(cls, *values: SupportsFloat, note: str = "") -> Measurement:
         return cls(tuple(float(value) for value in values), note)
 
     @classmethod

@@ -309,7 +309,7 @@ CRITICAL_ROUGHNESSES = (50, 75, 100, 150, 200, 300, 400, 500)
 
 
 def _critical(
-    curves: Curves, name: str, critical: Callable[[Curve], float], symbol: str, words: str
+    curves: Curves, name: str, critical: Callable[[Curve], float], number: str, words: str
 ) -> Panel:
     lines = []
     for x_a in CRITICAL_SIZES:
@@ -324,9 +324,9 @@ def _critical(
     return Panel(
         name,
         f"{words} critical load",
-        ("sigma_nm", f"F_{name[-1] == 'a' and 'cr1' or 'cr2'}"),
+        ("sigma_nm", f"F_cr{number}"),
         "roughness $\\sigma$ [nm]",
-        (f"{words} critical load {symbol} [1]",),
+        (rf"{words} critical load $F_{{cr{number}}}^*$ [1]",),
         lines,
         xlog=False,
         xlim=(25, 525),
@@ -336,7 +336,7 @@ def _critical(
 
 
 def fig_9a(curves: Curves) -> Panel:
-    panel = _critical(curves, "9a", critical_load_1, "$F_{cr1}^*$", "first")
+    panel = _critical(curves, "9a", critical_load_1, "1", "first")
     panel.marks.extend(
         [
             Mark("SiO$_2$ 300 nm", 100, 7.5e-6, by=300),
@@ -348,7 +348,7 @@ def fig_9a(curves: Curves) -> Panel:
 
 
 def fig_9b(curves: Curves) -> Panel:
-    panel = _critical(curves, "9b", critical_load_2, "$F_{cr2}^*$", "second")
+    panel = _critical(curves, "9b", critical_load_2, "2", "second")
     panel.marks.extend(
         [
             Mark("SiO$_2$ 300 nm", 100, 5.1e-5, by=300),
@@ -416,11 +416,10 @@ SEPARATION_SIZES = (*range(0, 300, 25), *range(300, 1001, 50))
 
 
 def _separation(curves: Curves, name: str, starred: bool) -> Panel:
-    loads = np.array([SEPARATION_LOAD])
     lines = []
     for sigma in ROUGHNESSES:
         for material in BOTH:
-            states = [curves.under(loads, material, sigma, x_a) for x_a in SEPARATION_SIZES]
+            states = [curves.at(SEPARATION_LOAD, material, sigma, x) for x in SEPARATION_SIZES]
             y = np.array([s.d_star[0] if starred else 1e9 * s.d[0] for s in states])
             x = np.array(SEPARATION_SIZES, dtype=float)
             lines.append(Line(material, sigma, np.nan, x, (y,), by=sigma))
@@ -466,8 +465,8 @@ def fig_12a(curves: Curves) -> Panel:
             Mark("SiO$_2$ 500 nm", 7e-6, 8.52, by=500),
             Mark("SiO$_2$ 500 nm", 3e-5, 2.62, by=500, left=True),
         ],
-        note="The paper does not state σ; 100 nm is taken. It reads d* up to 5.8 (1000 nm) and 2 times "
-        "(500 nm)\nthat of bare surfaces; 9.15 follows from 8.52 and −6.89 %.",
+        note="The paper does not state σ; 100 nm is taken. It reads d* up to 5.8 (1000 nm) and 2 "
+        "times (500 nm)\nthat of bare surfaces; 9.15 follows from 8.52 and −6.89 %.",
     )
 
 
@@ -486,8 +485,8 @@ def fig_12b(curves: Curves) -> Panel:
         xlog=False,
         xlim=(0, None),
         ylim=(3e-6, 3e-2),
-        note="The paper does not state σ; 100 nm is taken. It reads 30 % more d* for 9 % less area in the "
-        "hybrid mode of 500 nm SiO₂.",
+        note="The paper does not state σ; 100 nm is taken. It reads 30 % more d* for 9 % less area "
+        "in the hybrid mode of 500 nm SiO₂.",
     )
 
 
@@ -560,7 +559,11 @@ def draw(panel: Panel, subtitle: str = "") -> Figure:
     grid = figure.subplots(count, 1, sharex=True, squeeze=False)[:, 0]
     high = figure.get_figheight()
     figure.subplots_adjust(
-        left=0.11, right=0.69, bottom=(0.85 if panel.note else 0.6) / high, top=1 - 0.65 / high, hspace=0.08
+        left=0.11,
+        right=0.69,
+        bottom=(0.85 if panel.note else 0.6) / high,
+        top=1 - 0.65 / high,
+        hspace=0.08,
     )
     styles = _styles()[panel.by]
     for ax, ordinate, label in zip(grid, range(count), panel.ylabels, strict=True):

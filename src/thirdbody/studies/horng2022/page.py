@@ -58,9 +58,7 @@ figcaption { font-size: .85rem; }
 """
 
 
-def page(
-    ledger: Ledger, drawn: Reading, images: list[tuple[str, str, str, bytes]]
-) -> str:
+def page(ledger: Ledger, drawn: Reading, images: list[tuple[str, str, str, bytes]]) -> str:
     """The whole page; images are name, content, note and SVG of each panel."""
     paper = study_data()["paper"]
     body = [
@@ -196,8 +194,7 @@ def _ledger(ledger: Ledger) -> str:
         "“Allowed” is the tolerance of the statement; none was adjusted to a result. Where a "
         "statement leaves open for which loads or which material it holds, the inputs in "
         "claims.json and the definitions below say what was taken. Open a row for the reasons in "
-        "words.</p>"
-        + _table(head, rows, "ledger").replace("class=scroll", "class=ledger-box", 1)
+        "words.</p>" + _table(head, rows, "ledger").replace("class=scroll", "class=ledger-box", 1)
     )
 
 

@@ -40,7 +40,7 @@ QUOTED = (
     *(5e-7, 1e-6, 2e-6, 7e-6, 7.5e-6, 1e-5, 2e-5, 3e-5, 5.1e-5, 1e-4, 1.2e-4, 1.5e-4),
     *RANGE,
 )
-LOADS = np.unique(np.concatenate([np.geomspace(RANGE[0], SEARCH_TO, 241), QUOTED]))
+LOADS = np.unique([*np.geomspace(RANGE[0], SEARCH_TO, 241), *QUOTED])
 """Loads F* at which every curve is computed: an even grid in log F*, and those the text names."""
 
 
@@ -276,7 +276,7 @@ class Curves:
 
     def __init__(self, reading: Reading):
         self.reading = reading
-        self._known: dict[tuple[str, float, float], Curve] = {}
+        self._known: dict[tuple[Any, ...], Curve] = {}
 
     def __call__(self, material: str, sigma: float, x_a: float) -> Curve:
         """The curve for a particle material, σ and x_a in nm, at `LOADS`."""
@@ -289,6 +289,13 @@ class Curves:
         """The curve without particles."""
         return self(STEEL, sigma, 0)
 
+    def at(self, load: float, material: str, sigma: float, x_a: float) -> Curve:
+        """The single state under one load, kept."""
+        key = (material if x_a else "", sigma, x_a, load)
+        if key not in self._known:
+            self._known[key] = self.under(np.array([load]), material, sigma, x_a)
+        return self._known[key]
+
     def under(self, loads: Array, material: str, sigma: float, x_a: float) -> Curve:
         """The curve at other loads, not kept."""
         contact = self.reading.contact(material, sigma, x_a)
@@ -300,12 +307,12 @@ class Curves:
             if self.reading.paper_booking and x_a:
                 areas = self._as_the_paper_books(state, contact)
         # h has one meaning in every law; the reading says how far below it counts d
-        d = state.h - contact.roughness.y_s + self.reading.datum * sigma * NM
+        d = np.asarray(state.h) - contact.roughness.y_s + self.reading.datum * sigma * NM
         return Curve(
             F=np.asarray(loads),
             d=d,
             d_star=d / (sigma * NM),
-            load_share=state.particle_load_share,
+            load_share=np.asarray(state.particle_load_share),
             **areas,
         )
 

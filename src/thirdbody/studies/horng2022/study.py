@@ -240,9 +240,7 @@ def as_json(ledger: Ledger, preset: str) -> dict[str, Any]:
                 "passed": ledger.total(name, paper_booking=True),
                 "gained": ledger.changed_by_booking(name)[0],
                 "lost": ledger.changed_by_booking(name)[1],
-                "results": {
-                    key: verdict(one) for key, one in ledger.paper_booking[name].items()
-                },
+                "results": {key: verdict(one) for key, one in ledger.paper_booking[name].items()},
             }
             for name in CONSISTENT
         },
