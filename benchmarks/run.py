@@ -1,6 +1,6 @@
 """Speed as ratios inside one run: this library beside the script a user would write.
 
-    python benchmarks/run.py
+python benchmarks/run.py
 """
 
 from __future__ import annotations
@@ -62,9 +62,10 @@ def main() -> int:
     fast = np.asarray(tb.solve(contact("plane"), F_star=loads).d)
     worst = np.max(np.abs(fast / slow - 1))
     plane, rough = rate("plane", 200_000), rate("rough", 200_000)
-    command = "import time; t = time.perf_counter(); import thirdbody; print(time.perf_counter() - t)"
+    command = "from time import *; t = perf_counter(); import thirdbody; print(perf_counter() - t)"
+    call = [sys.executable, "-c", command]
     imports = [
-        float(subprocess.run([sys.executable, "-c", command], capture_output=True, text=True).stdout)
+        float(subprocess.run(call, capture_output=True, text=True, check=True).stdout)
         for _ in range(3)
     ]
     rows = [

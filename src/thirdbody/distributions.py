@@ -385,7 +385,8 @@ class Weibull(Distribution):
         return np.where((x > lo) & (x <= hi), dens, 0.0)
 
     def ppf(self, q: ArrayLike) -> Array:
-        x = self.scale * (-np.log1p(-np.asarray(q, dtype=float))) ** (1 / self.shape)
+        with np.errstate(divide="ignore"):
+            x = self.scale * (-np.log1p(-np.asarray(q, dtype=float))) ** (1 / self.shape)
         return np.clip(x, *self.support)
 
     def partial_moment(self, n: int, a: ArrayLike, b: ArrayLike) -> Array:

@@ -209,7 +209,9 @@ def solve(
         scan = LoadScan(bound)
         separation, iterations, status = scan.solve(values, branch)
         target = values
-    result = _state(contact, bound, separation, status, iterations, target, scalar)
+    # E·F*/E is not F* to the last digit: the given values are kept
+    given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
+    result = _state(contact, bound, separation, status, iterations, target, scalar, given)
     if scalar and result.status != "ok":
         raise NoEquilibrium(result.status)
     for sentence in result.warnings:
@@ -365,6 +367,7 @@ def _state(
     iterations: Array,
     target: Array | None,
     scalar: bool,
+    F_star: Array | None = None,
 ) -> Equilibrium:
     """Every column at given separations."""
     known = np.flatnonzero(np.isfinite(d))
@@ -383,7 +386,7 @@ def _state(
         "d": d,
         "h": d + bound.mean_plane,
         "d_star": d / contact.roughness.sigma,
-        "F_star": load / E,
+        "F_star": load / E if F_star is None else F_star,
         "pressure": load,
         "F_ss_star": full["F_ss"] / E,
         "F_sa_star": full["F_sa"] / E,

@@ -13,7 +13,7 @@ import math
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy import special
@@ -317,7 +317,7 @@ def _johnson(skewness: float, kurtosis: float) -> tuple[str, tuple[float, float,
         _, _, s, k = shape(g(1.0, (n - p[0]) * math.exp(-p[1])))
         return np.array([s - skewness, k - kurtosis])
 
-    best = None
+    best: Any = None
     for gamma in (0.0, -2.0 * np.sign(skewness), -5.0 * np.sign(skewness), 0.5):
         for log_delta in (0.0, 1.0, -0.5, 2.0):
             fit = least_squares(misfit, [gamma, log_delta], xtol=1e-15, ftol=1e-15, gtol=1e-15)

@@ -20,7 +20,7 @@ WORK_HINT = "mJ/m² are 50e-3; w is γ_1 + γ_2 − γ_12, not γ"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JKR(AbstractAsperityLaw):
-    r"""Johnson, Kendall and Roberts: adhesion inside the contact. Summed over heights: Fuller–Tabor.
+    r"""Johnson, Kendall and Roberts: adhesion in the contact. Summed over heights: Fuller–Tabor.
 
     With :math:`X=(\pi^2w^2R/E^{*2})^{1/3}` and :math:`s^4/4-s=\omega/X,\ s\ge1`,
 

@@ -585,7 +585,7 @@ def draw(panel: Panel, subtitle: str = "") -> Figure:
         ax.set_axisbelow(True)
         _draw_quoted(ax, panel, styles, numbers=ordinate == 0)
     grid[-1].set_xlabel(panel.xlabel)
-    small = dict(fontsize=7.5, color="0.3")
+    small: dict[str, Any] = dict(fontsize=7.5, color="0.3")
     figure.text(
         0.02, 1 - 0.17 / high, f"Fig. {panel.name}: {panel.about}", fontsize=10, va="center"
     )
@@ -683,7 +683,7 @@ def _legend(figure: Figure, panel: Panel, styles: dict[float, tuple[str, str]]) 
         if value == 0:
             handles.append(Line2D([], [], color=colour, linewidth=4.5, label="no particles"))
         else:
-            style = dict(color=colour, marker=marker, markersize=5, linewidth=1.4)
+            style: dict[str, Any] = dict(color=colour, marker=marker, markersize=5, linewidth=1.4)
             handles.append(Line2D([], [], label=f"{value:g}", **style))
     materials = {line.material for line in panel.lines} - {""}
     header("particles")
@@ -716,7 +716,7 @@ def _legend(figure: Figure, panel: Panel, styles: dict[float, tuple[str, str]]) 
         if isinstance(mark.x, tuple):
             handles.append(Patch(facecolor=colour, alpha=0.2, label=mark.label))
         elif mark.y is not None:
-            cross = dict(linestyle="none", marker="x", markersize=7, mew=1.6)
+            cross: dict[str, Any] = dict(linestyle="none", marker="x", markersize=7, mew=1.6)
             handles.append(Line2D([], [], color=colour, label=mark.label, **cross))
         else:
             dash = "--" if mark.dashed else ":"
@@ -736,7 +736,7 @@ def _legend(figure: Figure, panel: Panel, styles: dict[float, tuple[str, str]]) 
     )
     for text in legend.get_texts():
         if text.get_text() in (f"{symbol} [nm]", "particles", "quoted in the paper"):
-            text.set_weight("bold")
+            text.set_fontweight("bold")
             text.set_x(-30)
 
 
