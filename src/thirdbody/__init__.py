@@ -19,7 +19,7 @@ from .distributions import (
     Uniform,
     Weibull,
 )
-from .equilibrium import Equilibrium, roots, solve
+from .equilibrium import Equilibrium, pull_off, roots, solve
 from .errors import InvalidValue, NoEquilibrium, NoTransition, RangeWarning, ThirdBodyError
 from .heights import (
     ExponentialHeights,
@@ -74,6 +74,7 @@ __all__ = [
     "materials",
     "particle",
     "plot",
+    "pull_off",
     "roots",
     "solve",
     "sweep",

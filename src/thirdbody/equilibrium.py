@@ -19,7 +19,7 @@ from .contact import Contact, Interface, interface
 from .errors import InvalidValue, NoEquilibrium, RangeWarning
 from .numerics import halley_root
 
-__all__ = ["Equilibrium", "roots", "solve"]
+__all__ = ["Equilibrium", "pull_off", "roots", "solve"]
 
 Array = NDArray[np.float64]
 Index = NDArray[np.intp]
@@ -258,6 +258,54 @@ def roots(
     ]
 
 
+def pull_off(contact: Contact) -> tuple[float, float]:
+    r"""The largest tension that adhesion holds, and the separation where it does.
+
+    .. math:: p_{off} = -\min_d F_t(d)/A_n
+
+    Parameters
+    ----------
+    contact : Contact
+        With an adhesive asperity law, `JKR` with ``unloading=True`` or `DMT`.
+
+    Returns
+    -------
+    pressure, d : float
+        Tension p_off [Pa], zero without adhesion, and separation [m].
+
+    References
+    ----------
+    Fuller, Tabor 1975, Proc. R. Soc. A 345, 327, doi:10.1098/rspa.1975.0138.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> rubber = tb.Material(E=2e6, nu=0.49, H=1e6)
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(rubber, rubber),
+    ...                      roughness=tb.Roughness(sigma=1e-6, R=100e-6),
+    ...                      asperity_law=tb.asperity.JKR(w=0.05, unloading=True))
+    >>> pull_off(contact)[0] > 0
+    True
+    """
+    from scipy.optimize import minimize_scalar
+
+    bound = interface(contact)
+    asperities = bound.asperities
+    steps = np.linspace(DEEPEST, min(asperities.highest, 10.0), 400)
+    d = asperities.centre + asperities.sigma_s * steps
+    F = bound.load(d)[:, 0]
+    i = int(np.argmin(F))
+    if F[i] >= 0:
+        return 0.0, float(d[-1])
+    found = minimize_scalar(
+        lambda x: float(bound.load(np.array([x]))[0, 0]),
+        bounds=(d[max(i - 1, 0)], d[min(i + 1, len(d) - 1)]),
+        method="bounded",
+        options={"xatol": 1e-10 * asperities.sigma_s},
+    )
+    return -float(found.fun), float(found.x)
+
+
 class LoadScan:
     """The total load on a grid of separations, from the highest down, ready to bracket loads."""
 
@@ -281,12 +329,25 @@ class LoadScan:
             else:
                 count = int(np.ceil((top - low) / particles.resolution))
                 grid.append(np.linspace(low, top, min(max(count, 2), 20_000)))
-                high = max(high, top)
         d = np.unique(np.concatenate(grid))
-        d = d[d <= max(high, low)] if particles is None else d
         F = bound.load(d)[:, 0]
+        if np.any(F < 0):
+            # adhesion: the load sets in at a separation where it changes its sign
+            d = np.append(d, self._onset(d, F) - sigma_s * np.geomspace(1e-9, 0.2, 30))
+            d = np.unique(d)
+            F = bound.load(d)[:, 0]
         useful = F > 0
         self.d, self.log_F = d[useful][::-1], np.log(F[useful][::-1])
+
+    def _onset(self, d: Array, F: Array) -> float:
+        """The highest separation at which the load changes its sign."""
+        from scipy.optimize import brentq
+
+        above = np.flatnonzero(F > 0)
+        if not len(above) or above[-1] == len(d) - 1:
+            return float(d[-1])
+        low, high = d[above[-1]], d[above[-1] + 1]
+        return float(brentq(lambda x: self.bound.load(np.array([x]))[0, 0], low, high, xtol=1e-24))
 
     # ------------------------------------------------------------------ brackets
     def cells(self, target: Array, branch: str) -> Index:

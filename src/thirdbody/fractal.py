@@ -176,8 +176,8 @@ class MajumdarBhushan(Value):
     def fraction(self, pressure: ArrayLike) -> Array:
         """Real area per nominal area [1] under a nominal pressure [Pa].
 
-        It stops at 1, far outside the model. Real areas add up over n times the surface only if
-        a_L is that of the whole nominal area, which therefore must be given.
+        The area of `nominal_area` at the load p A_n, at most 1. The load is not proportional to
+        the area, so the fraction depends on A_n.
         """
         if self.nominal_area is None:
             raise InvalidValue("MajumdarBhushan.nominal_area is needed for a pressure [m^2]")
@@ -473,7 +473,7 @@ class ParticleFilm:
         """Load and area of one contact, the area at most the great circle."""
         E_star, H_0, nu = side
         assert self.model.size_effect is not None
-        law = self.model.law.bound(E_star=E_star, H=H_0, nu=nu)
+        law = self.model.law.bound(R=self.sizes.mean_diameter / 2, E_star=E_star, H=H_0, nu=nu)
         depth = np.maximum(delta, 1e-300)
         H = H_0 * np.asarray(self.model.size_effect(depth), dtype=float)
         H = np.minimum(H, 1e6 * E_star)  # elastic by far
@@ -603,12 +603,13 @@ class GhaedniaMultiscale(Value):
         ]
         if out:
             return out
-        E_star = self.surfaces.E_star
-        if not math.isclose(self.surface.E_star, E_star, rel_tol=1e-6):
-            out.append(
-                f"GhaedniaMultiscale.surface.E_star = {self.surface.E_star:g} differs from that of "
-                f"the surfaces, {E_star:g} Pa"
-            )
+        for name in ("E_star", "H"):
+            own, given = getattr(self.surface, name), getattr(self.surfaces, name)
+            if own is not None and not math.isclose(own, given, rel_tol=1e-6):
+                out.append(
+                    f"GhaedniaMultiscale.surface.{name} = {own:g} Pa differs from that of the "
+                    f"surfaces, {given:g} Pa"
+                )
         if isinstance(self.law, JG) and self.size_effect is not None:
             out.append(
                 "GhaedniaMultiscale.law = JG has its own hardness; use another with a size_effect"

@@ -82,7 +82,7 @@ def hertz_point(force: ArrayLike, *, R: float, E_star: float) -> HertzPoint:
     --------
     >>> ball = hertz_point(10.0, R=5e-3, E_star=112e9)
     >>> round(float(ball.contact_radius) * 1e6, 3), round(float(ball.peak_pressure) / 1e9, 4)
-    (69.431, 0.9901)
+    (69.439, 0.9902)
     """
     F = np.asarray(force, dtype=float)
     a = np.cbrt(0.75 * F * R / E_star)
@@ -115,8 +115,8 @@ def gaussian_integral(n: float, h: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> [round(float(gaussian_integral(2.5, h)), 8) for h in (0.0, 3.0, 5.0)]
-    [0.61663538, 0.0001726, 2e-08]
+    >>> gaussian_integral(2.5, [0.0, 3.0, 5.0])
+    array([6.16634216e-01, 1.70873331e-04, 1.05371530e-08])
     """
     if not n >= 0:
         raise InvalidValue(f"gaussian_integral n = {n!r} must be >= 0")

@@ -71,7 +71,8 @@ class Claim:
     paper: str
     rule: dict[str, Any]
     remark: str = ""
-    excludes: tuple[str, ...] = ()
+    conflicts: tuple[str, ...] = ()
+    """Claims that the printed equations cannot meet at the same time."""
 
     @property
     def allowed(self) -> str:
@@ -139,7 +140,7 @@ class Errata:
 def claims() -> tuple[Claim, ...]:
     """All statements in the order of the paper."""
     return tuple(
-        Claim(**{**entry, "excludes": tuple(entry.get("excludes", ()))})
+        Claim(**{**entry, "conflicts": tuple(entry.get("conflicts", ()))})
         for entry in study_data()["claims"]
     )
 

@@ -41,8 +41,9 @@ td.n, th.n { text-align: right; white-space: nowrap; font-variant-numeric: tabul
 .ledger td.v { font-variant-numeric: tabular-nums; overflow-wrap: normal; }
 .pass { background: var(--pass); } .fail { background: var(--fail); }
 .none { background: var(--none); }
-.ledger { table-layout: fixed; width: 100%; min-width: 80rem; font-size: .8rem; }
-.ledger th:nth-child(1) { width: 5.2rem; }
+.ledger { table-layout: fixed; width: 100%; min-width: 80rem; font-size: .78rem; }
+.ledger b { white-space: nowrap; }
+.ledger th:nth-child(1) { width: 5.4rem; }
 .ledger th:nth-child(2) { width: 21rem; }
 .ledger th:nth-child(3) { width: 11rem; }
 .ledger th:nth-child(4) { width: 8rem; }
@@ -200,10 +201,14 @@ def _ledger(ledger: Ledger) -> str:
 
 def _verdict(verdict: Verdict) -> str:
     kind = {"pass": "pass", "fail": "fail"}.get(verdict.word, "none")
-    text = verdict.measured.text.replace(" … ", " …<br>") if verdict.measured.exists else ""
+    text = (
+        verdict.measured.text.replace(" … ", "&nbsp;…<br>&nbsp;&nbsp;&nbsp;")
+        if verdict.measured.exists
+        else ""
+    )
     return (
         f"<td class='v {kind}' title='{escape(verdict.why, quote=True)}'>"
-        f"{SIGNS[verdict.word]} {text}</td>"
+        f"{SIGNS[verdict.word]}&nbsp;{text}</td>"
     )
 
 
@@ -216,8 +221,9 @@ def _statement(claim: Claim, ledger: Ledger) -> str:
     text = symbols(claim.statement) + "."
     if claim.remark:
         text += f"<br><span class=soft>{symbols(claim.remark)}</span>"
-    if claim.excludes:
-        others = ", ".join(f"<a href='#{name}'>{name}</a>" for name in claim.excludes)
+    apart = [other for other in claim.conflicts if not ledger.together(claim.id, other)]
+    if apart:
+        others = ", ".join(f"<a href='#{name}'>{name}</a>" for name in apart)
         text += f"<br><span class=soft>No reading meets it together with {others}.</span>"
     return f"{text}<details><summary>reasons</summary><ul>{items}</ul></details>"
 

@@ -43,6 +43,10 @@ class Ledger:
         lost = [key for key in own if own[key].passed and not booked[key].passed]
         return gained, lost
 
+    def together(self, one: str, other: str) -> bool:
+        """Whether some reading meets both claims."""
+        return any(scored[one].passed and scored[other].passed for scored in self.verdicts.values())
+
     def met_by(self, names: list[str]) -> tuple[int, int]:
         """Claims met by all of several readings, and by at least one of them."""
         passed = [[self.verdicts[name][claim.id].passed for name in names] for claim in claims()]
@@ -230,7 +234,7 @@ def as_json(ledger: Ledger, preset: str) -> dict[str, Any]:
                 "allowed": claim.allowed,
                 "rule": claim.rule,
                 "remark": claim.remark,
-                "never_jointly_with": list(claim.excludes),
+                "conflicts_with": list(claim.conflicts),
                 "results": {name: verdict(ledger.verdicts[name][claim.id]) for name in READINGS},
             }
             for claim in claims()
