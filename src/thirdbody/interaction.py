@@ -31,18 +31,19 @@ import numpy as np
 from .contact import Contact, interface
 from .equilibrium import DEEPEST, Equilibrium, given_load, solve
 from .errors import InvalidValue, NoEquilibrium
+from .heights import GaussianHeights
 from .laws.base import REGIMES
-from .numerics import halley_root, panel_rule
+from .numerics import halley_root, panel_rule, subdivide
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
-
-    from .heights import Heights
 
     Array = NDArray[np.float64]
     Number = float | Array
 
 __all__ = [
+    "DISC_CENTRE",
+    "DISC_MEAN",
     "SQUARE_CENTRE",
     "SQUARE_MEAN",
     "LocalInteraction",
@@ -225,7 +226,7 @@ class _SelfLoaded:
         rough, surfaces = contact.roughness, contact.surfaces
         self.E_star = contact.E_ss
         self.R, self.sigma_s, self.density = rough.R, rough.sigma_s, rough.density
-        self.heights: Heights = rough.heights
+        self.heights = rough.heights
         self.sum = interface(contact).asperities
         self.centre = self.sum.centre
         law = self.law = contact.asperity_law.bound(
@@ -246,22 +247,19 @@ class _SelfLoaded:
         return omega - SQUARE_CENTRE * np.sqrt(pressure * force) / self.E_star
 
     def _passes(self, branch: int, pressure: float, low: float, high: float, level: float) -> float:
-        """Least ω of a branch from which the height stays above ``level`` and rises."""
+        """Interference of a branch from which on the height stays above ``level``."""
         from scipy.optimize import brentq
 
         def above(omega: float) -> float:
             return float(self._above(np.array([omega]), branch, pressure)[0]) - level
 
-        grid = np.linspace(low**0.25, high**0.25, 400) ** 4
-        height = self._above(grid, branch, pressure) - level
-        below = np.flatnonzero(height[1:-1] < 0) + 1
-        if height[-1] <= 0:
-            return high
+        grid = np.geomspace(max(low, 1e-30 * high), high, 600)
+        below = np.flatnonzero(self._above(grid, branch, pressure) <= level)
         if not len(below):
-            # near zero the dip may be finer than the grid
             return low
-        i = below[-1]
-        return brentq(above, grid[i], grid[i + 1], xtol=1e-300, rtol=1e-15)
+        if below[-1] == len(grid) - 1:
+            return high
+        return brentq(above, grid[below[-1]], grid[below[-1] + 1], xtol=1e-300, rtol=1e-15)
 
     def _ranges(self, pressure: float, reach: float) -> list[tuple[int, float, float]]:
         """Branch and range of ω met as the height z − d rises from 0 to ``reach`` [m]."""
@@ -288,28 +286,21 @@ class _SelfLoaded:
     def __call__(self, d: float, pressure: float) -> Array:
         """Pressure [Pa] and area by regime of asperities under a nominal pressure: (4,)."""
         h = (d - self.centre) / self.sigma_s
-        pieces = np.array(self.heights.pieces)
-        # Gaussian heights fall by e^-50 within this; bounded ones end before
-        top = min(float(pieces[-1]), math.sqrt(max(h, 0.0) ** 2 + 100)) - h
-        if not self._gaussian:
-            top = float(pieces[-1]) - h
+        top = self.heights.pieces[-1] - h
+        if isinstance(self.heights, GaussianHeights):
+            # the density falls by e^-50 within this
+            top = min(top, math.sqrt(max(h, 0.0) ** 2 + 100) - h)
         out = np.zeros(4)
         if top <= 0:
             return out
-        knots = (pieces - h) * self.sigma_s
+        knots = (np.array([*self.heights.kinks, self.heights.pieces[-1]]) - h) * self.sigma_s
         for branch, start, high in self._ranges(pressure, top * self.sigma_s):
             law = self.law.branches[branch]
-            marks = [start, high]
-            bounds = [float(self._above(np.array([w]), branch, pressure)[0]) for w in marks]
-            if not self._gaussian:
-                inner = knots[(knots > bounds[0]) & (knots < bounds[1])]
-                marks += [self._passes(branch, pressure, start, high, float(z)) for z in inner]
-            edges = np.unique(np.array(marks)) ** 0.25
-            count = max(2, self.PANELS // (len(edges) - 1))
-            fine = np.concatenate(
-                [np.linspace(a, b, count, endpoint=False) for a, b in zip(edges[:-1], edges[1:])]
-                + [edges[-1:]]
-            )
+            bottom, peak = self._above(np.array([start, high]), branch, pressure)
+            inside = knots[(knots > bottom) & (knots < peak)]
+            marks = [self._passes(branch, pressure, start, high, float(z)) for z in inside]
+            edges = np.array(sorted({start, high, *marks})) ** 0.25
+            fine = subdivide(edges, width=(edges[-1] - edges[0]) / self.PANELS)
             # F_1 starts like ω^(3/2): in ω^(1/4) the height is smooth
             root, weight = panel_rule(fine, self.NODES)
             omega = root**4
@@ -325,10 +316,6 @@ class _SelfLoaded:
             area = self.density * self.unit * (density @ law.area(y))
             out[1 + REGIMES.index(law.regime)] += area
         return out
-
-    @property
-    def _gaussian(self) -> bool:
-        return type(self.heights).__name__ == "GaussianHeights"
 
     def at_gap(self, d: float) -> float:
         """The least pressure [Pa] in balance at d."""

@@ -116,7 +116,7 @@ def gaussian_integral(n: float, h: ArrayLike) -> Array:
     Examples
     --------
     >>> gaussian_integral(2.5, [0.0, 3.0, 5.0])
-    array([6.16634216e-01, 1.70873331e-04, 1.05371530e-08])
+    array([6.16634219e-01, 1.70872996e-04, 1.35259200e-08])
     """
     if not n >= 0:
         raise InvalidValue(f"gaussian_integral n = {n!r} must be >= 0")

@@ -737,7 +737,6 @@ def _legend(figure: Figure, panel: Panel, styles: dict[float, tuple[str, str]]) 
     for text in legend.get_texts():
         if text.get_text() in (f"{symbol} [nm]", "particles", "quoted in the paper"):
             text.set_fontweight("bold")
-            text.set_x(-30)
 
 
 def as_mathtext(text: str) -> str:
