@@ -198,6 +198,7 @@ def test_no_traceback_in_a_process_of_its_own(wrong, tmp_path):
         ("solve", DUSTY, "--jsno"),
         ("solve", DUSTY, "--json", "--csv", "x.csv"),
         ("solve", DUSTY, "--set", "nonsense"),
+        ("laws", "--json", "--markdown"),
         ("reproduce", "horng2023"),
         ("reproduce", "horng2022", "--preset", "publish"),
         ("reproduce", "horng2022", "--out", DUSTY),
@@ -400,7 +401,7 @@ def test_version():
     assert (result.exit_code, result.stdout) == (0, f"thirdbody {tb.__version__}\n")
 
 
-@pytest.mark.parametrize("command", ["solve", "reproduce", "laws", "materials"])
+@pytest.mark.parametrize("command", ["solve", "compare", "reproduce", "laws", "materials"])
 def test_help(command):
     assert command in run("--help").stdout
     assert run(command, "--help").exit_code == 0
@@ -416,6 +417,7 @@ def test_laws_come_from_the_registries():
             assert entry["citation"] == law.citation
             assert entry["valid_range"] == law.valid_range
             options = {option["key"]: option["default"] for option in entry["options"]}
+            assert not {"scale", "yield_strain"} & set(options), "a contact fills these in"
             for key, default in options.items():
                 assert getattr(law(), key) == default or getattr(law(), key).name == default
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
-from thirdbody.study import DISTRIBUTIONS, LOADS, check, load_study, run_study
+from thirdbody.study import DISTRIBUTIONS, HEIGHTS, LOADS, check, load_study, run_study
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))
 
@@ -158,6 +158,105 @@ def test_every_registered_law_can_be_named(write, kind):
         assert getattr(study.contact, table) == law()
 
 
+@pytest.mark.parametrize(
+    ("keys", "expected"),
+    [
+        ('"gaussian"', tb.GaussianHeights()),
+        ('"exponential"', tb.ExponentialHeights()),
+        ('"johnson"', tb.JohnsonHeights()),
+        ('{ name = "exponential" }', tb.ExponentialHeights()),
+        ('{ name = "weibull", shape = 1.8 }', tb.WeibullHeights(shape=1.8)),
+        (
+            '{ name = "johnson", skewness = -0.7, kurtosis = 4.2 }',
+            tb.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
+        ),
+        (
+            '{ name = "histogram", edges = [0, "100 nm", 3e-7], counts = [1, 2] }',
+            tb.HistogramHeights(edges=(0, 1e-7, 3e-7), counts=(1, 2)),
+        ),
+    ],
+    ids=lambda value: type(value).__name__ if not isinstance(value, str) else "",
+)
+def test_every_distribution_of_heights(write, keys, expected):
+    contact = load_study(write(("alpha = 5.0", f"heights = {keys}"))).contact
+    assert contact.roughness.heights == expected
+    assert tb.Contact.from_dict(contact.to_dict()) == contact
+    assert tb.solve(contact, F_star=1e-5).status == "ok"
+
+
+def test_every_kind_of_heights_of_the_library_has_a_word():
+    public = {getattr(tb, name) for name in tb.__all__ if name.endswith("Heights")}
+    assert public - {tb.Heights} == set(HEIGHTS.values())
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ("3", ["roughness.heights = 3", '"exponential"', '"histogram"']),
+        ('"gausian"', ['did you mean "gaussian"?']),
+        ('"normal"', ['did you mean "gaussian"?']),
+        ('"weibull"', ['heights = "weibull" is missing shape', '{ name = "weibull", shape = ']),
+        ('"histogram"', ["missing edges, counts"]),
+        ("{ skewness = 1 }", ["roughness.heights.name is missing", '"johnson"']),
+        ('{ name = "weibull" }', ["roughness.heights.shape is missing", "shape = 2.0"]),
+        ('{ name = "weibull", shape = 0.5 }', ["roughness.heights.shape = 0.5", ">= 1"]),
+        ('{ name = "weibull", shape = "2 m" }', ["roughness.heights.shape", "is a length"]),
+        ('{ name = "weibull", shpe = 2 }', ["roughness.heights.shpe = 2", "mean shape?"]),
+        ('{ name = "gaussian", shape = 2 }', ["shape = 2", 'goes with name = "weibull"']),
+        ('{ name = "johnson", kurtosis = 0 }', ["roughness.heights.kurtosis = 0", "has 3, not 0"]),
+        (
+            '{ name = "johnson", skewness = 2, kurtosis = 5.0001 }',
+            ["roughness.heights: no member", "skewness 2"],
+        ),
+        ('{ name = "johnson", skewness = nan }', ["roughness.heights.skewness = nan"]),
+        ('{ name = "histogram", edges = [2, 1], counts = [1] }', ["heights.edges", "increase"]),
+        ('{ name = "histogram", edges = [1, 2], counts = [1, 1] }', ["2 edges and 2 counts"]),
+        ('{ name = "histogram", edges = [1, 2], counts = ["1 m"] }', ["heights.counts[0]"]),
+        ('{ name = "histogram", edges = 3, counts = [1] }', ["heights.edges = 3", "a list"]),
+    ],
+)
+def test_mistakes_in_heights(problems, keys, words):
+    found = problems(("alpha = 5.0", f"heights = {keys}"))
+    only(found, *words)
+    assert "Heights" not in found[0]
+
+
+def test_heights_of_a_kind_can_be_set(write):
+    study = load_study(write(), ["roughness.heights=exponential"])
+    assert study.contact.roughness.heights == tb.ExponentialHeights()
+    study = load_study(write(), ['roughness.heights={ name = "weibull", shape = 2 }'])
+    assert study.contact.roughness.heights == tb.WeibullHeights(shape=2)
+
+
+@pytest.mark.parametrize(
+    ("table", "law"),
+    [
+        ('name = "jkr"\nw = "50 mJ/m^2"\nunloading = true', tb.asperity.JKR(unloading=True)),
+        ('name = "dmt"\nw = 0.03', tb.asperity.DMT(w=0.03)),
+        ('name = "jg"\nhardness_ratio = 3\nnu = 0.3', tb.asperity.JG(hardness_ratio=3, nu=0.3)),
+        ('name = "ke"\nK = 0.6', tb.asperity.KE(K=0.6)),
+        ('name = "ceb"\nK = 0.6', tb.asperity.CEB(K=0.6)),
+        (
+            'name = "elliptic-ceb"\nratio = 4\narea_rule = "doubling"',
+            tb.asperity.EllipticCEB(ratio=4, area_rule="doubling"),
+        ),
+        ('name = "elliptic-zmc"\nratio = 4', tb.asperity.EllipticZMC(ratio=4)),
+    ],
+)
+def test_options_of_asperity_laws(write, table, law):
+    contact = load_study(write(('name = "zmc"\nk = 0.4', table))).contact
+    assert contact.asperity_law == law
+    assert tb.solve(contact, F_star=1e-5).status == "ok"
+
+
+@pytest.mark.parametrize(
+    ("law", "key"), [("jkr", "scale"), ("dmt", "scale"), ("jg", "yield_strain")]
+)
+def test_what_a_contact_fills_in_is_not_a_key(problems, law, key):
+    found = problems(('name = "zmc"\nk = 0.4', f'name = "{law}"\n{key} = 0.1'))
+    only(found, f"asperity_law.{key} = 0.1 is not a known key")
+
+
 def test_options_of_laws(write):
     law = 'name = "series"\nseat = "offset"\nh_0 = "250 nm"\nshadow = "none"\n'
     law += 'law = { name = "zmc", k = 0.5 }'
@@ -283,8 +382,6 @@ def test_an_empty_file_misses_three_tables(problems):
 
 
 def test_what_a_file_cannot_express_is_not_a_key(problems):
-    found = problems(("alpha = 5.0", 'heights = "exponential"'))
-    only(found, "roughness.heights", "not a known key")
     found = problems(("n = 3", 'diameter = "1 nm"'))
     only(found, "particles.diameter", "did you mean mean?")
 
@@ -458,6 +555,7 @@ def _places(data, path=()):
 def test_any_value_anywhere_is_read_or_refused_in_sentences():
     """No value of any type, under any key, ends in another error."""
     good = tomllib.loads(GOOD)
+    good["roughness"]["heights"] = {"name": "johnson", "skewness": 0.1, "kurtosis": 3.5}
     places = [*_places(good), ("particle_law", "law"), ("particles", "parts"), ("load", "pressure")]
     refused = tried = 0
     for i, place in enumerate(places):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import asperity, particle
 from .citations import cite
+from .compare import compare
 from .contact import Contact
 from .distributions import (
     Distribution,
@@ -71,6 +72,7 @@ __all__ = [
     "WeibullHeights",
     "asperity",
     "cite",
+    "compare",
     "materials",
     "particle",
     "plot",

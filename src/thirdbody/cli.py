@@ -30,6 +30,7 @@ __all__ = ["app", "main"]
 BAD_INPUT, NO_ANSWER, INTERRUPTED, BROKEN_PIPE = 2, 3, 130, 141
 MOST_ROWS = 20
 PAPERS = ("horng2022",)
+PLACES = ("start", "middle", "end")
 
 
 class Commands(TyperGroup):
@@ -298,6 +299,124 @@ def _prefixed(value: float | None, unit: str, thresholds: dict[str, float]) -> s
     return f"{value / sizes[prefix]:.4g} {prefix}{unit}"
 
 
+# -------------------------------------------------------------------------- compare
+@app.command()
+def compare(
+    study: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")],
+    names: Annotated[
+        str | None,
+        typer.Option(
+            "--laws",
+            metavar="NAMES",
+            help='Asperity laws, e.g. ke,jg, or "all"; without it all but adhesive and elliptic.',
+        ),
+    ] = None,
+    at: Annotated[
+        str, typer.Option("--at", help=f"Which load the table shows: {', '.join(PLACES)}.")
+    ] = "middle",
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Folder for compare.csv, .png and .svg."),
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="As in solve; may be repeated."),
+    ] = None,
+) -> None:
+    """The interface of a study under every asperity law, against the law the study names."""
+    from . import asperity
+    from .compare import compare as compare_laws
+    from .compare import save
+    from .study import load_study
+
+    problems = []
+    if at not in PLACES:
+        problems.append(f"--at {at} must be one of {', '.join(PLACES)}")
+    if out is not None and out.exists() and not out.is_dir():
+        problems.append(f"--out {out} must be a folder, and a file of that name exists")
+    if problems:
+        raise InvalidValue(*problems)
+    asked = load_study(study, settings or ())
+    for sentence in asked.notes:
+        _one_line(sentence)
+    words: list[str] | None = None
+    if names is not None:
+        words = [word.strip() for word in names.split(",") if word.strip()]
+        words = list(asperity.REGISTRY) if words == ["all"] else words
+    load: dict[str, Any] = {asked.load: asked.values}
+    if asked.load == "separation":
+        load = {"F_star": _loads_at(asked)}
+        _one_line(
+            f"laws are compared at equal loads: those of {asked.contact.asperity_law.name} at the "
+            "separations of the study"
+        )
+    table = compare_laws(asked.contact, **load, laws=words)
+    for sentence in filter(None, table.attrs["warnings"].splitlines()):
+        _one_line(sentence)
+    reasons = table.status.values
+    if not (reasons == "ok").any():
+        raise NoEquilibrium(f"{reasons[0, 0]} (and so under every law)")
+    order = table.F_star.values.argsort()
+    index = int(order[{"start": 0, "middle": len(order) // 2, "end": -1}[at]])
+    # the files first: a table on the screen says that all is done
+    written = save(table, out, at=index) if out is not None else []
+    _show_comparison(asked.title, table, index)
+    for path in written:
+        print(f"written: {path}", file=sys.stderr)
+
+
+def _loads_at(asked: Any) -> Any:
+    """The loads F* of a study that gives separations."""
+    import numpy as np
+
+    loads = np.asarray(asked.solve().F_star)
+    loads = loads[np.isfinite(loads) & (loads > 0)]
+    if not len(loads):
+        raise NoEquilibrium("no load at the separations of the study, so there is none to compare")
+    return loads
+
+
+def _show_comparison(title: str, table: Any, index: int) -> None:
+    """One row a law, at one load; what is to be said of a law stands below, numbered."""
+    console = _console()
+    one = table.isel({table.A_t.dims[1]: index})
+    particles = "particle_load_share" in one
+    own = table.attrs["own_law"]
+    load = f"{_pressure(float(one.pressure))} (F* = {_number(float(one.F_star))})"
+    console.print(f"{title or 'Study'}: every law at {load}, differences against {own}")
+
+    def cells(row: Any, number: str) -> list[str]:
+        if row.status.item() != "ok":
+            return [row.law.item(), *["-"] * (9 if particles else 8), number]
+        value = {str(name): row[name].values.item() for name in row.data_vars}
+        first = row.law.item() == own
+        out = [
+            row.law.item(),
+            _number(value["A_t"]),
+            "" if first else f"{value['A_t_difference']:+z.1f} %",
+            _pressure(value["mean_pressure"]),
+            f"{value['d_star']:.3f}",
+            "" if first else f"{value['d_star_difference']:+z.3f}",
+        ]
+        shares = ["elastic_share", "elastoplastic_share", "plastic_share"]
+        shares += ["particle_load_share"] if particles else []
+        return [*out, *(f"{100 * value[name]:.1f} %" for name in shares), number]
+
+    heads = ["law", "A_t", "diff.", "F/A_t", "d/sigma", "diff.", "elastic", "el.-plastic"]
+    heads += ["plastic", "particles' load"] if particles else ["plastic"]
+    shown = _table([*heads, "note"], right=True)
+    shown.columns[0].justify = "left"
+    notes: list[str] = []
+    for i in range(one.sizes["law"]):
+        row = one.isel(law=i)
+        if text := row.note.item():
+            notes.append(f"{len(notes) + 1} {row.law.item()}: {text}")
+        shown.add_row(*cells(row, str(len(notes)) if text else ""))
+    console.print(shown)
+    for note in notes:
+        console.print(note)
+
+
 # -------------------------------------------------------------------------- reproduce
 @app.command()
 def reproduce(
@@ -359,10 +478,21 @@ class _progress:
 @app.command()
 def laws(
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    as_page: Annotated[
+        bool, typer.Option("--markdown", help="Print the page of asperity laws, docs/laws.md.")
+    ] = False,
 ) -> None:
     """The laws of asperities and particles, with citation and range."""
     from . import asperity, particle
     from .units import say
+
+    if as_json and as_page:
+        raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")
+    if as_page:
+        from .compare import laws_page
+
+        print(laws_page(), end="")
+        return
 
     kinds = {"asperity": asperity.REGISTRY, "particle": particle.REGISTRY}
     found = {
@@ -393,9 +523,15 @@ def laws(
 
 
 def _about_law(law: type) -> dict[str, Any]:
+    from .study import filled_in
+
     about = ("name", "title", "year", "citation", "doi", "provenance", "valid_range")
     usual = law()
-    options = [_about_option(item, getattr(usual, item.name)) for item in dataclasses.fields(law)]
+    options = [
+        _about_option(item, getattr(usual, item.name))
+        for item in dataclasses.fields(law)
+        if item.name not in filled_in(law)
+    ]
     return {key: getattr(law, key) for key in about} | {"options": options}
 
 

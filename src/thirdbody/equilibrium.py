@@ -44,6 +44,10 @@ class Equilibrium:
 
     Areas are real areas per nominal area; F* = F/(A_n E_ss). A state that could not be solved
     holds NaN and a sentence in `status`.
+
+    `d` counts from the datum of the particle law: the mean asperity height, except for
+    `Horng2022`, which like the paper's eq. (8) puts that height at σ. `h`, from the mean surface
+    plane, is the separation to compare between models.
     """
 
     contact: Contact = field(repr=False)

@@ -202,7 +202,7 @@ def jackson_streator(q: ArrayLike) -> Array:
 
     Notes
     -----
-    Limits derived, the join recalled. At q = 0.8 the join steps down by 0.045 %.
+    Limits derived, the join recalled. At q = 0.8 the join steps down by 0.046 %.
 
     References
     ----------
@@ -215,10 +215,10 @@ def jackson_streator(q: ArrayLike) -> Array:
     >>> jackson_streator([0.1, 0.5, 0.9]).round(6)
     array([0.211025, 0.681555, 0.952254])
     """
-    q = np.clip(np.asarray(q, dtype=float), 0.0, 1.0)
-    hertz = math.pi * (3 * q / (8 * math.pi)) ** (2 / 3)
-    full = 1 - 3 / (2 * math.pi) * (1 - q)
-    return np.where(q < 0.8, hertz * (1 - q**1.51) + full * q**1.04, full)
+    part = np.clip(np.asarray(q, dtype=float), 0.0, 1.0)
+    hertz = math.pi * (3 * part / (8 * math.pi)) ** (2 / 3)
+    full = 1 - 3 / (2 * math.pi) * (1 - part)
+    return np.where(part < 0.8, hertz * (1 - part**1.51) + full * part**1.04, full)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -542,7 +542,8 @@ class GhaedniaMultiscale(Value):
         both sides; `Hermite` by default.
     size_effect : callable, optional
         H/H_0 as a function of the depth of indentation [m], for example `NixGao`; constant
-        hardness by default. The load is then a quadrature with a relative error of about 1e-6.
+        hardness by default. The load is then a quadrature with a relative error of about 1e-5.
+        Of these only `NixGao` survives `to_dict`.
 
     Notes
     -----
@@ -644,9 +645,20 @@ class GhaedniaMultiscale(Value):
         load, area, footprint = film(gap).T
         share = np.where(touch, load / local, 1.0)
         asperities = np.where(touch, A_0 * (1 - footprint), 0.0)
-        columns = (p, A_0, local, gap, A_0 * area, asperities, share)
-        shaped = (c.reshape(given.shape) if given.ndim else float(c[0]) for c in columns)
-        return MultiscaleState(*shaped, self._warnings(p))  # type: ignore[arg-type]
+
+        def shaped(values: Array) -> Array:
+            return values.reshape(given.shape) if given.ndim else values[0].item()
+
+        return MultiscaleState(
+            pressure=shaped(p),
+            A_0=shaped(A_0),
+            local_pressure=shaped(local),
+            gap=shaped(gap),
+            A_particles=shaped(A_0 * area),
+            A_asperities=shaped(asperities),
+            particle_load_share=shaped(share),
+            warnings=self._warnings(p),
+        )
 
     def _warnings(self, p: Array) -> tuple[str, ...]:
         if not isinstance(self.surface, Stack):

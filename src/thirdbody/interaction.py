@@ -162,8 +162,15 @@ def mean_interaction(
             p, slope, bend = bound.load(d).T
             return start[which] + compliance * p - d, compliance * slope - 1, compliance * bend
 
-        highest = start + compliance * bound.load(start)[:, 0]
-        d, *_ = halley_root(gap, start, highest, start)
+        skin = bound.asperities
+        lowest = np.maximum(start, skin.centre + DEEPEST * skin.sigma_s)
+        highest = start + compliance * bound.load(lowest)[:, 0]
+        if np.any(deep := highest < lowest):
+            raise NoEquilibrium(
+                f"at d_0 = {start[deep][0]:.4g} m the asperities stand below {DEEPEST:g} sigma_s, "
+                "where every one is in contact"
+            )
+        d, *_ = halley_root(gap, lowest, highest, lowest)
         state = solve(contact, d=float(d[0]) if scalar else d)
     known = np.isfinite(np.atleast_1d(state.d))
     slope = np.full(known.shape, np.nan)

@@ -42,8 +42,9 @@ __all__ = ["RoughBody", "curve", "rough_cylinder", "rough_sphere"]
 
 NEGLIGIBLE = 1e-17
 """Pressure, over the largest, at which the contact is cut off."""
-TAIL = 1e-12
-"""Size of the last coefficients of the pressure, over the largest, that counts as converged."""
+TAIL, COARSE = 1e-12, 1e-5
+"""Size of the last coefficients of the pressure, over the largest, that counts as converged: in
+the end, and while the separation is still being sought."""
 NODES = (40, 60, 90, 135, 200, 300, 450)
 
 
@@ -131,8 +132,8 @@ class Grid(NamedTuple):
 
 
 class Shape(Protocol):
-    def extent(self, room: float) -> float:
-        """Half-width [m] in which the undeformed gap rises by ``room`` [m]."""
+    def extent(self, skin: Skin, d: float) -> float:
+        """Half-width [m] beyond which the skin cannot touch at the separation d [m]."""
 
     def grid(self, n: int, extent: float) -> Grid:
         """Grid of n nodes."""
@@ -194,6 +195,12 @@ def _line_weights(n: int) -> Array:
     return 0.5 * np.pi / n * np.sqrt(1 - t * t)
 
 
+def _values(series: Array, n: int) -> Array:
+    """A Chebyshev series on n nodes."""
+    theta = np.pi * (np.arange(n) + 0.5) / n
+    return np.cos(theta[:, None] * np.arange(len(series))) @ series
+
+
 @dataclass(frozen=True, slots=True)
 class Sphere:
     """A paraboloid of radius B on a half-space."""
@@ -201,8 +208,8 @@ class Sphere:
     radius: float
     E_star: float
 
-    def extent(self, room: float) -> float:
-        return math.sqrt(2 * self.radius * room)
+    def extent(self, skin: Skin, d: float) -> float:
+        return math.sqrt(2 * self.radius * (skin.cut(max(d, skin.floor)) - d))
 
     def grid(self, n: int, extent: float) -> Grid:
         r, compliance, weights = _ring_compliance(n)
@@ -223,8 +230,8 @@ class Cylinder:
     E_star: float
     reference: float
 
-    def extent(self, room: float) -> float:
-        return math.sqrt(2 * self.radius * room)
+    def extent(self, skin: Skin, d: float) -> float:
+        return math.sqrt(2 * self.radius * (skin.cut(max(d, skin.floor)) - d))
 
     def grid(self, n: int, extent: float) -> Grid:
         x = extent * np.sqrt(0.5 * (1 + to_series(n)[0]))
@@ -255,61 +262,73 @@ class Balance(NamedTuple):
     """Last coefficients of the pressure over the largest."""
     residual: float
     """Largest error of the gap equation [m]."""
+    extent: float = 0.0
+    """Half-width of the grid [m]."""
+    series: Array = np.zeros(0)
+    """Chebyshev series of the displacement [m]."""
 
 
-def _newton(skin: Skin, grid: Grid, d: float) -> tuple[Array, Array, Array, float]:
-    """Gap, pressure, slope of pressure and residual [m] by Newton's method, damped."""
+def _newton(skin: Skin, grid: Grid, d: float, sunk: Array) -> tuple[Array, Array, Array, float]:
+    """Gap, pressure, slope of pressure and residual [m] by Newton's method, damped.
+
+    ``sunk`` is a first guess of the displacement [m].
+    """
     base = d + grid.base
-    gap = np.maximum(base, skin.floor)
+    gap = np.maximum(base + sunk, skin.floor)
     p, slope = skin(gap)
     error = gap - base - grid.compliance @ p
-    last = 0
+    close = 0
     eye = np.eye(len(gap))
     for _ in range(200):
         step = np.linalg.solve(eye - grid.compliance * slope, -error)
+        scale = np.max(np.abs(p)) / max(np.max(np.abs(slope)), 1e-300)
+        close += bool(np.max(np.abs(step)) < 1e-7 * scale)
         part, size = 1.0, np.max(np.abs(error))
         while True:
             trial = gap + part * step
             p, slope = skin(trial)
             error = trial - base - grid.compliance @ p
-            if np.max(np.abs(error)) < size or last or part < 1e-4:
+            if close or np.max(np.abs(error)) < size or part < 1e-4:
                 break
             part *= 0.5
         gap = trial
-        scale = np.max(np.abs(p)) / max(np.max(np.abs(slope)), 1e-300)
-        if part == 1 and np.max(np.abs(step)) < 1e-7 * scale:
-            last += 1
-            if last == 2:
-                return gap, p, slope, float(np.max(np.abs(error)))
+        if close == 2 or size == 0:
+            return gap, p, slope, float(np.max(np.abs(error)))
     raise NoEquilibrium(f"the gap equation did not converge at d = {d:.6g} m")
 
 
-def balance_at(skin: Skin, shape: Shape, d: float, first: int = 0) -> Balance:
-    """The balance at one approach d [m], starting with ``NODES[first]`` nodes."""
-    start = max(d, skin.floor)
-    extent = shape.extent(skin.cut(start) - d)
-    shrunk = False
+def balance_at(
+    skin: Skin, shape: Shape, d: float, near: Balance | None = None, tolerance: float = TAIL
+) -> Balance:
+    """The balance at one approach d [m], on the grid of a state ``near`` it or a finer one."""
+    extent = shape.extent(skin, d) if near is None else near.extent
+    first = 0 if near is None else NODES.index(len(near.gap))
+    series = np.zeros(1) if near is None else near.series
+    shrunk = near is not None
     while True:
         n = NODES[first]
         grid = shape.grid(n, extent)
-        gap, p, slope, residual = _newton(skin, grid, d)
+        gap, p, slope, residual = _newton(skin, grid, d, _values(series, n))
+        if not np.max(p) > 0:
+            raise NoEquilibrium(f"no contact at a separation of {d:.4g} m")
         beyond = grid.x[p < NEGLIGIBLE * np.max(p)]
         if not shrunk and len(beyond) and np.min(beyond) < 0.95 * extent:
-            shrunk, extent = True, float(np.min(beyond))
+            shrunk, extent, series = True, float(np.min(beyond)), np.zeros(1)
             continue
-        series = np.abs(to_series(n)[1] @ p)
-        tail = float(np.max(series[-3:]) / np.max(series))
-        if tail < TAIL or first == len(NODES) - 1:
+        size = np.abs(to_series(n)[1] @ p)
+        tail = float(np.max(size[-3:]) / np.max(size))
+        series = to_series(n)[1] @ (gap - d - grid.base)
+        if tail < tolerance or first == len(NODES) - 1:
             break
         first += 1
-    if np.min(gap) < skin.floor:
+    if tolerance == TAIL and np.min(gap) < skin.floor:
         raise NoEquilibrium(
             f"the local gap falls to {np.min(gap):.4g} m, below the {skin.floor:.4g} m "
             f"({DEEPEST:g} sigma_s) at which every asperity is in contact"
         )
     sinking = np.linalg.solve(np.eye(n) - grid.compliance * slope, np.ones(n))
     load, rate = float(grid.weights @ p), float(grid.weights @ (slope * sinking))
-    return Balance(d, grid, gap, p, load, rate, tail, residual)
+    return Balance(d, grid, gap, p, load, rate, tail, residual, extent, series)
 
 
 def balance(
@@ -329,17 +348,35 @@ def balance(
     if load is None:
         return balance_at(skin, shape, given)
     d = _rigid(skin, shape, given) if guess is None else guess
-    low, high, first = -math.inf, math.inf, 0
-    best: Balance | None = None
+    coarse = _seek(skin, shape, given, d, None, COARSE, 1e-5)
+    return _seek(skin, shape, given, coarse.d, coarse, TAIL, 1e-14)
+
+
+def _seek(
+    skin: Skin,
+    shape: Shape,
+    load: float,
+    d: float,
+    near: Balance | None,
+    tolerance: float,
+    enough: float,
+) -> Balance:
+    """Newton's method on ln(load) from d, inside the bracket found on the way.
+
+    On the grid of ``near``, if that is given, so that the load is a smooth function of d.
+    """
+    low, high = -math.inf, math.inf
+    best, least = None, math.inf
     for _ in range(100):
-        state = balance_at(skin, shape, d, first)
-        first = NODES.index(len(state.gap))
-        miss = math.log(state.load / given)
-        if best is None or abs(miss) < abs(math.log(best.load / given)):
-            best = state
-        elif abs(miss) < 1e-10:
+        state = balance_at(skin, shape, d, near, tolerance)
+        if near is not None:
+            near = state
+        miss = math.log(state.load / load)
+        if abs(miss) < least:
+            best, least = state, abs(miss)
+        elif best is not None and abs(miss) < 1e-10:
             return best
-        if abs(miss) < 1e-14:
+        if abs(miss) < enough:
             return state
         low, high = (d, high) if miss > 0 else (low, d)
         trial = d - miss * state.load / state.slope
@@ -347,10 +384,10 @@ def balance(
             if math.isinf(low) or math.isinf(high):
                 raise NoEquilibrium("the load does not fall with the separation")
             trial = 0.5 * (low + high)
-            if trial in (low, high):
+            if best is not None and trial in (low, high):
                 return best
         d = trial
-    raise NoEquilibrium(f"no separation found for the load {given:.6g}")
+    raise NoEquilibrium(f"no separation found for the load {load:.6g}")
 
 
 def _rigid(skin: Skin, shape: Shape, load: float) -> float:
@@ -358,7 +395,7 @@ def _rigid(skin: Skin, shape: Shape, load: float) -> float:
 
     def carried(d: float) -> float:
         try:
-            extent = shape.extent(skin.cut(max(d, skin.floor)) - d)
+            extent = shape.extent(skin, d)
         except NoEquilibrium:
             return 0.0
         grid = shape.grid(NODES[0], extent)
@@ -437,9 +474,8 @@ class RoughBody:
 def _result(skin: Skin, shape: Sphere | Cylinder, state: Balance) -> RoughBody:
     grid, p = state.grid, state.pressure
     n = len(p)
-    extent = float(grid.x[0] / math.sqrt(0.5 * (1 + to_series(n)[0][0])))
-    line = extent * _line_weights(n)
-    ring = extent**2 * _ring_compliance(n)[2] / (2 * math.pi)
+    line = state.extent * _line_weights(n)
+    ring = state.extent**2 * _ring_compliance(n)[2] / (2 * math.pi)
     axis = (-1.0) ** np.arange(n) @ to_series(n)[1]
     axis_gap = state.d + float(axis @ (grid.compliance @ p))
     area = share = None

@@ -16,6 +16,7 @@ import tomllib
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
@@ -36,6 +37,14 @@ from .distributions import (
 )
 from .equilibrium import Equilibrium, solve
 from .errors import InvalidValue, RangeWarning, ThirdBodyError
+from .heights import (
+    ExponentialHeights,
+    GaussianHeights,
+    Heights,
+    HistogramHeights,
+    JohnsonHeights,
+    WeibullHeights,
+)
 from .materials import Material, MaterialPair, materials
 from .particles import Particles
 from .surfaces import Roughness
@@ -43,7 +52,7 @@ from .transitions import Critical, Transitions, TurningPoint, transitions
 from .units import EXAMPLES, say, to_si
 from .values import allowed_range, problem_with, quantity
 
-__all__ = ["DISTRIBUTIONS", "LOADS", "Study", "check", "load_study", "run_study"]
+__all__ = ["DISTRIBUTIONS", "HEIGHTS", "LOADS", "Study", "check", "load_study", "run_study"]
 
 DISTRIBUTIONS = {
     "truncated-gaussian": TruncatedGaussian,
@@ -55,6 +64,15 @@ DISTRIBUTIONS = {
     "mixture": Mixture,
 }
 """Every size distribution by the word that study files use."""
+
+HEIGHTS: dict[str, type[Heights]] = {
+    "gaussian": GaussianHeights,
+    "exponential": ExponentialHeights,
+    "weibull": WeibullHeights,
+    "johnson": JohnsonHeights,
+    "histogram": HistogramHeights,
+}
+"""Every distribution of asperity heights by the word that study files use."""
 
 LOADS = {
     name: declared.metadata["quantity"]
@@ -71,11 +89,12 @@ _ONE_OF = {"load": tuple(LOADS), "roughness": ("eta", "eta_R_sigma")}
 _UNITS_OF_LISTS = {"edges": "m", "counts": "1", "weights": "1"}
 _MOST_POINTS = 1_000_000
 _ALSO_CALLED = {
-    "normal": "truncated-gaussian",
-    "gauss": "truncated-gaussian",
-    "rosin-rammler": "weibull",
-    "delta": "monodisperse",
-    "single": "monodisperse",
+    "normal": ("truncated-gaussian", "gaussian"),
+    "gauss": ("truncated-gaussian", "gaussian"),
+    "rosin-rammler": ("weibull",),
+    "pearson": ("johnson",),
+    "delta": ("monodisperse",),
+    "single": ("monodisperse",),
 }
 """Other words for distributions, to suggest the right one."""
 
@@ -346,6 +365,34 @@ class _Reader:
 
         return self.table(path, keys, build)
 
+    def heights(self, path: str, data: Any) -> Any:
+        def build(values: dict[str, Any]) -> Any:
+            made = self.make(HEIGHTS[values.pop("name")], path, values)
+            try:
+                with np.errstate(all="ignore"):
+                    _ = made.pieces  # some shapes exist in no member of the family
+            except InvalidValue as error:
+                raise InvalidValue(
+                    *(_retold(text, type(made).__name__, path, values) for text in error.problems)
+                ) from None
+            return made
+
+        if isinstance(data, dict):
+            return self.variant(path, data, "name", HEIGHTS, build, {})
+
+        def from_word(value: Any) -> Heights:
+            word = self.word(path, HEIGHTS)(value)
+            needed = _needed_fields(HEIGHTS[word])
+            if needed:
+                shown = ", ".join(f"{name} = ..." for name in needed)
+                raise InvalidValue(
+                    f"{path} = {say(word)} is missing {', '.join(needed)}: write it as a table, "
+                    f"{{ name = {say(word)}, {shown} }}"
+                )
+            return build({"name": word})
+
+        return _plain(from_word)
+
     def material(self, path: str, data: Any) -> Any:
         if isinstance(data, dict):
             keys = self.keys_of(Material, path, data)
@@ -437,7 +484,8 @@ class _Reader:
         def read(value: list[Any]) -> np.ndarray:
             if not value:
                 raise InvalidValue(f"{path} = [] is empty; give at least one value")
-            numbers, problems = [], []
+            numbers: list[float] = []
+            problems: list[str] = []
             for i, item in enumerate(value):
                 try:
                     numbers.append(self.number(f"{path}[{i}]", about)(item))
@@ -606,13 +654,16 @@ class _Reader:
     def keys_of(self, kind: type, path: str, data: Any) -> dict[str, _Key]:
         """The keys of a table that stands for a value class.
 
-        A field of a kind that a file cannot express is left out, and so is not a known key.
+        A field of a kind that a file cannot express, or that a contact fills in, is left out,
+        and so is not a known key.
         """
         out = {}
+        own = filled_in(kind)
         for item in dataclasses.fields(kind):
+            if item.name in own:
+                continue
             where, value = f"{path}.{item.name}", _get(data, item.name)
-            required = item.default is dataclasses.MISSING
-            required = required and item.default_factory is dataclasses.MISSING
+            required = item.name in _needed_fields(kind)
             declared = str(getattr(item.type, "__name__", item.type))
             about = ""
             if meta := item.metadata.get("quantity"):
@@ -621,6 +672,8 @@ class _Reader:
                 reader, about = _plain(self.word(where, meta["options"])), meta["meaning"]
             elif declared == "Material":
                 reader = self.material(where, value)
+            elif declared == "Heights":
+                reader, about = self.heights(where, value), "distribution of asperity heights"
             elif declared == "AbstractAsperityLaw":
                 reader = self.law(where, value, asperity.REGISTRY)
             elif declared == "tuple[Distribution, ...]":
@@ -656,7 +709,7 @@ class _Reader:
         self.variants[path] = (
             tag,
             {
-                name: {item.name for item in dataclasses.fields(kind)}
+                name: {item.name for item in dataclasses.fields(kind)} - filled_in(kind)
                 for name, kind in kinds.items()
             },
         )
@@ -699,9 +752,9 @@ class _Reader:
 
     # ------------------------------------------------------------------ telling mistakes
     def tell(self, error: ValidationError) -> list[str]:
-        out = []
+        out: list[str | tuple[str, str]] = []
         found = error.errors()
-        guessed = set()
+        guessed: set[tuple[str, str | None]] = set()
         for item in found:
             path, key = _split(item["loc"])
             if item["type"] == "extra_forbidden":
@@ -754,6 +807,31 @@ class _Reader:
         return f"{start}; known here: {', '.join(known)}", None
 
 
+def _needed_fields(kind: type) -> list[str]:
+    """Fields of a value class without a default."""
+    missing = dataclasses.MISSING
+    return [
+        item.name
+        for item in dataclasses.fields(kind)
+        if item.default is missing and item.default_factory is missing
+    ]
+
+
+@cache
+def filled_in(kind: Any) -> frozenset[str]:
+    """Options of an asperity law that a contact sets, whatever is given for them."""
+    if not issubclass(kind, asperity.AbstractAsperityLaw):
+        return frozenset()
+    found = set()
+    for item in dataclasses.fields(kind):
+        if item.default is None:
+            given = kind(**{item.name: 0.1})
+            used = given.bound(R=1e-6, E_star=1e11, H=1e9, nu=0.3)
+            if getattr(used, item.name) != 0.1:
+                found.add(item.name)
+    return frozenset(found)
+
+
 def _retold(problem: str, name: str, path: str, values: dict[str, Any]) -> str:
     """A sentence of a value class in the words of the file, with the value where it lacks."""
     prefix = f"{path}." if path else ""
@@ -804,6 +882,8 @@ def _split(loc: tuple[Any, ...]) -> tuple[str, str]:
 def _about(name: str, about: dict[str, Any]) -> str:
     unit, symbol = about["unit"], about["symbol"]
     example = EXAMPLES.get(unit, f"1 [{unit}]")
+    if unit == "1" and problem_with(about, 0.5):
+        example = "2.0"
     shown = f"{about['meaning']}" + (f" {symbol}" if symbol != name else "")
     return shown + (f" [{unit}]" if unit != "1" else "") + f", e.g. {name} = {example}"
 
@@ -811,7 +891,8 @@ def _about(name: str, about: dict[str, Any]) -> str:
 def _near(word: str, options: Iterable[str]) -> str | None:
     """The option that was probably meant."""
     folded = {option.lower(): option for option in options}
-    word = _ALSO_CALLED.get(word.lower(), word)
+    known = (name for name in _ALSO_CALLED.get(word.lower(), ()) if name in folded)
+    word = next(known, word)
     found = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
     return folded[found[0]] if found else None
 

@@ -86,7 +86,7 @@ class Wave:
     wavelength: float
     E_star: float
 
-    def extent(self, room: float) -> float:
+    def extent(self, skin: Skin, d: float) -> float:
         return 1.0
 
     def grid(self, n: int, extent: float) -> Grid:

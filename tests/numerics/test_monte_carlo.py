@@ -50,7 +50,7 @@ def squeeze(t, pair: oracle.Squeezed):
     return force, one, contact_law(t - 0.5 * (lo + hi), pair.two)[1]
 
 
-def compare(samples, want: float, meaningful: float = 4e-3) -> None:
+def compare(samples, want: float, meaningful: float) -> None:
     """Sample mean against a number, in the sample's own standard errors."""
     mean, error = np.mean(samples), np.std(samples) / math.sqrt(len(samples))
     assert error < meaningful * mean
@@ -61,12 +61,12 @@ def compare(samples, want: float, meaningful: float = 4e-3) -> None:
 @pytest.mark.parametrize("interface", [INTERFACE, UNLIKE], ids=["like", "unlike"])
 def test_asperities(interface, h):
     rough = interface.rough
-    heights = np.random.default_rng(1).normal(0.0, rough.sigma_s, N)
+    heights = np.random.default_rng(1).normal(0.0, rough.sigma_s, N if h < 1.5 else 4 * N)
     d = h * rough.sigma
     force, area = contact_law(heights - d, interface.tip)
     state = tb.solve(base(interface), d=d)
-    compare(rough.eta * force / interface.E_ss, state.F_star)
-    compare(rough.eta * area, state.A_t)
+    compare(rough.eta * force / interface.E_ss, state.F_star, meaningful=6e-3)
+    compare(rough.eta * area, state.A_t, meaningful=6e-3)
     touching = heights > d
     elastic = touching & (heights - d < interface.tip.omega_1)
     plastic = heights - d >= interface.tip.omega_2

@@ -21,8 +21,8 @@ __all__ = ["PRESSURES", "STATEMENTS", "Entry", "Statement", "ledger", "model", "
 
 PRESSURES = np.geomspace(1e5, 3e7, 8)
 """Nominal pressures of the trends [Pa]: far from full contact."""
-INDUSTRIAL = 5e8
-"""A nominal pressure at which the asperities touch between small particles [Pa]."""
+SMALL, HIGH_PRESSURE = 40e-9, 4e8
+"""A size [m] and a nominal pressure [Pa] at which the asperities touch between the particles."""
 
 
 def surfaces() -> dict[str, Stack | MajumdarBhushan]:
@@ -111,13 +111,15 @@ def slopes() -> list[float]:
 def area_by_size() -> list[float]:
     out: list[float] = []
     for name in surfaces():
-        small, large = (model(name, x, size_effect=True).solve(1e6) for x in (40e-9, 80e-9))
+        small, large = (model(name, x, size_effect=True).solve(1e6) for x in (SMALL, 2 * SMALL))
         out.append(float(large.A_real / small.A_real))
     return out
 
 
 def smallest_share() -> list[float]:
-    return [float(model(name).solve(INDUSTRIAL).particle_load_share) for name in surfaces()]
+    return [
+        float(model(name, SMALL).solve(HIGH_PRESSURE).particle_load_share) for name in surfaces()
+    ]
 
 
 STATEMENTS = (

@@ -95,7 +95,7 @@ class Side:
             return float(self.force(np.array([math.exp(log_delta)]))[0]) - force
 
         top = math.log(2 * self.kinks[-1] * self.delta_1)
-        return math.exp(brentq(excess, top - 60, top, xtol=1e-15, rtol=1e-15))
+        return math.exp(brentq(excess, top - 600, top, xtol=1e-15, rtol=1e-15))
 
 
 class SqueezedParticle:
@@ -126,6 +126,13 @@ class SqueezedParticle:
                 elif force < other.limit * (1 + 1e-12):
                     kinks.add(delta + other.kinks[-1] * other.delta_1)
         self.kinks = np.array(sorted(kinks))
+        if self.kinks[-1] > DEEPEST_SQUEEZE:
+            raise InvalidValue(
+                f"the hardness {max(side.H for side in self.sides):.3g} Pa is so high against the "
+                f"contact modulus {min(first[0], second[0]):.3g} Pa that a particle would stay "
+                f"elastic beyond {self.kinks[-1]:.3g} times its diameter; the contact law holds "
+                "for small indentations only (check the units of E and H)"
+            )
         self._split_table = None if self.equal else self._tabulate_split()
         if not self.equal:
             self.kinks = np.array(sorted({*self.kinks, *self._area_crossings()}))
@@ -280,7 +287,8 @@ class SizeAverage:
         pieces = np.array(sizes.pieces)
         # δ at which a size, or a regime of some size, sets in; x = δ/ε must be positive
         of_sizes = np.where(gap > 0.5 * high, rise - (high - pieces), pieces - gap)
-        of_regimes = gap * (particle.panels / (1 - particle.panels))
+        eps = particle.panels
+        of_regimes = gap * np.divide(eps, 1 - eps, out=np.zeros_like(eps), where=eps != 1)
         deltas = np.concatenate([of_sizes, of_regimes], axis=1)
         deltas = np.clip(deltas, np.maximum(of_sizes[:, :1], 0.0), rise)
         root, weight = panel_rule(np.sort(np.sqrt(deltas), axis=1), 16)
@@ -289,7 +297,7 @@ class SizeAverage:
         density = sizes.pdf(diameter) * diameter**2 * 2 * root * weight
         used = density > 0
         values = np.zeros((*density.shape, len(COLUMNS)))
-        values[used] = particle((delta / diameter)[used])
+        values[used] = particle(delta[used] / diameter[used])
         return np.einsum("gn,gnk->gk", density, values)
 
     def __call__(self, gaps: Array) -> Array:
@@ -626,6 +634,8 @@ class RoughSeat:
         return out
 
 
+DEEPEST_SQUEEZE = 1e3
+"""Squeeze over diameter at which a particle must be fully plastic for the law to have a meaning."""
 NORMAL_REACH = 9.0
 """Standard deviations of the seat beyond which nothing is counted."""
 SEAT_NODES = 14

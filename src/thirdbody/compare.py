@@ -1,0 +1,676 @@
+r"""One interface under every law: what the choice of the asperity law is worth.
+
+The laws of the literature differ in when an asperity yields and what it does then. `compare`
+solves the same contact at the same loads under each of them,
+
+.. math:: \Delta A = 100\,\left(\frac{A_t}{A_t^{own}} - 1\right), \qquad
+          \frac{\Delta d}{\sigma} = \frac{d - d^{own}}{\sigma},
+
+where "own" is the law the contact came with. Only asperities change their law; particles keep
+theirs.
+"""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import difflib
+import inspect
+import io
+import json
+import re
+import warnings
+from collections.abc import Iterable, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .citations import cite
+from .contact import Contact, interface
+from .equilibrium import COLUMNS, Equilibrium, given_load, solve
+from .errors import InvalidValue, RangeWarning
+from .laws.asperity import JG, KE, REGISTRY, ZMC, AbstractAsperityLaw
+from .materials import MaterialPair, materials
+
+if TYPE_CHECKING:
+    import os
+
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["compare", "csv_text", "figure", "laws_page", "save"]
+
+KEPT = (
+    *("d", "d_star", "F_ss_star", "A_t", "A_ss", "A_sa", "A_e", "A_ep", "A_p"),
+    *("particle_load_share", "mode", "status", "residual"),
+)
+"""Columns of `Equilibrium` that differ from law to law."""
+DERIVED = {
+    "mean_pressure": ("p_m", "Pa", "mean real pressure F/A_t"),
+    "elastic_share": ("A_e/A_t", "1", "elastic part of the real area"),
+    "elastoplastic_share": ("A_ep/A_t", "1", "elastoplastic part of the real area"),
+    "plastic_share": ("A_p/A_t", "1", "plastic part of the real area"),
+    "A_t_difference": ("ΔA_t", "%", "real area against the contact's own law"),
+    "mean_pressure_difference": ("Δp_m", "%", "mean real pressure against the own law"),
+    "particle_load_share_difference": ("Δ(F_sa/F_t)", "%", "particles' load against the own law"),
+    "d_star_difference": ("Δd/σ", "1", "separation above that of the own law, over σ"),
+}
+"""Symbol, unit and meaning of what a comparison adds."""
+TELLING = 0.01
+"""Share of the area beyond a law's range from which a comparison says so."""
+ATOMIC = 0.2e-9
+"""Distance z_0 of atomic planes in the Tabor number [m]."""
+
+
+# -------------------------------------------------------------------------- comparing
+def compare(
+    contact: Contact,
+    *,
+    F_star: ArrayLike | None = None,
+    pressure: ArrayLike | None = None,
+    laws: Iterable[str | AbstractAsperityLaw] | str | AbstractAsperityLaw | None = None,
+) -> xarray.Dataset:
+    """The same interface under every asperity law.
+
+    Parameters
+    ----------
+    contact : Contact
+        With or without particles; its ``asperity_law`` is what the others are held against.
+    F_star, pressure : float or array (N,)
+        Loads F* [1] or nominal pressures [Pa]; exactly one of them.
+    laws : list of str or AbstractAsperityLaw, optional
+        Words of the registry, which mean the law with its default options, or laws. When left
+        out: every registered law but the adhesive ones, which need a work of adhesion, and the
+        elliptic ones, which equal their circular ones at a ratio of 1. The contact's own law is
+        always there and comes first.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions ``law`` and the load. Separation, areas and their regimes as in `solve`;
+        ``mean_pressure`` F/A_t; ``elastic_share`` and its neighbours, what each law believes of
+        the real area; differences against the own law at the same load, in per cent
+        (``A_t_difference``, ...) or in σ (``d_star_difference``). A law that fails keeps its
+        row, NaN, and ``note`` says why; ``note`` also says where a law leaves its range.
+
+    Raises
+    ------
+    InvalidValue
+        No load or two, or a word that names no law.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> table = tb.compare(contact, F_star=[1e-5, 1e-4], laws=["ceb", "jg"])
+    >>> table.law.values.tolist()
+    ['zmc', 'ceb', 'jg']
+    >>> table.A_t_difference.sel(law="ceb").values.round(0).tolist()
+    [39.0, 39.0]
+    """
+    import xarray as xr
+
+    from . import __version__
+
+    load, values, _ = given_load(contact, pressure, F_star, None)
+    given = values / contact.E_ss if load == "F_star" else values
+    if load == "F_star":
+        given = np.atleast_1d(np.asarray(F_star, dtype=float))
+    rows = _rows(contact, laws)
+    names = list(rows)
+    shape = (len(names), len(given))
+    data: dict[str, Array] = {}
+    notes: list[list[str]] = []
+    sentences: list[tuple[str, ...]] = []
+    for i, law in enumerate(rows.values()):
+        state, note, heard = _solved(contact, law, {load: given})
+        for name in KEPT:
+            words = name in ("mode", "status")
+            column = data.setdefault(
+                name, np.full(shape, "", dtype=object) if words else np.full(shape, np.nan)
+            )
+            if state is not None:
+                column[i] = getattr(state, name)
+            elif name == "status":
+                column[i] = note[0]
+        notes.append(note)
+        sentences.append(heard)
+    # what the own law is told already, with other numbers, is not told again of the others
+    common = sentences[0]
+    known = {_numberless(text) for text in common}
+    for note, heard in zip(notes, sentences, strict=True):
+        note += [text for text in heard if _numberless(text) not in known]
+    data |= _derived(data, values)
+    if contact.two_body:
+        for name in ("particle_load_share", "particle_load_share_difference"):
+            data.pop(name)
+    for name in ("mode", "status"):
+        data[name] = data[name].astype(str)
+    coords: dict[str, Any] = {
+        "law": ("law", names, {"long_name": "asperity law"}),
+        load: (load, given, _about(load)),
+        "title": ("law", [_title(law) for law in rows.values()]),
+        "options": ("law", [_options(law) for law in rows.values()]),
+        "note": ("law", ["; ".join(note) for note in notes]),
+    }
+    other = "pressure" if load == "F_star" else "F_star"
+    scale = 1.0 if other == "pressure" else contact.E_ss
+    coords[other] = (load, values / scale, _about(other))
+    used = [contact.replace(asperity_law=law) for law in rows.values() if not isinstance(law, type)]
+    cited = "\n".join(cite(each) for each in used)
+    return xr.Dataset(
+        {name: (("law", load), column, _about(name)) for name, column in data.items()},
+        coords=coords,
+        attrs={
+            "own_law": names[0],
+            "hardness": contact.surfaces.H,
+            "inputs": json.dumps(contact.to_dict(), ensure_ascii=False),
+            "version": __version__,
+            "citations": "\n".join(dict.fromkeys(cited.splitlines())),
+            "warnings": "\n".join(common),
+        },
+    )
+
+
+def _numberless(sentence: str) -> str:
+    """A sentence without its numbers."""
+    return re.sub(r"-?\d+(\.\d*)?(e[+-]?\d+)?", "#", sentence)
+
+
+def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | type]:
+    """The laws to compare by label, the contact's own first; a class where no law can be made."""
+    own = contact.asperity_law
+    by_year = sorted(REGISTRY.values(), key=lambda law: (law.year, law.name))
+    if laws is None:
+        asked: list[Any] = [law.name for law in by_year if not _special(law)]
+    elif isinstance(laws, (str, AbstractAsperityLaw)):
+        asked = [laws]
+    else:
+        asked = list(laws)
+    problems = []
+    found: list[Any] = [own]
+    for item in asked:
+        if isinstance(item, AbstractAsperityLaw):
+            found.append(item)
+        elif isinstance(item, str) and item in REGISTRY:
+            found.append(own if item == own.name else _usual(REGISTRY[item]))
+        else:
+            near = difflib.get_close_matches(str(item), REGISTRY, n=1, cutoff=0.4)
+            guess = f"; did you mean {near[0]!r}?" if near else ""
+            known = ", ".join(law.name for law in by_year)
+            problems.append(f"laws: {item!r} names no asperity law ({known}){guess}")
+    if not asked:
+        problems.append("laws is empty; give at least one law, or leave it out for all")
+    if problems:
+        raise InvalidValue(*problems)
+    return {_label(law): law for law in found}
+
+
+def _special(law: type) -> bool:
+    """An adhesive law, which needs w, or an elliptic one, which needs the ratio of its radii."""
+    return bool({item.name for item in dataclasses.fields(law)} & {"w", "ratio"})
+
+
+def _usual(law: type) -> Any:
+    try:
+        return law()
+    except (TypeError, InvalidValue):
+        return law
+
+
+def _label(law: Any) -> str:
+    """The law's word, with the options that are not its usual ones."""
+    if isinstance(law, type) or isinstance(usual := _usual(type(law)), type):
+        return law.name
+    changed = [
+        f"{item.name}={getattr(law, item.name)!r}".replace("'", "")
+        for item in dataclasses.fields(law)
+        if getattr(law, item.name) != getattr(usual, item.name)
+    ]
+    return law.name + (f"({', '.join(changed)})" if changed else "")
+
+
+def _title(law: Any) -> str:
+    return f"{law.title} ({law.year})"
+
+
+def _options(law: AbstractAsperityLaw | type) -> str:
+    return "" if isinstance(law, type) else json.dumps(law.to_dict(), ensure_ascii=False)
+
+
+def _solved(
+    contact: Contact, law: AbstractAsperityLaw | type, load: dict[str, Any]
+) -> tuple[Equilibrium | None, list[str], tuple[str, ...]]:
+    """The states under one law, or None; what to say of the row; warnings of the states."""
+    if isinstance(law, type):
+        return None, ["has options without a usual value: give the law itself"], ()
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore", RangeWarning)
+            changed = contact.replace(asperity_law=law)
+            state = solve(changed, **load)
+            note = _outside(changed, state)
+    except Exception as error:  # a law can be anybody's: whatever it does, the others stand
+        why = str(error).strip().splitlines() or [type(error).__name__]
+        return None, [f"failed: {why[0]}"], ()
+    status = np.asarray(state.status)
+    bad = status[status != "ok"]
+    if len(bad):
+        count = "no state" if len(bad) == len(status) else f"{len(bad)} state(s) not"
+        note.insert(0, f"{count} solved: {bad[0]}")
+    return state, note, state.warnings
+
+
+def _derived(data: dict[str, Array], load: Array) -> dict[str, Array]:
+    """Mean pressure, regime shares, and differences against the first row."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        area = data["A_t"]
+        out = {
+            "mean_pressure": load / area,
+            "elastic_share": data["A_e"] / area,
+            "elastoplastic_share": data["A_ep"] / area,
+            "plastic_share": data["A_p"] / area,
+        }
+        for name in ("A_t", "mean_pressure", "particle_load_share"):
+            column = out.get(name, data.get(name))
+            out[f"{name}_difference"] = 100 * (column / column[0] - 1)  # type: ignore[index]
+    out["d_star_difference"] = data["d_star"] - data["d_star"][0]
+    return out
+
+
+def _about(name: str) -> dict[str, str]:
+    if name in DERIVED:
+        symbol, unit, meaning = DERIVED[name]
+    else:
+        symbol, unit, meaning = (COLUMNS[name][key] for key in ("symbol", "unit", "meaning"))
+    return {"units": unit, "long_name": meaning, "symbol": symbol}
+
+
+# -------------------------------------------------------------------------- ranges
+def _outside(contact: Contact, state: Equilibrium) -> list[str]:
+    """Where the states leave the published range of the law, one phrase each."""
+    law, R = contact.asperity_law, contact.roughness.R
+    E_star, H = contact.E_ss, contact.surfaces.H
+    body: dict[str, Any] = dict(R=R, E_star=E_star, H=H)
+    bound = law.bound(**body, nu=contact.surfaces.softer.nu)
+    out = []
+    w = getattr(law, "w", None)
+    if w is not None:
+        tabor = (R * w**2 / (E_star**2 * ATOMIC**3)) ** (1 / 3)
+        out.append(f"w = {w:g} J/m², Tabor number {tabor:.2g} (z_0 = 0.2 nm): {law.valid_range}")
+    limit, beyond = _limit(bound, body)
+    d = np.atleast_1d(np.asarray(state.d, dtype=float))
+    if limit is None or not np.any(np.isfinite(d)):
+        return out
+    share = _share_beyond(contact, bound, float(np.nanmin(d)), limit, body)
+    if share > TELLING:
+        shown = f"{100 * share:.0f}" if share > 0.095 else f"{100 * share:.1g}"
+        out.append(f"at the highest load {shown} % of the asperities' area is {beyond}")
+    return out
+
+
+def _limit(law: AbstractAsperityLaw, body: dict[str, Any]) -> tuple[float | None, str]:
+    """The interference [m] up to which the law is meant, and what lies beyond."""
+    if isinstance(law, KE):
+        end = 110 * float(law.yield_interference(**body))
+        return end, "pressed beyond ω = 110 ω_c, where the fits end"
+    if isinstance(law, JG):
+        from scipy.optimize import brentq
+
+        def excess(omega: float) -> float:
+            return float(law.contact_radius(omega, **body)) / body["R"] - 0.41
+
+        return brentq(excess, 1e-12 * body["R"], body["R"]), "at a/R above 0.41, out of its fits"
+    if {branch.regime for branch in law.branches} == {"elastic"}:
+        first = float(ZMC().yield_interference(**body))
+        return first, "pressed beyond first yield (mean pressure 0.4 H), and the law is elastic"
+    return None, ""
+
+
+def _share_beyond(
+    contact: Contact, law: AbstractAsperityLaw, d: float, limit: float, body: dict[str, Any]
+) -> float:
+    """Part of the asperities' area that is pressed by more than ``limit``."""
+    asperities = interface(contact).asperities
+    sigma_s, heights = asperities.sigma_s, contact.roughness.heights
+    h = (d - asperities.centre) / sigma_s
+    reach = min(heights.highest, max(h, 0.0) + 8.0) - h
+    if reach <= 0:
+        return 0.0
+    omega = sigma_s * reach * (np.arange(8000) + 0.5) / 8000
+    area = law.area(omega, **body) * heights.pdf(h + omega / sigma_s)
+    return float(area[omega > limit].sum() / area.sum()) if area.any() else 0.0
+
+
+# -------------------------------------------------------------------------- showing
+def csv_text(table: xarray.Dataset) -> str:
+    """A comparison as comma-separated values: one row for each law and load.
+
+    Parameters
+    ----------
+    table : xarray.Dataset
+        From `compare`.
+
+    Returns
+    -------
+    str
+        Header with units; NaN is an empty cell.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    load = table.A_t.dims[1]
+    columns = [*(("F_star", "pressure") if load == "F_star" else ("pressure", "F_star"))]
+    columns += [str(name) for name in table.data_vars]
+    units = [table[name].attrs["units"] for name in columns]
+    heads = [
+        f"{name} [{unit}]" if unit else name for name, unit in zip(columns, units, strict=True)
+    ]
+    writer.writerow(["law", *heads, "note"])
+    for i, law in enumerate(table.law.values):
+        row = table.isel(law=i)
+        note = str(row.note.item())
+        for j in range(table.sizes[load]):
+            cells = [row[name].values[j] for name in columns]
+            plain = [item.item() for item in cells]
+            writer.writerow([law, *("" if v != v else v for v in plain), note])
+    return text.getvalue()
+
+
+def figure(table: xarray.Dataset, *, at: int | None = None) -> Figure:
+    """A comparison in four panels: pressure, area, separation, and the regimes at one load.
+
+    Parameters
+    ----------
+    table : xarray.Dataset
+        From `compare`.
+    at : int, optional
+        Index of the load of the regimes; the middle one when left out.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> import numpy as np, thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> table = tb.compare(contact, F_star=np.geomspace(1e-6, 1e-4, 5), laws=["ke"])
+    >>> len(figure(table).axes)
+    4
+    """
+    from matplotlib.figure import Figure
+
+    order = np.argsort(table.F_star.values)
+    at = int(order[len(order) // 2]) if at is None else at
+    fig = Figure(figsize=(7.2, 5.9), dpi=150, layout="constrained")
+    axes = fig.subplots(2, 2)
+    x = table.F_star.values[order]
+    panels = {
+        "mean_pressure": r"Mean real pressure $F/A_t$ [GPa]",
+        "A_t_difference": r"Real area $A_t$, difference [%]",
+        "d_star_difference": r"Separation, difference $\Delta d/\sigma$ [1]",
+    }
+    styles = _styles(table)
+    for ax, (name, label) in zip(axes.flat, panels.items(), strict=False):
+        scale = 1e-9 if name == "mean_pressure" else 1.0
+        for law, style in styles.items():
+            ax.plot(x, scale * table[name].sel(law=law).values[order], label=law, **style)
+        _dress(ax, label, x)
+    hardness = 1e-9 * table.attrs["hardness"]
+    axes[0, 0].axhline(hardness, color="0.45", linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
+    axes[0, 0].text(1.01, hardness, "$H$", transform=axes[0, 0].get_yaxis_transform(), va="center")
+    axes[0, 0].set_ylim(bottom=0)
+    for ax in axes.flat[1:3]:
+        ax.axhline(0, color="0.45", linewidth=0.6, zorder=1)
+    if len(x) > 1:
+        for ax in axes.flat[:3]:
+            ax.axvline(table.F_star.values[at], color="0.6", linewidth=0.8, linestyle="--")
+    _regimes(axes[1, 1], table, at)
+    for ax, letter in zip(axes.flat, "abcd", strict=True):
+        ax.set_title(f"({letter})", loc="left", fontsize="medium")
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    labels[0] += " (own law)"
+    fig.legend(
+        handles,
+        labels,
+        loc="outside upper center",
+        ncols=min(len(labels), 6),
+        frameon=False,
+        fontsize="small",
+    )
+    return fig
+
+
+def _styles(table: xarray.Dataset) -> dict[str, dict[str, Any]]:
+    """Look of every law's curve: the own one black, the others told apart by dashes too."""
+    from .plot import OKABE_ITO
+
+    colours = [
+        OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")
+    ]
+    dashes: list[Any] = ["--", "-.", (0, (6, 1, 1, 1, 1, 1)), (0, (9, 2)), (0, (2, 1)), ":"]
+    marker = "o" if table.sizes[table.A_t.dims[1]] == 1 else None
+    out: dict[str, dict[str, Any]] = {}
+    for i, law in enumerate(table.law.values):
+        if i == 0:
+            out[law] = dict(color="black", linewidth=2.0, zorder=2.5, marker=marker)
+            continue
+        j = i - 1
+        dash = dashes[(j + j // len(colours)) % len(dashes)]
+        out[law] = dict(color=colours[j % 6], linestyle=dash, linewidth=1.5, marker=marker)
+    return out
+
+
+def _dress(ax: Axes, label: str, x: Array) -> None:
+    ax.set_xlabel(r"Load $F^* = F/(A_n E_{ss})$ [1]")
+    ax.set_ylabel(label)
+    ax.set_xscale("log")
+    if len(x) > 1 and x[-1] > x[0]:
+        ax.set_xlim(x[0], x[-1])
+    ax.tick_params(which="both", direction="in", top=True, right=True)
+    ax.grid(visible=True, color="0.92", linewidth=0.6)
+    ax.set_axisbelow(True)
+
+
+def _regimes(ax: Axes, table: xarray.Dataset, at: int) -> None:
+    """One bar a law: the parts of the real area."""
+    from .plot import REGIMES
+
+    load = table.A_t.dims[1]
+    one = table.isel({load: at})
+    rows = np.arange(len(one.law))
+    left = np.zeros(len(rows))
+    hatches = ("", "///", "xxx")
+    for (name, colour), hatch in zip(REGIMES.values(), hatches, strict=True):
+        share = 100 * np.nan_to_num(one[f"{name}_share"].values)
+        ax.barh(
+            rows, share, 0.72, left=left, label=name, color=colour, alpha=0.8, hatch=hatch,
+            edgecolor="white", linewidth=0.6,
+        )  # fmt: skip
+        left += share
+    for row in rows[left == 0]:
+        ax.text(2, row, "no state", va="center", fontsize="small", color="0.4")
+    ax.set_yticks(rows, one.law.values)
+    ax.invert_yaxis()
+    ax.set_xlim(0, 100)
+    exponent = int(np.floor(np.log10(float(one.F_star))))
+    lead = float(one.F_star) / 10.0**exponent
+    at_load = rf"$F^* = {lead:.2g}\times10^{{{exponent}}}$"
+    ax.set_xlabel(f"Part of the real area at {at_load} [%]")
+    ax.tick_params(axis="y", length=0)
+    ax.legend(
+        loc="lower right", bbox_to_anchor=(1.02, 0.985), ncols=3, frameon=False, fontsize="small",
+        handlelength=1.2, handletextpad=0.5, columnspacing=0.9,
+    )  # fmt: skip
+
+
+def save(
+    table: xarray.Dataset, folder: str | os.PathLike[str], *, at: int | None = None
+) -> list[Path]:
+    """Write a comparison as ``compare.csv``, ``compare.png`` and ``compare.svg``.
+
+    The three files appear together, when all are complete; the folder is made.
+
+    Parameters
+    ----------
+    table : xarray.Dataset
+        From `compare`.
+    folder : path-like
+        Where to write.
+    at : int, optional
+        As in `figure`.
+
+    Returns
+    -------
+    list of pathlib.Path
+    """
+    import matplotlib as mpl
+
+    from .files import whole
+
+    folder = Path(folder)
+    if folder.exists() and not folder.is_dir():
+        raise InvalidValue(f"cannot write into {folder}: a file of that name exists")
+    drawing = figure(table, at=at)
+    text = csv_text(table)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InvalidValue(f"cannot make {folder}: {(error.strerror or '').lower()}") from None
+    out = [folder / f"compare.{suffix}" for suffix in ("csv", "png", "svg")]
+    with ExitStack() as stack:
+        table_file, png, svg = (stack.enter_context(whole(path)) for path in out)
+        table_file.write_text(text, encoding="utf-8", newline="")
+        drawing.savefig(png, dpi=200)
+        with mpl.rc_context({"svg.hashsalt": "thirdbody"}):
+            drawing.savefig(svg, metadata={"Date": None})
+    return out
+
+
+# -------------------------------------------------------------------------- the page of laws
+VALIDATED = {
+    "gw": "Hertz; closed Gaussian and exponential sums",
+    "jkr": "anchors: pull-off, ω = 0, ω = −¾X",
+    "dmt": "Hertz less 2πwR",
+    "ceb": "public code (form); closed exponential sum; 2·10⁷ random asperities, 1.8 std. errors",
+    "elliptic-ceb": "Hertz's ellipse by quadrature; CEB at λ = 1",
+    "zmc": "public code; 2·10⁷ random asperities, 1.4 std. errors",
+    "ke": "public code (loads); closed exponential sum",
+    "elliptic-zmc": "Hertz's ellipse by quadrature; ZMC at λ = 1",
+    "jg": "two public codes",
+    "hermite": "C¹, Hertz's slope at yield, H at the end",
+}
+"""What the shipped laws were held against, beside what all of them were."""
+
+
+def laws_page() -> str:
+    """The page docs/laws.md: every law that ships, as its class describes it.
+
+    ``thirdbody laws --markdown`` prints it.
+
+    Returns
+    -------
+    str
+        Markdown.
+
+    Examples
+    --------
+    >>> laws_page().splitlines()[0]
+    '# Every law'
+    """
+    shipped = [law for law in REGISTRY.values() if law.__module__.startswith(f"{__package__}.")]
+    heads = ("word", "law", "year", "what yields, and how", "range", "jumps")
+    table = [
+        [*heads, "provenance", "held against", "DOI"],
+        ["---"] * (len(heads) + 3),
+        *(_page_row(law) for law in sorted(shipped, key=lambda law: (law.year, law.name))),
+    ]
+    rows = ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in table]
+    return "\n".join([_PAGE_HEAD, *rows, _PAGE_FOOT])
+
+
+_PAGE_HEAD = """\
+# Every law
+
+What one asperity does when it is pressed by ω into a flat. The word goes into a study file
+(`[asperity_law]`, `name = "ke"`), the class is in `thirdbody.asperity`. Which to take:
+[choose a law](choose-a-law.md). To see what the choice does to your contact:
+`thirdbody compare STUDY.toml`.
+"""
+
+_PAGE_FOOT = """
+**Jumps** are those of load F, area A and stiffness S = dF/dω at ω/ω_1, where the formula changes;
+ω_1 is the interference of first yield. They are in the published formulas and stay there: nothing
+is smoothed in silence. Where they depend on the materials they are for S45C steel on itself
+(ν = 0.29) and R = 2.8 µm. Sums over many asperities do not jump.
+
+**Provenance**: *seen* in a source, *derived* here, *recalled* without the source at hand,
+*reconstructed* from a description.
+
+**Held against**: beside what the table says, every law was held against a second implementation in
+30 digits, on every branch and on both sides of each border (agreement 2e-15; 2e-8 at the very
+point where a JKR contact parts), and its sums over Gaussian, exponential, Weibull and Johnson
+heights against another quadrature (3e-12). That says that the formulas are computed as they stand.
+Whether they describe your metal is for experiments to say.
+
+This page is made from the laws themselves: `thirdbody laws --markdown > docs/laws.md`.
+"""
+
+
+def _page_row(law: type[Any]) -> list[str]:
+    doi = f"[{law.doi}](https://doi.org/{law.doi})" if law.doi else "–"
+    first = (inspect.getdoc(law) or "").splitlines()[0]
+    return [
+        f"`{law.name}`",
+        law.title,
+        str(law.year),
+        first,
+        law.valid_range,
+        _jumps(_usual(law)),
+        law.provenance,
+        VALIDATED.get(law.name, "–"),
+        doi,
+    ]
+
+
+def _jumps(law: AbstractAsperityLaw) -> str:
+    """Where load, area or stiffness jump, and by how much."""
+    steel = materials["S45C"]
+    pair = MaterialPair(steel, steel)
+    body: dict[str, Any] = dict(R=2.8e-6, E_star=pair.E_star, H=pair.H)
+    law = law.bound(**body, nu=steel.nu)
+    symbols = {"force": "F", "area": "A", "stiffness": "S"}
+    out = []
+    w = getattr(law, "w", None)
+    touch = float(law.force(1e-12 * body["R"], **body))
+    if w is not None and touch < 0:
+        out.append(f"at touch: F from 0 to {_signed(touch / (np.pi * w * body['R']))} πwR")
+    for y, (before, after) in zip(law.breakpoints, _pairs(law.branches), strict=True):
+        at = np.array([y])
+        found = []
+        for quantity, symbol in symbols.items():
+            low, high = (float(getattr(branch, quantity)(at)[0]) for branch in (before, after))
+            jump = 100 * (high / low - 1)
+            if abs(jump) > 0.005:
+                found.append(f"{symbol} {_signed(jump)} %")
+        if found:
+            out.append(f"{y:g}: {', '.join(found)}")
+    return "; ".join(out) if out else "none"
+
+
+def _pairs(items: Sequence[Any]) -> list[tuple[Any, Any]]:
+    return list(zip(items[:-1], items[1:], strict=True))
+
+
+def _signed(value: float) -> str:
+    return f"{value:+.3g}".replace("-", "−")
