@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -46,7 +47,7 @@ def extra(monkeypatch):
     monkeypatch.setattr(
         tb.asperity.AbstractAsperityLaw, "registry", registry := dict(tb.asperity.REGISTRY)
     )
-    monkeypatch.setattr("thirdbody.compare.REGISTRY", registry)
+    monkeypatch.setattr(sys.modules["thirdbody.compare"], "REGISTRY", registry)
     return registry
 
 
@@ -93,9 +94,9 @@ def test_pressure_is_the_same_comparison(clean):
     np.testing.assert_allclose(table.F_star, LOADS, rtol=1e-14)
 
 
-def test_units_and_elastic_limit():
+def test_elastic_limit():
     """Infinite hardness: every law is GW."""
-    hard = tb.Material(E=205e9, nu=0.29, H=1e16)
+    hard = tb.Material(E=205e9, nu=0.29, H=1e12)
     table = tb.compare(contact(surfaces=tb.MaterialPair(hard, hard)), F_star=LOADS)
     np.testing.assert_allclose(table.A_t_difference, 0, atol=1e-6)
 
@@ -118,7 +119,9 @@ def test_own_law_comes_first_with_its_options():
     assert table.attrs["own_law"] == "ke(K=0.6)"
     assert '"K": 0.6' in table.options.values[0]
     assert "Kogut" in table.title.values[0]
-    assert tb.cite(contact()) in table.attrs["citations"]
+    assert {"10.1115/1.1490373", "10.1115/1.555332"} <= set(
+        re.findall(r"doi:(\S+)", table.attrs["citations"])
+    )
 
 
 def test_adhesive_and_elliptic_laws_when_asked():

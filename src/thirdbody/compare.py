@@ -114,7 +114,7 @@ def compare(
     >>> table.law.values.tolist()
     ['zmc', 'ceb', 'jg']
     >>> table.A_t_difference.sel(law="ceb").values.round(0).tolist()
-    [39.0, 39.0]
+    [29.0, 35.0]
     """
     import xarray as xr
 

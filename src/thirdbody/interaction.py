@@ -16,8 +16,8 @@ the asperity itself included, which is already in its own law. Taken back out,
           \bar p = \eta\,\overline{W}
 
 with d measured from the *deformed* mean plane of summits: from there the correction is positive
-and raises the load. Measured from the undeformed plane, d_0 = d − U, the sum of both is
-negative. This correction does change the area at a given load.
+and raises the load. Measured from the undeformed plane, d_0 = d − U, the sum of both lowers the
+load of any specimen with many asperities. This correction does change the area at a given load.
 """
 
 from __future__ import annotations
@@ -239,7 +239,7 @@ class _SelfLoaded:
         law = self.law = contact.asperity_law.bound(
             R=self.R, E_star=self.E_star, H=surfaces.H, nu=surfaces.softer.nu
         )
-        if law.start < 0:
+        if law.start < 0 or np.any(law.reduced("force", np.geomspace(1e-12, 1e3, 200)) < 0):
             raise InvalidValue(f"local interaction needs F_1 >= 0; {law.title} is adhesive")
         self.omega_1 = float(law.yield_interference(R=self.R, E_star=self.E_star, H=surfaces.H))
         self.unit = math.pi * self.R * self.omega_1

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ElasticLayer"]
 
-THINNEST = 2.0**12
+THINNEST = 2.0**10
 """Contact radius over thickness up to which the equation is solved; beyond, see `reduced`."""
 CUT = 24.0
 """M − 1 is left out above: it has fallen to e^(−2·24) = 1e-21."""
@@ -136,7 +136,7 @@ class ElasticLayer(Value):
 
         Notes
         -----
-        Relative error 1e-11 for a/t up to 4096; beyond, the distance from the response without
+        Relative error 1e-11 for a/t up to 1024; beyond, the distance from the response without
         layer falls as t/a. For E_1/E_2 between 1e-2 and 1e2 what is left by then is below 5 %
         of the response.
         """
@@ -156,7 +156,7 @@ def _transform(layer: ElasticLayer, v: Array) -> Array:
     to_series = (2 * n[:, None] + 1) / 2 * np.polynomial.legendre.legvander(nodes, 19).T * weights
     series = layer.excess(x).reshape(-1, 20) @ to_series.T
     half, middle = 0.5 * np.diff(edges), 0.5 * (edges[1:] + edges[:-1])
-    out = np.zeros_like(v)
+    out = np.zeros(len(v))
     for c, h, m in zip(series, half, middle, strict=True):
         # ∫P_n(s)e^{ivhs}ds = 2iⁿj_n(vh): its real part in even, imaginary part in odd n
         waves = spherical_jn(n[:, None], v * h)
@@ -169,9 +169,9 @@ def _transform(layer: ElasticLayer, v: Array) -> Array:
 @lru_cache(maxsize=64)
 def _kernel(layer: ElasticLayer) -> PiecewiseChebyshev:
     """g as a function of ln(1 + v) up to the largest distance."""
-    span = np.linspace(0.0, math.log1p(2 * THINNEST), 15)
+    span = np.linspace(0.0, math.log1p(2 * THINNEST), 19)
     return PiecewiseChebyshev(
-        lambda u: _transform(layer, np.expm1(u))[:, None], span, tolerance=1e-13, max_depth=4
+        lambda u: _transform(layer, np.expm1(u))[:, None], span, tolerance=1e-12, max_depth=2
     )
 
 
@@ -222,7 +222,7 @@ def _mesh(depth: int) -> _Mesh:
 
 def _solve(layer: ElasticLayer, alpha: float) -> tuple[float, float, float]:
     """Φ, Δ and s at a/t = α, with ψ = (E_1*a²/πR)(Δχ_0 − χ_2)."""
-    mesh = _mesh(max(1, math.ceil(math.log2(max(alpha, 1.0))) + 2))
+    mesh = _mesh(math.ceil(math.log2(max(alpha, 1.0))) + 2)
     kernel = _kernel(layer)
     x = mesh.points[:, None, None]
     distances = np.log1p(alpha * np.stack([np.abs(x - mesh.s), x + mesh.s]))
@@ -243,38 +243,39 @@ def _solve(layer: ElasticLayer, alpha: float) -> tuple[float, float, float]:
 
 # ------------------------------------------------------------------ table
 class _Table:
-    """FR/(E_1*t³)/y^1.5, (a/t)²/y and (dF/dω)/(E_1*t)/y^0.5 against r = √y."""
+    """FR/(E_1*t³)/y^1.5, (a/t)²/y and (dF/dω)/(E_1*t)/y^0.5 against r = √y.
+
+    Variables are ln(1 + βα) and ln(1 + βr): a stiff layer is felt from α = 1/k_0 on.
+    """
 
     def __init__(self, layer: ElasticLayer):
-        def columns(u: Array) -> Array:
-            return np.stack(layer.contact(np.expm1(u)), axis=1)
+        self.beta = beta = max(1.0, layer.thick_slope)
+        top = math.log1p(beta * THINNEST)
+        panels = math.ceil(top / 0.85) + 1
 
-        top = math.log1p(THINNEST)
+        def columns(u: Array) -> Array:
+            return np.stack(layer.contact(np.expm1(u) / beta), axis=1)
+
         by_radius = PiecewiseChebyshev(
-            columns, np.linspace(0.0, top, 10), tolerance=1e-12, max_depth=3
+            columns, np.linspace(0.0, top, panels), tolerance=3e-12, max_depth=2
         )
         grid = np.linspace(0.0, top, 2000)
-
-        def root(alpha: Array, Delta: Array) -> Array:
-            return np.log1p(alpha * np.sqrt(Delta))
-
-        rising = root(np.expm1(grid), by_radius(grid)[:, 1])
+        rising = np.log1p(np.expm1(grid) * np.sqrt(by_radius(grid)[:, 1]))
 
         def against_root(v: Array) -> Array:
             u = np.interp(v, rising, grid)
             for _ in range(5):
                 Delta, slope, _ = by_radius.derivatives(u, (1,))[:, 0].T
-                alpha = np.expm1(u)
-                gain = (alpha + 1) * np.sqrt(Delta) + 0.5 * alpha * slope / np.sqrt(Delta)
-                error = np.expm1(v) - alpha * np.sqrt(Delta)
-                u = np.clip(u + error / gain, 0.0, top)
+                grown = np.expm1(u)
+                gain = (grown + 1) * np.sqrt(Delta) + 0.5 * grown * slope / np.sqrt(Delta)
+                u = np.clip(u + (np.expm1(v) - grown * np.sqrt(Delta)) / gain, 0.0, top)
             Phi, Delta, s = by_radius(u).T
             return np.stack([Phi / Delta**1.5, 1 / Delta, s / np.sqrt(Delta)], axis=1)
 
         self.table = PiecewiseChebyshev(
-            against_root, np.linspace(0.0, rising[-1], 10), tolerance=1e-12, max_depth=3
+            against_root, np.linspace(0.0, rising[-1], panels), tolerance=3e-12, max_depth=3
         )
-        self.top = float(np.expm1(rising[-1]))
+        self.top = float(np.expm1(rising[-1])) / beta
         thin = layer.thin_modulus
         self.limit = np.array([4 / 3 * thin, 1.0, 2 * thin])
         end = self.table(rising[-1:])[0]
@@ -283,7 +284,7 @@ class _Table:
         self.rest[2] = self.rest[0]
 
     def __call__(self, root: Array) -> Array:
-        out = self.table(np.log1p(np.minimum(root, self.top)))
+        out = self.table(np.log1p(self.beta * np.minimum(root, self.top)))
         thin = root > self.top
         out[thin] = self.limit + self.rest / root[thin, None]
         return out

@@ -45,6 +45,7 @@ NEGLIGIBLE = 1e-17
 TAIL, COARSE = 1e-12, 1e-5
 """Size of the last coefficients of the pressure, over the largest, that counts as converged: in
 the end, and while the separation is still being sought."""
+TENSILE = "the pressure is tensile somewhere: adhesive laws are not covered here"
 NODES = (40, 60, 90, 135, 200, 300, 450)
 
 
@@ -104,7 +105,7 @@ class Skin:
         """Gap at which the pressure is negligible beside that at ``gap``."""
         p, slope = self.one(gap)
         if p < 0:
-            raise InvalidValue("the pressure is tensile: adhesive laws are not covered here")
+            raise InvalidValue(TENSILE)
         if not (p > 0 and slope < 0):
             raise NoEquilibrium(f"no contact at a gap of {gap:.4g} m")
         step = low = 0.0
@@ -309,6 +310,8 @@ def balance_at(
         n = NODES[first]
         grid = shape.grid(n, extent)
         gap, p, slope, residual = _newton(skin, grid, d, _values(series, n))
+        if np.min(p) < 0:
+            raise InvalidValue(TENSILE)
         if not np.max(p) > 0:
             raise NoEquilibrium(f"no contact at a separation of {d:.4g} m")
         beyond = grid.x[p < NEGLIGIBLE * np.max(p)]

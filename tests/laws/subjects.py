@@ -1,0 +1,107 @@
+"""Which laws, heights and contacts the battery looks at. New laws come in by the registry."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any, NamedTuple
+
+import thirdbody as tb
+from thirdbody.asperity import REGISTRY, AbstractAsperityLaw
+
+R, E_STAR, NU = 2.8e-6, 1.1e11, 0.29
+H = 0.02 * E_STAR
+SIGMA_S = 0.01 * R
+ETA = 0.05 / (R * SIGMA_S)
+W = 5e-5 * E_STAR * R
+"""Work of adhesion: a length of adhesion of 0.0029 R, a third of σ_s."""
+CASE: dict[str, float] = {"R": R, "E_star": E_STAR, "H": H}
+
+CIRCLES = {"gw", "ceb", "zmc", "hermite", "ke", "jg"}
+ELLIPSES = {"elliptic-ceb": "ceb", "elliptic-zmc": "zmc"}
+ADHESIVE = {"dmt", "jkr"}
+
+OPTIONS: dict[str, list[dict[str, Any]]] = {
+    "ceb": [{"K": 0.6}, {}],
+    "ke": [{}, {"nu": 0.35}],
+    "jg": [{"hardness_ratio": 0.02 / 0.007}],
+    "elliptic-ceb": [
+        {"K": 0.6, "ratio": 4.0},
+        {"ratio": 10.0, "area_rule": "doubling"},
+    ],
+    "elliptic-zmc": [{"ratio": 4.0}, {"ratio": 10.0, "area_rule": "doubling"}],
+    "dmt": [{"w": W}],
+    "jkr": [{"w": W}, {"w": W, "unloading": True}],
+}
+
+
+class Subject(NamedTuple):
+    label: str
+    law: AbstractAsperityLaw
+    options: dict[str, Any]
+    """As in `plain`: fields of the law, ν aside."""
+
+
+def build(name: str, **options: Any) -> AbstractAsperityLaw:
+    """A law of the registry; ν is filled in where the law has one."""
+    kind: Any = REGISTRY[name]
+    if "nu" in {item.name for item in dataclasses.fields(kind)}:
+        options = {"nu": NU, **options}
+    return kind(**options)
+
+
+def subjects() -> list[Subject]:
+    """Every law of the registry that can be built from the table or from its defaults."""
+    out = []
+    for name in REGISTRY:
+        for options in OPTIONS.get(name, [{}]):
+            try:
+                law = build(name, **options)
+            except (tb.InvalidValue, TypeError):
+                continue
+            known = name in CIRCLES | set(ELLIPSES) | ADHESIVE
+            words = ",".join(f"{k}={v:.3g}" if isinstance(v, float) else str(v)
+                             for k, v in options.items() if k != "w")
+            out.append(Subject(f"{name}[{words}]" if words else name, law, options))
+            assert known or name not in OPTIONS
+    return out
+
+
+SUBJECTS = subjects()
+FIRST = {subject.law.name: subject for subject in reversed(SUBJECTS)}
+"""One subject for each name: the first of the table."""
+
+HEIGHTS: dict[str, tb.Heights] = {
+    "gaussian": tb.GaussianHeights(),
+    "exponential": tb.ExponentialHeights(),
+    "weibull": tb.WeibullHeights(shape=1.8),
+    "johnson-SU": tb.JohnsonHeights(skewness=-0.7, kurtosis=4.2),
+    "johnson-SB": tb.JohnsonHeights(skewness=0.6, kurtosis=2.8),
+    "histogram": tb.HistogramHeights(edges=(0, 1, 2.5, 3, 5), counts=(1, 3, 4, 2)),
+}
+
+
+def nu_of(law: AbstractAsperityLaw) -> float:
+    return getattr(law, "nu", None) or NU
+
+
+def contact(
+    law: AbstractAsperityLaw,
+    heights: tb.Heights = HEIGHTS["gaussian"],
+    *,
+    hardness: float = H,
+    particles: tb.Particles | None = None,
+    particle_law: Any = None,
+) -> tb.Contact:
+    """ηRσ_s = 0.05, σ_s/R = 0.01, E* as above."""
+    body = tb.Material(E=2 * E_STAR * (1 - NU**2), nu=NU, H=hardness)
+    rough = tb.Roughness(
+        sigma=SIGMA_S / math.sqrt(1 - 0.8968 / 5), R=R, alpha=5.0, eta=ETA, heights=heights
+    )
+    return tb.Contact(
+        surfaces=tb.MaterialPair(body, body),
+        roughness=rough,
+        asperity_law=law,
+        particles=particles,
+        particle_law=particle_law,
+    )
