@@ -229,9 +229,9 @@ def test_mistakes():
         rough_sphere(contact, radius=5e-3, load=1.0, E_star=1e11)
     with pytest.raises(tb.InvalidValue, match="shape"):
         curve(contact, radius=5e-3, loads=[1.0], shape="cone")
-    sticky = steel_contact(asperity_law=tb.asperity.JKR(w=1.0))
-    with pytest.raises(tb.InvalidValue, match="adhesive"):
-        rough_sphere(sticky, radius=5e-3, d=200e-9)
+    sticky = steel_contact(1e-9, asperity_law=tb.asperity.JKR(w=1.0))
+    with pytest.raises(tb.InvalidValue, match="tensile"):
+        rough_sphere(sticky, radius=5e-3, d=1e-9)
     with pytest.raises(tb.NoEquilibrium, match="no contact"):
         rough_sphere(contact, radius=5e-3, d=1e-3)
     with pytest.raises(tb.NoEquilibrium, match="every asperity"):

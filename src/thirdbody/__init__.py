@@ -39,7 +39,7 @@ from .transitions import Critical, Transitions, TurningPoint, transitions
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from . import plot
+    from . import fractal, interaction, plot, reference, rough_body, waviness
 
 __all__ = [
     "Contact",
@@ -73,20 +73,29 @@ __all__ = [
     "asperity",
     "cite",
     "compare",
+    "fractal",
+    "interaction",
     "materials",
     "particle",
     "plot",
     "pull_off",
+    "reference",
     "roots",
+    "rough_body",
     "solve",
     "sweep",
     "transitions",
+    "waviness",
 ]
 
 
+# imported when first used, to keep the start quick
+_LATER = frozenset({"fractal", "interaction", "plot", "reference", "rough_body", "waviness"})
+
+
 def __getattr__(name: str) -> Any:
-    if name == "plot":
+    if name in _LATER:
         from importlib import import_module
 
-        return import_module(".plot", __name__)
+        return import_module(f".{name}", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -317,7 +317,7 @@ class LoadScan:
         self.bound = bound
         asperities = bound.asperities
         sigma_s, centre = asperities.sigma_s, asperities.centre
-        low, high = centre + DEEPEST * sigma_s, centre + asperities.highest * sigma_s
+        low = centre + DEEPEST * sigma_s
         near = np.arange(DEEPEST, min(10.0, asperities.highest), 0.2)
         far = np.arange(10.0, asperities.highest, 1.0)
         # the last asperity of a bounded distribution sets in like a power of its distance

@@ -329,8 +329,8 @@ def _johnson(skewness: float, kurtosis: float) -> tuple[str, tuple[float, float,
             break
     if best is None or best.cost > 1e-16:
         raise InvalidValue(
-            f"JohnsonHeights: no member of the family has skewness {skewness:g} and kurtosis "
-            f"{kurtosis:g}; they lie too close to the limit kurtosis = skewness² + 1"
+            f"JohnsonHeights: no member of the family was found with skewness {skewness:g} and "
+            f"kurtosis {kurtosis:g}; they are too extreme (a Gaussian has 0 and 3)"
         )
     gamma, delta = float(best.x[0]), math.exp(best.x[1])
     mean, var, _, _ = shape(g(1.0, (n - gamma) / delta))

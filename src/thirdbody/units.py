@@ -17,7 +17,13 @@ from .errors import InvalidValue
 
 __all__ = ["EXAMPLES", "say", "to_si"]
 
-EXAMPLES = {"m": '"300 nm"', "Pa": '"5 GPa"', "1/m^2": '"1e11 / m^2"', "1": "0.5"}
+EXAMPLES = {
+    "m": '"300 nm"',
+    "Pa": '"5 GPa"',
+    "1/m^2": '"1e11 / m^2"',
+    "J/m^2": '"50 mJ/m^2"',
+    "1": "0.5",
+}
 """How a value in each of the library's units may be written."""
 
 _KINDS = {
@@ -31,6 +37,7 @@ _KINDS = {
     "m**3": "a volume",
     "N": "a force",
     "N/m": "a force per length",
+    "J/m**2": "an energy per area",
     "kg": "a mass",
     "kg/m**3": "a mass density",
     "kg/m**2": "a mass per area",

@@ -219,7 +219,7 @@ def rigid_wave(
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> wavy = rigid_wave(contact, amplitude=150e-9, pressure=5e6)
     >>> round(wavy.d * 1e9, 2), round(wavy.A_t / tb.solve(contact, pressure=5e6).A_t, 4)
-    (341.45, 1.0022)
+    (272.75, 0.9735)
     """
     return elastic_wave(
         contact,
@@ -270,7 +270,7 @@ def elastic_wave(
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> wavy = elastic_wave(contact, amplitude=150e-9, wavelength=1e-3, pressure=5e6)
     >>> round(wavy.d * 1e9, 2)
-    334.3
+    249.02
     """
     for name, value in (("amplitude", amplitude), ("wavelength", wavelength)):
         if not (math.isfinite(value) and value >= 0):

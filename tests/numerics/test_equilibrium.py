@@ -6,7 +6,7 @@ import warnings
 import numpy as np
 import oracle
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from twins import Twin, base, decades, horng_twins, interfaces, material, series_twin, series_twins, sizes
 
@@ -55,6 +55,10 @@ def test_load_and_separation_are_inverse(twin, F):
     if given_d.F_star < 1e-14 or given_d.shadow > 0.5:
         return
     back = tb.solve(twin.contact, F_star=given_d.F_star)
+    if twin.law.shadow == "projected":
+        # a particle shades before it carries, so the load may fall first: loading meets a larger d
+        assert back.d >= d - 1e-9 * twin.interface.rough.sigma
+        return
     assert back.d == pytest.approx(d, abs=1e-9 * twin.interface.rough.sigma)
 
 
@@ -120,7 +124,7 @@ def test_arrays_of_loads_equal_scalars(twin, F):
     sigma = twin.interface.rough.sigma
     for i, load in enumerate(loads):
         assert states.d[i] == pytest.approx(tb.solve(twin.contact, F_star=load).d, abs=1e-9 * sigma)
-    assert states.d[1] == states.d[3]
+    assert states.d[1] == pytest.approx(states.d[3], rel=1e-12)
 
 
 def test_stiffness_of_the_interface():
@@ -152,12 +156,14 @@ def crossings(load, F: float, d: np.ndarray) -> list[float]:
     return out
 
 
-@pytest.mark.parametrize("F", [3e-7, 3e-6, 8e-6, 9.2e-6, 2e-5])
-def test_all_roots_of_the_window_reading(F):
-    contact, law = window_contact()
+@pytest.mark.parametrize(
+    ("x_a", "F"), [(3e-7, 3e-6), (3e-7, 2e-5), (1e-6, 1e-7), (1e-6, 1e-5), (1e-6, 9e-5), (1e-6, 3e-4)]
+)
+def test_all_roots_of_the_window_reading(x_a, F):
+    contact, law = window_contact(x_a)
     interface = oracle.Interface()
     want = crossings(
-        lambda d: oracle.horng_state(d, interface, law)["F_star"], F, np.linspace(0, 8.5e-7, 400)
+        lambda d: oracle.horng_state(d, interface, law)["F_star"], F, np.linspace(0, 1.65e-6, 700)
     )
     found = tb.roots(contact, F_star=F)
     separations = sorted(state.d for state, _ in found)
@@ -180,8 +186,8 @@ def test_all_roots_of_the_window_reading(F):
 
 def test_window_reading_has_loads_with_one_and_with_three_roots():
     """Otherwise the test above tests nothing."""
-    contact, _ = window_contact()
-    counts = {len(tb.roots(contact, F_star=F)) for F in np.geomspace(1e-7, 3e-5, 15)}
+    contact, _ = window_contact(1e-6)
+    counts = {len(tb.roots(contact, F_star=F)) for F in np.geomspace(1e-7, 1e-3, 15)}
     assert 1 in counts
     assert max(counts) >= 3
     assert all(count % 2 for count in counts)
@@ -189,6 +195,7 @@ def test_window_reading_has_loads_with_one_and_with_three_roots():
 
 @given(twin=series_twins(), F=decades(1e-9, 1e-5))
 def test_the_series_law_has_one_root(twin, F):
+    assume(twin.law.shadow != "projected")
     found = tb.roots(twin.contact, F_star=F)
     state = tb.solve(twin.contact, F_star=F)
     assert len(found) == 1
