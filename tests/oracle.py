@@ -133,9 +133,7 @@ class Rough:
         return 4 * self.sigma / math.sqrt(math.pi * self.alpha)
 
 
-def asperity_sums(
-    d: float, rough: Rough, tip: Tip, centre: float = 0.0
-) -> dict[str, float]:
+def asperity_sums(d: float, rough: Rough, tip: Tip, centre: float = 0.0) -> dict[str, float]:
     """Pressure F [Pa] and regime areas per nominal area; ``centre`` [m] is the mean height."""
     s = rough.sigma_s
     h = (d - centre) / s
@@ -304,7 +302,10 @@ def weibull(scale: float, shape: float) -> Sizes:
 
     levels = (1e-12, 1e-8, 1e-5, 1e-3, 0.03, 0.2, 0.5, 1, 2, 4, 8, 16, 30)
     return Sizes(
-        density, 1e-12 * scale, scale * 45 ** (1 / shape), tuple(scale * v ** (1 / shape) for v in levels)
+        density,
+        1e-12 * scale,
+        scale * 45 ** (1 / shape),
+        tuple(scale * v ** (1 / shape) for v in levels),
     )
 
 
@@ -425,7 +426,7 @@ def particle_sums(d: float, interface: Interface, law: Series) -> dict[str, floa
     return out
 
 
-def _plane_sums(gap: float, law: Series, column, kinks: list[float]) -> list[float]:  # noqa: ANN001
+def _plane_sums(gap: float, law: Series, column, kinks: list[float]) -> list[float]:
     sizes = law.sizes
     # t = 1 − gap/x; a negative gap means t > 1 for every size
     splits = [gap / (1 - t) for t in kinks if abs(1 - t) > 1e-9 and gap / (1 - t) > 0]
@@ -434,6 +435,7 @@ def _plane_sums(gap: float, law: Series, column, kinks: list[float]) -> list[flo
         splits += [gap * (1 + 10.0**-j) for j in range(1, 9)] + [gap]
     out = []
     for j in range(6):
+
         def one(x: float, j: int = j) -> float:
             return x * x * column(1 - gap / x, j) if x > max(gap, 0.0) else 0.0
 
@@ -442,7 +444,7 @@ def _plane_sums(gap: float, law: Series, column, kinks: list[float]) -> list[flo
     return out
 
 
-def _rough_sums(h: float, law: Series, pair: Squeezed, column, kinks: list[float]) -> list[float]:  # noqa: ANN001
+def _rough_sums(h: float, law: Series, pair: Squeezed, column, kinks: list[float]) -> list[float]:
     """∫dt k(t) ∫dx x³ φ_a(x) p_ζ(h − x + x t), and the saturated rest beyond t = end by erfc."""
     sizes, m, s = law.sizes, law.zeta_mean, law.zeta_std
     end = pair.end
@@ -579,9 +581,7 @@ def horng_state(d: float, interface: Interface, law: Horng) -> dict[str, float]:
     # only plastic particles shade, each by its own footprint
     shade = w_p if law.shadow == "d" else w
     shadow = math.pi * density * surfaces * between(shade, start, math.inf) if law.plastic else 0.0
-    asperities = asperity_sums(
-        d, interface.rough, interface.tip, law.datum * interface.rough.sigma
-    )
+    asperities = asperity_sums(d, interface.rough, interface.tip, law.datum * interface.rough.sigma)
     split = law.particle_regime == "split"
     particles = {
         "F_sa": pressure * area * (window + plastic),

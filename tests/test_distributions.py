@@ -74,7 +74,7 @@ def exact_moment(dist: tb.Distribution, n: int, a: float, b: float) -> mp.mpf:
 
 
 @st.composite
-def distributions(draw, kinds=KINDS) -> tb.Distribution:  # noqa: ANN001
+def distributions(draw, kinds=KINDS) -> tb.Distribution:
     kind = draw(st.sampled_from(kinds))
     size, width = draw(decades(1e-9, 1e-4)), draw(decades(1e-3, 1.0))
     if kind == "gaussian":
@@ -86,9 +86,7 @@ def distributions(draw, kinds=KINDS) -> tb.Distribution:  # noqa: ANN001
         return tb.Weibull(scale=size, shape=draw(decades(0.6, 60)))
     if kind == "uniform":
         return tb.Uniform(low=size, high=size * (1 + width))
-    counts = draw(
-        st.lists(st.integers(0, 50), min_size=1, max_size=6).filter(lambda c: sum(c) > 0)
-    )
+    counts = draw(st.lists(st.integers(0, 50), min_size=1, max_size=6).filter(lambda c: sum(c) > 0))
     steps = draw(st.lists(decades(0.01, 1), min_size=len(counts), max_size=len(counts)))
     start = draw(st.sampled_from((0.0, 0.3)))
     edges = size * (start + np.cumsum([0.0, *steps]))
@@ -349,6 +347,20 @@ def test_retained_mass(mean, width, n):
     lo = max(-1 / width, -n)
     want = 0.5 * (math.erf(n / math.sqrt(2)) - math.erf(lo / math.sqrt(2)))
     assert dist.retained_mass == pytest.approx(want, rel=1e-12)
+
+
+def test_supports():
+    """Where each law begins and ends, and what a cut tail may hold."""
+    assert tb.TruncatedGaussian(mean=3.0, std=0.5, n=2).support == pytest.approx((2, 4))
+    assert tb.TruncatedGaussian(mean=1.0, std=0.5, n=4).support == pytest.approx((0, 3))
+    assert tb.Uniform(low=1.0, high=2.0).support == (1.0, 2.0)
+    assert tb.Histogram(edges=(1.0, 2.0, 4.0), counts=(1, 1)).support == (1.0, 4.0)
+    lo, hi = tb.LogNormal(median=1.0, gsd=2.0).support
+    for z in (-math.log(lo) / math.log(2), math.log(hi) / math.log(2)):
+        assert 0.5 * math.erfc(z / math.sqrt(2)) < 1e-16
+    lo, hi = tb.Weibull(scale=1.0, shape=2.0).support
+    assert lo == 0
+    assert math.exp(-(hi**2)) < 1e-16
 
 
 # ---------------------------------------------------------------------------- bad inputs

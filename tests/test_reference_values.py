@@ -127,7 +127,10 @@ def reference_contact(row: dict) -> tb.Contact:
     return base(interface, particles, law)
 
 
-ALIASES = {"share_area_ss": lambda s: s.A_ss / s.A_t, "share_load_sa": lambda s: s.particle_load_share}
+ALIASES = {
+    "share_area_ss": lambda s: s.A_ss / s.A_t,
+    "share_load_sa": lambda s: s.particle_load_share,
+}
 
 
 def compare(row: dict, skip: tuple[str, ...] = ()) -> list[str]:

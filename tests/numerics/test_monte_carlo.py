@@ -155,7 +155,9 @@ def test_the_brute_force_itself():
         force, area = contact_law(omega, tip)
         np.testing.assert_allclose(force, [tip.force(w) for w in omega], rtol=1e-12)
         np.testing.assert_allclose(area, [tip.area(w) for w in omega], rtol=1e-12)
-    pair = oracle.Squeezed(oracle.Tip(0.5, 50.0, 1.0, cap=True), oracle.Tip(0.5, 9.0, 1.4, cap=True))
+    pair = oracle.Squeezed(
+        oracle.Tip(0.5, 50.0, 1.0, cap=True), oracle.Tip(0.5, 9.0, 1.4, cap=True)
+    )
     t = np.linspace(1e-3, 0.99 * pair.end, 50)
     force, one, two = squeeze(t, pair)
     np.testing.assert_allclose(

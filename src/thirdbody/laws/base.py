@@ -146,7 +146,8 @@ class AbstractAsperityLaw(Law):
         omega : array_like
             Interference ω [m]; zero or negative gives zero.
         R, E_star, H : float or array
-            Tip radius [m], contact modulus [Pa], hardness of the softer body [Pa].
+            Tip radius [m], contact modulus [Pa], hardness of the softer body [Pa]. Laws that
+            keep a constant of the contact (see `bound`) take numbers only.
         """
         law, omega_1, y = self._scaled(omega, R, E_star, H)
         return np.pi * R * omega_1 * H * law.reduced("force", y)

@@ -3,6 +3,7 @@
 from ..base import AbstractAsperityLaw, Branch
 from .adhesive import DMT, JKR
 from .ceb import CEB
+from .coated import Coated
 from .elliptic import EllipticCEB, EllipticZMC, elliptic_hertz
 from .gw import GW
 from .hermite import Hermite
@@ -24,6 +25,7 @@ __all__ = [
     "ZMC",
     "AbstractAsperityLaw",
     "Branch",
+    "Coated",
     "EllipticCEB",
     "EllipticZMC",
     "Hermite",

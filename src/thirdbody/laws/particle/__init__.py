@@ -1,6 +1,7 @@
 """Laws of particles between two surfaces. A new law is one file here and one import line below."""
 
 from ..base import AbstractParticleLaw, ParticleResponse
+from .flakes import Flakes
 from .horng2022 import PRESETS, Horng2022
 from .series import Series
 
@@ -11,6 +12,7 @@ __all__ = [
     "PRESETS",
     "REGISTRY",
     "AbstractParticleLaw",
+    "Flakes",
     "Horng2022",
     "ParticleResponse",
     "Series",

@@ -40,18 +40,25 @@ KINDS = (0, 1, 1, 1, 1, 1, 1)
 
 
 class Side:
-    """One contact of a particle of unit diameter: load and area against indentation.
+    """One contact of a particle of unit size: load and area against indentation.
 
-    Lengths are in units of the diameter x, loads in x²·Pa, areas in x². The area stops at the
-    great circle π/4; from there on the load is mean pressure × π/4.
+    Lengths are in units of the size x, loads in x²·Pa, areas in x². The tip radius is R. The
+    area stops at the great circle, πR/2 (π/4 for a sphere); from there on the load is mean
+    pressure × great circle, and constant where the law has no plastic pressure to go on to.
     """
 
-    def __init__(self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float):
-        self.law, self.H = law.bound(R=0.5, E_star=E_star, H=H, nu=nu), H
-        self.delta_1 = float(self.law.yield_interference(R=0.5, E_star=E_star, H=H))
+    def __init__(
+        self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, R: float = 0.5
+    ):
+        self.law, self.H, self.R = law.bound(R=R, E_star=E_star, H=H, nu=nu), H, R
+        self.delta_1 = float(self.law.yield_interference(R=R, E_star=E_star, H=H))
         self.full = 0.5 / self.delta_1  # reduced area of the great circle
         self.cap = self._cap()
-        self.kinks = sorted({*self.law.breakpoints, self.cap})
+        self.plateau = self.law.branches[-1].regime == "plastic"
+        kinks = self.law.breakpoints
+        if not self.plateau:
+            kinks = tuple(y for y in kinks if y < self.cap)
+        self.kinks = sorted({*kinks, self.cap})
         self.limit = float(self.force(np.array([2 * self.kinks[-1] * self.delta_1]))[0])
 
     def _cap(self) -> float:
@@ -65,26 +72,29 @@ class Side:
         high = max(self.full, 1.0)
         if excess(high) <= 0:
             return high
-        return brentq(excess, 0.4 * self.full, high, xtol=1e-300, rtol=1e-15)
+        low = 0.4 * self.full
+        return brentq(excess, low if excess(low) < 0 else 0.0, high, xtol=1e-300, rtol=1e-15)
 
     def force(self, delta: Array) -> Array:
         y = delta / self.delta_1
+        if not self.plateau:
+            y = np.minimum(y, self.cap)
         force = self.law.reduced("force", y)
         over = y > self.cap
         if np.any(over):
             force[over] *= self.full / self.law.reduced("area", y[over])
-        return 0.5 * math.pi * self.delta_1 * self.H * force
+        return self.R * math.pi * self.delta_1 * self.H * force
 
     def area(self, delta: Array) -> Array:
         area = np.minimum(self.law.reduced("area", delta / self.delta_1), self.full)
-        return 0.5 * math.pi * self.delta_1 * area
+        return self.R * math.pi * self.delta_1 * area
 
     def regime(self, delta: Array) -> Array:
-        """Index into `REGIMES`; beyond the great circle the contact counts as plastic."""
+        """Index into `REGIMES`; beyond the great circle a contact that can yield is plastic."""
         y = delta / self.delta_1
         order = np.array([REGIMES.index(branch.regime) for branch in self.law.branches])
         index = order[np.searchsorted(self.law.breakpoints, y, side="right")]
-        return np.where(y >= self.cap, REGIMES.index("plastic"), index)
+        return np.where((y >= self.cap) & self.plateau, REGIMES.index("plastic"), index)
 
     def indentation(self, force: float) -> float:
         """Inverse of `force` below the limit."""
@@ -99,10 +109,10 @@ class Side:
 
 
 class SqueezedParticle:
-    r"""One particle of unit diameter squeezed by ε = δ/x between two flats.
+    r"""One particle of unit size squeezed by ε = δ/x between two flats.
 
-    Solves :math:`F_1(\delta_1) = F_2(\delta-\delta_1)`; a particle of diameter x carries
-    :math:`x^2` times the load and the area found here.
+    Solves :math:`F_1(\delta_1) = F_2(\delta-\delta_1)`; a particle of size x carries
+    :math:`x^2` times the load and the area found here. A sphere has the tip radius R = 1/2.
 
     Attributes
     ----------
@@ -110,8 +120,9 @@ class SqueezedParticle:
         Values of ε where the response changes its formula; beyond the last it is constant.
     """
 
-    def __init__(self, law: AbstractAsperityLaw, first: Body, second: Body):
-        self.sides = (Side(law, *first), Side(law, *second))
+    def __init__(self, law: AbstractAsperityLaw, first: Body, second: Body, R: float = 0.5):
+        self.sides = (Side(law, *first, R), Side(law, *second, R))
+        self.great_circle = R * math.pi / 2
         self.equal = first == second
         one, two = self.sides
         kinks = set()
@@ -156,6 +167,8 @@ class SqueezedParticle:
 
     def _tabulate_split(self) -> PiecewiseChebyshev:
         v = np.log(self.kinks)
+        if len(v) == 1:  # elastic up to the great circle: one share
+            v = np.append(v - 1, v)
         return PiecewiseChebyshev(lambda x: self._solve_split(np.exp(x))[:, None], v)
 
     def _area_crossings(self) -> list[float]:
@@ -163,7 +176,7 @@ class SqueezedParticle:
         from scipy.optimize import brentq
 
         grid = np.geomspace(self.kinks[0], self.kinks[-1], 400)
-        smallest = 1e-13 * math.pi / 4
+        smallest = 1e-13 * self.great_circle
 
         def difference(eps: ArrayLike) -> Array:
             one, two = self.indentations(np.atleast_1d(np.asarray(eps, dtype=float)))
@@ -210,15 +223,17 @@ class SqueezedParticle:
             out[:, 1 + i] = np.where(regime == i, a1, 0.0)
         out[:, 4] = a2
         out[:, 5] = np.maximum(a1, a2)
-        out[:, 6] = math.pi / 4
+        out[:, 6] = self.great_circle
         out[eps <= 0] = 0.0
         return out
 
 
 @lru_cache(maxsize=512)
-def squeezed_particle(law: AbstractAsperityLaw, first: Body, second: Body) -> SqueezedParticle:
+def squeezed_particle(
+    law: AbstractAsperityLaw, first: Body, second: Body, R: float = 0.5
+) -> SqueezedParticle:
     """The cached response of one particle; sides are (E*, H, ν)."""
-    return SqueezedParticle(law, first, second)
+    return SqueezedParticle(law, first, second, R)
 
 
 class SizeAverage:
@@ -245,7 +260,8 @@ class SizeAverage:
         gaps += [x * f for x in sizes.pieces for f in (0.25, 0.5) if x > 1e-4 * self.top]
         known = np.array(sorted({g for g in gaps if self.bottom < g < self.top}))
         # the sizes are known to rounding, so their densities to rounding over their width
-        tolerance = 1e-13 + 2e-15 * self.top / max(self.top - low, 1e-12)
+        width = (self.top - low) / self.top
+        tolerance = 1e-13 + (2e-15 / width if width > 0 else 0.0)
         rise = np.sqrt(self.top - np.array([self.join, *known[known > self.join]]))
         self.upper = PiecewiseChebyshev(
             self._reduced,
@@ -365,9 +381,10 @@ def size_average(
     first: Body,
     second: Body,
     sizes: Distribution,
+    R: float = 0.5,
 ) -> SizeAverage:
     """The cached size average; sides are (E*, H, ν)."""
-    return SizeAverage(squeezed_particle(law, first, second), sizes)
+    return SizeAverage(squeezed_particle(law, first, second, R), sizes)
 
 
 def contact_sides(surfaces: MaterialPair, particle: Material) -> tuple[Body, Body]:
@@ -463,17 +480,28 @@ class Series(AbstractParticleLaw):
         default="footprint",
     )
 
+    @property
+    def tip_radius(self) -> float:
+        """Radius of the contacting tips over the size x [1]."""
+        return 0.5
+
     def _problems(self) -> list[str]:
         out = []
+        name = type(self).__name__
         if not isinstance(self.law, AbstractAsperityLaw):
-            out.append(f"Series.law = {self.law!r} must be a law of one contact, e.g. Hermite()")
+            out.append(f"{name}.law = {self.law!r} must be a law of one contact, e.g. Hermite()")
+        elif not getattr(self.law, "scale_free", True):
+            out.append(
+                f"{name}.law = {type(self.law).__name__} has a length of its own; particles of "
+                "all sizes need a law that only knows indentation over radius, e.g. Hermite()"
+            )
         if self.h_0 != 0 and self.seat != "offset":
             out.append(
-                f"Series.h_0 = {self.h_0:g} has no meaning with seat = {self.seat!r}; "
+                f"{name}.h_0 = {self.h_0:g} has no meaning with seat = {self.seat!r}; "
                 "set seat = 'offset'"
             )
         if self.seat != "rough" and (self.zeta_mean, self.zeta_std) != (0.0, 1.0):
-            out.append(f"Series.zeta_mean and zeta_std need seat = 'rough', not {self.seat!r}")
+            out.append(f"{name}.zeta_mean and zeta_std need seat = 'rough', not {self.seat!r}")
         return out
 
     def single(
@@ -497,7 +525,8 @@ class Series(AbstractParticleLaw):
         x, gap = np.broadcast_arrays(np.asarray(x, float), np.asarray(gap, float))
         shape = x.shape
         x, eps = x.ravel(), np.maximum(1 - gap / x, 0.0).ravel()
-        law = squeezed_particle(self.law, *contact_sides(surfaces, particle))
+        sides = contact_sides(surfaces, particle)
+        law = squeezed_particle(self.law, *sides, self.tip_radius)
         values = law(eps) * x[:, None] ** 2
         one, two = (x * part for part in law.indentations(eps))
         names = np.array(REGIMES)[law.sides[0].regime(one / x)]
@@ -517,7 +546,7 @@ class Series(AbstractParticleLaw):
         parts: list[PlaneSeat | RoughSeat] = []
         for weight, sizes in particles.diameter.components:
             scale, shape = sizes.standardised()
-            average = size_average(self.law, *sides, shape)
+            average = size_average(self.law, *sides, shape, self.tip_radius)
             density = particles.areal_density * weight
             if self.seat == "rough":
                 parts.append(
@@ -531,16 +560,21 @@ class Series(AbstractParticleLaw):
                 )
             else:
                 parts.append(PlaneSeat(average, scale, density, offset=-self.h_0))
-        return SeatedParticles(parts, self.shadow, particles.coverage)
+        return SeatedParticles(parts, self.shadow, self._coverage(particles))
+
+    def _coverage(self, particles: Particles) -> float:
+        """Projected particle area per nominal area [1]."""
+        return 2 * self.tip_radius * particles.coverage
 
     def warnings(
         self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
     ) -> list[str]:
         out = []
-        largest = particles.diameter.mean_diameter
-        if self.seat == "rough" and largest / 2 > 0.5 * roughness.R:
+        # πd²/4 of a particle of size x is πx²·tip_radius/2
+        radius = particles.diameter.mean_diameter * math.sqrt(0.5 * self.tip_radius)
+        if self.seat == "rough" and radius > 0.5 * roughness.R:
             out.append(
-                f"mean particle radius {largest / 2:.3g} m is not small against the asperity "
+                f"mean particle radius {radius:.3g} m is not small against the asperity "
                 f"radius R = {roughness.R:.3g} m: the rough seat takes the surface under a "
                 "particle as flat"
             )
