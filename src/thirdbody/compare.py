@@ -86,9 +86,9 @@ def compare(
         Loads F* [1] or nominal pressures [Pa]; exactly one of them.
     laws : list of str or AbstractAsperityLaw, optional
         Words of the registry, which mean the law with its default options, or laws. When left
-        out: every registered law but the adhesive ones, which need a work of adhesion, and the
-        elliptic ones, which equal their circular ones at a ratio of 1. The contact's own law is
-        always there and comes first.
+        out: every registered law but the adhesive ones, which need a work of adhesion, the coated
+        one, which needs the coating, and the elliptic ones, which equal their circular ones at a
+        ratio of 1. The contact's own law is always there and comes first.
 
     Returns
     -------
@@ -215,8 +215,8 @@ def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | type]:
 
 
 def _special(law: type) -> bool:
-    """An adhesive law, which needs w, or an elliptic one, which needs the ratio of its radii."""
-    return bool({item.name for item in dataclasses.fields(law)} & {"w", "ratio"})
+    """A law that asks for more than the interface: adhesion w, a ratio of radii, a coating t."""
+    return bool({item.name for item in dataclasses.fields(law)} & {"w", "ratio", "t"})
 
 
 def _usual(law: type) -> Any:
@@ -564,6 +564,7 @@ VALIDATED = {
     "dmt": "Hertz less 2πwR",
     "ceb": "public code (form); closed exponential sum; 2·10⁷ random asperities, 1.8 std. errors",
     "elliptic-ceb": "Hertz's ellipse by quadrature; CEB at λ = 1",
+    "coated": "flat-punch stiffness; Hertz for like materials; thick and thin limits",
     "zmc": "public code; 2·10⁷ random asperities, 1.4 std. errors",
     "ke": "public code (loads); closed exponential sum",
     "elliptic-zmc": "Hertz's ellipse by quadrature; ZMC at λ = 1",

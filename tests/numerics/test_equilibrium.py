@@ -156,6 +156,17 @@ def test_stiffness_of_the_interface():
         assert 2e-5 * F / (d[1] - d[0]) == pytest.approx(exact, rel=1e-6)
 
 
+@pytest.mark.parametrize("seat", ["plane", "rough"])
+def test_few_evaluations(seat):
+    """Exact derivatives find a root in a handful of evaluations; wrong ones fall back to halving."""
+    twin = series_twin(
+        oracle.Interface(), oracle.SILICA, sizes("gaussian", 1e-6, 0.2), 1e11, 0.0, seat=seat
+    )
+    iterations = tb.solve(twin.contact, F_star=np.logspace(-10, -2, 200)).iterations
+    assert np.mean(iterations) < 4.5
+    assert np.max(iterations) < 20
+
+
 # ------------------------------------------------------------------------- several roots
 def crossings(load, F: float, d: np.ndarray) -> list[float]:
     """Every separation at which a load passes F, by a dense scan and bisection."""
