@@ -62,6 +62,8 @@ class Law(Value):
     provenance: ClassVar[str]
     """seen in the source, derived, recalled, or reconstructed"""
     valid_range: ClassVar[str]
+    scale_free: ClassVar[bool] = True
+    """F(λω; λR) = λ²F: the law has no length of its own, as a coating or adhesion gives it."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)

@@ -61,6 +61,7 @@ class JKR(AbstractAsperityLaw):
     doi = "10.1098/rspa.1971.0141"
     provenance = "seen"
     valid_range = "elastic; Tabor number above 5"
+    scale_free = False
 
     w: float = quantity("w", "J/m^2", "work of adhesion", default=0.05, gt=0, hint=WORK_HINT)
     unloading: bool = False
@@ -149,6 +150,7 @@ class DMT(GW):
     doi = "10.1016/0021-9797(75)90018-1"
     provenance = "seen"
     valid_range = "elastic; Tabor number below 0.1"
+    scale_free = False
 
     w: float = quantity("w", "J/m^2", "work of adhesion", default=0.05, gt=0, hint=WORK_HINT)
     scale: float | None = quantity("2w/ω_1H", "1", "adhesion over hardness", default=None, gt=0)

@@ -72,7 +72,7 @@ class JG(AbstractAsperityLaw):
     nu: float | None = quantity(
         "ν", "1", "Poisson ratio of the softer body", default=None, gt=-1, le=0.5
     )
-    yield_strain: float | None = quantity("S_y/E*", "1", "yield strain", default=None, gt=0, le=1)
+    yield_strain: float | None = quantity("S_y/E*", "1", "yield strain", default=None, gt=0, le=30)
 
     def bound(self, *, R, E_star, H, nu: float | None = None) -> Self:
         """With ν of the softer body, and S_y/E* from its hardness."""

@@ -323,12 +323,13 @@ class SizeAverage:
         if self.lower is not None and np.any(low := gaps < self.join):
             values[low] = self.lower(np.maximum(gaps[low], self.bottom))
         values[gaps < self.bottom] = self.floor
+        values[gaps >= self.top] = 0.0
         return values
 
     def derivatives(self, gaps: Array, columns: tuple[int, ...]) -> Array:
         """P, P′ and P″ of some columns: (N, len(columns), 3)."""
         u = np.sqrt(np.maximum(self.top - gaps, 0.0))
-        v = np.clip(u, 1e-150, self.upper.edges[-1])[:, None]
+        v = np.clip(u, 1e-60, self.upper.edges[-1])[:, None]
         c = self.upper.derivatives(v[:, 0], columns)
         p = self.powers[list(columns)]
         value, first, second = c[..., 0], c[..., 1], c[..., 2]
@@ -490,7 +491,7 @@ class Series(AbstractParticleLaw):
         name = type(self).__name__
         if not isinstance(self.law, AbstractAsperityLaw):
             out.append(f"{name}.law = {self.law!r} must be a law of one contact, e.g. Hermite()")
-        elif not getattr(self.law, "scale_free", True):
+        elif not self.law.scale_free:
             out.append(
                 f"{name}.law = {type(self.law).__name__} has a length of its own; particles of "
                 "all sizes need a law that only knows indentation over radius, e.g. Hermite()"
