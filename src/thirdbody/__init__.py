@@ -32,6 +32,7 @@ from .heights import (
 )
 from .materials import Material, MaterialPair, materials
 from .particles import Particles
+from .states import solve_states
 from .surfaces import Roughness
 from .sweep import sweep
 from .transitions import Critical, Transitions, TurningPoint, transitions
@@ -83,6 +84,7 @@ __all__ = [
     "roots",
     "rough_body",
     "solve",
+    "solve_states",
     "sweep",
     "transitions",
     "waviness",

@@ -15,6 +15,7 @@ from .citations import cite
 from .contact import Contact
 from .equilibrium import COLUMNS, given_load, solve
 from .errors import InvalidValue, RangeWarning
+from .states import varied
 
 if TYPE_CHECKING:
     import xarray
@@ -108,15 +109,6 @@ def sweep(
         "warnings": "\n".join(notes),
     }
     return xr.Dataset(data, coords=coords, attrs=attributes)
-
-
-def varied(contact: Contact, changes: Mapping[str, Any]) -> Contact:
-    """The contact with some inputs changed; a size or density of zero removes the particles."""
-    absent = ("particles.diameter.mean", "particles.areal_density")
-    if any(changes.get(name, 1) == 0 for name in absent):
-        kept = {name: v for name, v in changes.items() if not name.startswith("particles.")}
-        return contact.replace(particles=None).replace(**kept)
-    return contact.replace(**changes)
 
 
 def _attributes(name: str) -> dict[str, str]:

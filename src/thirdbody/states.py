@@ -1,0 +1,108 @@
+"""Many states at once, each with its own inputs and its own load."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .contact import Contact
+from .equilibrium import COLUMNS, given_load, solve
+from .errors import InvalidValue, RangeWarning
+
+__all__ = ["solve_states", "varied"]
+
+
+def solve_states(
+    contact: Contact,
+    *,
+    F_star: ArrayLike | None = None,
+    pressure: ArrayLike | None = None,
+    d: ArrayLike | None = None,
+    vary: Mapping[str, ArrayLike] | None = None,
+) -> dict[str, NDArray[Any]]:
+    """N states of a contact: state i has the i-th load and the i-th value of every varied input.
+
+    Parameters
+    ----------
+    contact : Contact
+        The inputs that are not varied.
+    F_star, pressure, d : float or array (N,)
+        Loads, as in `solve`; exactly one.
+    vary : mapping, optional
+        Dotted names of inputs and their values, each a number or an array (N,), e.g.
+        ``{"roughness.sigma": sigma, "particles.diameter.mean": x_a}``. A mean diameter or an
+        areal density of zero stands for two-body contact.
+
+    Returns
+    -------
+    dict
+        Every column of `Equilibrium`, arrays (N,). A state without equilibrium is NaN with its
+        reason in ``status``.
+
+    Raises
+    ------
+    InvalidValue
+        An unknown name, lengths that do not fit, or a value that the field refuses.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> sigma = np.array([50e-9, 100e-9, 200e-9])
+    >>> states = tb.solve_states(contact, pressure=1e6, vary={"roughness.sigma": sigma})
+    >>> states["A_t"].shape
+    (3,)
+    """
+    load, _, _ = given_load(contact, pressure, F_star, d)
+    given = {"pressure": pressure, "F_star": F_star, "d": d}[load]
+    inputs = {load: np.asarray(given, float), **{k: np.asarray(v) for k, v in (vary or {}).items()}}
+    try:
+        arrays = dict(zip(inputs, np.broadcast_arrays(*inputs.values()), strict=True))
+    except ValueError:
+        sizes = ", ".join(f"{name} {values.shape}" for name, values in inputs.items())
+        raise InvalidValue(f"inputs of different lengths: {sizes}; each must be one or N") from None
+    loads = np.atleast_1d(arrays.pop(load))
+    if loads.ndim > 1:
+        raise InvalidValue(f"inputs have {loads.ndim} dimensions; give numbers or 1-D arrays")
+    columns: dict[str, NDArray[Any]] = {}
+    for state, which in _groups(contact, arrays, len(loads)):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RangeWarning)
+            result = solve(state, **{load: loads[which]})  # type: ignore[arg-type]
+        for name, column in result.columns().items():
+            if name not in columns:
+                kind = object if column.dtype.kind in "UO" else column.dtype
+                columns[name] = np.empty(len(loads), dtype=kind)
+            columns[name][which] = column
+    return {name: columns[name] for name in COLUMNS}
+
+
+def _groups(
+    contact: Contact, arrays: Mapping[str, NDArray[Any]], count: int
+) -> Iterator[tuple[Contact, NDArray[np.intp]]]:
+    """Contacts with equal inputs, and the numbers of the states they stand for."""
+    if not arrays:
+        yield contact, np.arange(count)
+        return
+    keys = np.stack([np.unique(values, return_inverse=True)[1] for values in arrays.values()])
+    _, first, group = np.unique(keys, axis=1, return_index=True, return_inverse=True)
+    order = np.argsort(group.ravel(), kind="stable")
+    parts = np.split(order, np.flatnonzero(np.diff(group.ravel()[order])) + 1)
+    for i, which in zip(first, parts, strict=True):
+        yield varied(contact, {name: values[i].item() for name, values in arrays.items()}), which
+
+
+def varied(contact: Contact, changes: Mapping[str, Any]) -> Contact:
+    """The contact with some inputs changed; a size or density of zero removes the particles."""
+    absent = ("particles.diameter.mean", "particles.areal_density")
+    if any(changes.get(name, 1) == 0 for name in absent):
+        kept = {name: v for name, v in changes.items() if not name.startswith("particles.")}
+        return contact.replace(particles=None).replace(**kept)
+    return contact.replace(**changes)
