@@ -15,21 +15,25 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from .heights import GaussianHeights
+from .heights import GaussianHeights, Heights
 from .laws.base import REGIMES, AbstractAsperityLaw
 from .materials import MaterialPair
 from .numerics import PiecewiseChebyshev, panel_rule, subdivide
 from .surfaces import Roughness
 
-__all__ = ["AsperitySum", "DensitySum", "GaussianSum", "asperity_sum"]
+__all__ = ["AsperitySum", "DensitySum", "GaussianSum", "asperity_sum", "reduced_sum"]
 
 Array = NDArray[np.float64]
 KINDS = (0, 1, 1, 1)
 """Which columns are measured against each other: load, areas by regime."""
 
 
-class AsperitySum:
-    """One law on one rough surface: what its subclasses, made for a kind of heights, share."""
+class ReducedSum:
+    """One law over heights, lengths in σ_s: what its subclasses, made for kinds of heights, share.
+
+    With w = ω_1/σ_s it holds ∫f(t/w) φ(h+t) dt and ∫a(t/w) φ(h+t) dt at separations h; equal
+    laws, heights and w share one table, whatever the surface.
+    """
 
     NODES = 20
     DEEPEST = 5.0
@@ -37,48 +41,39 @@ class AsperitySum:
     highest: float
     """Separation [σ_s] above which no asperity is in contact, or the density underflows."""
 
-    def __init__(
-        self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
-    ):
-        E_star, H = surfaces.E_star, surfaces.H
-        self.law = law.bound(R=rough.R, E_star=E_star, H=H, nu=surfaces.softer.nu)
-        self.heights = rough.heights
-        self.sigma_s = rough.sigma_s
-        self.centre = datum * rough.sigma
-        omega_1 = float(self.law.yield_interference(R=rough.R, E_star=E_star, H=H))
-        self.w = omega_1 / self.sigma_s
-        self.start = self.law.start * self.w
-        self.area_unit = rough.density * math.pi * rough.R * omega_1
-        self.force_unit = self.area_unit * H
+    def __init__(self, law: AbstractAsperityLaw, heights: Heights, w: float):
+        """``law`` is bound to its contact."""
+        self.law, self.heights, self.w = law, heights, w
+        self.start = law.start * w
 
     def _per_asperity(self, t: Array) -> Array:
-        """Load [Pa] and area by regime of asperities pressed by t = ω/σ_s: (..., 4)."""
+        """Reduced load and area by regime of asperities pressed by t = ω/σ_s: (..., 4)."""
         y = t / self.w
         which = np.searchsorted(self.law.breakpoints, y, side="right")
         regime = np.array([branch.regime for branch in self.law.branches])[which]
-        area = self.area_unit * self.law.reduced("area", y)
+        area = self.law.reduced("area", y)
         areas = [np.where(regime == name, area, 0.0) for name in REGIMES]
-        return np.stack([self.force_unit * self.law.reduced("force", y), *areas], axis=-1)
+        return np.stack([self.law.reduced("force", y), *areas], axis=-1)
 
     def _kinks(self, end: float) -> list[float]:
         """Interferences [σ_s] where the law changes its formula."""
         return [y * self.w for y in self.law.breakpoints if self.start < y * self.w < end]
 
-    def load(self, d: Array) -> Array:
-        """F_ss without shadow [Pa], and its first and second derivative: (N, 3)."""
+    def load(self, h: Array) -> Array:
+        """Load, and its first and second derivative with respect to h: (N, 3)."""
         raise NotImplementedError
 
-    def fields(self, d: Array) -> Array:
-        """F_ss [Pa], A_e, A_ep, A_p without shadow: (N, 4)."""
+    def fields(self, h: Array) -> Array:
+        """Load, elastic, elastoplastic and plastic area: (N, 4)."""
         raise NotImplementedError
 
 
-class GaussianSum(AsperitySum):
+class GaussianSum(ReducedSum):
     """Gaussian heights: sums over fixed interferences, one exponential a node.
 
-    With h = (d − μ_0)/σ_s the density is exp(−h²/2)·exp(−ht − t²/2): the first factor is taken
-    out, so nothing underflows, and the derivatives with respect to h come from the moments of
-    the same nodes. Relative error 1e-12 for h from −4 to +12.
+    The density is exp(−h²/2)·exp(−ht − t²/2): the first factor is taken out, so nothing
+    underflows, and the derivatives with respect to h come from the moments of the same nodes.
+    Relative error 1e-12 for h from −4 to +12.
     """
 
     WIDTH = 1.5
@@ -86,10 +81,8 @@ class GaussianSum(AsperitySum):
     """Where the exponent has fallen by DROP/2 the rest is left out."""
     highest = 37.0
 
-    def __init__(
-        self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
-    ):
-        super().__init__(law, rough, surfaces, datum)
+    def __init__(self, law: AbstractAsperityLaw, heights: Heights, w: float):
+        super().__init__(law, heights, w)
         end = self.DEEPEST + math.sqrt(self.DEEPEST**2 + self.DROP)
         edges = np.array(sorted({0.0, 0.1, 0.4, end, *self._kinks(end)}))
         if self.start < 0:
@@ -119,36 +112,29 @@ class GaussianSum(AsperitySum):
             out[part] = e @ self.columns
         return out
 
-    def _reduced(self, d: Array) -> tuple[Array, Array]:
-        """The sums, the common factor exp(−h²/2) left out, and h."""
-        h = (d - self.centre) / self.sigma_s
+    def _sums(self, h: Array) -> Array:
+        """The sums, the common factor exp(−h²/2) left out: (N, 6)."""
         out = self.table(h)
         low, high = self.table.edges[[0, -1]]
         if np.any(beyond := (h < low) | (h > high)):
             out[beyond] = self._sum(h[beyond])
-        return out, h
+        return out
 
-    def load(self, d: Array) -> Array:
-        sums, h = self._reduced(d)
+    def load(self, h: Array) -> Array:
+        sums = self._sums(h)
         m0, m1, m2 = sums[:, 0], sums[:, 4], sums[:, 5]
-        out = np.empty((len(h), 3))
-        out[:, 0] = m0
-        out[:, 1] = -(h * m0 + m1) / self.sigma_s
-        out[:, 2] = ((h * h - 1) * m0 + 2 * h * m1 + m2) / self.sigma_s**2
+        out = np.stack([m0, -(h * m0 + m1), (h * h - 1) * m0 + 2 * h * m1 + m2], axis=-1)
         return out * np.exp(-0.5 * h * h)[:, None]
 
-    def fields(self, d: Array) -> Array:
-        sums, h = self._reduced(d)
-        return sums[:, :4] * np.exp(-0.5 * h * h)[:, None]
+    def fields(self, h: Array) -> Array:
+        return self._sums(h)[:, :4] * np.exp(-0.5 * h * h)[:, None]
 
 
-class DensitySum(AsperitySum):
+class DensitySum(ReducedSum):
     """Any other heights: panels split where the law or the density changes its formula."""
 
-    def __init__(
-        self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
-    ):
-        super().__init__(law, rough, surfaces, datum)
+    def __init__(self, law: AbstractAsperityLaw, heights: Heights, w: float):
+        super().__init__(law, heights, w)
         pieces = np.array(self.heights.pieces)
         self.highest = float(self.heights.highest - self.start)
         end = pieces[-1] + self.DEEPEST
@@ -176,18 +162,16 @@ class DensitySum(AsperitySum):
         columns[used] = self._per_asperity(t[used])
         return np.einsum("hn,hnk->hk", density, columns)
 
-    def load(self, d: Array) -> Array:
-        h = (d - self.centre) / self.sigma_s
+    def load(self, h: Array) -> Array:
         low, high = self.table.edges[[0, -1]]
         out = self.table.derivatives(np.clip(h, low, high), (0,))[:, 0]
         out[h > high] = 0.0
         if np.any(below := h < low):
             out[below] = np.nan
             out[below, 0] = self._sum(h[below])[:, 0]
-        return out / self.sigma_s ** np.arange(3)
+        return out
 
-    def fields(self, d: Array) -> Array:
-        h = (d - self.centre) / self.sigma_s
+    def fields(self, h: Array) -> Array:
         low, high = self.table.edges[[0, -1]]
         out = self.table(np.clip(h, low, high))
         out[h > high] = 0.0
@@ -197,9 +181,41 @@ class DensitySum(AsperitySum):
 
 
 @lru_cache(maxsize=512)
+def reduced_sum(law: AbstractAsperityLaw, heights: Heights, w: float) -> ReducedSum:
+    """The cached sum of a bound law over heights."""
+    kind = GaussianSum if isinstance(heights, GaussianHeights) else DensitySum
+    return kind(law, heights, w)
+
+
+class AsperitySum:
+    """One law on one rough surface, as functions of the separation d [m]."""
+
+    def __init__(
+        self, law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
+    ):
+        E_star, H = surfaces.E_star, surfaces.H
+        bound = law.bound(R=rough.R, E_star=E_star, H=H, nu=surfaces.softer.nu)
+        omega_1 = float(bound.yield_interference(R=rough.R, E_star=E_star, H=H))
+        self.sigma_s = rough.sigma_s
+        self.centre = datum * rough.sigma
+        self.reduced = reduced_sum(bound, rough.heights, omega_1 / self.sigma_s)
+        self.highest = self.reduced.highest
+        area = rough.density * math.pi * rough.R * omega_1
+        self.units = np.array([area * H, area, area, area])
+
+    def load(self, d: Array) -> Array:
+        """F_ss without shadow [Pa], and its first and second derivative: (N, 3)."""
+        out = self.reduced.load((d - self.centre) / self.sigma_s)
+        return out * (self.units[0] / self.sigma_s ** np.arange(3))
+
+    def fields(self, d: Array) -> Array:
+        """F_ss [Pa], A_e, A_ep, A_p without shadow: (N, 4)."""
+        return self.reduced.fields((d - self.centre) / self.sigma_s) * self.units
+
+
+@lru_cache(maxsize=512)
 def asperity_sum(
     law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
 ) -> AsperitySum:
     """The cached sum over the asperities of a rough surface."""
-    kind = GaussianSum if isinstance(rough.heights, GaussianHeights) else DensitySum
-    return kind(law, rough, surfaces, datum)
+    return AsperitySum(law, rough, surfaces, datum)
