@@ -128,7 +128,9 @@ def test_adhesive_and_elliptic_laws_when_asked():
     table = tb.compare(contact(), F_star=1e-5, laws=["jkr", "dmt", "elliptic-ceb"])
     assert table.law.values.tolist() == ["zmc", "jkr", "dmt", "elliptic-ceb"]
     assert set(table.status.values.ravel()) == {"ok"}
-    assert "w = 0.05 J/m², Tabor number 0.41" in table.note.sel(law="jkr").item()
+    note = table.note.sel(law="jkr").item()
+    assert "w = 0.05 J/m², Tabor number 0.41" in note
+    assert "meant for: elastic; Tabor number above 5" in note
     sticky = contact(asperity_law=tb.asperity.JKR(w=0.1, unloading=True))
     table = tb.compare(sticky, F_star=1e-5, laws="gw")
     assert table.law.values.tolist() == ["jkr(w=0.1, unloading=True)", "gw"]
@@ -202,6 +204,28 @@ def test_notes_say_where_a_law_leaves_its_range():
     soft = tb.Material(E=205e9, nu=0.29, H=0.5e9)
     table = tb.compare(contact(surfaces=tb.MaterialPair(soft, soft)), F_star=1e-4, laws="ke")
     assert "beyond ω = 110 ω_c" in table.note.sel(law="ke").item()
+
+
+def test_elastic_laws_end_at_one_mean_pressure():
+    """GW, DMT, JKR and Coated say the same of the same contact, where adhesion is slight."""
+    same = tb.asperity.Coated(
+        E_1=205e9, nu_1=0.29, t=1e-8, E_2=205e9, nu_2=0.29, E_3=205e9, nu_3=0.29
+    )
+    laws = ["gw", tb.asperity.DMT(w=1e-6), tb.asperity.JKR(w=1e-6), same]
+    table = tb.compare(contact(), F_star=[1e-9], laws=laws)
+    said = [re.search(r"(\d+) % of the asperities' area", text) for text in table.note.values[1:]]
+    assert all(said)
+    assert len({match[1] for match in said if match}) == 1
+    # the part of the area above ω = (0.3πH/E*)²R, by sampling
+    rough, E_star, H = contact().roughness, contact().E_ss, contact().surfaces.H
+    rng = np.random.default_rng(3)
+    h = float(tb.solve(contact(asperity_law=tb.asperity.GW()), F_star=1e-9).d) / rough.sigma_s
+    z = -np.log(rng.random(400_000)) / h + h  # exponential proposal, weighted
+    weight = np.exp(-0.5 * z * z + h * (z - h))
+    omega = (z - h) * rough.sigma_s * weight
+    first = (0.3 * np.pi * H / E_star) ** 2 * rough.R
+    share = omega[(z - h) * rough.sigma_s > first].sum() / omega.sum()
+    assert float(said[0][1]) == pytest.approx(100 * share, abs=1.0)
 
 
 def test_share_beyond_the_fits_is_the_plastic_share_of_ke():
@@ -398,6 +422,10 @@ def test_numbers_of_the_choosing_page():
         assert cells[5].rstrip(" %") == f"{100 * float(row.elastic_share):.1f}".replace(
             "100.0", "100"
         )
+    case = load_study(CLEAN).contact
+    rough = case.roughness
+    index = case.E_ss / case.surfaces.H * np.sqrt(rough.sigma_s / rough.R)
+    assert f"the steel below has {index:.1f}" in " ".join(text.split())
     in_stages = table.sel(law=["zmc", "hermite", "ke", "jg"])
     assert float(in_stages.A_t.max() / in_stages.A_t.min()) < 1.22
     assert float(in_stages.d_star.max() - in_stages.d_star.min()) < 0.05

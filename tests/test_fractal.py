@@ -325,6 +325,15 @@ def test_two_submodels_check_their_input():
     model = rigid_elastic()
     with pytest.raises(tb.InvalidValue, match=r"surface\.E_star"):
         model.replace(**{"surface.E_star": 2.0})
+    for law in (
+        tb.asperity.JKR(w=0.05),
+        tb.asperity.DMT(w=0.05),
+        tb.asperity.Coated(E_1=2e11, E_2=1e11, t=1e-8),
+    ):
+        with pytest.raises(tb.InvalidValue, match="has a length of its own") as caught:
+            model.replace(law=law)
+        assert len(caught.value.problems) == 1
+        assert f"law = {type(law).__name__}" in str(caught.value)
     with pytest.raises(tb.InvalidValue, match="JG has its own hardness"):
         model.replace(law=tb.asperity.JG(), size_effect=NixGao(h_star=1e-7))
     with pytest.raises(tb.InvalidValue, match=r"surface\.H"):

@@ -20,6 +20,7 @@ from .distributions import (
     Uniform,
     Weibull,
 )
+from .ellipticity import Ellipticity
 from .equilibrium import Equilibrium, pull_off, roots, solve
 from .errors import InvalidValue, NoEquilibrium, NoTransition, RangeWarning, ThirdBodyError
 from .heights import (
@@ -46,6 +47,7 @@ __all__ = [
     "Contact",
     "Critical",
     "Distribution",
+    "Ellipticity",
     "Equilibrium",
     "ExponentialHeights",
     "GaussianHeights",

@@ -29,7 +29,7 @@ __all__ = ["app", "main"]
 
 BAD_INPUT, NO_ANSWER, INTERRUPTED, BROKEN_PIPE = 2, 3, 130, 141
 MOST_ROWS = 20
-PAPERS = ("horng2022",)
+PAPERS = ("horng2022", "ghaednia2013", "ghaednia2014")
 PLACES = ("start", "middle", "end")
 
 
@@ -299,6 +299,84 @@ def _prefixed(value: float | None, unit: str, thresholds: dict[str, float]) -> s
     return f"{value / sizes[prefix]:.4g} {prefix}{unit}"
 
 
+# -------------------------------------------------------------------------- sweep
+@app.command()
+def sweep(
+    study: Annotated[
+        Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [sweep].")
+    ],
+    out: Annotated[
+        Path,
+        typer.Option(
+            "--out", metavar="DIR", help="Folder for the states; the same command resumes."
+        ),
+    ],
+    format: Annotated[
+        str, typer.Option("--format", metavar="zarr|netcdf", help="Of the data in DIR.")
+    ] = "zarr",
+    workers: Annotated[
+        int, typer.Option("--workers", metavar="N", help="Threads that solve blocks of states.")
+    ] = 1,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler", metavar="ADDRESS", help="A Dask cluster that solves them instead."
+        ),
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="As in solve; may be repeated."),
+    ] = None,
+) -> None:
+    """Many states, in a folder: on a grid, in pairs or sampled; resumable."""
+    from .streaming import FORMATS, run
+    from .study import load_study
+
+    problems = []
+    if format not in FORMATS:
+        problems.append(f"--format {format} must be one of {', '.join(FORMATS)}")
+    if workers < 1:
+        problems.append(f"--workers {workers} must be at least 1")
+    try:
+        asked = load_study(study, settings or ())
+        if asked.sweep is None:
+            problems.append(
+                f"{study} has no table [sweep]: it says what is varied, e.g. "
+                '[sweep.vary] roughness.sigma = ["50 nm", "100 nm"]'
+            )
+    except InvalidValue as error:
+        problems += error.problems
+    if problems:
+        raise InvalidValue(*problems)
+    for sentence in asked.notes:
+        _one_line(sentence)
+    plan = asked.sweep
+    assert plan is not None
+    client = None
+    if scheduler is not None:
+        from .cluster import connected
+
+        client = connected(scheduler)
+    try:
+        folder = run(plan, out, format=format, workers=workers, client=client, progress=True)
+    except KeyboardInterrupt:
+        done = len(list((out / "done").glob("*.json")))
+        _complain([f"interrupted after {done} of {plan.count} blocks; the same command goes on"])
+        raise typer.Exit(INTERRUPTED) from None
+    finally:
+        if client is not None:
+            client.close()
+    summary = folder.finished
+    assert summary is not None
+    with folder.open() as data:
+        for sentence in filter(None, data.attrs["warnings"].splitlines()):
+            _one_line(sentence)
+    unsolved = f", {summary['unsolved']:,} without equilibrium" if summary["unsolved"] else ""
+    print(f"{summary['states']:,} states in {folder.data}{unsolved}", file=sys.stderr)
+    if summary["unsolved"] == summary["states"]:
+        raise NoEquilibrium("no state of the sweep has an equilibrium; check the unit of the load")
+
+
 # -------------------------------------------------------------------------- compare
 @app.command()
 def compare(
@@ -417,6 +495,86 @@ def _show_comparison(title: str, table: Any, index: int) -> None:
         console.print(note)
 
 
+# -------------------------------------------------------------------------- table
+@app.command()
+def table(
+    study: Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")],
+    out: Annotated[Path, typer.Option("--out", metavar="FILE", help="The file to write.")],
+    form: Annotated[
+        str | None,
+        typer.Option(
+            "--format",
+            metavar="NAME",
+            help="csv, abaqus, comsol, avl, python or c; without it by the suffix of FILE: "
+            ".csv, .inp, .txt (COMSOL), .avl, .py, .c.",
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float, typer.Option("--tolerance", help="Relative error of pressure and area.")
+    ] = 1e-6,
+    low: Annotated[
+        str | None, typer.Option("--from", metavar="LENGTH", help='Lower end, e.g. "50 nm".')
+    ] = None,
+    high: Annotated[
+        str | None, typer.Option("--to", metavar="LENGTH", help='Upper end, e.g. "0.4 um".')
+    ] = None,
+    coordinate: Annotated[
+        str,
+        typer.Option("--coordinate", help="h, from the mean surface plane, or d as in solve."),
+    ] = "h",
+    units: Annotated[
+        str | None,
+        typer.Option("--units", help="SI or mm (mm, MPa), for abaqus and avl."),
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="As in solve; may be repeated."),
+    ] = None,
+) -> None:
+    """Pressure and real area of a study's contact against separation, for other solvers."""
+    from .study import load_study
+    from .table import FORMATS, rounded_up
+    from .units import to_si
+
+    suffixes = {suffix: name for name, (_, suffix) in FORMATS.items()}
+    name = form or suffixes.get(out.suffix.lower())
+    problems = []
+    if name is None:
+        problems.append(
+            f"--out {out}: the suffix does not say which format; add --format "
+            f"{', '.join(FORMATS)}, or use one of {', '.join(suffixes)}"
+        )
+    elif name not in FORMATS:
+        problems.append(f"--format {name} must be one of {', '.join(FORMATS)}")
+    elif units is not None and name not in ("abaqus", "avl"):
+        problems.append(f"--units {units} has no meaning for {name}, which is in SI units")
+    ends: dict[str, float | None] = {"low": None, "high": None}
+    for key, option, text in (("low", "--from", low), ("high", "--to", high)):
+        if text is not None:
+            try:
+                ends[key] = to_si(text, "m")
+            except InvalidValue as error:
+                problems += [f"{option}: {sentence}" for sentence in error.problems]
+    if problems or name is None:
+        raise InvalidValue(*problems)
+    asked = load_study(study, settings or ())
+    for sentence in asked.notes:
+        _one_line(sentence)
+    made = asked.contact.table(
+        low=ends["low"], high=ends["high"], tolerance=tolerance, coordinate=coordinate
+    )
+    write, _ = FORMATS[name]
+    write(made, out, **({} if units is None else {"units": units}))
+    first, last = (_pressure(float(made.p(end))) for end in made.h[[0, -1]])
+    print(
+        f"written: {out} ({name}): {coordinate} from {_length(made.h[0])} to "
+        f"{_length(made.h[-1])}, p from {first} to {last}; relative errors at most "
+        f"{rounded_up(made.error.p)} of p, {rounded_up(made.error.A)} of A_t, "
+        f"{rounded_up(made.error.dp_dh)} of dp/d{coordinate}",
+        file=sys.stderr,
+    )
+
+
 # -------------------------------------------------------------------------- reproduce
 @app.command()
 def reproduce(
@@ -425,8 +583,13 @@ def reproduce(
         Path | None, typer.Option("--out", metavar="DIR", help="Folder for figures and ledger.")
     ] = None,
     preset: Annotated[
-        str, typer.Option("--preset", metavar="NAME", help="Reading of the paper.")
-    ] = "published",
+        str | None,
+        typer.Option(
+            "--preset",
+            metavar="NAME",
+            help="Reading that draws the figures of horng2022; the other studies draw them all.",
+        ),
+    ] = None,
 ) -> None:
     """Every figure and the ledger of claims of a paper."""
     from importlib import import_module
@@ -441,7 +604,8 @@ def reproduce(
         raise InvalidValue(*problems)
     study = import_module(f".studies.{paper}", __package__)
     with _progress() as progress:
-        done = study.reproduce(folder, preset=preset, progress=progress)
+        chosen = {} if preset is None else {"preset": preset}
+        done = study.reproduce(folder, progress=progress, **chosen)
     for line in done.lines():
         print(line)
 

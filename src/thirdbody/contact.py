@@ -6,8 +6,10 @@ r"""A contact: laws integrated over populations, at a given separation.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +21,9 @@ from .materials import MaterialPair
 from .particles import Particles
 from .surfaces import Roughness
 from .values import Value
+
+if TYPE_CHECKING:
+    from .table import ContactTable
 
 __all__ = ["Contact"]
 
@@ -77,6 +82,8 @@ class Contact(Value):
         ]
         if not isinstance(self.particles, Particles | None):
             out.append(f"Contact.particles = {self.particles!r} must be Particles or None")
+        if not out and self.roughness.ellipticity is not None:
+            out += _shape_problems(self.asperity_law)
         return out
 
     @property
@@ -88,6 +95,82 @@ class Contact(Value):
     def two_body(self) -> bool:
         """No particles between the surfaces."""
         return self.particles is None or self.particles.areal_density == 0
+
+    def table(
+        self,
+        *,
+        low: float | None = None,
+        high: float | None = None,
+        tolerance: float = 1e-6,
+        coordinate: str = "h",
+        columns: Sequence[str] = (),
+    ) -> ContactTable:
+        r"""Pressure, real area and stiffness against separation as a C¹ table for other solvers.
+
+        .. math:: p(h), \quad A_t(h), \quad dp/dh, \qquad
+                  |\hat p - p| \le \epsilon\,p
+
+        Parameters
+        ----------
+        low, high : float, optional
+            Range of separations [m] in the chosen coordinate. Without them the table runs from
+            A_t = 0.2 (at most down to −3 σ_s, or to where the pressure stops to rise on
+            approach) up to the largest separation that carries F* = 1e-9.
+        tolerance : float, optional
+            Largest relative error ε of p and A_t, from 1e-9 to 0.1 [1]; for shares absolute.
+        coordinate : {"h", "d"}, optional
+            Count separations from the mean surface plane, or as `solve` counts d.
+        columns : sequence of str, optional
+            Shares to keep as well: "particle_area_share", "particle_load_share".
+
+        Returns
+        -------
+        ContactTable
+            Functions, knots, stated errors, and exports to CSV, Abaqus, COMSOL, AVL EXCITE,
+            Python and C.
+
+        Raises
+        ------
+        InvalidValue
+            A range without contact, with attraction, or in which the pressure rises with the
+            separation; a load that jumps; a tolerance that cannot be met.
+
+        Warns
+        -----
+        RangeWarning
+            The range leaves the model's validity; kept in ``warnings``.
+
+        Examples
+        --------
+        >>> import thirdbody as tb
+        >>> steel = tb.materials["S45C"]
+        >>> contact = Contact(surfaces=tb.MaterialPair(steel, steel),
+        ...                   roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+        >>> table = contact.table(tolerance=1e-4)
+        >>> table.p(250e-9) > table.p(300e-9) > 0 > table.dp_dh(300e-9)
+        True
+        """
+        from .table import make_table
+
+        return make_table(
+            self, low=low, high=high, tolerance=tolerance, coordinate=coordinate, columns=columns
+        )
+
+
+def _shape_problems(law: AbstractAsperityLaw) -> list[str]:
+    """Why a law cannot take its ratio of radii from an ellipticity."""
+    if not hasattr(law, "ratio"):
+        able = [name for name, kind in law.registry.items() if hasattr(kind, "ratio")]
+        return [
+            f"Contact.asperity_law is {law.name}, whose tips are round, but the roughness has an "
+            f"ellipticity; take {' or '.join(able)}, or remove the ellipticity"
+        ]
+    if law.ratio != 1:
+        return [
+            f"Contact.asperity_law.ratio = {law.ratio:g} and the ellipticity of the roughness both "
+            "say how slender the tips are; leave one of them out"
+        ]
+    return []
 
 
 class Interface:
@@ -135,23 +218,28 @@ class Interface:
         part = dict.fromkeys(("F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow"), zero)
         if self.particles is not None:
             part = self.particles.fields(d)
-        bare = 1 - part["shadow"]
-        split = {
-            name: bare * area + part[name]
-            for name, area in zip(("A_e", "A_ep", "A_p"), areas, strict=True)
-        }
-        A_ss = bare * sum(areas)
-        A_sa = part["A_e"] + part["A_ep"] + part["A_p"]
-        return {
-            "F_ss": bare * F,
-            "F_sa": part["F_sa"],
-            "A_t": A_ss + A_sa,
-            "A_ss": A_ss,
-            "A_sa": A_sa,
-            "A_sa2": part["A_sa2"],
-            **split,
-            "shadow": part["shadow"],
-        }
+        return together(F, areas, part)
+
+
+def together(F: Array, areas: Sequence[Array], part: Mapping[str, Array]) -> dict[str, Array]:
+    """Asperities (load, areas by regime) under the shadow of the particles, and both in sum."""
+    bare = 1 - part["shadow"]
+    split = {
+        name: bare * area + part[name]
+        for name, area in zip(("A_e", "A_ep", "A_p"), areas, strict=True)
+    }
+    A_ss = bare * sum(areas)
+    A_sa = part["A_e"] + part["A_ep"] + part["A_p"]
+    return {
+        "F_ss": bare * F,
+        "F_sa": part["F_sa"],
+        "A_t": A_ss + A_sa,
+        "A_ss": A_ss,
+        "A_sa": A_sa,
+        "A_sa2": part["A_sa2"],
+        **split,
+        "shadow": part["shadow"],
+    }
 
 
 @lru_cache(maxsize=512)

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import engine
 from .contact import Contact, Interface, interface
 from .errors import InvalidValue, NoEquilibrium, RangeWarning
 from .numerics import halley_root
@@ -204,20 +205,21 @@ def solve(
     ('hybrid', 0.884)
     """
     name, values, scalar = given_load(contact, pressure, F_star, d)
+    if branch not in ("loading", "unloading"):
+        raise InvalidValue(f"branch = {branch!r} must be 'loading' or 'unloading'")
     bound = interface(contact)
-    if name == "d":
+    raw = None
+    target = None if name == "d" else values
+    if target is None:
         separation, status = values, np.full(len(values), "ok", dtype=object)
         iterations = np.ones(len(values), dtype=int)
-        target = None
+    elif compiled := _compiled(bound, target):
+        separation, iterations, status, raw = compiled
     else:
-        if branch not in ("loading", "unloading"):
-            raise InvalidValue(f"branch = {branch!r} must be 'loading' or 'unloading'")
-        scan = LoadScan(bound)
-        separation, iterations, status = scan.solve(values, branch)
-        target = values
+        separation, iterations, status = LoadScan(bound).solve(target, branch)
     # E·F*/E is not F* to the last digit: the given values are kept
     given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
-    result = _state(contact, bound, separation, status, iterations, target, scalar, given)
+    result = _state(contact, bound, separation, status, iterations, target, scalar, given, raw=raw)
     if scalar and result.status != "ok":
         raise NoEquilibrium(result.status)
     for sentence in result.warnings:
@@ -426,6 +428,24 @@ class LoadScan:
         return d, iterations, status
 
 
+def _compiled(
+    bound: Interface, target: Array
+) -> tuple[Array, Index, NDArray[Any], dict[str, Array]] | None:
+    """Separations, evaluations, status and columns by the compiled engine, where it pays."""
+    if len(target) < engine.FEWEST or (batch := engine.batch(bound)) is None:
+        return None
+    which = np.zeros(len(target), np.int64)
+    h, iterations, fate, columns = batch.solve(which, target)
+    d = bound.asperities.centre + bound.asperities.sigma_s * h
+    status = np.full(len(d), "ok", dtype=object)
+    if np.any(failed := fate != 0):
+        scan = LoadScan(bound)
+        status[failed] = [scan.why_not(float(F)) for F in target[failed]]
+        d[failed] = np.nan
+        columns = {name: values[~failed] for name, values in columns.items()}
+    return d, iterations, status, columns
+
+
 def _state(
     contact: Contact,
     bound: Interface,
@@ -435,11 +455,13 @@ def _state(
     target: Array | None,
     scalar: bool,
     F_star: Array | None = None,
+    raw: dict[str, Array] | None = None,
 ) -> Equilibrium:
-    """Every column at given separations."""
+    """Every column at given separations, where ``raw`` does not bring them."""
     known = np.flatnonzero(np.isfinite(d))
     E = contact.E_ss
-    raw = bound.fields(d[known])
+    if raw is None:
+        raw = bound.fields(d[known])
     full = {name: np.full(len(d), np.nan) for name in raw}
     for name, values in raw.items():
         full[name][known] = values
@@ -487,6 +509,14 @@ def _warnings(
             f"the separation goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
             "every asperity is in contact and the model is invalid"
         )
+    if np.any(np.isfinite(d)):
+        tips = contact.asperity_law
+        share = bound.asperities.share_beyond(float(np.nanmin(d)))
+        if share > 0.1:
+            out.append(
+                f"{tips.name}: at the highest load {100 * share:.0f} % of the asperities' load is "
+                f"on those {tips.beyond}"
+            )
     particles = contact.particles
     if particles is not None and bound.particles is not None:
         law = contact.particle_law

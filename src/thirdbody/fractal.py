@@ -17,7 +17,7 @@ from scipy import special
 from .distributions import Monodisperse
 from .errors import InvalidValue
 from .laws.asperity import JG, AbstractAsperityLaw, Hermite
-from .laws.particle.series import PlaneSeat, contact_sides, size_average
+from .laws.particle.series import Part, contact_sides, size_average
 from .materials import MaterialPair
 from .numerics import panel_rule
 from .particles import Particles
@@ -208,7 +208,7 @@ def jackson_streator(q: ArrayLike) -> Array:
     ----------
     Johnson, Greenwood, Higginson 1985, Int. J. Mech. Sci. 27, 383,
     doi:10.1016/0020-7403(85)90029-3; Jackson, Streator 2006, Wear 261, 1337,
-    doi:10.1016/j.wear.2006.03.015.
+    doi:10.1016/j.wear.2006.03.015 (DOI from memory).
 
     Examples
     --------
@@ -298,7 +298,7 @@ class Stack(Value):
 
     References
     ----------
-    Jackson, Streator 2006, Wear 261, 1337, doi:10.1016/j.wear.2006.03.015.
+    Jackson, Streator 2006, Wear 261, 1337, doi:10.1016/j.wear.2006.03.015 (DOI from memory).
 
     Examples
     --------
@@ -415,13 +415,13 @@ class ParticleFilm:
         self.sides = contact_sides(model.surfaces, model.particles.material)
         self.sizes = model.particles.diameter
         self.top = self.sizes.support[1]
-        self.seats: list[PlaneSeat] = []
+        self.seats: list[Part] = []
         if model.size_effect is None:
             for weight, sizes in self.sizes.components:
                 scale, shape = sizes.standardised()
                 average = size_average(model.law, *self.sides, shape)
                 density = weight * model.particles.areal_density
-                self.seats.append(PlaneSeat(average, scale, density, offset=0.0))
+                self.seats.append(Part(average, scale, density, offset=0.0))
 
     def __call__(self, gap: Array) -> Array:
         """Pressure [Pa], area on surface 1 and larger area of both [1]: (N, 3)."""
@@ -611,6 +611,12 @@ class GhaedniaMultiscale(Value):
                     f"GhaedniaMultiscale.surface.{name} = {own:g} Pa differs from that of the "
                     f"surfaces, {given:g} Pa"
                 )
+        if not self.law.scale_free:
+            out.append(
+                f"GhaedniaMultiscale.law = {type(self.law).__name__} has a length of its own; "
+                "particles of all sizes need a law that only knows indentation over radius, "
+                "e.g. Hermite()"
+            )
         if isinstance(self.law, JG) and self.size_effect is not None:
             out.append(
                 "GhaedniaMultiscale.law = JG has its own hardness; use another with a size_effect"

@@ -130,7 +130,8 @@ def mean_interaction(
 
     References
     ----------
-    Ciavarella, Greenwood, Paggi 2008, Wear 265, 729, doi:10.1016/j.wear.2008.01.019.
+    Ciavarella, Greenwood, Paggi 2008, Wear 265, 729, doi:10.1016/j.wear.2008.01.019
+    (DOI from memory).
 
     Examples
     --------
@@ -231,6 +232,11 @@ class _SelfLoaded:
                 "Use mean_interaction, or a contact without particles"
             )
         rough, surfaces = contact.roughness, contact.surfaces
+        if rough.ellipticity is not None:
+            raise InvalidValue(
+                "local interaction is derived for asperities of one shape; use mean_interaction, "
+                "or a law with one ratio and a roughness without ellipticity"
+            )
         self.E_star = contact.E_ss
         self.R, self.sigma_s, self.density = rough.R, rough.sigma_s, rough.density
         self.heights = rough.heights

@@ -10,6 +10,8 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
+import numpy as np
+
 from .errors import InvalidValue
 from .values import Value, quantity
 
@@ -62,6 +64,12 @@ def reduced_modulus(first: Material, second: Material) -> float:
     return 1 / (1 / first.plane_strain_modulus + 1 / second.plane_strain_modulus)
 
 
+def softer_hardness(first: Material, second: Material) -> float:
+    """The smaller of two hardnesses [Pa]; an array where a body stands for many."""
+    H = np.minimum(first.H, second.H)
+    return H if np.ndim(H) else float(H)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MaterialPair(Value):
     """The two bodies that face each other; surface 2 carries the particles.
@@ -111,7 +119,7 @@ class MaterialPair(Value):
     @property
     def H(self) -> float:
         """Hardness of the softer body [Pa]."""
-        return self.softer.H
+        return softer_hardness(self.first, self.second)
 
 
 class MaterialLibrary(Mapping[str, Material]):

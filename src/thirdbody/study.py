@@ -35,7 +35,8 @@ from .distributions import (
     Uniform,
     Weibull,
 )
-from .equilibrium import Equilibrium, solve
+from .ellipticity import FACES, Ellipticity
+from .equilibrium import COLUMNS, Equilibrium, solve
 from .errors import InvalidValue, RangeWarning, ThirdBodyError
 from .heights import (
     ExponentialHeights,
@@ -48,6 +49,7 @@ from .heights import (
 from .materials import Material, MaterialPair, materials
 from .particles import Particles
 from .surfaces import Roughness
+from .sweep import DESIGNS, Plan, make_plan
 from .transitions import Critical, Transitions, TurningPoint, transitions
 from .units import EXAMPLES, say, to_si
 from .values import allowed_range, problem_with, quantity
@@ -84,9 +86,9 @@ LOADS = {
 }
 """The ways to give a load, as quantities."""
 
-_ONE_OF = {"load": tuple(LOADS), "roughness": ("eta", "eta_R_sigma")}
+_ONE_OF = {"load": tuple(LOADS), "sweep": tuple(LOADS), "roughness": ("eta", "eta_R_sigma")}
 """Keys of a table of which only one can be given."""
-_UNITS_OF_LISTS = {"edges": "m", "counts": "1", "weights": "1"}
+_UNITS_OF_LISTS = {"edges": "m", "counts": "1", "weights": "1", "ratios": "1", "radii": "1"}
 _MOST_POINTS = 1_000_000
 _ALSO_CALLED = {
     "normal": ("truncated-gaussian", "gaussian"),
@@ -115,6 +117,8 @@ class Study:
         Its values: F* [1], p [Pa] or d [m].
     notes : tuple of str
         What is allowed but looks like a slip, one sentence each.
+    sweep : Plan, optional
+        The states of the table [sweep].
     """
 
     title: str
@@ -122,6 +126,7 @@ class Study:
     load: str
     values: np.ndarray
     notes: tuple[str, ...] = ()
+    sweep: Plan | None = None
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -293,7 +298,9 @@ class _Reader:
 
     # ------------------------------------------------------------------ the whole file
     def study(self, data: dict[str, Any]) -> Study:
+        data = _with_nested_names(data)
         part = {key: data.get(key) for key in ("surfaces", "roughness", "particles", "load")}
+        loads_of_sweep = [name for name in LOADS if _get(data.get("sweep"), name) is not None]
         keys = {
             "title": _Key(self.text("title"), False, "a line of text"),
             "surfaces": _Key(
@@ -315,9 +322,10 @@ class _Reader:
             ),
             "load": _Key(
                 self.load("load", part["load"]),
-                True,
+                not loads_of_sweep,
                 'a table [load] with one of F_star, pressure, separation, e.g. pressure = "5 MPa"',
             ),
+            "sweep": _Key(self.sweep("sweep", data.get("sweep"), data), False, ""),
         }
         model = self.table("", keys, self.build)
         try:
@@ -329,17 +337,20 @@ class _Reader:
     def build(self, values: dict[str, Any]) -> Study:
         if self.problems:
             raise InvalidValue(*self.problems)
-        load, loads = values.pop("load")
+        asked = values.pop("sweep", None)
+        load, loads = values.pop("load", None) or self.ends(asked)
         title = values.pop("title", "")
         if "particles" not in values and values.pop("particle_law", None) is not None:
             self.notes.append("[particle_law] has no effect, because there is no [particles] table")
         contact = self.make(Contact, "", values)
+        plan = None if asked is None else self.plan(contact, load, loads, asked)
         return Study(
             title=title,
             contact=contact,
             load=load,
             values=loads,
             notes=tuple(dict.fromkeys(self.notes)),
+            sweep=plan,
         )
 
     # ------------------------------------------------------------------ tables
@@ -358,12 +369,92 @@ class _Reader:
             keys = {name: key._replace(required=False) for name, key in keys.items()}
             keys["topography"] = _Key(self.refused(f"{path}.topography"), False, "")
         spare = self.only_one(path, data)
+        shape = _get(data, "ellipticity")
+        two_faces = _get(shape, "R_first") is not None and _get(shape, "R_second") is not None
+        if two_faces:
+            keys["R"] = keys["R"]._replace(required=False)
 
         def build(values: dict[str, Any]) -> Roughness:
             kept = {key: value for key, value in values.items() if key not in spare}
+            if two_faces:
+                first, second = (to_si(shape[key], "m") for key in ("R_first", "R_second"))
+                both = first * second / (first + second)
+                if not math.isclose(kept.setdefault("R", both), both, rel_tol=0.01):
+                    raise InvalidValue(
+                        f"{path}.R = {say(data['R'])} must be R_first R_second/(R_first + R_second)"
+                        f" = {both:.4g} m of the ellipticity; leave it out"
+                    )
             return self.make(Roughness, path, kept)
 
         return self.table(path, keys, build)
+
+    def ellipticity(self, path: str, data: Any) -> Any:
+        """Classes of ratios, or two faces at an angle."""
+        if not isinstance(data, dict):
+            return _plain(self.no_shape(path))
+        if "ratios" in data or not {"first", "second", "angle"} & data.keys():
+            keys = self.keys_of(Ellipticity, path, data)
+            keys["ratios"] = keys["ratios"]._replace(about="e.g. ratios = [1, 2, 5]")
+            for key in {"first", "second", "angle", "R_first", "R_second"} & data.keys():
+                keys[key] = _Key(_plain(self.second_shape(f"{path}.{key}")), False, "")
+            return self.table(path, keys, lambda values: self.make(Ellipticity, path, values))
+        names = {"first": "first_ratio", "second": "second_ratio"}
+        keys = {}
+        for key in ("first", "second", "R_first", "R_second"):
+            about = FACES[names.get(key, key)]
+            reader = _plain(self.number(f"{path}.{key}", about))
+            keys[key] = _Key(reader, key in names, _about(key, about))
+        example = 'angle = "30 deg", or angle = "random"'
+        keys["angle"] = _Key(_plain(self.angle(f"{path}.angle")), True, example)
+        if len({"R_first", "R_second"} & data.keys()) == 1:
+            self.problems.append(
+                f"{path} has the radius of one face only; give both R_first and R_second, or "
+                "neither where they are equal"
+            )
+
+        def build(values: dict[str, Any]) -> Ellipticity:
+            try:
+                return Ellipticity.combined(**{names.get(k, k): v for k, v in values.items()})
+            except InvalidValue as error:
+                raise InvalidValue(
+                    *(text.replace("first_ratio", f"{path}.first") for text in error.problems)
+                ) from None
+
+        return self.table(path, keys, build)
+
+    def angle(self, path: str) -> Callable[[Any], Any]:
+        """An angle between two faces, or the word "random"."""
+
+        def read(value: Any) -> Any:
+            if value == "random":
+                return value
+            try:
+                return self.number(path, FACES["angle"])(value)
+            except InvalidValue:
+                raise InvalidValue(
+                    f"{path} = {say(value)} must be an angle from 0 to 90 degrees, "
+                    'e.g. "30 deg" (a number is in rad), or "random"'
+                ) from None
+
+        return read
+
+    def second_shape(self, path: str) -> Callable[[Any], Any]:
+        def refuse(value: Any) -> None:
+            raise InvalidValue(
+                f"{path} = {say(value)} is for two faces at an angle, ratios for the asperities of "
+                "both together; keep one of the two"
+            )
+
+        return refuse
+
+    def no_shape(self, path: str) -> Callable[[Any], Any]:
+        def refuse(value: Any) -> None:
+            raise InvalidValue(
+                f"{path} = {say(value)} must be a table: {{ ratios = [1, 2, 5], weights = "
+                '[5, 3, 2] }, or { first = 4, second = 2, angle = "30 deg" } for two faces'
+            )
+
+        return refuse
 
     def heights(self, path: str, data: Any) -> Any:
         def build(values: dict[str, Any]) -> Any:
@@ -465,6 +556,139 @@ class _Reader:
 
         return self.table(path, keys, build)
 
+    # ------------------------------------------------------------------ sweep
+    def sweep(self, path: str, data: Any, whole: dict[str, Any]) -> Any:
+        """What is varied, how, and what is kept of it."""
+        designs = ("grid", "zip", *DESIGNS)
+        sampled = _get(data, "design") not in (None, "grid", "zip")
+        keys = {
+            "design": _Key(_plain(self.word(f"{path}.design", designs)), False, ""),
+            "samples": _Key(_plain(self.count(f"{path}.samples", most=2**48)), sampled, "a number"),
+            "seed": _Key(_plain(self.count(f"{path}.seed", least=0, most=2**63)), False, ""),
+            "chunk": _Key(_plain(self.count(f"{path}.chunk", most=10**9)), False, ""),
+            "columns": _Key(self.words(f"{path}.columns", COLUMNS), False, "columns to keep"),
+            "vary": _Key(self.variables(f"{path}.vary", data, whole, sampled), False, ""),
+            "reduce": _Key(self.reductions(f"{path}.reduce", _get(data, "reduce")), False, ""),
+        }
+        for name, about in LOADS.items():
+            reader = self.amounts(f"{path}.{name}", about, _get(data, name), sampled=sampled)
+            keys[name] = _Key(reader, False, _about(name, about))
+        if isinstance(data, dict):
+            self.only_one(path, data)
+        return self.table(path, keys, lambda values: values)
+
+    def variables(self, path: str, data: Any, whole: dict[str, Any], sampled: bool) -> Any:
+        """The inputs that may vary, in tables like those of the file."""
+        sizes = DISTRIBUTIONS.get(str(_get(whole.get("particles"), "distribution")))
+        kinds: dict[str, list[type | None]] = {
+            "surfaces.first": [Material],
+            "surfaces.second": [Material],
+            "roughness": [Roughness],
+            "asperity_law": [_law(whole, "asperity_law", asperity.REGISTRY, "zmc")],
+        }
+        if "particles" in whole:
+            kinds["particles"] = [Particles, sizes]
+            kinds["particles.material"] = [Material]
+            kinds["particle_law"] = [_law(whole, "particle_law", particle.REGISTRY, "series")]
+
+        def table(prefix: str, tree: Any) -> Any:
+            where = f"{path}.{prefix}" if prefix else path
+            keys: dict[str, _Key] = {}
+            for kind in filter(None, kinds.get(prefix, [])):
+                for item in dataclasses.fields(kind):  # type: ignore[arg-type]
+                    name, value = f"{where}.{item.name}", _get(tree, item.name)
+                    if meta := item.metadata.get("quantity"):
+                        reader = self.amounts(name, meta, value, sampled=sampled)
+                        keys[item.name] = _Key(reader, False, _about(item.name, meta))
+                    elif meta := item.metadata.get("choice"):
+                        reader = self.words(name, meta["options"])
+                        keys[item.name] = _Key(reader, False, meta["meaning"])
+            start = f"{prefix}." if prefix else ""
+            below = (other.removeprefix(start) for other in kinds if other.startswith(start))
+            for name in dict.fromkeys(other.partition(".")[0] for other in below if other):
+                if f"{start}{name}" != prefix:
+                    keys[name] = _Key(table(f"{start}{name}", _get(tree, name)), False, "")
+            return self.table(where, keys, lambda values: values)
+
+        return table("", _get(data, "vary"))
+
+    def reductions(self, path: str, data: Any) -> Any:
+        def share(value: Any) -> list[float]:
+            values = value if isinstance(value, list) else [value]
+            for item in values:
+                if isinstance(item, bool) or not isinstance(item, (int, float)):
+                    raise InvalidValue(f"{path}.quantiles = {say(value)} must be a list of numbers")
+            return [float(item) for item in values]
+
+        def thresholds(value: Any) -> dict[str, Any]:
+            if isinstance(value, dict):
+                return value
+            raise InvalidValue(
+                f"{path}.exceed = {say(value)} must be a table, e.g. {{ A_t = 0.2 }}"
+            )
+
+        keys = {
+            "over": _Key(self.words(f"{path}.over", None), False, "inputs to reduce over"),
+            "quantiles": _Key(_plain(share), False, "e.g. [0.05, 0.5, 0.95]"),
+            "exceed": _Key(_plain(thresholds), False, "e.g. { particle_load_share = 0.5 }"),
+            "extrema": _Key(self.switch(f"{path}.extrema"), False, ""),
+            "mean": _Key(self.switch(f"{path}.mean"), False, ""),
+        }
+        return self.table(path, keys, lambda values: values)
+
+    def words(self, path: str, options: Iterable[str] | None) -> Any:
+        """One word or a list of words."""
+
+        def read(value: Any) -> list[str]:
+            values = value if isinstance(value, list) else [value]
+            if options is not None:
+                return [self.word(path, options)(item) for item in values]
+            if not all(isinstance(item, str) for item in values):
+                raise InvalidValue(f"{path} = {say(value)} must be a list of names in quotes")
+            return values
+
+        return _plain(read)
+
+    @staticmethod
+    def ends(asked: dict[str, Any]) -> tuple[str, np.ndarray]:
+        """The loads of the table [sweep], for commands that do not sweep."""
+        name = next(name for name in LOADS if name in asked)
+        values = asked[name]
+        return name, np.array([values["low"], values["high"]]) if _span(values) else values
+
+    def plan(self, contact: Contact, load: str, loads: np.ndarray, asked: dict[str, Any]) -> Plan:
+        """The states of the table [sweep]."""
+        given = dict(asked)
+        found = [name for name in LOADS if name in given]
+        name = found[0] if found else load
+        given["d" if name == "separation" else name] = given.pop(name, loads)
+        names = _dotted(given.pop("vary", {}))
+        given["vary"] = {inner: value for inner, value in names.values()}
+        translated = {outer: inner for outer, (inner, _) in names.items()} | {"separation": "d"}
+        if "over" in given.get("reduce", {}):
+            over = [translated.get(word, word) for word in given["reduce"]["over"]]
+            given["reduce"] = given["reduce"] | {"over": over}
+        samples = given.get("samples", 0)
+        if given.get("design") == "sobol" and samples & (samples - 1):
+            near = 1 << samples.bit_length()
+            self.notes.append(
+                f"sweep.samples = {samples} is not a power of two, in which Sobol points are "
+                f"balanced best; {near // 2} and {near} are"
+            )
+        try:
+            return make_plan(contact, **given)
+        except InvalidValue as error:
+            back = {inner: outer for outer, inner in translated.items()}
+
+            def told(problem: str) -> str:
+                problem = re.sub(
+                    r"vary\['([^']+)'\]", lambda m: f"sweep.vary.{back.get(m[1], m[1])}", problem
+                )
+                problem = re.sub(r"reduce\['(\w+)'\]", r"sweep.reduce.\1", problem)
+                return re.sub(r"^(design|samples|seed|chunk|reduce)\b(?!\.)", r"sweep.\1", problem)
+
+            raise InvalidValue(*map(told, error.problems)) from None
+
     def only_one(self, path: str, data: Any) -> list[str]:
         """Tell of keys that say the same thing twice; the ones to leave out."""
         given = [key for key in _ONE_OF[path] if _get(data, key) is not None]
@@ -473,11 +697,11 @@ class _Reader:
             self.problems.append(f"{shown}: only one of these can be given; remove the other")
         return given[1:]
 
-    def amounts(self, path: str, about: dict[str, Any], data: Any) -> Any:
-        """One value, a list of values, or a range."""
+    def amounts(self, path: str, about: dict[str, Any], data: Any, *, sampled: bool = False) -> Any:
+        """One value, a list of values, or a range; a range to sample has no ``points``."""
         number = self.number(path, about)
         if isinstance(data, dict):
-            return self.range(path, about, data)
+            return self.range(path, about, data, sampled=sampled)
         if not isinstance(data, list):
             return _plain(lambda value: np.array([number(value)]))
 
@@ -497,14 +721,18 @@ class _Reader:
 
         return _plain(read)
 
-    def range(self, path: str, about: dict[str, Any], data: dict[str, Any]) -> Any:
+    def range(
+        self, path: str, about: dict[str, Any], data: dict[str, Any], *, sampled: bool = False
+    ) -> Any:
         spacings = ("linear", "log") if about["gt"] is None else ("log", "linear")
         ends = f'e.g. {{ from = 5e-7, to = 2.4e-4, points = 200, spacing = "{spacings[0]}" }}'
         number = {end: self.number(f"{path}.{end}", about) for end in ("from", "to")}
         keys = {
             "from": _Key(_plain(number["from"]), True, f"the lowest value, {ends}"),
             "to": _Key(_plain(number["to"]), True, f"the highest value, {ends}"),
-            "points": _Key(_plain(self.count(f"{path}.points")), True, f"how many values, {ends}"),
+            "points": _Key(
+                _plain(self.count(f"{path}.points")), not sampled, f"how many values, {ends}"
+            ),
             "spacing": _Key(_plain(self.word(f"{path}.spacing", spacings)), False, ""),
         }
         log = data.get("spacing", spacings[0]) == "log"
@@ -523,9 +751,12 @@ class _Reader:
             )
         self.problems += wrong
 
-        def build(values: dict[str, Any]) -> np.ndarray:
+        def build(values: dict[str, Any]) -> Any:
             if wrong:
                 return np.empty(0)
+            if "points" not in values:
+                scale = "log" if log else "linear"
+                return {"low": values["from"], "high": values["to"], "scale": scale}
             space = np.geomspace if log else np.linspace
             return space(values["from"], values["to"], values["points"])
 
@@ -557,7 +788,7 @@ class _Reader:
         usual = None
         if unit == "m" and abs(number) >= 0.01:
             usual = "nm" if abs(number) >= 10 else "um"
-        elif unit == "Pa" and number < 1e5 and not path.startswith("load"):
+        elif unit == "Pa" and number < 1e5 and not path.startswith(("load", "sweep.pressure")):
             usual = "GPa"
         if usual is None:
             return
@@ -567,12 +798,12 @@ class _Reader:
             cause = f'a number without a unit is in SI; was "{number:g} {usual}" meant?'
         self.notes.append(f"{path} = {say(value)} is taken as {number:g} {unit}: {cause}")
 
-    def count(self, path: str) -> Callable[[Any], int]:
+    def count(self, path: str, *, least: int = 1, most: int = _MOST_POINTS) -> Callable[[Any], int]:
         def read(value: Any) -> int:
             whole = isinstance(value, (int, float)) and not isinstance(value, bool)
-            if not (whole and value == value // 1 and 1 <= value <= _MOST_POINTS):
+            if not (whole and value == value // 1 and least <= value <= most):
                 raise InvalidValue(
-                    f"{path} = {say(value)} must be a whole number from 1 to {_MOST_POINTS}"
+                    f"{path} = {say(value)} must be a whole number from {least} to {most}"
                 )
             return int(value)
 
@@ -674,6 +905,8 @@ class _Reader:
                 reader = self.material(where, value)
             elif declared == "Heights":
                 reader, about = self.heights(where, value), "distribution of asperity heights"
+            elif declared == "Ellipticity | None":
+                reader, about = self.ellipticity(where, value), "shapes of elliptic asperities"
             elif declared == "AbstractAsperityLaw":
                 reader = self.law(where, value, asperity.REGISTRY)
             elif declared == "tuple[Distribution, ...]":
@@ -841,6 +1074,51 @@ def _retold(problem: str, name: str, path: str, values: dict[str, Any]) -> str:
         if problem.startswith(start):
             problem = f"{prefix}{key} = {say(value)} must" + problem.removeprefix(start)
     return _words(problem)
+
+
+def _law(whole: dict[str, Any], table: str, registry: Mapping[str, type], usual: str) -> Any:
+    """The class of the law that a file names."""
+    data = whole.get(table, usual)
+    return registry.get(str(_get(data, "name") if isinstance(data, dict) else data))
+
+
+def _with_nested_names(data: dict[str, Any]) -> dict[str, Any]:
+    """Names in quotes under [sweep.vary], "particles.mean", as the tables they stand for."""
+    vary = _get(data.get("sweep"), "vary")
+    if not isinstance(vary, dict):
+        return data
+    tree: dict[str, Any] = {}
+    for name, value in vary.items():
+        *path, last = name.removeprefix("sweep.vary.").split(".")
+        table = tree
+        for step in path:
+            table = table.setdefault(step, {})
+            if not isinstance(table, dict):
+                return data
+        if isinstance(value, dict) and isinstance(table.get(last), dict):
+            table[last] = table[last] | value
+        else:
+            table[last] = value
+    return data | {"sweep": data["sweep"] | {"vary": tree}}
+
+
+def _span(values: Any) -> bool:
+    return isinstance(values, dict) and set(values) == {"low", "high", "scale"}
+
+
+def _dotted(tree: dict[str, Any], path: str = "") -> dict[str, tuple[str, Any]]:
+    """Names as in the file, each with the dotted name of the field and the values."""
+    out: dict[str, tuple[str, Any]] = {}
+    own = {item.name for item in dataclasses.fields(Particles)}
+    for name, value in tree.items():
+        where = f"{path}.{name}" if path else name
+        if isinstance(value, dict) and not _span(value):
+            out |= _dotted(value, where)
+        elif path == "particles" and name not in own:
+            out[where] = f"particles.diameter.{name}", value
+        else:
+            out[where] = where, value
+    return out
 
 
 def _validate(model: Any, data: dict[str, Any]) -> Any:

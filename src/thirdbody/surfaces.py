@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+from .ellipticity import Ellipticity
 from .heights import GaussianHeights, Heights
 from .values import Value, quantity
 
@@ -35,6 +36,9 @@ class Roughness(Value):
         Asperity density η [1/m²], instead of ``eta_R_sigma``.
     heights : Heights, optional
         Distribution of asperity heights over σ_s; Gaussian by default.
+    ellipticity : Ellipticity, optional
+        Elliptic asperities of several shapes, for laws with a ratio of radii; R is then R_g =
+        √(R′R″) of a class with radius 1.
 
     Raises
     ------
@@ -61,12 +65,15 @@ class Roughness(Value):
     eta_R_sigma: float | None = quantity("ηRσ", "1", "product ηRσ", default=None, gt=0)
     eta: float | None = quantity("η", "1/m^2", "asperity density", default=None, gt=0)
     heights: Heights = field(default_factory=GaussianHeights)
+    ellipticity: Ellipticity | None = None
 
     def _problems(self) -> list[str]:
         if self.eta is not None and self.eta_R_sigma is not None:
             return ["Roughness.eta and Roughness.eta_R_sigma say the same thing; give one of them"]
         if not isinstance(self.heights, Heights):
             return [f"Roughness.heights = {self.heights!r} must be a height distribution"]
+        if not isinstance(self.ellipticity, Ellipticity | None):
+            return [f"Roughness.ellipticity = {self.ellipticity!r} must be an Ellipticity or None"]
         return []
 
     @property
@@ -80,9 +87,9 @@ class Roughness(Value):
     @property
     def sigma_s(self) -> float:
         """Standard deviation of the asperity heights σ_s [m]."""
-        return self.sigma * math.sqrt(1 - 0.8968 / self.alpha)
+        return self.sigma * (1 - 0.8968 / self.alpha) ** 0.5
 
     @property
     def y_s(self) -> float:
         """Height of the mean asperity plane above the mean surface plane y_s [m]."""
-        return 4 * self.sigma / math.sqrt(math.pi * self.alpha)
+        return 4 * self.sigma / (math.pi * self.alpha) ** 0.5

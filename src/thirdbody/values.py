@@ -9,10 +9,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from dataclasses import MISSING, field
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from .errors import InvalidValue
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 __all__ = ["Value", "choice", "quantity"]
 
@@ -137,6 +142,52 @@ class Value:
                 raise InvalidValue(f"{type(self).__name__}.{head} has no fields of its own")
             now[head] = part.replace(**deeper)
         return dataclasses.replace(self, **now)  # type: ignore[type-var]
+
+    def with_arrays(self, changes: Mapping[str, NDArray[np.float64]]) -> Self:
+        """A stand-in that holds an array (N,) in some of its quantities, one value a state.
+
+        Properties that are plain formulas then give arrays. Values are checked against the range
+        of their quantity; what concerns several fields at once is left to the caller.
+
+        Parameters
+        ----------
+        changes : mapping
+            Dotted names of quantities and their values.
+
+        Raises
+        ------
+        InvalidValue
+            A name that is no field, or values outside their range.
+        TypeError
+            A field that is not a quantity.
+        """
+        fields = {item.name: item for item in dataclasses.fields(self)}  # type: ignore[arg-type]
+        now: dict[str, Any] = {}
+        inner: dict[str, dict[str, Any]] = {}
+        for key, values in changes.items():
+            head, _, rest = key.partition(".")
+            if head not in fields:
+                known = ", ".join(sorted(fields))
+                raise InvalidValue(f"{type(self).__name__} has no field {head!r}; it has {known}")
+            if rest:
+                inner.setdefault(head, {})[rest] = values
+                continue
+            about = fields[head].metadata.get("quantity")
+            if about is None:
+                raise TypeError(f"{type(self).__name__}.{head} is not a quantity")
+            for extreme in (values.min(), values.max()):
+                if why := problem_with(about, extreme):
+                    raise InvalidValue(f"{type(self).__name__}.{head} = {extreme!r} {why}")
+            now[head] = values
+        for head, deeper in inner.items():
+            part = getattr(self, head)
+            if not isinstance(part, Value):
+                raise TypeError(f"{type(self).__name__}.{head} has no fields of its own")
+            now[head] = part.with_arrays(deeper)
+        out = object.__new__(type(self))
+        for name in fields:
+            object.__setattr__(out, name, now.get(name, getattr(self, name)))
+        return out
 
     def to_dict(self) -> dict[str, Any]:
         """Every field in SI, ready for JSON; ``type`` names the class."""

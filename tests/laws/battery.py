@@ -33,22 +33,12 @@ from subjects import (
 )
 
 import thirdbody as tb
-from thirdbody.asperity import GW, AbstractAsperityLaw
+from thirdbody.asperity import GW, AbstractAsperityLaw, Jump
 from thirdbody.contact import interface
 
 Array = NDArray[np.float64]
 Law = AbstractAsperityLaw
 PI = math.pi
-NONE: dict[float, float] = {}
-
-AREA_JUMPS: dict[str, dict[float, float]] = {
-    "ke": {
-        1.0: 0.93 - 1,
-        6.0: 0.94 / 0.93 * 6**0.01 - 1,
-        110.0: 2 / 0.94 * 110**-0.146 - 1,
-    }
-}
-"""Relative jumps of the area that the published formulas have; the area falls nowhere else."""
 
 
 # ------------------------------------------------------------------------------- helpers
@@ -124,7 +114,8 @@ def beside(law: Law, gap: float = 1e-9) -> list[Array]:
 def area_grows(law: Law) -> None:
     w = np.sort(np.concatenate([grid(law, 2000), *beside(law)]))
     A = law.area(w, **CASE)
-    falls = [y for y, jump in AREA_JUMPS.get(law.name, NONE).items() if jump < 0]
+    falls = [y for y, jump in bound(law).jumps.items() if jump.area < 0]
+    assert falls == ([1.0] if law.name == "ke" else []), "no other law loses area"
     down = np.flatnonzero(np.diff(A) < -1e-14 * A[1:])
     for i in down:
         assert any(w[i] <= y * unit(law) <= w[i + 1] for y in falls), w[i] / unit(law)
@@ -135,13 +126,11 @@ def jumps_are_declared(law: Law) -> None:
     own = bound(law)
     assert set(own.jumps) <= set(own.breakpoints)
     for y, w in zip(own.breakpoints, edges(law), strict=True):
-        for method, declared in (
-            (law.force, own.jumps),
-            (law.area, AREA_JUMPS.get(law.name, NONE)),
-        ):
-            below, above = method(w * np.array([1 - 1e-12, 1 + 1e-12]), **CASE)
+        declared = own.jumps.get(y, Jump())
+        for name, step in declared._asdict().items():
+            below, above = getattr(law, name)(w * np.array([1 - 1e-12, 1 + 1e-12]), **CASE)
             jump = float(above / below) - 1
-            assert abs(jump - declared.get(y, 0.0)) < 2e-11, (method.__name__, y, jump)
+            assert abs(jump - step) < 2e-11, (name, y, jump)
         at = law.force(w * (1 + 4e-16), **CASE) / law.force(w * (1 + 1e-12), **CASE)
         assert abs(float(at) - 1) < 1e-11, "the upper branch holds at a breakpoint"
     # and none in between: no step larger than its slope allows
@@ -155,6 +144,30 @@ def jumps_are_declared(law: Law) -> None:
     inner &= (w[:-1] > 0) | (w[1:] < 0)
     assert np.all((np.abs(np.diff(F)) <= allowed)[inner])
     assert np.all((np.diff(A) <= 3 * np.diff(w) / np.abs(w[:-1]) * A[1:])[inner])
+
+
+def onset_is_declared(law: Law) -> None:
+    """The load at first touch: none, or the pull of adhesion."""
+    own = bound(law)
+    touch = 1e-300 if own.start == 0 else np.nextafter(own.start, 1)
+    first = float(own.reduced("force", touch))
+    # an unloading JKR contact starts like a root
+    assert abs(first - own.onset) <= (5e-8 if own.start < 0 else 1e-14) * abs(own.onset) + 1e-150
+    assert (own.onset < 0) == (law.name in ADHESIVE)
+
+
+def the_range_ends_where_it_says(law: Law) -> None:
+    """`valid_to` and its sentence go together; the elastic laws end at a mean pressure of 0.4 H."""
+    own = bound(law)
+    assert (own.valid_to < math.inf) == bool(own.beyond)
+    assert own.valid_to > 0
+    if {branch.regime for branch in own.branches} == {"elastic"}:
+        assert own.valid_to < math.inf
+        end = own.valid_to * unit(law)
+        if law.name in ADHESIVE:
+            assert_allclose(end, R * (0.3 * PI * H / E_STAR) ** 2, rtol=1e-12)
+        else:
+            assert_allclose(float(law.mean_pressure(end, **CASE)), 0.4 * H, rtol=1e-9)
 
 
 def stiffness_is_the_slope(law: Law) -> None:
@@ -208,16 +221,22 @@ def rescaled(law: Law, L: float, S: float) -> Law:
 def one_number_or_many(law: Law) -> None:
     w = grid(law, 12, away=1e-6)[-12:].reshape(3, 4)
     radius = np.array([[1.0], [1.7], [3.1]]) * R
-    tips: Any = R if hasattr(law, "scale") else radius  # these are bound to one radius
-    for method in (law.force, law.area, law.stiffness, law.energy, law.mean_pressure):
-        together = method(w, R=tips, E_star=E_STAR, H=H)
-        assert together.shape == w.shape
-        for i, j in np.ndindex(*w.shape):
-            tip = R if tips is R else float(radius[i, 0])
-            one = method(float(w[i, j]), R=tip, E_star=E_STAR, H=H)
-            assert np.ndim(one) == 0
-            assert_allclose(float(one), together[i, j], rtol=1e-13)
-    assert law.regime(w, **CASE).shape == w.shape
+    hard = np.array([1.0, 0.3, 2.0, 1.0]) * H
+    stiff = np.array([[1.0, 0.8, 0.8, 1.2]]) * E_STAR
+    for tips, moduli, hardness in ((radius, E_STAR, H), (R, stiff, H), (radius, stiff, hard)):
+        case: Any = {"R": tips, "E_star": moduli, "H": hardness}
+        every = [np.broadcast_to(values, w.shape) for values in case.values()]
+        for name in ("force", "area", "stiffness", "energy", "mean_pressure", "regime"):
+            together = getattr(law, name)(w, **case)
+            assert together.shape == w.shape
+            for at in np.ndindex(*w.shape):
+                single = dict(zip(case, (float(values[at]) for values in every), strict=True))
+                one = getattr(law, name)(float(w[at]), **single)
+                assert np.ndim(one) == 0
+                if name == "regime":
+                    assert str(one) == together[at]
+                else:
+                    assert_allclose(float(one), together[at], rtol=1e-13)
 
 
 def round_trip(law: Law) -> None:
@@ -241,6 +260,10 @@ def elastic_limit(law: Law) -> None:
     elif law.name in CIRCLES or law.name in ELLIPSES:
         last = 1.9 if law.name == "jg" else 1.0
         top = R if law.name == "gw" else 0.999999 * last * onset(law)
+        w, tolerance = np.geomspace(1e-6, 1, 20) * top, 1e-12
+    elif bound(law).branches[0].regime == "elastic":
+        # a law that is not known here
+        top = 0.999999 * float(edges(law)[0]) if len(edges(law)) else R
         w, tolerance = np.geomspace(1e-6, 1, 20) * top, 1e-12
     else:
         return
@@ -271,8 +294,9 @@ def pressure_at_yield(law: Law) -> None:
 
 def plastic_limit(law: Law) -> None:
     """Pressure KH after CEB, H after ZMC and KE; section 2πR_gω of the undeformed tip."""
-    if law.name in ("gw", "jg") or law.name not in CIRCLES | set(ELLIPSES):
+    if law.name in ADHESIVE | {"gw", "jg", "coated"}:
         assert "plastic" not in law.regime(grid(law), **CASE)
+    if law.name in ("gw", "jg") or law.name not in CIRCLES | set(ELLIPSES):
         return
     p = H
     if law.name in ("ceb", "elliptic-ceb"):
@@ -444,11 +468,13 @@ def _ke(law: Law) -> None:
     assert_allclose(A, [0.93 * 3**1.136, 0.94 * 50**1.146, 400], rtol=1e-11)
     last = {0.29: 0.0865, 0.25: 0.1185, 0.35: 0.0418}.get(nu)
     jumps = bound(law).jumps
-    assert_allclose([jumps[1.0], jumps[6.0]], [0.03, 0.0168], atol=6e-5)
+    assert_allclose(jumps[1.0], [0.03, -0.07, -0.0215], atol=6e-5)
+    assert_allclose(jumps[6.0], [0.0168, 0.0290, -0.0988], atol=6e-5)
     if last is not None:
-        assert_allclose(jumps[110.0], last, atol=6e-5)
-    S = [law.stiffness(wc * y * np.array([1 - 1e-12, 1 + 1e-12]), **CASE) for y in (1, 6)]
-    assert_allclose([b / a - 1 for a, b in S], [-0.0215, -0.0988], atol=6e-5)
+        assert_allclose(jumps[110.0][:2], [last, 0.0712], atol=6e-5)
+    if nu == 0.29:
+        assert_allclose(jumps[110.0].stiffness, -0.1398, atol=6e-5)
+    assert bound(law).valid_to == 110
 
 
 def _jg(law: Law) -> None:
@@ -469,6 +495,11 @@ def _jg(law: Law) -> None:
     w = 1.9 * wc * (1 + np.array([1e-9, 1e-5]))
     slope = float(np.diff(law.area(w, **case))[0] / np.diff(w)[0]) / (PI * R)
     assert_allclose(slope, 1 + 0.14 * math.exp(23 / 200), rtol=1e-5)
+    for hardness in (H, 30 * E_STAR):  # the limit beyond 1.9 ω_c and below
+        case = {**CASE, "H": hardness}
+        own = law.bound(**case)
+        end = own.valid_to * float(own.yield_interference(**case))
+        assert_allclose(float(law.contact_radius(end, **case)) / R, 0.41, rtol=1e-12)
 
 
 def _elliptic(law: Law) -> None:
@@ -537,6 +568,8 @@ CHECKS: tuple[Callable[[Law], None], ...] = (
     load_grows,
     area_grows,
     jumps_are_declared,
+    onset_is_declared,
+    the_range_ends_where_it_says,
     stiffness_is_the_slope,
     energy_is_the_work,
     any_units,

@@ -111,7 +111,10 @@ def quadrature(
 ) -> tuple[float, float]:
     """F* and A_t at d = separation·σ_s without the table, which takes seconds for some heights."""
     bare = contact(law, heights)
-    with mock.patch.object(asperities, "PiecewiseChebyshev", _Untabulated):
+    with (
+        mock.patch.object(asperities, "PiecewiseChebyshev", _Untabulated),
+        mock.patch.object(asperities, "reduced_sum", asperities.reduced_sum.__wrapped__),
+    ):
         total = asperities.asperity_sum.__wrapped__(law, bare.roughness, bare.surfaces, 0.0)
         F, *areas = total.fields(np.array([separation * bare.roughness.sigma_s]))[0]
     return float(F) / bare.E_ss, float(sum(areas))

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
+from scipy import stats
+from scipy.optimize import brentq
 from subjects import E_STAR, HEIGHTS, SIGMA_S, contact, quadrature
 
 import thirdbody as tb
@@ -277,3 +280,52 @@ def test_one_lower_edge_below_which_all_touch():
     with pytest.warns(tb.RangeWarning):
         A = tb.solve(bare, d=h * SIGMA_S).A_t
     assert_allclose(A, math.pi * 0.05 * -h, rtol=1e-11)
+
+
+def area_at(pressure: float, pdf, highest: float) -> float:
+    """Real area of S45C on itself under ZMC, by a sum of its own: σ = 100 nm, R = 2.8 µm."""
+    pair = tb.MaterialPair(tb.materials["S45C"], tb.materials["S45C"])
+    rough = tb.Roughness(sigma=100e-9, R=2.8e-6)
+    case = {"R": rough.R, "E_star": pair.E_star, "H": pair.H}
+    law, (x, weight) = tb.asperity.ZMC(), np.polynomial.legendre.leggauss(60)
+    kinks = np.sqrt(np.array([1, 54]) * law.yield_interference(**case) / rough.sigma_s)
+
+    def total(h: float, method) -> float:
+        end = math.sqrt(min(highest - h, 14.0))
+        marks = np.sort([*np.linspace(0, end, 9), *(k for k in kinks if k < end)])
+        out = 0.0
+        for a, b in zip(marks[:-1], marks[1:], strict=True):
+            u = 0.5 * (a + b) + 0.5 * (b - a) * x
+            values = method(u * u * rough.sigma_s, **case) * pdf(h + u * u)
+            out += 0.5 * (b - a) * float(np.sum(weight * 2 * u * values))
+        return rough.density * out
+
+    h = brentq(lambda h: math.log(total(h, law.force) / pressure), -2, min(highest - 0.05, 8))
+    return total(h, law.area)
+
+
+def test_johnson_in_place_of_pearson():
+    """The numbers of the page on laws: at equal moments the families hardly differ in area."""
+    page = (Path(__file__).parents[2] / "docs" / "choose-a-law.md").read_text("utf-8")
+    skew = -0.7
+    pearson = stats.pearson3(skew)
+    kurtosis = 3 + float(pearson.stats(moments="k"))
+    assert kurtosis == pytest.approx(3.735, rel=1e-12)
+    johnson = tb.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
+    less = {}
+    for pressure in (3e5, 3e6, 3e7):
+        two = area_at(pressure, johnson.pdf, johnson.highest)
+        less[pressure] = 100 * (1 - two / area_at(pressure, pearson.pdf, -2 / skew))
+    assert f"{less[3e6]:.1f} % less area" in " ".join(page.split())
+    assert f"({less[3e5]:.1f} % at 0.3 MPa, {less[3e7]:.1f} % at 30 MPa)" in page
+    gauss = area_at(3e6, stats.norm.pdf, math.inf)
+    worth = 100 * (area_at(3e6, pearson.pdf, -2 / skew) / gauss - 1)
+    assert f"worth {worth:.0f} %" in page
+    # and the library finds the same area
+    steel = tb.materials["S45C"]
+    bare = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6, heights=johnson),
+    )
+    state = tb.solve(bare, pressure=3e6)
+    assert state.A_t == pytest.approx(area_at(3e6, johnson.pdf, johnson.highest), rel=1e-9)

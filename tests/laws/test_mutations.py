@@ -10,9 +10,9 @@ from typing import Any
 import battery
 import numpy as np
 import pytest
-from subjects import FIRST
+from subjects import CASE, FIRST
 
-from thirdbody.asperity import AbstractAsperityLaw, Branch
+from thirdbody.asperity import AbstractAsperityLaw, Branch, Jump
 from thirdbody.laws.asperity import elliptic
 
 Law = AbstractAsperityLaw
@@ -114,6 +114,16 @@ def jkr_root(law: Law) -> Law:
     return slipped(law, _root=staticmethod(lambda y: true(y) * (1 + 0.1 / (1 + np.abs(y)))))
 
 
+def hermite_slope(law: Law, factor: float) -> Law:
+    """Another slope m_0 of the pressure at yield: load and area still join."""
+    return slipped(law, _slope=property(lambda self: factor * type(law)._slope.fget(self)))
+
+
+def declares(law: Law, **members: Any) -> Law:
+    """The formulas as they are, and something else said of them."""
+    return slipped(law, **{name: property(lambda self, v=v: v) for name, v in members.items()})
+
+
 SLIPS: dict[str, Callable[[], Law]] = {}
 for name, law in EVERY.items():
     SLIPS[f"R for √R, or ω_c without R: {name}"] = lambda law=law: onset(
@@ -179,6 +189,10 @@ SLIPS |= {
         EVERY["dmt"], 0, force=lambda old: lambda y: 0.5 * (old.force(y) + y**1.5)
     ),
     "root of JKR: jkr": lambda: jkr_root(EVERY["jkr"]),
+    "an undeclared jump of the stiffness: hermite": lambda: hermite_slope(EVERY["hermite"], 0.8),
+    "an undeclared jump of the area: zmc": lambda: branch(
+        EVERY["zmc"], 1, area=times("area", 1.0001)
+    ),
     "8πwE* without its 2: jkr": lambda: scaled(EVERY["jkr"], 0, 0.5),
 }
 
@@ -196,6 +210,49 @@ def slipped_rule(name: str) -> Law:
 @pytest.mark.parametrize("slip", SLIPS)
 def test_the_battery_finds(slip):
     assert battery.failures(SLIPS[slip](), CHECKS, first=True), slip
+
+
+def without(law: Law, y: float, name: str) -> Law:
+    """One of the declared jumps left out."""
+    jumps = law.bound(**CASE).jumps
+    return declares(law, jumps=jumps | {y: jumps[y]._replace(**{name: 0.0})})
+
+
+STATEMENTS: dict[str, Callable[[], Law]] = {
+    "ke of ν = 0.35 with the last jump of 0.29": lambda: declares(
+        EVERY["ke"].replace(nu=0.35), jumps=EVERY["ke"].bound(**CASE).jumps
+    ),
+    "a jump where none is": lambda: declares(EVERY["gw"], jumps={1.0: Jump(stiffness=0.1)}),
+    "a pull that is not there": lambda: declares(EVERY["gw"], onset=-0.1),
+    "DMT with the pull of JKR": lambda: declares(
+        EVERY["dmt"], onset=EVERY["jkr"].bound(**CASE).onset
+    ),
+    "JKR parts and forms alike": lambda: declares(
+        EVERY["jkr"].replace(unloading=True), onset=EVERY["jkr"].bound(**CASE).onset
+    ),
+    "a range without a sentence": lambda: declares(EVERY["zmc"], valid_to=100.0),
+    "an elastic law for ever": lambda: declares(EVERY["gw"], valid_to=math.inf),
+    **{
+        f"{name} without its jump of the {what} at {y:g}": lambda name=name, y=y, what=what: (
+            without(EVERY[name], y, what)
+        )
+        for name in ("ceb", "zmc", "ke", "jg", "elliptic-ceb", "elliptic-zmc")
+        for y, jump in EVERY[name].bound(**CASE).jumps.items()
+        for what, step in jump._asdict().items()
+        if step
+    },
+}
+"""What a law says of itself, wrongly."""
+
+
+@pytest.mark.parametrize("slip", STATEMENTS)
+def test_the_battery_finds_a_false_statement(slip):
+    said = (
+        battery.jumps_are_declared,
+        battery.onset_is_declared,
+        battery.the_range_ends_where_it_says,
+    )
+    assert battery.failures(STATEMENTS[slip](), said), slip
 
 
 @pytest.mark.parametrize("name", EVERY)
@@ -250,7 +307,9 @@ def test_what_finds_what():
     """Several checks see a gross slip; a fine one is seen by the check that was made for it."""
     rough = battery.failures(SLIPS["E′ = 2E* for E*: ceb"](), CHECKS)
     assert {"elastic_limit", "pressure_at_yield", "hard_is_elastic"} <= set(rough)
-    assert "jumps_are_declared" in battery.failures(SLIPS["an undeclared jump: zmc"](), CHECKS)
+    for slip in SLIPS:
+        if "undeclared jump" in slip:
+            assert battery.failures(SLIPS[slip](), (battery.jumps_are_declared,)), slip
     assert "published" in battery.failures(SLIPS["2.3 for 23: jg"](), CHECKS)
     assert "plastic_limit" in battery.failures(SLIPS["H for KH: ceb"](), CHECKS)
     assert "any_units" in battery.failures(SLIPS["R for √R, or ω_c without R: gw"](), CHECKS)

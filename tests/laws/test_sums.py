@@ -5,6 +5,7 @@ import math
 import warnings
 from pathlib import Path
 
+import mpmath
 import numpy as np
 import plain
 import pytest
@@ -29,6 +30,7 @@ from subjects import (
 )
 
 import thirdbody as tb
+from thirdbody.contact import interface
 from thirdbody.laws.asperity import elliptic_hertz
 
 OURS = json.loads((Path(__file__).parents[1] / "cases" / "laws.json").read_text("utf-8"))
@@ -86,6 +88,18 @@ def test_the_second_implementation(name):
     floor = 1e-12 * math.pi * W * R if "w" in options else 0.0
     assert_allclose(F, [float(row["F"]) * E_STAR * R**2 for row in rows], rtol=1e-11, atol=floor)
     assert_allclose(A, [float(row["A"]) * R**2 for row in rows], rtol=1e-11)
+
+
+def test_root_of_jkr():
+    """s − 1 against 40 digits at the same y: 12 decades, zero load, and up to the parting."""
+    near = -0.75 + np.geomspace(2e-16, 0.7, 60)
+    y = np.concatenate([near, -np.geomspace(1e-6, 0.74, 30), np.geomspace(1e-6, 1e6, 60)])
+    got = tb.asperity.JKR._root(y)
+    with mpmath.workdps(40):
+        for value, at in zip(got, y, strict=True):
+            q = mpmath.mpf(float(at))
+            s = mpmath.findroot(lambda s, q=q: s**4 / 4 - s - q, 1 + mpmath.mpf(float(value)))
+            assert abs(float((mpmath.mpf(float(value)) - (s - 1)) / (s - 1))) < 1e-15, at
 
 
 @pytest.mark.parametrize("row", OURS["ellipses"], ids=lambda row: row["ratio"])
@@ -147,6 +161,55 @@ def test_adhesive_sums():
     pull = 2 * math.pi * W * R * 0.05 / (R * SIGMA_S) * touching
     assert_allclose((gw.F_star - dmt.F_star) * E_STAR, pull, rtol=1e-11)
     assert_allclose(gw.A_t, dmt.A_t, rtol=1e-13)
+
+
+def drawn_together(law: tb.asperity.AbstractAsperityLaw, heights: tb.Heights, h: float) -> float:
+    """F/(ηE*R²) at separation h by panels of its own, from the second implementation."""
+    start = -0.75 * (math.pi**2 * W**2 * R / E_STAR**2) ** (1 / 3)
+    low = (start if getattr(law, "unloading", False) else 0.0) / SIGMA_S
+    high = 40.0 if heights.kinks else h + 12.0
+    # contact begins with a step, and the density may too
+    marks = low + (high - low) * np.array([0, 0.002, 0.01, 0.04, 0.1, 0.2, 0.35, 0.5, 0.75, 1]) ** 2
+    marks = sorted({*marks, *(z - h for z in heights.kinks if low < z - h < high)})
+    x, weight = np.polynomial.legendre.leggauss(60)
+    total = 0.0
+    for a, b in zip(marks[:-1], marks[1:], strict=True):
+        # √ as variable: an unloading contact starts like a root
+        u_a, u_b = math.sqrt(a - low), math.sqrt(b - low)
+        u = 0.5 * (u_a + u_b) + 0.5 * (u_b - u_a) * x
+        omega = (low + u * u) * SIGMA_S
+        o = {"w": W, "unloading": getattr(law, "unloading", False)}
+        F, _ = plain.contact(law.name, omega, R=R, E=E_STAR, H=H, nu=NU, **o)
+        phi = heights.pdf(h + low + u * u)
+        total += 0.5 * (u_b - u_a) * float(np.sum(weight * 2 * u * F * phi))
+    return total / (E_STAR * R**2)
+
+
+@pytest.mark.parametrize("heights", ["gaussian", "exponential", "weibull"])
+@pytest.mark.parametrize(
+    ("name", "unloading", "pull"),
+    [("dmt", None, -2.0), ("jkr", False, -4 / 3), ("jkr", True, -5 / 6)],
+    ids=["dmt", "jkr", "jkr-unloading"],
+)
+def test_the_slope_of_a_sum_holds_the_pull_of_first_contact(name, unloading, pull, heights):
+    """dF/dd of the library against differences of another sum; without the pull it is far off."""
+    law = build(name, w=W) if unloading is None else build(name, w=W, unloading=unloading)
+    own = law.bound(**CASE)
+    unit = math.pi * R * H * float(own.yield_interference(**CASE))
+    assert own.onset * unit == pytest.approx(pull * math.pi * W * R, rel=1e-14)
+    density = HEIGHTS[heights]
+    for h in (0.4, 1.5, 2.5):
+        step = 2e-3
+        F = [drawn_together(law, density, h + n * step) for n in (-2, -1, 1, 2)]
+        drawn = (F[0] - 8 * F[1] + 8 * F[2] - F[3]) / (12 * step)
+        bare = contact(law, density)
+        got = float(interface(bare).load(np.array([h * SIGMA_S]))[0, 1]) * SIGMA_S
+        got /= bare.roughness.eta * E_STAR * R**2
+        begin = own.start * float(own.yield_interference(**CASE)) / SIGMA_S
+        missing = -own.onset * unit / (E_STAR * R**2) * float(density.pdf(h + begin))
+        size = abs(got) + abs(missing)
+        assert abs(got - drawn) < 1e-8 * size
+        assert abs(missing) > 0.05 * size
 
 
 @pytest.mark.parametrize("subject", SUBJECTS, ids=lambda subject: subject.label)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy import special
-from subjects import CASE, E_STAR, FIRST, NU, SIGMA_S, H, R, build, contact
+from subjects import CASE, E_STAR, FIRST, HEIGHTS, NU, SIGMA_S, H, R, build, contact
 
 import thirdbody as tb
 from thirdbody import reference
@@ -74,6 +74,46 @@ def test_ke_and_jg_agree_on_yield():
     by_three = build("jg", hardness_ratio=3.0)
     assert yields_at(by_three) / yields_at(build("jg")) == pytest.approx((2.8 / 3) ** 2, rel=1e-13)
     assert "hardness_ratio" in by_three.to_dict()
+
+
+def test_the_ratio_of_hardness_reaches_every_place_of_jg():
+    """One S_y stated through two hardnesses is one law: in ω_c, in B and in H_G."""
+    S_y = 0.007 * E_STAR
+    omega = np.geomspace(1e-6, 0.3, 40) * R
+    one, two = (
+        build("jg", hardness_ratio=ratio).force(omega, R=R, E_star=E_STAR, H=ratio * S_y)
+        for ratio in (2.8, 3.0)
+    )
+    assert_allclose(one, two, rtol=1e-13)
+    wrong = build("jg", hardness_ratio=2.8).force(omega, R=R, E_star=E_STAR, H=3.0 * S_y)
+    assert np.max(np.abs(wrong / one - 1)) > 0.04
+
+
+def test_54_is_kept_for_ellipses_and_said_to_be_an_assumption():
+    law = build("elliptic-zmc", ratio=10.0)
+    assert law.bound(**CASE).breakpoints == (1.0, 54.0)
+    assert "assumption" in (type(law).__doc__ or "")
+    assert "lower bound" in (tb.asperity.ZMC.__doc__ or "").replace("\n    ", " ")
+
+
+def test_a_circle_is_an_ellipse_of_its_own_radius():
+    """R_g is √(R′R″), not 1/(1/R′ + 1/R″), which is half of it for a circle."""
+    one = elliptic_hertz(1.0)
+    assert (one.R_A, one.root_R_F) == pytest.approx((1.0, 1.0), rel=1e-14)
+
+
+def test_pressed_beyond_the_fits_is_said():
+    """Tall asperities leave the fits unnoticed, were it not for the note of a comparison."""
+    soft = contact(FIRST["ke"].law, hardness=0.05 * H)
+    tall = contact(FIRST["jg"].law, HEIGHTS["exponential"]).replace(
+        **{"roughness.sigma": R / 3, "roughness.eta": None, "roughness.eta_R_sigma": 0.05}
+    )
+    for case in (soft, tall):
+        law = case.asperity_law
+        assert law.beyond
+        assert law.beyond in tb.compare(case, F_star=[1e-4], laws=law.name).note.values[0]
+        hard = contact(law, hardness=20 * H)
+        assert tb.compare(hard, F_star=[1e-6], laws=law.name).note.values[0] == ""
 
 
 @pytest.mark.parametrize(("nu", "jump"), [(0.25, 0.1185), (0.29, 0.0865), (0.35, 0.0418)])
@@ -147,7 +187,6 @@ def test_sum_of_hertz_is_the_exact_integral():
 def test_derivative_holds_the_jump_of_ceb():
     """∫F₁′φ alone misses a part that is not small."""
     from battery import ETA, by_parts, edges
-    from subjects import HEIGHTS
 
     from thirdbody.contact import interface
 

@@ -9,7 +9,7 @@ import pytest
 
 from thirdbody import InvalidValue
 from thirdbody.studies.horng2022 import PANELS, READINGS, Curves, claims, reproduce, score
-from thirdbody.studies.horng2022.claims import Claim, Measurement, study_data
+from thirdbody.studies.horng2022.claims import study_data
 from thirdbody.studies.horng2022.ledger import (
     MEASURES,
     critical_load_1,
@@ -17,6 +17,7 @@ from thirdbody.studies.horng2022.ledger import (
     interior_peak_of,
 )
 from thirdbody.studies.horng2022.readings import LOADS, RANGE, Curve
+from thirdbody.studies.ledger import Claim, Measurement
 
 EXPECTED = {"published": 66, "window": 60, "window_E2": 57, "all_terms": 56, "literal": 35}
 """Totals of the search that found the presets, on an independent implementation."""

@@ -12,6 +12,7 @@ so a new law is one file with its equations.
 
 from __future__ import annotations
 
+import math
 from abc import abstractmethod
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Number = float | Array
 
-__all__ = ["REGIMES", "AbstractAsperityLaw", "AbstractParticleLaw", "Branch", "Law"]
+__all__ = ["REGIMES", "AbstractAsperityLaw", "AbstractParticleLaw", "Branch", "Jump", "Law"]
 
 REGIMES = ("elastic", "elastoplastic", "plastic")
 
@@ -46,6 +47,14 @@ class Branch(NamedTuple):
     """a(y) = A/(πRω_1)"""
     stiffness: Callable[[Array], Array]
     """df/dy"""
+
+
+class Jump(NamedTuple):
+    """What the published formulas step by at a breakpoint: upper over lower branch, less one."""
+
+    force: float = 0.0
+    area: float = 0.0
+    stiffness: float = 0.0
 
 
 class Law(Value):
@@ -79,11 +88,14 @@ class AbstractAsperityLaw(Law):
 
     A subclass is a frozen, slotted, keyword-only dataclass. It gives `yield_interference`,
     `breakpoints` and `branches` (one more branch than breakpoints), the class data of `Law`,
-    and, where the published formulas are not continuous, `jumps`.
+    where the published formulas do not join, `jumps`, and, where their range ends, `valid_to`
+    and `beyond`.
     """
 
     __slots__ = ()
     registry: ClassVar[dict[str, type[Law]]] = {}
+    beyond: ClassVar[str] = ""
+    """What an asperity is past `valid_to`, to follow "x % of the asperities' area is"."""
 
     @property
     def start(self) -> float:
@@ -91,9 +103,27 @@ class AbstractAsperityLaw(Law):
         return 0.0
 
     @property
-    def jumps(self) -> dict[float, float]:
-        """Declared relative jumps of the load at breakpoints, {y: jump}."""
+    def onset(self) -> float:
+        """Reduced load f at first contact, y just above `start`: not zero where adhesion pulls.
+
+        A sum over heights has it in its slope, as it has the jumps: with J = πRω_1H f,
+        dF/dd = −η[∫F_1′φ + Jφ(d + ω_start) + ...].
+        """
+        return 0.0
+
+    @property
+    def jumps(self) -> dict[float, Jump]:
+        """Where the published formulas do not join: {breakpoint: `Jump`}, all others are smooth.
+
+        Written down from the formulas, not computed from `branches`: the tests hold one against
+        the other.
+        """
         return {}
+
+    @property
+    def valid_to(self) -> float:
+        """Reduced interference y up to which the law is meant; `beyond` says what lies there."""
+        return math.inf
 
     def bound(self, *, R: Number, E_star: Number, H: Number, nu: float | None = None) -> Self:
         """The law with what its formulas need to know of the contact; itself by default.
@@ -133,12 +163,34 @@ class AbstractAsperityLaw(Law):
 
     # ---------------------------------------------------------------- one contact
     def _scaled(
-        self, omega: ArrayLike, R: Number, E_star: Number, H: Number
-    ) -> tuple[Self, Number, Array]:
-        """The bound law, ω_1 and ω/ω_1."""
-        law = self.bound(R=R, E_star=E_star, H=H)
-        omega_1 = law.yield_interference(R=R, E_star=E_star, H=H)
-        return law, omega_1, np.asarray(omega, dtype=float) / omega_1
+        self,
+        of: Callable[[Self, Array], Any],
+        omega: ArrayLike,
+        R: Number,
+        E_star: Number,
+        H: Number,
+    ) -> tuple[Any, Number]:
+        """``of(law, ω/ω_1)`` of the bound law, and ω_1; contacts that bind alike go together."""
+        numbers = np.ndim(R) == np.ndim(E_star) == np.ndim(H) == 0
+        if numbers or type(self).bound is AbstractAsperityLaw.bound:
+            law = self.bound(R=R, E_star=E_star, H=H)
+            omega_1 = law.yield_interference(R=R, E_star=E_star, H=H)
+            return of(law, np.asarray(omega, dtype=float) / omega_1), omega_1
+        every = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (omega, R, E_star, H)))
+        flat, *body = (values.ravel() for values in every)
+        cases, which = np.unique(np.stack(body), axis=1, return_inverse=True)
+        groups: dict[Self, list[int]] = {}
+        for i, (r, e, h) in enumerate(cases.T.tolist()):
+            groups.setdefault(self.bound(R=r, E_star=e, H=h), []).append(i)
+        scale, out = np.empty(flat.shape), np.empty(flat.shape)
+        for law, members in groups.items():
+            here = np.isin(which.ravel(), members)
+            r, e, h = (values[here] for values in body)
+            scale[here] = law.yield_interference(R=r, E_star=e, H=h)
+            values = of(law, flat[here] / scale[here])
+            out = out.astype(values.dtype, copy=False)
+            out[here] = values
+        return out.reshape(every[0].shape), scale.reshape(every[0].shape)
 
     def force(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Load F [N] of one contact.
@@ -148,21 +200,21 @@ class AbstractAsperityLaw(Law):
         omega : array_like
             Interference ω [m]; zero or negative gives zero.
         R, E_star, H : float or array
-            Tip radius [m], contact modulus [Pa], hardness of the softer body [Pa]. Laws that
-            keep a constant of the contact (see `bound`) take numbers only.
+            Tip radius [m], contact modulus [Pa], hardness of the softer body [Pa]; arrays are
+            broadcast with ``omega``.
         """
-        law, omega_1, y = self._scaled(omega, R, E_star, H)
-        return np.pi * R * omega_1 * H * law.reduced("force", y)
+        f, omega_1 = self._scaled(lambda law, y: law.reduced("force", y), omega, R, E_star, H)
+        return np.pi * R * omega_1 * H * f
 
     def area(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Contact area A [m²] of one contact; arguments as in `force`."""
-        law, omega_1, y = self._scaled(omega, R, E_star, H)
-        return np.pi * R * omega_1 * law.reduced("area", y)
+        a, omega_1 = self._scaled(lambda law, y: law.reduced("area", y), omega, R, E_star, H)
+        return np.pi * R * omega_1 * a
 
     def stiffness(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """dF/dω [N/m] of one contact; arguments as in `force`."""
-        law, _, y = self._scaled(omega, R, E_star, H)
-        return np.pi * R * H * law.reduced("stiffness", y)
+        slope, _ = self._scaled(lambda law, y: law.reduced("stiffness", y), omega, R, E_star, H)
+        return np.pi * R * H * slope
 
     def contact_radius(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """a = √(A/π) [m] of one contact; arguments as in `force`."""
@@ -176,22 +228,26 @@ class AbstractAsperityLaw(Law):
 
     def energy(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> Array:
         """Work ∫F dω [J] done in one loading to ω; arguments as in `force`."""
-        law, omega_1, y = self._scaled(omega, R, E_star, H)
+        work, omega_1 = self._scaled(AbstractAsperityLaw._reduced_work, omega, R, E_star, H)
+        return np.pi * R * omega_1**2 * H * work
+
+    def _reduced_work(self, y: Array) -> Array:
+        """∫f dy from 0."""
         y = np.maximum(y, 0.0)
-        splits = np.array([0.0, *law.breakpoints])
+        splits = np.array([0.0, *self.breakpoints])
         edges = np.concatenate([np.minimum(y[..., None], splits), y[..., None]], axis=-1)
         # panels in √y: every law starts like y^(3/2)
         root, weight = panel_rule(np.sqrt(edges), 40)
-        work = np.sum(weight * 2 * root * law.reduced("force", root**2), axis=-1)
-        return np.pi * R * omega_1**2 * H * work
+        return np.sum(weight * 2 * root * self.reduced("force", root**2), axis=-1)
 
     def regime(self, omega: ArrayLike, *, R: Number, E_star: Number, H: Number) -> NDArray[np.str_]:
         """One of `REGIMES`, or ``"none"`` without contact; arguments as in `force`."""
-        law, _, y = self._scaled(omega, R, E_star, H)
-        names = np.array([branch.regime for branch in law.branches])
-        return np.where(
-            y > law.start, names[np.searchsorted(law.breakpoints, y, side="right")], "none"
-        )
+        return self._scaled(AbstractAsperityLaw._reduced_regime, omega, R, E_star, H)[0]
+
+    def _reduced_regime(self, y: Array) -> NDArray[np.str_]:
+        names = np.array([branch.regime for branch in self.branches])
+        which = np.searchsorted(self.breakpoints, y, side="right")
+        return np.where(y > self.start, names[which], "none")
 
 
 class AbstractParticleLaw(Law):

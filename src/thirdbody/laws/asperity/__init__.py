@@ -1,6 +1,6 @@
 """Laws of one asperity. A new law is one file here and one import line below."""
 
-from ..base import AbstractAsperityLaw, Branch
+from ..base import AbstractAsperityLaw, Branch, Jump
 from .adhesive import DMT, JKR
 from .ceb import CEB
 from .coated import Coated
@@ -29,5 +29,6 @@ __all__ = [
     "EllipticCEB",
     "EllipticZMC",
     "Hermite",
+    "Jump",
     "elliptic_hertz",
 ]

@@ -18,6 +18,13 @@ __all__ = ["DMT", "JKR"]
 WORK_HINT = "mJ/m² are 50e-3; w is γ_1 + γ_2 − γ_12, not γ"
 
 
+def _filled(law: JKR | DMT) -> float:
+    """The unit of its load, of a law that is bound to a contact."""
+    if law.scale is None:
+        raise InvalidValue(f"{type(law).__name__}.scale is needed; a contact fills it in")
+    return law.scale
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JKR(AbstractAsperityLaw):
     r"""Johnson, Kendall and Roberts: adhesion in the contact. Summed over heights: Fuller–Tabor.
@@ -61,6 +68,7 @@ class JKR(AbstractAsperityLaw):
     doi = "10.1098/rspa.1971.0141"
     provenance = "seen"
     valid_range = "elastic; Tabor number above 5"
+    beyond = GW.beyond
     scale_free = False
 
     w: float = quantity("w", "J/m^2", "work of adhesion", default=0.05, gt=0, hint=WORK_HINT)
@@ -81,35 +89,48 @@ class JKR(AbstractAsperityLaw):
         return -0.75 if self.unloading else 0.0
 
     @property
+    def onset(self) -> float:
+        """−(5/6)πwR where an unloading contact parts, −(4/3)πwR where a loading one forms."""
+        return _filled(self) * (-5 / 6 if self.unloading else -4 / 3)
+
+    @property
     def breakpoints(self) -> tuple[float, ...]:
         return ()
 
+    @property
+    def valid_to(self) -> float:
+        """Hertz's ω where the mean pressure is 0.4 H, ZMC's first yield: (0.3πH/E*)²R over X."""
+        return (0.3 / _filled(self)) ** 2
+
     @staticmethod
     def _root(y):
-        """s ≥ 1 with s⁴/4 − s = y, from above by Newton."""
-        s = (4 * (np.abs(y) + 2)) ** 0.25 + 1
-        for _ in range(60):
-            step = (s**4 / 4 - s - y) / np.maximum(s**3 - 1, 1e-300)
-            s = np.maximum(s - step, 1.0)
-            if np.all(np.abs(step) <= 1e-16 * s):
+        """e = s − 1 ≥ 0, with s⁴/4 − s = y as e²(3/2 + e + e²/4) = y + ¾: nothing cancels.
+
+        Newton from above; e to 4e-16, however near the parting at e = 0.
+        """
+        q = y + 0.75
+        e = np.minimum(np.sqrt(q / 1.5), (4 * q) ** 0.25)
+        for _ in range(20):
+            step = (e * e * (1.5 + e * (1 + e / 4)) - q) / np.maximum(e * (3 + e * (3 + e)), 1e-300)
+            e = e - step
+            if np.all(np.abs(step) <= 4e-16 * e):
                 break
-        return s
+        return e
 
     @property
     def branches(self) -> tuple[Branch, ...]:
-        if self.scale is None:
-            raise InvalidValue("JKR.scale is needed; a contact fills it in")
-        unit = self.scale
+        unit = _filled(self)
 
         def stiffness(y):
-            s = self._root(y)
-            return unit * (s**5 - 3 * s**2) / np.maximum(s**3 - 1, 1e-300)
+            e = self._root(y)
+            s = 1 + e
+            return unit * s * s * (s**3 - 3) / np.maximum(e * (3 + e * (3 + e)), 1e-300)
 
         def force(y):
-            cube = self._root(y) ** 3
+            cube = (1 + self._root(y)) ** 3
             return unit * cube * (cube / 6 - 1)
 
-        return (Branch("elastic", force, lambda y: self._root(y) ** 4 / 4, stiffness),)
+        return (Branch("elastic", force, lambda y: (1 + self._root(y)) ** 4 / 4, stiffness),)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -161,8 +182,11 @@ class DMT(GW):
         return self.replace(scale=2 * self.w / (omega_1 * H))
 
     @property
+    def onset(self) -> float:
+        """−2πwR."""
+        return -_filled(self)
+
+    @property
     def branches(self) -> tuple[Branch, ...]:
-        if self.scale is None:
-            raise InvalidValue("DMT.scale is needed; a contact fills it in")
-        pull = self.scale
+        pull = _filled(self)
         return (Branch("elastic", lambda y: y**1.5 - pull, lambda y: y, lambda y: 1.5 * y**0.5),)

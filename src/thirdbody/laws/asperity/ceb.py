@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..base import Branch
+from ..base import Branch, Jump
 from .yielding import PeakPressureLaw
 
 __all__ = ["CEB"]
@@ -34,13 +34,13 @@ class CEB(PeakPressureLaw):
 
     References
     ----------
-    Chang, Etsion, Bogy 1987, J. Tribol. 109, 257, doi:10.1115/1.3261348. Form checked against
-    public code; the constants of K are from later papers.
+    Chang, Etsion, Bogy 1987, J. Tribol. 109, 257, doi:10.1115/1.3261348 (DOI from
+    memory). Form checked against public code; the constants of K are from later papers.
 
     Examples
     --------
-    >>> CEB(K=0.6).jumps
-    {1.0: 0.5}
+    >>> CEB(K=0.6).jumps[1.0]
+    Jump(force=0.5, area=0.0, stiffness=1.0)
     """
 
     name = "ceb"
@@ -52,8 +52,8 @@ class CEB(PeakPressureLaw):
     valid_range = "spherical tips, ω ≪ R"
 
     @property
-    def jumps(self) -> dict[float, float]:
-        return {1.0: 0.5}
+    def jumps(self) -> dict[float, Jump]:
+        return {1.0: Jump(force=0.5, stiffness=1.0)}
 
     @property
     def breakpoints(self) -> tuple[float, ...]:

@@ -59,7 +59,8 @@ class Coated(AbstractAsperityLaw):
 
     References
     ----------
-    O'Sullivan, King 1988, J. Tribol. 110, 235, doi:10.1115/1.3261591 (layer compliance).
+    O'Sullivan, King 1988, J. Tribol. 110, 235, doi:10.1115/1.3261591 (layer compliance; title and
+    year seen, volume and DOI from memory).
 
     Examples
     --------
@@ -80,6 +81,7 @@ class Coated(AbstractAsperityLaw):
     doi = "10.1115/1.3261591"
     provenance = "recalled (compliance; checked), derived (contact)"
     valid_range = "elastic, bonded, frictionless; ω ≪ R, t ≪ R"
+    beyond = "under a mean pressure above 0.4 H, and the law is elastic"
     scale_free = False
 
     E_1: float = quantity("E_1", "Pa", "modulus of the coating", default=2e11, gt=0)
@@ -121,10 +123,28 @@ class Coated(AbstractAsperityLaw):
         return (1.0,)
 
     @property
-    def branches(self) -> tuple[Branch, ...]:
+    def valid_to(self) -> float:
+        """Where the mean pressure is 0.4 H, as at first yield of a uniform body."""
+        from scipy.optimize import brentq
+
+        def excess(log_y: float) -> float:
+            force, area, _ = (float(v) for v in self.layer.reduced(math.exp(log_y)))
+            return math.log(self._unit * force / area / 0.4)
+
+        # the pressure grows like √y before and after the coating is felt
+        hertz = 2 * math.log(0.3 / self._unit)
+        far = 2 * abs(math.log(self.E_2 / self.E_1)) + 2 * math.log1p(self.layer.indenter) + 5
+        return math.exp(brentq(excess, hertz - far, hertz + far, xtol=1e-12))
+
+    @property
+    def _unit(self) -> float:
         if self.scale is None:
             raise InvalidValue("Coated.scale is needed; a contact fills it in")
-        layer, scale = self.layer, self.scale
+        return self.scale
+
+    @property
+    def branches(self) -> tuple[Branch, ...]:
+        layer, scale = self.layer, self._unit
         one = Branch(
             "elastic",
             lambda y: scale * layer.reduced(y)[0],

@@ -40,6 +40,7 @@ class GW(AbstractAsperityLaw):
     doi = "10.1098/rspa.1966.0242"
     provenance = "seen"
     valid_range = "elastic contact, ω ≪ R"
+    beyond = "pressed beyond first yield (mean pressure 0.4 H), and the law is elastic"
 
     def yield_interference(self, *, R, E_star, H):
         """(3πH/4E*)² R [m]: a scale, not a yield."""
@@ -48,6 +49,11 @@ class GW(AbstractAsperityLaw):
     @property
     def breakpoints(self) -> tuple[float, ...]:
         return ()
+
+    @property
+    def valid_to(self) -> float:
+        """p = H√y reaches 0.4 H, ZMC's first yield."""
+        return 0.4**2
 
     @property
     def branches(self) -> tuple[Branch, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ..base import Jump
 from .zmc import ZMC
 
 __all__ = ["Hermite"]
@@ -43,6 +44,10 @@ class Hermite(ZMC):
     doi = ""
     provenance = "derived"
     valid_range = "spherical tips, ω ≪ R; m_0 < 3(1 − k)"
+
+    @property
+    def jumps(self) -> dict[float, Jump]:
+        return {}
 
     def _problems(self) -> list[str]:
         if self._slope < 3 * (1 - self.k):

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import InvalidValue
 from ...values import quantity
-from ..base import AbstractAsperityLaw, Branch
+from ..base import AbstractAsperityLaw, Branch, Jump
 
 __all__ = ["JG"]
 
@@ -65,6 +65,7 @@ class JG(AbstractAsperityLaw):
     doi = "10.1115/1.1866166"
     provenance = "seen"
     valid_range = "a/R < 0.41 (recalled)"
+    beyond = "at a/R above 0.41, out of its fits"
 
     hardness_ratio: float = quantity(
         "H/S_y", "1", "hardness over yield strength", default=2.8, gt=0
@@ -93,14 +94,23 @@ class JG(AbstractAsperityLaw):
         return (math.pi * C * H / (2 * self.hardness_ratio * E_star)) ** 2 * R
 
     @property
-    def jumps(self) -> dict[float, float]:
-        C, _, _ = self._constants()
-        y = 1.9
-        a_R = math.sqrt(self._omega_R * y)
-        soft = 4 * self._hardness(np.array(a_R))[0] / C
-        upper = math.exp(-(y ** (5 / 12)) / 4) * y**1.5
-        upper += float(soft) * (1 - math.exp(-(y ** (5 / 9)) / 25)) * y
-        return {y: upper / y**1.5 - 1}
+    def jumps(self) -> dict[float, Jump]:
+        C, B, _ = self._constants()
+        y, a_R = 1.9, math.sqrt(1.9 * self._omega_R)
+        p, q, z = y ** (5 / 12) / 4, y ** (5 / 9) / 25, 0.82 * a_R**-0.7
+        # the two terms of F/F_c over Hertz's y^1.5, and d ln/d ln y of each
+        first = math.exp(-p)
+        second = 4 / C * 2.84 * -math.expm1(-z) * -math.expm1(-q) / math.sqrt(y)
+        n_1 = 1.5 - 5 / 12 * p
+        n_2 = 1 + 5 / 9 * q / math.expm1(q) + 0.35 * (1 + B) * z * math.exp(-z) / math.expm1(-z)
+        slope = (first * n_1 + second * n_2) / 1.5
+        return {y: Jump(force=first + second - 1, stiffness=slope - 1)}
+
+    @property
+    def valid_to(self) -> float:
+        _, B, _ = self._constants()
+        y = 0.41**2 / self._omega_R  # a² = Rω, and a² = Rω (y/1.9)^B above 1.9
+        return min(y, 1.9 * (y / 1.9) ** (1 / (1 + B)))
 
     @property
     def _omega_R(self) -> float:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..base import Branch
+from ..base import Branch, Jump
 from .yielding import PeakPressureLaw
 
 __all__ = ["KE"]
@@ -63,15 +63,20 @@ class KE(PeakPressureLaw):
     doi = "10.1115/1.1490373"
     provenance = "seen (loads), recalled (areas)"
     valid_range = "ω ≤ 110 ω_c; H = 2.8 S_y"
+    beyond = "pressed beyond ω = 110 ω_c, where the fits end"
 
     @property
-    def jumps(self) -> dict[float, float]:
-        K = self.yield_factor
-        return {
-            1.0: 0.03,
-            6.0: 1.40 / 1.03 * 6.0 ** (1.263 - 1.425) - 1,
-            110.0: 3 / K / 1.40 * 110.0 ** (1 - 1.263) - 1,
-        }
+    def jumps(self) -> dict[float, Jump]:
+        # ratios of the powers on both sides; the stiffness has that of the exponents besides
+        F = (1.03, 1.40 / 1.03 * 6 ** (1.263 - 1.425), 3 / self.yield_factor / 1.40 * 110**-0.263)
+        A = (0.93, 0.94 / 0.93 * 6 ** (1.146 - 1.136), 2 / 0.94 * 110**-0.146)
+        n = (1.425 / 1.5, 1.263 / 1.425, 1 / 1.263)
+        steps = zip((1.0, 6.0, 110.0), F, A, n, strict=True)
+        return {y: Jump(f - 1, a - 1, f * m - 1) for y, f, a, m in steps}
+
+    @property
+    def valid_to(self) -> float:
+        return 110.0
 
     @property
     def breakpoints(self) -> tuple[float, ...]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...values import quantity
-from ..base import AbstractAsperityLaw, Branch
+from ..base import AbstractAsperityLaw, Branch, Jump
 
 __all__ = ["ZMC"]
 
@@ -74,6 +74,14 @@ class ZMC(AbstractAsperityLaw):
     @property
     def breakpoints(self) -> tuple[float, ...]:
         return (1.0, self.rho)
+
+    @property
+    def jumps(self) -> dict[float, Jump]:
+        rise = (1 - self.k) / math.log(self.rho)  # of p/H with ln ω, to set beside Hertz's k/2
+        return {
+            1.0: Jump(stiffness=(rise + self.k) / (1.5 * self.k) - 1),
+            self.rho: Jump(stiffness=1 / (rise + 1) - 1),
+        }
 
     def pressure(self, u):
         """p/H and its derivative d(p/H)/du for u = ln y/ln ρ between 0 and 1."""

@@ -544,24 +544,22 @@ class Series(AbstractParticleLaw):
         self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
     ) -> ParticleResponse:
         sides = contact_sides(surfaces, particles.material)
-        parts: list[PlaneSeat | RoughSeat] = []
+        parts = []
         for weight, sizes in particles.diameter.components:
             scale, shape = sizes.standardised()
+            average: SizeAverage | SeatAverage
             average = size_average(self.law, *sides, shape, self.tip_radius)
-            density = particles.areal_density * weight
             if self.seat == "rough":
-                parts.append(
-                    RoughSeat(
-                        average,
-                        scale,
-                        density,
-                        offset=roughness.y_s - self.zeta_mean * roughness.sigma,
-                        width=self.zeta_std * roughness.sigma,
-                    )
-                )
-            else:
-                parts.append(PlaneSeat(average, scale, density, offset=-self.h_0))
+                average = seat_average(average, self.zeta_std * roughness.sigma / scale)
+            density = particles.areal_density * weight
+            parts.append(Part(average, scale, density, offset=self.seat_offset(roughness)))
         return SeatedParticles(parts, self.shadow, self._coverage(particles))
+
+    def seat_offset(self, roughness: Roughness) -> float:
+        """Mean gap minus d [m]."""
+        if self.seat == "rough":
+            return roughness.y_s - self.zeta_mean * roughness.sigma
+        return -self.h_0
 
     def _coverage(self, particles: Particles) -> float:
         """Projected particle area per nominal area [1]."""
@@ -582,50 +580,26 @@ class Series(AbstractParticleLaw):
         return out
 
 
-class PlaneSeat:
-    """Particles of one size distribution on a plane; gap = d + offset."""
-
-    def __init__(self, average: SizeAverage, scale: float, density: float, *, offset: float):
-        self.average, self.scale, self.density, self.offset = average, scale, density, offset
-        self.reach = scale * average.top - offset
-
-    def load(self, d: Array, shadow: int) -> Array:
-        gap = (d + self.offset) / self.scale
-        values = self.average.derivatives(gap, (0, shadow))
-        return self.density * self.scale ** (2 - np.arange(3)) * values
-
-    def columns(self, d: Array) -> Array:
-        return self.density * self.scale**2 * self.average((d + self.offset) / self.scale)
-
-
-class RoughSeat:
-    """Particles of one size distribution on a Gaussian seat; local gap = d + offset − ζ.
+class SeatAverage:
+    """A size average over a Gaussian seat of some width; lengths in the size of the particles.
 
     The average over seats is a sum over local gaps weighted with the density of ζ, tabulated
-    once as Chebyshev series in d + offset.
+    once as Chebyshev series in the mean gap.
     """
 
-    def __init__(
-        self, average: SizeAverage, scale: float, density: float, *, offset: float, width: float
-    ):
-        self.offset, self.width = offset, width
-        span = scale * (average.top - average.bottom) / width
+    def __init__(self, average: SizeAverage, width: float):
+        self.average, self.width = average, width
+        span = (average.top - average.bottom) / width
         if span > WIDEST:
             raise InvalidValue(
                 f"particle diameters range over {span:.3g} widths of the seat, more than "
                 f"{WIDEST:g}: the surface is smooth for such particles, use seat = 'plane'"
             )
-        gaps, weight, values = average.nodes(width / scale)
-        self.gaps = scale * gaps
-        factor = density * scale**2
-        self.weights = (factor * scale / width / math.sqrt(2 * math.pi)) * (
-            weight[:, None] * values
-        )
-        self.floor_gap = scale * average.bottom
-        self.floor = factor * average.floor
-        low = self.floor_gap - NORMAL_REACH * width
-        high = scale * average.top + NORMAL_REACH * width
-        self.reach = high - offset
+        self.gaps, weight, values = average.nodes(width)
+        self.weights = weight[:, None] * values / (width * math.sqrt(2 * math.pi))
+        self.floor = average.floor
+        low = average.bottom - NORMAL_REACH * width
+        high = average.top + NORMAL_REACH * width
         panels = min(math.ceil((high - low) / (3 * width)), 32)
         self.table = PiecewiseChebyshev(
             self._over_seats,
@@ -637,7 +611,7 @@ class RoughSeat:
 
     def _over_seats(self, mean_gap: Array) -> Array:
         """The columns averaged over seats by quadrature: (N, 7)."""
-        z = (self.floor_gap - mean_gap) / self.width
+        z = (self.average.bottom - mean_gap) / self.width
         out = special.ndtr(z)[:, None] * self.floor
         order = np.argsort(mean_gap)
         at_once = max(1, 400_000 // min(len(self.gaps), 1000))
@@ -651,22 +625,47 @@ class RoughSeat:
             out[part] += np.exp(-0.5 * z * z) @ self.weights[near]
         return out
 
-    def load(self, d: Array, shadow: int) -> Array:
-        gap = d + self.offset
-        low, high = self.table.edges[[0, -1]]
-        out = self.table.derivatives(np.clip(gap, low, high), (0, shadow))
-        out[gap > high] = 0.0
-        out[gap < low] = 0.0
-        out[gap < low, :, 0] = self.floor[[0, shadow]]
-        return out
-
-    def columns(self, d: Array) -> Array:
-        gap = d + self.offset
+    def __call__(self, gap: Array) -> Array:
+        """Every column: (N, 7)."""
         low, high = self.table.edges[[0, -1]]
         out = self.table(np.clip(gap, low, high))
         out[gap > high] = 0.0
         out[gap < low] = self.floor
         return out
+
+    def derivatives(self, gap: Array, columns: tuple[int, ...]) -> Array:
+        """Some columns with two derivatives: (N, len(columns), 3)."""
+        low, high = self.table.edges[[0, -1]]
+        out = self.table.derivatives(np.clip(gap, low, high), columns)
+        out[gap > high] = 0.0
+        out[gap < low] = 0.0
+        out[gap < low, :, 0] = self.floor[list(columns)]
+        return out
+
+
+@lru_cache(maxsize=512)
+def seat_average(average: SizeAverage, width: float) -> SeatAverage:
+    """The cached average over seats."""
+    return SeatAverage(average, width)
+
+
+class Part:
+    """Particles of one shape of size distribution: an average, scaled; gap = d + offset."""
+
+    def __init__(
+        self, average: SizeAverage | SeatAverage, scale: float, density: float, *, offset: float
+    ):
+        self.average, self.scale, self.offset = average, scale, offset
+        self.factor = density * scale**2
+        top = average.top if isinstance(average, SizeAverage) else average.table.edges[-1]
+        self.reach = scale * top - offset
+
+    def load(self, d: Array, shadow: int) -> Array:
+        values = self.average.derivatives((d + self.offset) / self.scale, (0, shadow))
+        return self.factor / self.scale ** np.arange(3) * values
+
+    def columns(self, d: Array) -> Array:
+        return self.factor * self.average((d + self.offset) / self.scale)
 
 
 DEEPEST_SQUEEZE = 1e3
@@ -680,7 +679,7 @@ WIDEST = 1e5
 class SeatedParticles(ParticleResponse):
     """The sum over the components of the size distribution."""
 
-    def __init__(self, parts: list[PlaneSeat | RoughSeat], shadow: str, coverage: float):
+    def __init__(self, parts: list[Part], shadow: str, coverage: float):
         self.parts, self.coverage = parts, coverage
         self.shadow = shadow
         self.reach = max(part.reach for part in parts)

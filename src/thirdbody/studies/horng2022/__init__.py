@@ -5,7 +5,8 @@ fill the gaps; each is scored against the paper's 84 checkable statements, and o
 the figures.
 """
 
-from .claims import Claim, Verdict, claims, errata
+from ..ledger import Claim, Verdict
+from .claims import claims, errata
 from .figures import PANELS
 from .ledger import score
 from .readings import READINGS, Curves, Reading

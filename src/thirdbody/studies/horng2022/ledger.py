@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .claims import Measurement, Verdict, claims, study_data
+from ..ledger import Measurement, Verdict
+from .claims import claims, study_data
 from .readings import RANGE, SEARCH_TO, SILICA, STEEL, Curve, Curves
 
 __all__ = ["critical_load_1", "critical_load_2", "interior_peak_of", "score"]

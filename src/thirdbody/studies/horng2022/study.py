@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import InvalidValue
-from ...files import whole, write_text
-from .claims import Verdict, claims, study_data
+from ...files import write_text
+from ..ledger import Verdict
+from ..panels import save
+from .claims import claims, study_data
 from .figures import PANELS, draw, table
 from .ledger import score
 from .page import page
@@ -182,16 +184,6 @@ def keep_ledger(books: dict[str, Curves], report: Progress) -> Ledger:
         {reading.name: verdicts for reading, verdicts in scored if not reading.paper_booking},
         {reading.name: verdicts for reading, verdicts in scored if reading.paper_booking},
     )
-
-
-def save(figure: Any, folder: Path, stem: str) -> None:
-    """PNG and SVG without dates; names inside the SVG come from the panel's own name."""
-    from matplotlib import rc_context
-
-    with whole(folder / f"{stem}.png") as draft:
-        figure.savefig(draft, format="png", dpi=180, metadata={"Software": None})
-    with rc_context({"svg.hashsalt": stem}), whole(folder / f"{stem}.svg") as draft:
-        figure.savefig(draft, format="svg", metadata={"Date": None, "Creator": None})
 
 
 def as_json(ledger: Ledger, preset: str) -> dict[str, Any]:

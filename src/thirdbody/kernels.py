@@ -1,0 +1,480 @@
+"""The compiled engine: balances of many states, solved one after another in machine code.
+
+Everything here is a sum over nodes or a Chebyshev series; what the nodes and coefficients mean is
+said once, by the laws and populations from which `engine` takes them. The state is solved for
+the separation h of the asperities in σ_s, counted from their mean height.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
+
+__all__ = ["FIELDS", "scan_loads", "solve_states"]
+
+SUM = {"nnan", "ninf", "nsz", "arcp", "contract", "reassoc"}
+"""Sums may be reordered into vectors; inputs are finite."""
+EXACT = {"nnan", "ninf", "nsz", "contract"}
+"""Where the order of operations carries the meaning."""
+
+FIELDS = ("F_ss", "e", "ep", "p", "F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow")
+"""Columns of a solved state: asperities without shadow, then particles."""
+
+# An interface is a row of integers and a row of floats: asperities first, then its parts.
+SHADOW, KIND, BEGIN, END, PARTS = range(5)
+"""Column of the particles that is the shadow (−1: the coverage); kind of sum over asperities, its
+panels or nodes from BEGIN to END; where the parts begin, each PART_KINDS long: kind, begin, end,
+then begin and end of a plane's series for small gaps, or of the sizes over a rough seat."""
+PART_KINDS = 5
+W, SIGMA_S, CENTRE, FORCE, AREA, HIGHEST, COVERAGE, VALUES = range(8)
+"""ω_1/σ_s, σ_s and the mean height [m], units of load [Pa] and area, highest separation [σ_s],
+coverage; where the parts begin, each PART_VALUES long, lengths in the size of the part:"""
+SIZE, FACTOR, OFFSET, WIDTH, REACH, LEAST, TOP, BOTTOM, JOIN, POWERS, FLOOR = *range(10), 16
+"""size [m]; density × size²: the unit of area, and of load per Pa; gap − d [m]; width of a rough
+seat; gap above which nothing is carried; gap below which each carries its most, on the seat and
+on a plane; gap between the two series of a plane; leading powers of √(top − gap) of the seven
+columns; the seven columns below the least gap."""
+PART_VALUES = 23
+
+BY_NODES, GAUSSIAN, DENSITY = range(3)
+"""Asperities: over nodes, by a series beside the Gaussian, by a series alone."""
+ABSENT, PLANE, ROUGH, ROUGH_NODES = -1, 0, 1, 2
+"""Particles: none, by series on a plane, by a series or over nodes on a rough seat."""
+
+TERMS, LOAD, EVERY, PANEL = 18, 0, 6, 13
+"""A panel of a Chebyshev series: rows of TERMS coefficients, six for the balance and seven for
+the columns, and a last row with its left edge and half width."""
+AT = 7
+"""Row of the abscissae in a rule (8, nodes); the others are weight times the seven columns, or
+for a rule of sizes the weight in the first."""
+
+SEAT_REACH = 9.0
+"""Standard deviations of the seat beyond which nothing is counted."""
+OK, TOO_MUCH, TOO_LITTLE = range(3)
+"""What became of a state."""
+LOWEST, START, MOST = -3.0, 1.0, 100
+"""Lowest separation searched [σ_s], the first guess, and the most evaluations of the load."""
+CUBIC = 1e-6
+"""A third-order step this small [σ_s] leaves less than rounding behind."""
+
+
+@intrinsic
+def _bits(typingctx: Any, x: Any) -> Any:
+    """The 64 bits of a float as an integer."""
+
+    def codegen(context, builder, signature, args):
+        return builder.bitcast(args[0], ir.IntType(64))
+
+    return types.int64(types.float64), codegen
+
+
+@intrinsic
+def _float(typingctx: Any, n: Any) -> Any:
+    """The float with these 64 bits."""
+
+    def codegen(context, builder, signature, args):
+        return builder.bitcast(args[0], ir.DoubleType())
+
+    return types.float64(types.int64), codegen
+
+
+LOG2E = 1.4426950408889634
+LN2_HIGH = 6.93147180369123816490e-01
+LN2_LOW = 1.90821492927058770002e-10
+MAGIC = 6755399441055744.0
+
+
+@njit(fastmath=EXACT, inline="never", error_model="numpy")
+def exp(x):
+    """exp(x) for −700 < x < 700 without a branch, so that loops over it become vectors.
+
+    x = n ln 2 + r with |r| ≤ ln 2/2; exp(r) by its Taylor polynomial, 2^n by its bits. Relative
+    error 3e-16.
+    """
+    z = x * LOG2E + MAGIC
+    n = z - MAGIC
+    r = (x - n * LN2_HIGH) - n * LN2_LOW
+    p = 1.6059043836821613e-10
+    p = p * r + 2.08767569878681e-09
+    p = p * r + 2.505210838544172e-08
+    p = p * r + 2.755731922398589e-07
+    p = p * r + 2.7557319223985893e-06
+    p = p * r + 2.48015873015873e-05
+    p = p * r + 0.0001984126984126984
+    p = p * r + 0.001388888888888889
+    p = p * r + 0.008333333333333333
+    p = p * r + 0.041666666666666664
+    p = p * r + 0.16666666666666666
+    p = p * r + 0.5
+    p = p * r + 1.0
+    p = p * r + 1.0
+    return p * _float((_bits(z) << 52) + 4607182418800017408)  # type: ignore[call-arg]
+
+
+# ---------------------------------------------------------------- series and rules
+@njit(fastmath=EXACT)
+def _panel(series, begin, end, x):
+    """The panel of series[begin:end] that holds x."""
+    low, high = begin, end - 1
+    while low < high:
+        middle = (low + high + 1) // 2
+        if series[middle, PANEL, 0] <= x:
+            low = middle
+        else:
+            high = middle - 1
+    return low
+
+
+@njit(fastmath=SUM)
+def _series(series, begin, end, x, row, count, out):
+    """Rows of a Chebyshev series at x, from ``row`` on, into ``out``."""
+    p = _panel(series, begin, end, x)
+    s = min(max((x - series[p, PANEL, 0]) / series[p, PANEL, 1] - 1.0, -1.0), 1.0)
+    # T_2k = 2T_k² − 1 and T_2k+1 = 2T_k T_k+1 − s: a short chain of dependent steps
+    z = 2 * s
+    t2 = z * s - 1
+    t3 = z * t2 - s
+    t4, t5 = 2 * t2 * t2 - 1, 2 * t2 * t3 - s
+    t6, t7 = 2 * t3 * t3 - 1, 2 * t3 * t4 - s
+    t8, t9 = 2 * t4 * t4 - 1, 2 * t4 * t5 - s
+    t10, t11 = 2 * t5 * t5 - 1, 2 * t5 * t6 - s
+    t12, t13 = 2 * t6 * t6 - 1, 2 * t6 * t7 - s
+    t14, t15 = 2 * t7 * t7 - 1, 2 * t7 * t8 - s
+    t16, t17 = 2 * t8 * t8 - 1, 2 * t8 * t9 - s
+    for k in range(count):
+        c = series[p, row + k]
+        low = c[0] + c[1] * s + c[2] * t2 + c[3] * t3 + c[4] * t4 + c[5] * t5
+        middle = c[6] * t6 + c[7] * t7 + c[8] * t8 + c[9] * t9 + c[10] * t10 + c[11] * t11
+        high = c[12] * t12 + c[13] * t13 + c[14] * t14 + c[15] * t15 + c[16] * t16 + c[17] * t17
+        out[k] = low + middle + high
+
+
+@njit(fastmath=EXACT)
+def _below(rules, low, high, x):
+    """The first node of low:high that is not below x."""
+    while low < high:
+        middle = (low + high) // 2
+        if rules[AT, middle] < x:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+# ---------------------------------------------------------------- asperities
+@njit(fastmath=SUM)
+def _asperity_nodes(rules, begin, end, w, h, fields, out):
+    """Σ c exp(−hwy − w²y²/2) with the moments 1, wy, w²y² of the load, or of every column."""
+    a, b = -h * w, -0.5 * w * w
+    s0 = s1 = s2 = s3 = 0.0
+    if fields:
+        for j in range(begin, end):
+            y = rules[AT, j]
+            e = exp((a + b * y) * y)
+            s0 += e * rules[0, j]
+            s1 += e * rules[1, j]
+            s2 += e * rules[2, j]
+            s3 += e * rules[3, j]
+    else:
+        for j in range(begin, end):
+            y = rules[AT, j]
+            e = exp((a + b * y) * y) * rules[0, j]
+            s0 += e
+            s1 += e * y
+            s2 += e * y * y
+        s1 *= w
+        s2 *= w * w
+    out[0], out[1], out[2], out[3] = s0 * w, s1 * w, s2 * w, s3 * w
+
+
+@njit(fastmath=EXACT)
+def _asperities(m, kinds, values, series, rules, h, fields, out):
+    """Load [Pa] with two derivatives in h, or with ``fields`` load and areas by regime."""
+    kind, begin, end = kinds[m, KIND], kinds[m, BEGIN], kinds[m, END]
+    if kind == BY_NODES:
+        w = values[m, W]
+        # beyond, the exponent has dropped by 36
+        end = _below(rules, begin, end, (math.sqrt(h * h + 72.0) - h) / w)
+        _asperity_nodes(rules, begin, end, w, h, fields, out)
+    else:
+        _series(series, begin, end, h, EVERY if fields else LOAD, 4 if fields else 3, out)
+    factor = values[m, FORCE]
+    if kind != DENSITY:
+        factor *= exp(-0.5 * h * h)
+        if not fields:
+            m0, m1, m2 = out[0], out[1], out[2]
+            out[1], out[2] = -(h * m0 + m1), (h * h - 1) * m0 + 2 * h * m1 + m2
+    out[0] *= factor
+    if fields:
+        factor *= values[m, AREA] / values[m, FORCE]
+    for k in range(1, 4):
+        out[k] *= factor
+        if fields:
+            out[k] = max(out[k], 0.0)  # rounding of the other regimes
+
+
+# ---------------------------------------------------------------- particles
+@njit(fastmath=SUM)
+def _seat_nodes(rules, begin, end, gap, width, size, shadow, fields, out):
+    """Σ c exp(−z²/2) over local gaps: load and shadow with two derivatives, or every column."""
+    inverse = 1 / width
+    norm = inverse / math.sqrt(2 * math.pi)
+    if fields:
+        for k in range(7):
+            s = 0.0
+            for i in range(begin, end):
+                z = (gap - size * rules[AT, i]) * inverse
+                s += exp(-0.5 * z * z) * rules[k, i]
+            out[k] = norm * s
+        return
+    s0 = s1 = s2 = t0 = t1 = t2 = 0.0
+    for i in range(begin, end):
+        z = (gap - size * rules[AT, i]) * inverse
+        e = exp(-0.5 * z * z)
+        f, g = e * rules[0, i], e * rules[shadow, i]
+        s0 += f
+        s1 += f * z
+        s2 += f * z * z
+        t0 += g
+        t1 += g * z
+        t2 += g * z * z
+    out[0], out[1], out[2] = norm * s0, -norm * inverse * s1, norm * inverse * inverse * (s2 - s0)
+    out[3], out[4], out[5] = norm * t0, -norm * inverse * t1, norm * inverse * inverse * (t2 - t0)
+
+
+@njit(fastmath=EXACT)
+def _rough_nodes(kinds, values, m, i, v, rules, gap, shadow, fields, out, each):
+    """Particles on a rough seat by the sum over sizes and over local gaps in their size."""
+    width = values[m, v + WIDTH]
+    for k in range(7):
+        out[k] = 0.0
+    for n in range(kinds[m, i + 3], kinds[m, i + 4]):
+        size, weight = rules[AT, n], rules[0, n]
+        reach = SEAT_REACH * width
+        begin = _below(rules, kinds[m, i + 1], kinds[m, i + 2], (gap - reach) / size)
+        end = _below(rules, begin, kinds[m, i + 2], (gap + reach) / size)
+        _seat_nodes(rules, begin, end, gap, width, size, shadow, fields, each)
+        z = (size * values[m, v + BOTTOM] - gap) / width
+        if z > -SEAT_REACH:
+            share = 0.5 * math.erfc(-z / math.sqrt(2)) / size
+            density = math.exp(-0.5 * z * z) / (width * math.sqrt(2 * math.pi) * size)
+            if fields:
+                for k in range(7):
+                    each[k] += share * values[m, v + FLOOR + k]
+            else:
+                for j in range(0, 6, 3):
+                    floor = values[m, v + FLOOR + (shadow if j else 0)]
+                    each[j] += floor * share
+                    each[j + 1] -= floor * density
+                    each[j + 2] -= floor * density * z / width
+        for k in range(7):
+            out[k] += weight * each[k]
+
+
+@njit(fastmath=EXACT)
+def _power(u, n):
+    """u to a small whole number."""
+    out = 1.0
+    for _ in range(int(n)):
+        out *= u
+    return out
+
+
+@njit(fastmath=EXACT)
+def _rise(values, m, v, u, shadow, fields, out):
+    """From series in u = √(top − gap) without their leading power to columns and derivatives."""
+    if fields:
+        for k in range(7):
+            out[k] *= _power(u, values[m, v + POWERS + k])
+        return
+    inverse = 1 / u
+    for j in range(0, 6, 3):
+        value, first, second = out[j], out[j + 1] * u, out[j + 2] * u * u
+        n = values[m, v + POWERS + (shadow if j else 0)]
+        lead = _power(u, n)
+        du = first + n * value
+        out[j] = lead * value
+        out[j + 1] = -0.5 * lead * inverse**2 * du
+        ddu = second + 2 * n * first + n * (n - 1) * value
+        out[j + 2] = 0.25 * lead * inverse**4 * (ddu - du)
+
+
+@njit(fastmath=EXACT)
+def _particles(m, kinds, values, series, rules, d, fields, total, out, each):
+    """Load [Pa] and shadow with two derivatives in d, or with ``fields`` the seven columns."""
+    shadow = max(kinds[m, SHADOW], 0)
+    for k in range(7):
+        total[k] = 0.0
+    for p in range((kinds.shape[1] - PARTS) // PART_KINDS):
+        i, v = PARTS + PART_KINDS * p, VALUES + PART_VALUES * p
+        kind, begin, end = kinds[m, i], kinds[m, i + 1], kinds[m, i + 2]
+        if kind == ABSENT:
+            continue
+        size = values[m, v + SIZE]
+        gap = (d + values[m, v + OFFSET]) / size
+        if gap >= values[m, v + REACH]:
+            continue
+        if gap < values[m, v + LEAST]:
+            for k in range(7):
+                out[k] = values[m, v + FLOOR + k] if fields else 0.0
+            if not fields:
+                out[0], out[3] = values[m, v + FLOOR], values[m, v + FLOOR + shadow]
+        elif kind == ROUGH_NODES:
+            _rough_nodes(kinds, values, m, i, v, rules, gap, shadow, fields, out, each)
+        else:
+            x, rise = gap, False
+            if kind == PLANE:
+                rise = gap >= values[m, v + JOIN]
+                if rise:
+                    x = math.sqrt(values[m, v + TOP] - gap)
+                else:
+                    begin, end = kinds[m, i + 3], kinds[m, i + 4]
+            _series(series, begin, end, x, EVERY if fields else LOAD, 7 if fields else 6, out)
+            if rise:
+                _rise(values, m, v, x, shadow, fields, out)
+        factor = values[m, v + FACTOR]
+        if fields:
+            for k in range(7):
+                total[k] += factor * out[k]
+        else:
+            for k in range(3):
+                total[k] += factor * out[k]
+                total[3 + k] += factor * out[3 + k]
+                factor /= size
+    if kinds[m, SHADOW] < 0 and not fields:
+        total[3], total[4], total[5] = values[m, COVERAGE], 0.0, 0.0
+
+
+# ---------------------------------------------------------------- the balance
+@njit(fastmath=EXACT)
+def _load(m, kinds, values, series, rules, h, total, out, each):
+    """Total load [Pa] with its first and second derivative in h."""
+    _asperities(m, kinds, values, series, rules, h, False, out)
+    f, f1, f2 = out[0], out[1], out[2]
+    if kinds.shape[1] == PARTS:
+        return f, f1, f2
+    sigma_s = values[m, SIGMA_S]
+    d = values[m, CENTRE] + sigma_s * h
+    _particles(m, kinds, values, series, rules, d, False, total, out, each)
+    bare, s1, s2 = 1 - total[3], sigma_s * total[4], sigma_s**2 * total[5]
+    return (
+        bare * f + total[0],
+        bare * f1 - s1 * f + sigma_s * total[1],
+        bare * f2 - 2 * s1 * f1 - s2 * f + sigma_s**2 * total[2],
+    )
+
+
+@njit(fastmath=EXACT)
+def _highest(m, kinds, values):
+    """Separation [σ_s] above which nothing is carried."""
+    high = values[m, HIGHEST]
+    for p in range((kinds.shape[1] - PARTS) // PART_KINDS):
+        if kinds[m, PARTS + PART_KINDS * p] != ABSENT:
+            v = VALUES + PART_VALUES * p
+            reach = values[m, v + REACH] * values[m, v + SIZE] - values[m, v + OFFSET]
+            high = max(high, (reach - values[m, CENTRE]) / values[m, SIGMA_S])
+    return high
+
+
+@njit(fastmath=EXACT)
+def _guess(scan, log_target):
+    """h by inverse cubic interpolation in a scan of ln F and its slope, falling with h."""
+    low, high = 0, len(scan) - 1
+    if not scan[high, 1] < log_target < scan[low, 1]:
+        return START
+    while high - low > 1:
+        middle = (low + high) // 2
+        if scan[middle, 1] >= log_target:
+            low = middle
+        else:
+            high = middle
+    rise = scan[high, 1] - scan[low, 1]
+    s = (log_target - scan[low, 1]) / rise
+    a, b = scan[low, 0], scan[high, 0]
+    # slopes dh/ds at both ends
+    p, q = rise / scan[low, 2], rise / scan[high, 2]
+    h = a + s * (b - a) + s * (1 - s) * ((1 - s) * (p - (b - a)) - s * (q - (b - a)))
+    return h if a <= h <= b else a + s * (b - a)
+
+
+@njit(fastmath=EXACT)
+def _root(m, kinds, values, series, rules, target, h, total, out, each):
+    """Separation h from a first guess, number of evaluations and fate of one state.
+
+    Euler's third-order step on ln F_t(h) = ln F, exact where ln F_t is a parabola as it is in a
+    Gaussian tail, inside a bracket.
+    """
+    low, top = LOWEST, _highest(m, kinds, values)
+    high = top
+    h = min(max(h, low), high)
+    last = high - low
+    for n in range(1, MOST + 1):
+        F, F1, F2 = _load(m, kinds, values, series, rules, h, total, out, each)
+        if F >= target:
+            low = h
+        elif h == LOWEST:
+            return h, n, TOO_MUCH
+        else:
+            high = h
+        step = 0.5 * (low + high) - h
+        bisected = True
+        if F > 0 and F1 < 0:
+            f, slope = math.log(F / target), F1 / F
+            inside = 1 - 2 * f * (F2 / F / (slope * slope) - 1)
+            trial = -f / slope
+            if inside > 0:
+                trial *= 2 / (1 + math.sqrt(inside))
+            if h + trial <= LOWEST:
+                trial = LOWEST - h
+            if low <= h + trial <= high and (n % 4 != 0 or abs(trial) < 0.5 * last):
+                step, bisected = trial, False
+        last = abs(step)
+        h += step
+        if h != LOWEST and (last <= 1e-15 * max(1.0, abs(h)) or (not bisected and last < CUBIC)):
+            return h, n, TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
+    return h, MOST, OK
+
+
+@njit(nogil=True, cache=True)
+def scan_loads(m, kinds, values, series, rules, scan):
+    """Fill a scan (K, 3) with ln F and its slope at the separations in its first column."""
+    total, out, each = np.empty(8), np.empty(8), np.empty(8)
+    for i in range(len(scan)):
+        F, F1, _ = _load(m, kinds, values, series, rules, scan[i, 0], total, out, each)
+        scan[i, 1], scan[i, 2] = math.log(F), F1 / F
+
+
+@njit(nogil=True, cache=True)
+def solve_states(kinds, values, series, rules, scan, which, target, h, given, count, fate, rows):
+    """Solve states i of interfaces which[i] for the loads target[i] [Pa].
+
+    Fills ``h``, the evaluations ``count``, the ``fate`` and the columns ``rows`` (N, 10). With
+    ``given``, h is taken as it is; the states of one interface may share a scan.
+    """
+    total, out, each = np.empty(8), np.empty(8), np.empty(8)
+    for i in range(len(which)):
+        m = which[i]
+        if given:
+            count[i], fate[i] = 1, OK
+        else:
+            guess = _guess(scan, math.log(target[i])) if len(scan) else START
+            h[i], count[i], fate[i] = _root(
+                m, kinds, values, series, rules, target[i], guess, total, out, each
+            )
+        _asperities(m, kinds, values, series, rules, h[i], True, out)
+        for k in range(4):
+            rows[i, k] = out[k]
+        for k in range(4, 10):
+            rows[i, k] = 0.0
+        if kinds.shape[1] > PARTS:
+            d = values[m, CENTRE] + values[m, SIGMA_S] * h[i]
+            _particles(m, kinds, values, series, rules, d, True, total, out, each)
+            for k in range(5):
+                rows[i, 4 + k] = total[k]
+            shadow = kinds[m, SHADOW]
+            rows[i, 9] = values[m, COVERAGE] if shadow < 0 else total[shadow]

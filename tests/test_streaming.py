@@ -1,0 +1,681 @@
+"""Sweeps: designs, blocks on disk, runs that are killed and go on, reductions, the command."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.stats import qmc
+from typer.testing import CliRunner
+
+import thirdbody as tb
+from thirdbody import cli, streaming
+from thirdbody.designs import Span, latin, sobol
+from thirdbody.study import check, load_study
+from thirdbody.sweep import MODES, make_plan
+
+xr = pytest.importorskip("xarray")
+
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+CLEAN = tb.Contact(
+    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
+)
+DUSTY = CLEAN.replace(
+    particles=tb.Particles(
+        material=SILICA,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+        areal_density=1e11,
+    )
+)
+MEAN, DENSITY = "particles.diameter.mean", "particles.areal_density"
+GRID = dict(F_star=np.geomspace(5e-7, 3e-3, 9), vary={DENSITY: [0, 1e10, 1e11]})
+SAMPLES = dict(
+    pressure=(1e6, 1e8),
+    vary={"particle_law.seat": ["rough", "plane"], DENSITY: {"low": 1e9, "high": 1e11}},
+    design="sobol",
+    samples=13,
+)
+EXAMPLE = Path(__file__).parent.parent / "examples" / "sweep.toml"
+FORMATS = pytest.mark.parametrize("format", ["zarr", "netcdf"])
+
+
+@pytest.fixture(autouse=True)
+def needed(request):
+    if "format" in getattr(request, "fixturenames", ()) or "tmp_path" in request.fixturenames:
+        for name in ("zarr", "h5netcdf", "h5py"):
+            pytest.importorskip(name, reason="needs the extra: pip install 'thirdbody[sweep]'")
+
+
+def same(stored, memory):
+    """Bit for bit, the codes of the stored columns read as words."""
+    assert stored.sizes == memory.sizes
+    assert list(stored.data_vars) == list(memory.data_vars)
+    for name in (*memory.data_vars, *memory.coords):
+        assert stored[name].dims == memory[name].dims
+        found, wanted = stored[name].values, memory[name].values
+        if name == "mode":
+            found = np.array(MODES)[found]
+        elif name == "status":
+            found, wanted = found == 0, wanted == "ok"
+        assert_array_equal(found, wanted, err_msg=name)
+
+
+def files(folder):
+    return {path: path.stat().st_mtime_ns for path in Path(folder).rglob("*")}
+
+
+# ---------------------------------------------------------------- designs
+def test_sobol_is_scipys_in_any_part():
+    whole = qmc.Sobol(3, rng=7).random(64)
+    assert_array_equal(sobol(64, 3, 7, 0, 64), whole)
+    for start, stop in ((40, 64), (0, 5), (5, 6), (6, 40), (63, 64)):
+        assert_array_equal(sobol(64, 3, 7, start, stop), whole[start:stop])
+    assert not np.any(sobol(64, 3, 8, 0, 64) == whole)
+
+
+@pytest.mark.parametrize("size", [1, 2, 7, 64, 1000, 4097])
+def test_latin_hypercube_has_one_point_in_every_stratum(size):
+    whole = latin(size, 3, 5, 0, size)
+    strata = np.sort((whole * size).astype(int), axis=0)
+    assert_array_equal(strata, np.arange(size)[:, None] * np.ones(3, int))
+    parts = [latin(size, 3, 5, i, min(i + 10, size)) for i in range(0, size, 10)]
+    assert_array_equal(np.concatenate(parts), whole)
+
+
+def test_latin_hypercube_is_as_even_and_as_random_as_scipys():
+    """Discrepancy, correlation between inputs, and the place inside the strata."""
+    mine = [latin(256, 4, seed, 0, 256) for seed in range(40)]
+    theirs = [qmc.LatinHypercube(4, rng=seed).random(256) for seed in range(40)]
+    found, wanted = ([qmc.discrepancy(u) for u in them] for them in (mine, theirs))
+    error = np.hypot(np.std(found), np.std(wanted)) / np.sqrt(40)
+    assert abs(np.mean(found) - np.mean(wanted)) < 4 * error
+    correlation = np.array([np.corrcoef(u.T)[np.triu_indices(4, 1)] for u in mine])
+    assert abs(np.mean(correlation)) < 4 / np.sqrt(256 * 240)
+    assert np.std(correlation) == pytest.approx(1 / 16, rel=0.25)
+    # neighbours in the list are no neighbours in the cube
+    steps = np.concatenate([u[1:] - u[:-1] for u in mine])
+    assert np.mean(np.abs(steps)) == pytest.approx(1 / 3, rel=0.02)
+    inside = np.concatenate([(256 * u) % 1 for u in mine]).ravel()
+    assert np.mean(inside) == pytest.approx(0.5, abs=4 / np.sqrt(12 * inside.size))
+
+
+def test_latin_hypercube_of_a_hundred_million_costs_its_part_only():
+    end = latin(10**8, 5, 1, 10**8 - 1000, 10**8)
+    assert end.shape == (1000, 5)
+    assert np.all((end >= 0) & (end < 1))
+    assert len(np.unique((end * 10**8).astype(int)[:, 0])) == 1000
+
+
+def test_spans():
+    u = np.array([0.0, 0.5])
+    assert_allclose(Span(1.0, 3.0).at(u), [1, 2])
+    assert_allclose(Span(1.0, 100.0, "log").at(u), [1, 10])
+
+
+# ---------------------------------------------------------------- which states
+def test_grid_is_what_solve_says():
+    data = tb.sweep(DUSTY, **GRID)
+    assert data.A_t.dims == (DENSITY, "F_star")
+    assert data[DENSITY].attrs["units"] == "1/m^2"
+    for i, density in enumerate([0, 1e10, 1e11]):
+        one = CLEAN if density == 0 else DUSTY.replace(**{DENSITY: density})
+        state = tb.solve(one, F_star=GRID["F_star"])
+        assert_allclose(data.A_t[i], state.A_t, rtol=1e-12)
+        assert_array_equal(data["mode"][i], state.mode)
+
+
+def test_zip_takes_the_inputs_in_pairs():
+    laws = [tb.asperity.ZMC(), tb.asperity.GW(), tb.asperity.ZMC()]
+    R = np.array([2e-6, 3e-6, 4e-6])
+    data = tb.sweep(CLEAN, F_star=1e-5, vary={"roughness.R": R, "asperity_law": laws}, design="zip")
+    assert data.sizes == {"state": 3}
+    for i in range(3):
+        one = CLEAN.replace(**{"roughness.R": R[i], "asperity_law": laws[i]})
+        assert data.A_t[i].item() == pytest.approx(tb.solve(one, F_star=1e-5).A_t, rel=1e-12)
+
+
+@pytest.mark.parametrize("design", ["latin", "sobol"])
+def test_samples_are_the_designs_and_the_states_are_theirs(design):
+    data = tb.sweep(DUSTY, **(SAMPLES | {"design": design, "seed": 3}))
+    assert data.A_t.dims == ("particle_law.seat", "sample")
+    draw = {"latin": latin, "sobol": sobol}[design](13, 2, 3, 0, 13)
+    # the ranges in the order in which they are given, the load last
+    assert_array_equal(data[DENSITY], 1e9 + draw[:, 0] * (1e11 - 1e9))
+    assert_array_equal(data.pressure, 1e6 + draw[:, 1] * (1e8 - 1e6))
+    i = 6
+    one = DUSTY.replace(
+        **{DENSITY: float(data[DENSITY][i]), "particle_law": tb.particle.Series(seat="plane")}
+    )
+    state = tb.solve(one, pressure=float(data.pressure[i]))
+    assert data.A_t.sel({"particle_law.seat": "plane"})[i].item() == pytest.approx(
+        state.A_t, rel=1e-12
+    )
+    again = tb.sweep(DUSTY, **(SAMPLES | {"design": design, "seed": 4}))
+    assert not np.any(again.pressure == data.pressure)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (dict(design="sobl"), "design = 'sobl' must be one of"),
+        (dict(design="sobol", samples=4), "samples ranges and none is given"),
+        (dict(samples=4), "samples = 4 goes with design"),
+        (dict(vary={"roughness.R": {"low": 1, "high": 2}}), "needs design = 'latin' or 'sobol'"),
+        (dict(vary={"roughness.R": [-1e-6, 1e-6]}), "-1e-06 must be > 0"),
+        (dict(vary={"roughness.R": []}), "is empty"),
+        (dict(vary={"roughness.Q": [1.0]}), "no field"),
+        (dict(vary={"roughness.R": [1e-6, 2e-6]}, design="zip"), "one length"),
+        (dict(columns=["area"]), "column = 'area'"),
+        (dict(chunk=0), "chunk = 0"),
+        (dict(workers=0), "workers = 0"),
+        (dict(pressure=[1.0]), "exactly one"),
+        (dict(F_star=[-1.0]), "F_star = -1 must be finite and > 0"),
+        (dict(reduce={"mean": True}), "reduce['over'] is missing"),
+        (dict(reduce={"over": "F_star"}), "keeps nothing"),
+        (dict(reduce={"over": "R", "mean": True}), "names 'R'"),
+        (dict(reduce={"over": "F_star", "quantiles": [2]}), "must be from 0 to 1"),
+        (dict(reduce={"over": "F_star", "exceed": {"mode": 1}}), "not among the columns"),
+        (dict(reduce={"over": "F_star", "median": True}), "'median'"),
+    ],
+)
+def test_mistakes(change, sentence):
+    with pytest.raises(tb.InvalidValue) as error:
+        tb.sweep(CLEAN, **(dict(F_star=[1e-6, 1e-5, 1e-4]) | change))
+    assert len(error.value.problems) == 1
+    assert sentence in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("span", "sentence"),
+    [
+        ((2e-6, 1e-6), "must be below"),
+        ((1e-6, 2e-6, 3e-6), "(low, high)"),
+        ({"low": 0, "high": 1e-6, "scale": "log"}, "must be > 0"),
+        ({"low": 1e-6, "high": 2e-6, "scale": "cubic"}, "'cubic'"),
+        ({"low": "a", "high": 2e-6}, "'a'"),
+        ((-1e-6, 1e-6), "must be > 0"),
+    ],
+)
+def test_mistakes_in_ranges(span, sentence):
+    with pytest.raises(tb.InvalidValue) as error:
+        tb.sweep(CLEAN, F_star=1e-5, vary={"roughness.R": span}, design="latin", samples=3)
+    assert sentence in str(error.value)
+
+
+@pytest.mark.parametrize("sizes", [(3, 4, 5), (1, 100, 1), (1, 1, 7), (9, 1, 1)])
+@pytest.mark.parametrize("chunk", [1, 7, 20, 33, 1000])
+def test_blocks_cover_every_state_once(sizes, chunk):
+    names = ("roughness.R", DENSITY, "F_star")
+    lists = {name: np.arange(1, n + 1) * 1e-6 for name, n in zip(names, sizes, strict=True)}
+    plan = make_plan(DUSTY, F_star=lists.pop("F_star"), vary=lists, chunk=chunk)
+    seen = np.zeros(plan.whole.sizes, int)
+    for number in range(plan.count):
+        seen[plan.region(number)] += 1
+        assert seen[plan.region(number)].size <= chunk
+    assert np.all(seen == 1)
+
+
+# ---------------------------------------------------------------- on disk
+@FORMATS
+@pytest.mark.parametrize("workers", [1, 3])
+def test_streamed_is_in_memory_bit_for_bit(tmp_path, format, workers):
+    for number, asked in enumerate((GRID, SAMPLES)):
+        memory = tb.sweep(DUSTY, **asked, chunk=4)
+        stored = tb.sweep(
+            DUSTY, **asked, chunk=4, out=tmp_path / str(number), format=format, workers=workers
+        )
+        with stored:
+            same(stored, memory)
+            assert stored.attrs["warnings"] == memory.attrs["warnings"]
+            assert json.loads(stored.attrs["inputs"]) == DUSTY.to_dict()
+            assert stored.attrs["version"] == tb.__version__
+            assert "doi:" in stored.attrs["citations"]
+            assert stored.A_t.attrs["units"] == "1"
+            assert stored["status"].dtype.itemsize == stored["mode"].dtype.itemsize == 1
+            meanings = stored["status"].attrs["flag_meanings"].split()
+            assert len(meanings) == len(stored["status"].attrs["flag_values"])
+        assert sorted(p.name for p in (tmp_path / str(number)).iterdir()) == sorted(
+            ["done", "finished.json", "lock", "study.json", streaming.Folder(
+                tmp_path, format, ()).data.name]
+        )  # fmt: skip
+
+
+def test_codes_say_why_there_is_no_state(tmp_path):
+    stored = tb.sweep(CLEAN, F_star=[1e-5, 1e3], out=tmp_path / "o")
+    meanings = stored["status"].attrs["flag_meanings"].split()
+    assert [meanings[code] for code in stored["status"].values] == ["ok", "no_equilibrium_above"]
+    assert np.isnan(stored.A_t[1])
+    assert streaming.Folder(tmp_path / "o", "zarr", ()).finished["unsolved"] == 1
+
+
+@FORMATS
+def test_finished_run_does_nothing(tmp_path, format, capsys):
+    asked = dict(**GRID, out=tmp_path / "o", format=format, chunk=9)
+    tb.sweep(DUSTY, **asked).close()
+    before = files(tmp_path)
+    tb.sweep(DUSTY, **asked, progress=True).close()
+    assert files(tmp_path) == before
+    assert "nothing to do" in capsys.readouterr().err
+
+
+def stop_after(states):
+    def progress(done):
+        if done >= states:
+            raise KeyboardInterrupt
+
+    return progress
+
+
+@FORMATS
+@pytest.mark.parametrize("workers", [1, 2])
+def test_interrupted_run_goes_on(tmp_path, format, workers):
+    asked = dict(**GRID, chunk=3, format=format, workers=workers)
+    with pytest.raises(KeyboardInterrupt):
+        tb.sweep(DUSTY, **asked, out=tmp_path, progress=stop_after(12))
+    done = files(tmp_path / "done")
+    assert len(done) == 4
+    told = []
+    with tb.sweep(DUSTY, **asked, out=tmp_path, progress=told.append) as stored:
+        same(stored, tb.sweep(DUSTY, **GRID, chunk=3))
+    assert told == [15, 18, 21, 24, 27]
+    kept = files(tmp_path / "done")
+    assert all(kept[path] == when for path, when in done.items())
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"study": "other"}', "\0\0\0"])
+def test_broken_marker_is_solved_again(tmp_path, text):
+    asked = dict(**GRID, chunk=9, out=tmp_path)
+    tb.sweep(DUSTY, **asked).close()
+    (tmp_path / "finished.json").unlink()
+    (tmp_path / "done" / "1.json").write_text(text)
+    (tmp_path / "done" / "strange").write_text("")
+    # what a killed run left of the data is not trusted, nor is it read
+    for name in ("A_t", "status"):
+        (tmp_path / "states.zarr" / name / "c" / "1" / "0").write_bytes(b"broken")
+    told = []
+    same(tb.sweep(DUSTY, **asked, progress=told.append), tb.sweep(DUSTY, **GRID, chunk=9))
+    assert told == [27]
+
+
+def test_another_study_is_refused(tmp_path):
+    tb.sweep(DUSTY, **GRID, out=tmp_path).close()
+    before = files(tmp_path)
+    other = DUSTY.replace(**{"roughness.sigma": 90e-9})
+    with pytest.raises(tb.InvalidValue, match=r"another study: contact\.roughness\.sigma is 1e-07"):
+        tb.sweep(other, **GRID, out=tmp_path)
+    with pytest.raises(tb.InvalidValue, match="format is"):
+        tb.sweep(DUSTY, **GRID, out=tmp_path, format="netcdf")
+    with pytest.raises(tb.InvalidValue, match="chunk is"):
+        tb.sweep(DUSTY, **GRID, out=tmp_path, chunk=5)
+    longer = GRID | {"F_star": np.geomspace(1e-6, 1e-5, 5000)}
+    with pytest.raises(tb.InvalidValue, match="F_star"):
+        tb.sweep(DUSTY, **longer, out=tmp_path)
+    assert files(tmp_path) == before
+
+
+def test_folders_that_are_none_of_ours(tmp_path):
+    (tmp_path / "thesis.docx").touch()
+    with pytest.raises(tb.InvalidValue, match=r"thesis\.docx"):
+        tb.sweep(DUSTY, **GRID, out=tmp_path)
+    with pytest.raises(tb.InvalidValue, match="must be a folder"):
+        tb.sweep(DUSTY, **GRID, out=tmp_path / "thesis.docx")
+    with pytest.raises(tb.InvalidValue, match="'zarr', 'netcdf'"):
+        tb.sweep(DUSTY, **GRID, out=tmp_path / "new", format="csv")
+    assert os.listdir(tmp_path) == ["thesis.docx"]
+
+
+@pytest.mark.parametrize(("format", "package"), [("zarr", "zarr"), ("netcdf", "h5py")])
+def test_missing_package_has_one_message(tmp_path, monkeypatch, format, package):
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(tb.InvalidValue, match=rf"needs the package {package}: pip install"):
+        tb.sweep(CLEAN, F_star=1e-5, out=tmp_path / "o", format=format)
+    assert not (tmp_path / "o").exists()
+
+
+# ---------------------------------------------------------------- killed for real
+SCRIPT = """
+import sys, time
+import numpy as np
+sys.path.insert(0, {here!r})
+from test_streaming import DUSTY, KILLED
+import thirdbody as tb
+tb.sweep(DUSTY, **KILLED, out={out!r}, format={format!r}, progress=lambda n: time.sleep({pause}))
+"""
+KILLED = dict(F_star=np.geomspace(1e-6, 1e-4, 120), vary={DENSITY: [0, 1e11]}, chunk=4)
+
+
+def start(out, format="zarr", pause=0.01):
+    here = str(Path(__file__).parent)
+    code = SCRIPT.format(here=here, out=str(out), format=format, pause=pause)
+    return subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True)
+
+
+def wait_for(process, folder, blocks):
+    end = time.monotonic() + 60
+    while len(list((folder / "done").glob("*.json"))) < blocks:
+        if process.poll() is not None or time.monotonic() > end:
+            pytest.fail(f"no {blocks} blocks: {process.communicate()[1]}")
+        time.sleep(0.002)
+
+
+@FORMATS
+def test_killed_twice_equals_unbroken(tmp_path, format):
+    """SIGKILL at random moments; what was done stays done, and the rest is solved."""
+    random = np.random.default_rng()
+    for first, last in ((2, 8), (10, 20)):
+        process = start(tmp_path, format)
+        wait_for(process, tmp_path, int(random.integers(first, last)))
+        time.sleep(random.uniform(0, 0.02))
+        process.kill()
+        process.communicate()
+        assert not (tmp_path / "finished.json").exists()
+    done = files(tmp_path / "done")
+    with tb.sweep(DUSTY, **KILLED, out=tmp_path, format=format) as stored:
+        same(stored, tb.sweep(DUSTY, **KILLED))
+    now = files(tmp_path / "done")
+    assert all(now[path] == when for path, when in done.items() if path.name[0] != ".")
+    assert not [path for path in tmp_path.rglob("*") if re.search(r"\.part|^parts$", path.name)]
+
+
+def test_locked_by_another_process_as_long_as_it_lives(tmp_path):
+    process = start(tmp_path, pause=600)
+    wait_for(process, tmp_path, 1)
+    with pytest.raises(tb.InvalidValue, match=rf"in use by another run \(process {process.pid}\)"):
+        tb.sweep(DUSTY, **KILLED, out=tmp_path)
+    process.kill()
+    process.communicate()
+    with pytest.raises(KeyboardInterrupt):
+        tb.sweep(DUSTY, **KILLED, out=tmp_path, progress=stop_after(8))
+
+
+def test_killed_while_the_parts_are_put_together(tmp_path, monkeypatch):
+    asked = dict(**GRID, chunk=9, out=tmp_path, format="netcdf")
+    monkeypatch.setattr(streaming._NetCDF, "label", lambda *_: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        tb.sweep(DUSTY, **asked)
+    monkeypatch.undo()
+    assert not (tmp_path / "states.nc").exists()
+    told = []
+    with tb.sweep(DUSTY, **asked, progress=told.append) as stored:
+        same(stored, tb.sweep(DUSTY, **GRID, chunk=9))
+    assert told == []
+
+
+MEMORY = """
+import resource, sys
+import thirdbody as tb
+steel = tb.materials["S45C"]
+contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+                     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+tb.sweep(contact, pressure=(1e6, 1e8), design={design!r}, samples={samples}, chunk=16384, out={out!r})
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="ru_maxrss is in kB on Linux only")
+@pytest.mark.parametrize("design", ["latin", "sobol"])
+def test_memory_is_bounded(tmp_path, design):
+    """Eight times the states, hardly more memory; kept in memory they would be 65 MB more."""
+    found = []
+    for samples in (2**16, 2**19):
+        code = MEMORY.format(samples=samples, out=str(tmp_path / str(samples)), design=design)
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        found.append(int(done.stdout))
+    assert found[1] - found[0] < 25
+
+
+# ---------------------------------------------------------------- reductions
+ALL = {
+    "quantiles": [0.0, 0.05, 0.5, 1.0],
+    "exceed": {"particle_load_share": 0.5},
+    "extrema": True,
+    "mean": True,
+}
+
+
+def reference(states, over, name):
+    """Statistics by NumPy of the states that a sweep keeps."""
+    values = states[name].transpose(..., *over)
+    values = values.values.reshape(*values.shape[: values.ndim - len(over)], -1)
+    return {
+        "mean": np.nanmean(values, -1),
+        "min": np.nanmin(values, -1),
+        "max": np.nanmax(values, -1),
+        "quantile": np.moveaxis(np.nanquantile(values, ALL["quantiles"], axis=-1), 0, -1),
+    }
+
+
+@FORMATS
+@pytest.mark.parametrize("over", [["sample"], ["particle_law.seat", "pressure"]])
+@pytest.mark.parametrize("chunk", [4, 1000])
+def test_reductions_are_numpys(tmp_path, format, over, chunk):
+    states = tb.sweep(DUSTY, **SAMPLES)
+    data = tb.sweep(
+        DUSTY, **SAMPLES, reduce=ALL | {"over": over}, out=tmp_path, format=format, chunk=chunk
+    )
+    with data:
+        dims = ["sample" if name == "pressure" else name for name in over]
+        assert data.A_t_mean.dims == tuple(d for d in states.A_t.dims if d not in dims)
+        for name in ("A_t", "particle_load_share"):
+            wanted = reference(states, dims, name)
+            for kind in ("min", "max", "quantile"):
+                assert_allclose(data[f"{name}_{kind}"], wanted[kind], rtol=1e-12, err_msg=kind)
+            assert_allclose(data[f"{name}_mean"], wanted["mean"], rtol=1e-12)
+        assert_allclose(
+            data.particle_load_share_exceeds, (states.particle_load_share > 0.5).mean(dims)
+        )
+        assert data.particle_load_share_exceeds.attrs["threshold"] == 0.5
+        assert np.all(data.solved == 1)
+        assert_array_equal(data["quantile"], ALL["quantiles"])
+
+
+@FORMATS
+def test_a_cell_in_many_blocks(tmp_path, format):
+    """Without quantiles a cell may be larger than a block; its parts survive a stop."""
+    kept = {key: value for key, value in ALL.items() if key != "quantiles"}
+    asked = dict(**SAMPLES, reduce=kept, chunk=3)
+    with pytest.raises(KeyboardInterrupt):
+        tb.sweep(DUSTY, **asked, out=tmp_path, format=format, progress=stop_after(9))
+    assert len(list((tmp_path / "done").glob("*.json"))) == 3
+    told = []
+    with tb.sweep(DUSTY, **asked, out=tmp_path, format=format, progress=told.append) as data:
+        states = tb.sweep(DUSTY, **SAMPLES, chunk=3)
+        wanted = reference(states, ["sample"], "A_t")
+        assert_array_equal(data.A_t_min, wanted["min"])
+        assert_array_equal(data.A_t_max, wanted["max"])
+        assert_allclose(data.A_t_mean, wanted["mean"], rtol=1e-14)
+        memory = tb.sweep(DUSTY, **asked)
+        for name in memory.data_vars:
+            assert_array_equal(data[name], memory[name])
+    assert told == [12, 13, 16, 19, 22, 25, 26]
+    assert not (tmp_path / "parts").exists()
+
+
+def test_unsolved_states_count_for_nothing_but_solved():
+    loads = [1e-6, 1e-5, 1e3, 1e4]
+    data = tb.sweep(CLEAN, F_star=loads, reduce=ALL | {"over": "F_star"})
+    solved = tb.solve(CLEAN, F_star=loads[:2])
+    assert data.solved.item() == 0.5
+    assert data.A_t_mean.item() == pytest.approx(np.mean(solved.A_t), rel=1e-12)
+    assert_allclose(data.A_t_quantile, np.quantile(solved.A_t, ALL["quantiles"]), rtol=1e-12)
+    none = tb.sweep(CLEAN, F_star=loads[2:], reduce=ALL | {"over": "F_star"})
+    assert none.solved.item() == 0
+    for name in ("A_t_mean", "A_t_min", "A_t_max", "particle_load_share_exceeds"):
+        assert np.isnan(none[name].item())
+    assert np.all(np.isnan(none.A_t_quantile))
+
+
+def test_quantiles_of_what_does_not_fit_are_refused():
+    asked = dict(pressure=(1e6, 1e7), design="sobol", samples=10**9)
+    with pytest.raises(tb.InvalidValue, match="exact quantiles need them in memory"):
+        make_plan(CLEAN, **asked, reduce={"quantiles": [0.5]})
+    plan = make_plan(CLEAN, **asked, reduce={"mean": True})
+    assert plan.count == -(-(10**9) // plan.chunk)
+    few = make_plan(
+        CLEAN, **(asked | {"samples": 10**7}), columns=["A_t"], reduce={"quantiles": 0.5}
+    )
+    assert few.count == 1
+
+
+def test_a_billion_states_are_planned_at_once():
+    began = time.monotonic()
+    plan = make_plan(
+        DUSTY,
+        F_star=np.geomspace(1e-6, 1e-4, 100),
+        vary={MEAN: (2e-7, 4e-7), DENSITY: np.linspace(1e9, 1e11, 100)},
+        design="latin",
+        samples=10**8,
+    )
+    assert plan.states == 10**12
+    assert plan.task(plan.count - 1, coded=True).block.sizes[-1] <= plan.chunk
+    plan.notes()
+    assert time.monotonic() - began < 5
+
+
+# ---------------------------------------------------------------- study files and the command
+def command(*arguments):
+    return CliRunner().invoke(cli.app, ["sweep", *map(str, arguments)])
+
+
+SMALL = """
+[surfaces]
+first = "S45C"
+second = "S45C"
+[roughness]
+sigma = "100 nm"
+R = "2.8 um"
+[load]
+F_star = { from = 1e-6, to = 1e-4, points = 6 }
+[sweep.vary]
+roughness.R = ["2 um", "3 um"]
+"asperity_law.k" = { from = 0.3, to = 0.5, points = 2, spacing = "linear" }
+"""
+
+
+def test_study_file_is_the_python_sweep(tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(SMALL)
+    plan = load_study(file).sweep
+    wanted = make_plan(
+        CLEAN,
+        F_star=np.geomspace(1e-6, 1e-4, 6),
+        vary={"roughness.R": [2e-6, 3e-6], "asperity_law.k": [0.3, 0.5]},
+    )
+    assert plan.to_dict() == wanted.to_dict()
+
+
+def test_example_file_samples_what_it_says():
+    study = load_study(EXAMPLE)
+    plan = study.sweep
+    assert [dim.name for dim in plan.dims] == ["pressure", "sample"]
+    assert plan.dims[1].spans == {
+        "particles.areal_density": Span(3e10, 3e11, "log"),
+        "roughness.R": Span(2e-6, 4e-6, "linear"),
+    } or list(plan.dims[1].spans) == ["roughness.R", "particles.areal_density"]
+    assert plan.reduction.quantiles == (0.05, 0.5, 0.95)
+    # solve takes the loads of the sweep when there is no [load]
+    assert_array_equal(study.values, [1e6, 1e7, 1e8])
+    assert load_study(EXAMPLE, ["sweep.samples=63"]).notes[0].startswith("sweep.samples = 63")
+
+
+def test_distributions_are_called_as_in_the_file():
+    study = load_study(EXAMPLE, ["sweep.vary.particles.mean={from='200 nm', to='300 nm'}"])
+    assert study.sweep.dims[1].spans[MEAN] == Span(2e-7, 3e-7, "log")
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        (["sweep.design=sobl"], 'sweep.design = "sobl" must be one of'),
+        (["sweep.samples=0"], "sweep.samples = 0 must be a whole number"),
+        (["sweep.seed=-1"], "sweep.seed = -1"),
+        (["sweep.vary.roughness.R=3 GPa"], 'sweep.vary.roughness.R = "3 GPa" is a pressure'),
+        (["sweep.vary.roughness.Rr=3 um"], "sweep.vary.roughness.Rr"),
+        (["sweep.pressure=-1"], "sweep.pressure = -1 must be > 0"),
+        (["sweep.reduce.quantiles=[2]"], "sweep.reduce.quantiles = 2 must be from 0 to 1"),
+        (["sweep.reduce.exceed={A=1}"], "sweep.reduce.exceed names 'A'"),
+        (["sweep.reduce.over=R"], "sweep.reduce.over names 'R'"),
+        (["sweep.columns=[\"A\"]"], 'sweep.columns = "A" must be one of'),
+        (["sweep.F_star=1e-5"], "points"),
+    ],
+)  # fmt: skip
+def test_mistakes_in_the_file(settings, sentence):
+    if settings == ["sweep.F_star=1e-5"]:
+        assert load_study(EXAMPLE, settings).sweep.load == "F_star"
+        return
+    with pytest.raises(tb.InvalidValue) as error:
+        load_study(EXAMPLE, settings)
+    assert len(error.value.problems) == 1, error.value.problems
+    assert sentence in str(error.value)
+
+
+def test_every_mistake_at_once():
+    import tomllib
+
+    data = tomllib.loads(EXAMPLE.read_text("utf-8"))
+    data["sweep"] |= {"samples": "many", "colums": ["A_t"]}
+    data["sweep"]["vary"]["roughness"]["R"] = {"from": "4 um", "to": "2 um"}
+    data["roughness"]["R"] = -1
+    with pytest.raises(tb.InvalidValue) as error:
+        check(data)
+    assert len(error.value.problems) == 4
+    text = str(error.value)
+    for words in ("sweep.samples", "sweep.colums", "sweep.vary.roughness.R", "roughness.R = -1"):
+        assert words in text
+
+
+def test_command(tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(SMALL)
+    done = command(file, "--out", tmp_path / "o", "--workers", 2)
+    assert (done.exit_code, done.stdout) == (0, "")
+    assert re.search(r"24 states in .*states\.zarr", done.stderr)
+    stored = xr.open_zarr(tmp_path / "o" / "states.zarr", chunks=None)
+    assert stored.sizes == {"roughness.R": 2, "asperity_law.k": 2, "F_star": 6}
+    assert "nothing to do" in command(file, "--out", tmp_path / "o").stderr
+    done = command(file, "--out", tmp_path / "o", "--set", "roughness.sigma=90 nm")
+    assert done.exit_code == 2
+    assert done.stderr.count("error:") == 1
+    assert "another study" in done.stderr
+    done = command(file, "--out", tmp_path / "p", "--set", "load.F_star=[1e3]")
+    assert done.exit_code == 3
+    assert "24" not in done.stdout
+
+
+def test_command_refuses_all_at_once(tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(SMALL.partition("[sweep.vary]")[0])
+    done = command(file, "--out", tmp_path / "o", "--format", "csv", "--workers", 0)
+    assert done.exit_code == 2
+    assert done.stderr.count("error:") == 3
+    assert "[sweep]" in done.stderr
+    assert not (tmp_path / "o").exists()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no SIGINT for one process")
+def test_command_is_interrupted(tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(SMALL.replace("points = 6", "points = 2000"))
+    arguments = ["sweep", str(file), "--out", str(tmp_path / "o"), "--set", "sweep.chunk=10"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "thirdbody", *arguments],
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    wait_for(process, tmp_path / "o", 3)
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=30)
+    assert process.returncode == 130
+    (line,) = [line for line in said.splitlines() if line.startswith("error:")]
+    assert re.search(r"interrupted after \d+ of 800 blocks; the same command goes on", line)
+    assert "Traceback" not in said
