@@ -248,11 +248,26 @@ def test_streamed_is_in_memory_bit_for_bit(tmp_path, format, workers):
 
 
 def test_codes_say_why_there_is_no_state(tmp_path):
-    stored = tb.sweep(CLEAN, F_star=[1e-5, 1e3], out=tmp_path / "o")
+    stored = tb.sweep(CLEAN, F_star=[1e-5, 1e3, 1e-305], out=tmp_path / "o")
     meanings = stored["status"].attrs["flag_meanings"].split()
-    assert [meanings[code] for code in stored["status"].values] == ["ok", "no_equilibrium_above"]
-    assert np.isnan(stored.A_t[1])
-    assert streaming.Folder(tmp_path / "o", "zarr", ()).finished["unsolved"] == 1
+    assert [meanings[code] for code in stored["status"].values] == [
+        "ok",
+        "no_equilibrium_above",
+        "no_equilibrium_below",
+    ]
+    assert_array_equal(np.isnan(stored.A_t), [False, True, True])
+    assert streaming.Folder(tmp_path / "o", "zarr", ()).finished["unsolved"] == 2
+
+
+def test_warnings_are_those_of_solve():
+    loads = np.geomspace(1e-5, 3e-2, 5)
+    crowded = DUSTY.replace(**{DENSITY: 6e12})
+    with pytest.warns(tb.RangeWarning):
+        wanted = tb.solve(crowded, F_star=loads).warnings
+    assert len(wanted) > 1
+    found = tb.sweep(crowded, F_star=loads).attrs["warnings"].splitlines()
+    assert sorted(found) == sorted(wanted)
+    assert tb.sweep(CLEAN, F_star=[1e-6]).attrs["warnings"] == ""
 
 
 @FORMATS

@@ -33,6 +33,7 @@ from .heights import (
 )
 from .materials import Material, MaterialPair, materials
 from .particles import Particles
+from .sensitivities import Sensitivity, sensitivity
 from .states import solve_states
 from .surfaces import Roughness
 from .sweep import sweep
@@ -66,6 +67,7 @@ __all__ = [
     "Particles",
     "RangeWarning",
     "Roughness",
+    "Sensitivity",
     "ThirdBodyError",
     "Transitions",
     "TruncatedGaussian",
@@ -85,6 +87,7 @@ __all__ = [
     "reference",
     "roots",
     "rough_body",
+    "sensitivity",
     "solve",
     "solve_states",
     "sweep",

@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
+import dataclasses
+import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .asperities import AsperitySum, GaussianSum
-from .contact import Interface, together
-from .laws.particle.series import COLUMNS, SeatAverage, SeatedParticles
+from .asperities import AsperitySum, GaussianSum, gaussian_rule, scales
+from .contact import Contact, Interface, together
+from .distributions import Distribution
+from .heights import GaussianHeights
+from .laws.base import AbstractAsperityLaw
+from .laws.particle.series import (
+    COLUMNS,
+    SeatAverage,
+    SeatedParticles,
+    contact_sides,
+    size_average,
+)
+from .laws.particle.series import Series as ParticleSeries
+from .materials import MaterialPair
 from .numerics import PiecewiseChebyshev
+from .surfaces import Roughness
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,7 +34,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Index = NDArray[np.intp]
 
-__all__ = ["FEWEST", "Batch", "available", "threads"]
+__all__ = ["FEWEST", "Interfaces", "States", "available", "batch", "threads"]
 
 FEWEST = 5_000
 """States for which the compiled engine is worth its start."""
@@ -74,84 +88,50 @@ class _Panels:
             self.panels.append(panels)
         return self.known[key]
 
+    def add_average(self, function: PiecewiseChebyshev, shadow: int) -> tuple[int, int]:
+        """Begin and end of particle columns: load and shadow with two derivatives, all seven."""
+        load = function.with_derivatives[:, :, [0, max(shadow, 0)], :]
+        load = load.reshape(*load.shape[:2], -1)
+        return self.add((id(function), shadow), function, load, len(COLUMNS))
 
-class Batch:
-    """Interfaces laid out for the kernel.
 
-    Parameters
-    ----------
-    interfaces : sequence of Interface
+class _Rules:
+    """Quadrature rules one after another in the kernel's layout, each kept once."""
 
-    Raises
-    ------
-    TypeError
-        An interface that the kernel does not know: adhesion, or particles that are not a
-        `Series`.
-    """
+    def __init__(self) -> None:
+        self.known: dict[Any, tuple[int, int]] = {}
+        self.rules: list[Array] = []
+        self.count = 0
 
-    def __init__(self, interfaces: Sequence[Interface]):
+    def add(self, key: Any, at: Array, columns: Array) -> tuple[int, int]:
+        """Begin and end of a rule: increasing abscissae (n,) and columns (n, k)."""
+        if key not in self.known:
+            from .kernels import AT
+
+            rule = np.zeros((AT + 1, len(at)))
+            rule[: columns.shape[1]], rule[AT] = columns.T, at
+            self.known[key] = self.count, self.count + len(at)
+            self.count += len(at)
+            self.rules.append(rule)
+        return self.known[key]
+
+
+class _Batch:
+    """Interfaces laid out for the kernel, one row each."""
+
+    def __init__(self, count: int, parts: int):
         from . import kernels as k
 
-        particles = [bound.particles for bound in interfaces]
-        if not all(p is None or isinstance(p, SeatedParticles) for p in particles):
-            raise TypeError("these particles are not for the compiled engine")
-        most = max(len(p.parts) if isinstance(p, SeatedParticles) else 0 for p in particles)
-        self.kinds = np.full((len(interfaces), k.PARTS + most * k.PART_KINDS), k.ABSENT)
-        self.values = np.zeros((len(interfaces), k.VALUES + most * k.PART_VALUES))
-        pool = _Panels()
-        for m, bound in enumerate(interfaces):
-            self._add_asperities(m, bound.asperities, pool)
-            if isinstance(bound.particles, SeatedParticles):
-                self._add_particles(m, bound.particles, pool)
-        self.series = np.concatenate(pool.panels)
-        self.rules = np.zeros((k.AT + 1, 0))
+        self.kinds = np.full((count, k.PARTS + parts * k.PART_KINDS), k.ABSENT)
+        self.values = np.zeros((count, k.VALUES + parts * k.PART_VALUES))
+        self._panels, self._rules = _Panels(), _Rules()
 
-    def _add_asperities(self, m: int, asperities: Any, pool: _Panels) -> None:
+    def _finish(self) -> None:
         from . import kernels as k
 
-        if not isinstance(asperities, AsperitySum) or asperities.reduced.start < 0:
-            raise TypeError("these asperities are not for the compiled engine")
-        reduced = asperities.reduced
-        table = reduced.table  # type: ignore[attr-defined]
-        if isinstance(reduced, GaussianSum):
-            kind, load = k.GAUSSIAN, table.coefficients[:, :, [0, 4, 5]]
-        else:
-            kind, load = k.DENSITY, table.with_derivatives[:, :, 0, :]
-        self.kinds[m, k.KIND : k.PARTS] = kind, *pool.add(reduced, table, load, 4)
-        self.values[m, : k.COVERAGE] = (
-            *(reduced.w, asperities.sigma_s, asperities.centre),
-            *(*asperities.units[:2], asperities.highest),
-        )
-
-    def _add_particles(self, m: int, particles: SeatedParticles, pool: _Panels) -> None:
-        from . import kernels as k
-
-        shadow = COLUMNS.index(particles.shadow) if particles.shadow in COLUMNS else -1
-        self.kinds[m, k.SHADOW] = shadow
-        covered = particles.shadow == "covered"
-        self.values[m, k.COVERAGE] = particles.coverage if covered else 0.0
-        for p, part in enumerate(particles.parts):
-            average = part.average
-            if isinstance(average, SeatAverage):
-                kind, functions, plane = k.ROUGH, [average.table], average.average
-                width, least = average.width, average.table.edges[0]
-            else:
-                # without small gaps the second function is not asked for
-                kind, functions = k.PLANE, [average.upper, average.lower or average.upper]
-                plane, width, least = average, 0.0, average.bottom
-            kinds = [kind]
-            for i, function in enumerate(functions):
-                load = function.with_derivatives[:, :, [0, max(shadow, 0)], :]
-                load = load.reshape(*load.shape[:2], -1)
-                kinds += pool.add((average, shadow, i), function, load, len(COLUMNS))
-            at = k.PARTS + p * k.PART_KINDS
-            self.kinds[m, at : at + len(kinds)] = kinds
-            at = k.VALUES + p * k.PART_VALUES
-            self.values[m, at : at + k.PART_VALUES] = (
-                *(part.scale, part.factor, part.offset, width),
-                *((part.reach + part.offset) / part.scale, least),
-                *(plane.top, plane.bottom, plane.join, *plane.powers, *plane.floor),
-            )
+        no_panel, no_node = np.zeros((1, k.PANEL + 1, k.TERMS)), np.zeros((k.AT + 1, 0))
+        self.series = np.concatenate([*self._panels.panels, no_panel])
+        self.rules = np.ascontiguousarray(np.concatenate([*self._rules.rules, no_node], axis=1))
 
     def solve(
         self, which: Index, target: Array | None, h: Array | None = None
@@ -208,11 +188,259 @@ class Batch:
         return scan if np.all(np.diff(scan[:, 1]) < 0) else scan[:0]
 
 
-def batch(bound: Interface) -> Batch | None:
+class Interfaces(_Batch):
+    """Interfaces by their tables.
+
+    Parameters
+    ----------
+    interfaces : sequence of Interface
+
+    Raises
+    ------
+    TypeError
+        An interface that the kernel does not know: adhesion, or particles that are not a
+        `Series`.
+    """
+
+    def __init__(self, interfaces: Sequence[Interface]):
+        particles = [bound.particles for bound in interfaces]
+        if not all(p is None or isinstance(p, SeatedParticles) for p in particles):
+            raise TypeError("these particles are not for the compiled engine")
+        most = max(len(p.parts) if isinstance(p, SeatedParticles) else 0 for p in particles)
+        super().__init__(len(interfaces), most)
+        for m, bound in enumerate(interfaces):
+            self._add_asperities(m, bound.asperities)
+            if isinstance(bound.particles, SeatedParticles):
+                self._add_particles(m, bound.particles)
+        self._finish()
+
+    def _add_asperities(self, m: int, asperities: Any) -> None:
+        from . import kernels as k
+
+        if not isinstance(asperities, AsperitySum) or asperities.reduced.start < 0:
+            raise TypeError("these asperities are not for the compiled engine")
+        reduced = asperities.reduced
+        table = reduced.table  # type: ignore[attr-defined]
+        if isinstance(reduced, GaussianSum):
+            kind, load = k.GAUSSIAN, table.coefficients[:, :, [0, 4, 5]]
+        else:
+            kind, load = k.DENSITY, table.with_derivatives[:, :, 0, :]
+        self.kinds[m, k.KIND : k.PARTS] = kind, *self._panels.add(reduced, table, load, 4)
+        self.values[m, : k.COVERAGE] = (
+            *(reduced.w, asperities.sigma_s, asperities.centre),
+            *(*asperities.units[:2], asperities.highest),
+        )
+
+    def _add_particles(self, m: int, particles: SeatedParticles) -> None:
+        from . import kernels as k
+
+        shadow = COLUMNS.index(particles.shadow) if particles.shadow in COLUMNS else -1
+        self.kinds[m, k.SHADOW] = shadow
+        covered = particles.shadow == "covered"
+        self.values[m, k.COVERAGE] = particles.coverage if covered else 0.0
+        for p, part in enumerate(particles.parts):
+            average = part.average
+            if isinstance(average, SeatAverage):
+                kind, functions, plane = k.ROUGH, [average.table], average.average
+                width, least = average.width, average.table.edges[0]
+            else:
+                # without small gaps the second function is not asked for
+                kind, functions = k.PLANE, [average.upper, average.lower or average.upper]
+                plane, width, least = average, 0.0, average.bottom
+            kinds = [kind]
+            for function in functions:
+                kinds += self._panels.add_average(function, shadow)
+            at = k.PARTS + p * k.PART_KINDS
+            self.kinds[m, at : at + len(kinds)] = kinds
+            at = k.VALUES + p * k.PART_VALUES
+            self.values[m, at : at + k.PART_VALUES] = (
+                *(part.scale, part.factor, part.offset, width),
+                *((part.reach + part.offset) / part.scale, least),
+                *(plane.top, plane.bottom, plane.join, *plane.powers, *plane.floor),
+            )
+
+
+class States(_Batch):
+    """States with inputs of their own, by quadrature over nodes that many of them share.
+
+    Parameters
+    ----------
+    contact : Contact
+        The inputs that do not vary.
+    arrays : mapping
+        Dotted names of inputs and their values (N,).
+
+    Raises
+    ------
+    TypeError
+        Inputs or models for which nodes are not shared: heights that are not Gaussian, a law
+        that depends on what varies, particles whose shape or material varies, adhesion.
+    """
+
+    def __init__(self, contact: Contact, arrays: Mapping[str, Array], count: int):
+        varied = contact.with_arrays(arrays)
+        particles = None if contact.two_body else contact.particles
+        super().__init__(count, 0 if particles is None else len(particles.diameter.components))
+        datum = 0.0 if particles is None else contact.particle_law.centre
+        self._add_asperities(contact, varied, datum)
+        if particles is not None:
+            self._add_particles(contact, varied, arrays)
+        self._finish()
+        self.varied = varied
+
+    def columns(self, load: str, loads: Array) -> dict[str, Any]:
+        """Every column of a result at the given pressure [Pa], F* [1] or d [m]."""
+        from .equilibrium import as_columns
+        from .kernels import CENTRE, SIGMA_S
+
+        centre, sigma_s = self.values[:, CENTRE], self.values[:, SIGMA_S]
+        E, rough = self.varied.E_ss, self.varied.roughness
+        target = None if load == "d" else loads * E if load == "F_star" else loads
+        given = (loads - centre) / sigma_s if target is None else None
+        h, iterations, fate, raw = self.solve(np.arange(len(loads)), target, given)
+        h[fate != 0] = np.nan
+        for values in raw.values():
+            values[fate != 0] = np.nan
+        d = loads if target is None else centre + sigma_s * h
+        given = loads if load == "F_star" else None
+        columns = as_columns(
+            raw, d, rough.y_s - centre, rough.sigma, E, target=target, F_star=given
+        )
+        return columns | {"status": fate, "iterations": iterations}
+
+    def _add_asperities(self, contact: Contact, varied: Contact, datum: float) -> None:
+        from . import kernels as k
+
+        rough, surfaces = varied.roughness, varied.surfaces
+        law = _common_law(contact.asperity_law, rough, surfaces)
+        if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity or law.start < 0:
+            raise TypeError("these asperities are not for shared nodes")
+        w, units = scales(law, rough, surfaces)
+        octaves = np.broadcast_to(np.frexp(w)[1] - 1, len(self.kinds))
+        for octave in np.unique(octaves):
+            rule = gaussian_rule(law, int(octave))
+            ends = self._rules.add((law, octave), rule.y, rule.columns)
+            self.kinds[octaves == octave, k.BEGIN : k.END + 1] = ends
+        self.kinds[:, k.KIND] = k.BY_NODES
+        for column, values in (
+            *((k.W, w), (k.SIGMA_S, rough.sigma_s), (k.CENTRE, datum * rough.sigma)),
+            *((k.FORCE, units[..., 0]), (k.AREA, units[..., 1])),
+            (k.HIGHEST, GaussianSum.highest),
+        ):
+            self.values[:, column] = values
+
+    def _add_particles(
+        self, contact: Contact, varied: Contact, arrays: Mapping[str, Array]
+    ) -> None:
+        from . import kernels as k
+
+        law, particles, changed = varied.particle_law, contact.particles, varied.particles
+        if not isinstance(law, ParticleSeries) or particles is None or changed is None:
+            raise TypeError("these particles are not for shared nodes")
+        if any(name.startswith(("surfaces.", "particles.material.")) for name in arrays):
+            raise TypeError("the materials of the particles vary")
+        sides = contact_sides(contact.surfaces, particles.material)
+        self.kinds[:, k.SHADOW] = shadow = (
+            COLUMNS.index(law.shadow) if law.shadow in COLUMNS else -1
+        )
+        coverage = np.zeros(len(self.kinds))
+        rough = law.seat == "rough"
+        for p, (share, ratio, sizes) in enumerate(_one_shape(particles.diameter, arrays)):
+            scale, shape = sizes.standardised()
+            average = size_average(law.law, *sides, shape, law.tip_radius)
+            size = scale * ratio
+            density = changed.areal_density * share
+            coverage += math.pi / 4 * density * size**2 * shape.moment(2)
+            width = law.zeta_std * varied.roughness.sigma / size if rough else 0.0 * size
+            at = k.PARTS + p * k.PART_KINDS
+            here = self.kinds[:, at : at + k.PART_KINDS]
+            if rough:
+                here[:, 0] = k.ROUGH_NODES
+                here[:, 3:5] = self._rules.add("one", np.ones(1), np.ones((1, 1)))
+                octaves = np.broadcast_to(np.frexp(width)[1] - 1, len(here))
+                for octave in np.unique(octaves):
+                    if average.top - average.bottom > MOST_WIDTHS * 2.0**octave:
+                        raise TypeError("the seat is too smooth for shared nodes")
+                    rule = average.nodes(1.25 * 2.0**octave)
+                    weighted = rule[1][:, None] * rule[2]
+                    ends = self._rules.add((average, octave), rule[0], weighted)
+                    here[octaves == octave, 1:3] = ends
+            else:
+                here[:, 0] = k.PLANE
+                # without small gaps the second function is not asked for
+                for i, function in enumerate((average.upper, average.lower or average.upper)):
+                    here[:, 1 + 2 * i : 3 + 2 * i] = self._panels.add_average(function, shadow)
+            at = k.VALUES + p * k.PART_VALUES
+            for column, values in (
+                *((k.SIZE, size), (k.FACTOR, density * size**2), (k.WIDTH, width)),
+                (k.OFFSET, law.seat_offset(varied.roughness)),
+                (k.REACH, average.top + k.SEAT_REACH * width),
+                (k.LEAST, average.bottom - k.SEAT_REACH * width),
+                *((k.TOP, average.top), (k.BOTTOM, average.bottom), (k.JOIN, average.join)),
+            ):
+                self.values[:, at + column] = values
+            self.values[:, at + k.POWERS : at + k.FLOOR] = average.powers
+            self.values[:, at + k.FLOOR : at + k.PART_VALUES] = average.floor
+        coverage *= 2 * law.tip_radius
+        if np.any(coverage >= 1):
+            raise TypeError("some particles are jammed")  # said better, one contact at a time
+        if law.shadow == "covered":
+            self.values[:, k.COVERAGE] = coverage
+
+
+MOST_WIDTHS = 2_000.0
+"""Widths of the seat over which nodes are laid."""
+
+
+def _one_shape(
+    sizes: Distribution, arrays: Mapping[str, Array]
+) -> list[tuple[float, Array | float, Distribution]]:
+    """Weight, factor on every length (N,) and distribution of each component.
+
+    Raises
+    ------
+    TypeError
+        The shape of the distribution varies.
+    """
+    prefix = "particles.diameter."
+    changed = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
+    if not changed:
+        return [(weight, 1.0, part) for weight, part in sizes.components]
+    quantities = {
+        item.name: item.metadata["quantity"]
+        for item in dataclasses.fields(sizes)  # type: ignore[arg-type]
+        if "quantity" in item.metadata
+    }
+    lengths = {name for name, about in quantities.items() if about["unit"] == "m"}
+    ratios = [changed[name] / getattr(sizes, name) for name in lengths if name in changed]
+    alike = all(np.allclose(r, ratios[0], rtol=1e-14, atol=0) for r in ratios)
+    if set(changed) != lengths or not alike:
+        raise TypeError("the shape of the size distribution varies")
+    return [(1.0, ratios[0], sizes)]
+
+
+def _common_law(
+    law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair
+) -> AbstractAsperityLaw:
+    """The law bound to its contact, where all states bind it alike."""
+    first, second = surfaces.first, surfaces.second
+    nu = np.where(first.H <= second.H, first.nu, second.nu)
+    given = np.broadcast_arrays(rough.R, surfaces.E_star, surfaces.H, nu)
+    some = np.unique(np.linspace(0, given[0].size - 1, 9).astype(int))
+    bound = {
+        law.bound(R=float(R), E_star=float(E), H=float(H), nu=float(v))
+        for R, E, H, v in zip(*(values.ravel()[some] for values in given), strict=True)
+    }
+    if len(bound) > 1:
+        raise TypeError("the law binds differently from state to state")
+    return bound.pop()
+
+
+def batch(bound: Interface) -> Interfaces | None:
     """The interface for the compiled engine, or None where only the NumPy engine knows it."""
     if not available():
         return None
     try:
-        return Batch([bound])
+        return Interfaces([bound])
     except TypeError:
         return None

@@ -9,6 +9,7 @@ by a safeguarded Halley iteration on :math:`\ln F_t(d) = \ln F` with analytic de
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any
 
@@ -459,41 +460,57 @@ def _state(
 ) -> Equilibrium:
     """Every column at given separations, where ``raw`` does not bring them."""
     known = np.flatnonzero(np.isfinite(d))
-    E = contact.E_ss
     if raw is None:
         raw = bound.fields(d[known])
     full = {name: np.full(len(d), np.nan) for name in raw}
     for name, values in raw.items():
         full[name][known] = values
-    F = full["F_ss"] + full["F_sa"]
+    rough = contact.roughness
+    columns = as_columns(
+        full, d, bound.mean_plane, rough.sigma, contact.E_ss, target=target, F_star=F_star
+    )
+    columns |= {"status": status.astype(str), "iterations": iterations}
+    if scalar:
+        columns = {name: values[0].item() for name, values in columns.items()}
+    notes = _warnings(contact, bound, full, d)
+    return Equilibrium(contact=contact, warnings=notes, **columns)
+
+
+def as_columns(
+    raw: Mapping[str, Array],
+    d: Array,
+    mean_plane: Number,
+    sigma: Number,
+    E: Number,
+    *,
+    target: Array | None,
+    F_star: Array | None = None,
+) -> dict[str, Any]:
+    """Every numeric column of a result, and the mode, from pressures and areas at d."""
+    F = raw["F_ss"] + raw["F_sa"]
     with np.errstate(invalid="ignore", divide="ignore"):
-        area_share = full["A_sa"] / full["A_t"]
-        load_share = full["F_sa"] / F
+        area_share = raw["A_sa"] / raw["A_t"]
+        load_share = raw["F_sa"] / F
         residual = np.abs(F / target - 1) if target is not None else np.where(np.isnan(d), d, 0.0)
     load = F if target is None else target
-    columns: dict[str, Any] = {
+    return {
         "d": d,
-        "h": d + bound.mean_plane,
-        "d_star": d / contact.roughness.sigma,
+        "h": d + mean_plane,
+        "d_star": d / sigma,
         "F_star": load / E if F_star is None else F_star,
         "pressure": load,
-        "F_ss_star": full["F_ss"] / E,
-        "F_sa_star": full["F_sa"] / E,
-        **{name: full[name] for name in COLUMNS if name in full},
+        "F_ss_star": raw["F_ss"] / E,
+        "F_sa_star": raw["F_sa"] / E,
+        **{name: raw[name] for name in COLUMNS if name in raw},
         "particle_load_share": load_share,
         "particle_area_share": area_share,
         "mode": _mode(area_share, EPS_1, EPS_2),
-        "status": status.astype(str),
         "residual": residual,
-        "iterations": iterations,
     }
-    if scalar:
-        columns = {name: values[0].item() for name, values in columns.items()}
-    return Equilibrium(contact=contact, warnings=_warnings(contact, bound, full, d, F), **columns)
 
 
 def _warnings(
-    contact: Contact, bound: Interface, full: dict[str, Array], d: Array, F: Array
+    contact: Contact, bound: Interface, full: dict[str, Array], d: Array
 ) -> tuple[str, ...]:
     """One sentence for each way in which these states leave the model's validity."""
     out = []

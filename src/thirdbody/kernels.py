@@ -59,8 +59,8 @@ OK, TOO_MUCH, TOO_LITTLE = range(3)
 """What became of a state."""
 LOWEST, START, MOST = -3.0, 1.0, 100
 """Lowest separation searched [σ_s], the first guess, and the most evaluations of the load."""
-CUBIC = 1e-6
-"""A third-order step this small [σ_s] leaves less than rounding behind."""
+ROUNDING = 1e-16
+"""Error [σ_s] that a third-order step may leave behind."""
 
 
 @intrinsic
@@ -225,24 +225,31 @@ def _seat_nodes(rules, begin, end, gap, width, size, shadow, fields, out):
     inverse = 1 / width
     norm = inverse / math.sqrt(2 * math.pi)
     if fields:
-        for k in range(7):
-            s = 0.0
-            for i in range(begin, end):
-                z = (gap - size * rules[AT, i]) * inverse
-                s += exp(-0.5 * z * z) * rules[k, i]
-            out[k] = norm * s
+        a = b = c = d = e = f = g = 0.0
+        for i in range(begin, end):
+            z = (gap - size * rules[AT, i]) * inverse
+            density = exp(-0.5 * z * z)
+            a += density * rules[0, i]
+            b += density * rules[1, i]
+            c += density * rules[2, i]
+            d += density * rules[3, i]
+            e += density * rules[4, i]
+            f += density * rules[5, i]
+            g += density * rules[6, i]
+        out[0], out[1], out[2], out[3] = norm * a, norm * b, norm * c, norm * d
+        out[4], out[5], out[6] = norm * e, norm * f, norm * g
         return
     s0 = s1 = s2 = t0 = t1 = t2 = 0.0
     for i in range(begin, end):
         z = (gap - size * rules[AT, i]) * inverse
-        e = exp(-0.5 * z * z)
-        f, g = e * rules[0, i], e * rules[shadow, i]
-        s0 += f
-        s1 += f * z
-        s2 += f * z * z
-        t0 += g
-        t1 += g * z
-        t2 += g * z * z
+        density = exp(-0.5 * z * z)
+        load, area = density * rules[0, i], density * rules[shadow, i]
+        s0 += load
+        s1 += load * z
+        s2 += load * z * z
+        t0 += area
+        t1 += area * z
+        t2 += area * z * z
     out[0], out[1], out[2] = norm * s0, -norm * inverse * s1, norm * inverse * inverse * (s2 - s0)
     out[3], out[4], out[5] = norm * t0, -norm * inverse * t1, norm * inverse * inverse * (t2 - t0)
 
@@ -433,10 +440,13 @@ def _root(m, kinds, values, series, rules, target, h, total, out, each):
                 trial = LOWEST - h
             if low <= h + trial <= high and (n % 4 != 0 or abs(trial) < 0.5 * last):
                 step, bisected = trial, False
-        last = abs(step)
+        size = abs(step)
         h += step
-        if h != LOWEST and (last <= 1e-15 * max(1.0, abs(h)) or (not bisected and last < CUBIC)):
+        # errors follow e' = Ke³ with K = size/last³, so this step leaves size⁴/last³
+        small = not bisected and size < 1e-3 and size**4 <= ROUNDING * last**3
+        if h != LOWEST and (small or size <= 1e-15 * max(1.0, abs(h))):
             return h, n, TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
+        last = size
     return h, MOST, OK
 
 

@@ -595,7 +595,7 @@ class _Reader:
             where = f"{path}.{prefix}" if prefix else path
             keys: dict[str, _Key] = {}
             for kind in filter(None, kinds.get(prefix, [])):
-                for item in dataclasses.fields(kind):  # type: ignore[arg-type]
+                for item in dataclasses.fields(kind):
                     name, value = f"{where}.{item.name}", _get(tree, item.name)
                     if meta := item.metadata.get("quantity"):
                         reader = self.amounts(name, meta, value, sampled=sampled)

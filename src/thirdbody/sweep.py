@@ -12,6 +12,7 @@ import itertools
 import json
 import math
 import re
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -337,7 +338,7 @@ class Plan:
             One of these states has inputs that the library refuses.
         """
         found: dict[str, str] = {}
-        deepest: tuple[float, Contact] | None = None
+        hardest: tuple[float, float, Contact] | None = None
         listed = [1 if isinstance(dim, Sampled) else dim.size for dim in self.dims]
         spread = np.linspace(0, math.prod(listed) - 1, LOOKED_AT).astype(np.int64)
         for i, number in enumerate(spread if self.samples else np.unique(spread)):
@@ -352,29 +353,36 @@ class Plan:
             inputs = {k: v.item() if isinstance(v, np.generic) else v for k, v in inputs.items()}
             load = inputs.pop(self.load)
             contact = varied(self.contact, inputs)
-            if self.load == "d" and (deepest is None or load < deepest[0]):
-                deepest = load, contact
+            sign = -1 if self.load == "d" else 1
+            if hardest is None or sign * load > hardest[0]:
+                hardest = sign * load, load, contact
             for sentence in _about_contact(contact):
-                found.setdefault(re.sub(r"[\d.e+-]+", "", sentence), sentence)
-        if deepest is not None:
-            import warnings
-
+                found.setdefault(_wording(sentence), sentence)
+        if hardest is not None:
+            _, load, contact = hardest
+            given: dict[str, Any] = {self.load: np.array([load])}
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", RangeWarning)
-                for sentence in solve(deepest[1], d=deepest[0]).warnings:
-                    found.setdefault(re.sub(r"[\d.e+-]+", "", sentence), sentence)
+                state = solve(contact, **given)
+            for sentence in state.warnings:
+                found.setdefault(_wording(sentence), sentence)
         return list(found.values())
+
+
+def _wording(sentence: str) -> str:
+    """A sentence without its numbers, to say it once."""
+    return re.sub(r"[\d.e+-]+", "", sentence)
 
 
 def all_notes(notes: list[str], summary: Mapping[str, Any]) -> list[str]:
     """The sentences of a finished run: about its inputs, and about its states."""
-    out = list(notes)
-    if summary["A_t"] > 0.2 and not any(note.startswith("A_t reaches") for note in out):
+    out = [note for note in notes if not note.startswith(("A_t reaches", "particles shadow"))]
+    if summary["A_t"] > 0.2:
         out.append(
             f"A_t reaches {summary['A_t']:.3g}: above 0.2 neighbouring contacts interact, "
             "which this model neglects"
         )
-    if summary["shadow"] >= 1 and not any(note.startswith("particles shadow") for note in out):
+    if summary["shadow"] >= 1:
         out.append("particles shadow the whole area: the area correction was cut at zero")
     return out
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -350,20 +352,33 @@ class SizeAverage:
         return out
 
     def nodes(self, width: float) -> tuple[Array, Array, Array]:
-        """Gauss nodes in the gap, weights and P there, in panels no wider than ``width``.
+        """Gauss nodes in the gap, weights and P there, for sums over a seat of this width.
 
-        The panels of the tables, cut: increasing gaps (M,), weights (M,), values (M, 7).
+        The panels of the tables, cut where they are wider than the seat: increasing gaps (M,),
+        weights (M,), values (M, 7).
         """
-        u, weight = panel_rule(_cut(self.upper.edges**2, width) ** 0.5, SEAT_NODES)
+        u, weight = _seat_rule(_cut(self.upper.edges**2, width) ** 0.5, width, np.square)
         gaps, weights = self.top - u * u, 2 * u * weight
         values = self.upper(u) * u[:, None] ** self.powers
         gaps, weights, values = gaps[::-1], weights[::-1], values[::-1]
         if self.lower is not None:
-            g, weight = panel_rule(_cut(self.lower.edges, width), SEAT_NODES)
+            g, weight = _seat_rule(_cut(self.lower.edges, width), width, np.asarray)
             gaps = np.concatenate([g, gaps])
             weights = np.concatenate([weight, weights])
             values = np.concatenate([self.lower(g), values])
         return gaps, weights, values
+
+
+def _seat_rule(edges: Array, width: float, gap: Callable[[Array], Array]) -> tuple[Array, Array]:
+    """Gauss rule over panels, of fewer nodes where the seat is wide against a panel."""
+    narrow = np.abs(np.diff(gap(edges))) < 0.25 * width
+    ends = [0, *(np.flatnonzero(np.diff(narrow)) + 1), len(narrow)]
+    rules = [
+        panel_rule(edges[a : b + 1], FEW_SEAT_NODES if narrow[a] else SEAT_NODES)
+        for a, b in itertools.pairwise(ends)
+    ]
+    nodes, weights = zip(*rules, strict=True)
+    return np.concatenate(nodes), np.concatenate(weights)
 
 
 def _distinct(edges: Array) -> Array:
@@ -672,7 +687,7 @@ DEEPEST_SQUEEZE = 1e3
 """Squeeze over diameter at which a particle must be fully plastic for the law to have a meaning."""
 NORMAL_REACH = 9.0
 """Standard deviations of the seat beyond which nothing is counted."""
-SEAT_NODES = 14
+SEAT_NODES, FEW_SEAT_NODES = 14, 10
 WIDEST = 1e5
 
 
