@@ -278,6 +278,8 @@ class States(_Batch):
     """
 
     def __init__(self, contact: Contact, arrays: Mapping[str, Array], count: int):
+        if any(name.startswith("asperity_law.") for name in arrays):
+            raise TypeError("the law varies")
         varied = contact.with_arrays(arrays)
         particles = None if contact.two_body else contact.particles
         super().__init__(count, 0 if particles is None else len(particles.diameter.components))
@@ -425,12 +427,13 @@ def _common_law(
     """The law bound to its contact, where all states bind it alike."""
     first, second = surfaces.first, surfaces.second
     nu = np.where(first.H <= second.H, first.nu, second.nu)
-    given = np.broadcast_arrays(rough.R, surfaces.E_star, surfaces.H, nu)
-    some = np.unique(np.linspace(0, given[0].size - 1, 9).astype(int))
-    bound = {
-        law.bound(R=float(R), E_star=float(E), H=float(H), nu=float(v))
-        for R, E, H, v in zip(*(values.ravel()[some] for values in given), strict=True)
-    }
+    given = [np.ravel(values) for values in (rough.R, surfaces.E_star, surfaces.H, nu)]
+    one = [float(values[0]) for values in given]
+    # bound alike where nothing varies, and where the extremes of what varies change nothing
+    rows = [one]
+    for i, values in enumerate(given):
+        rows += [[*one[:i], float(v), *one[i + 1 :]] for v in {values.min(), values.max()}]
+    bound = {law.bound(R=R, E_star=E, H=H, nu=v) for R, E, H, v in rows}
     if len(bound) > 1:
         raise TypeError("the law binds differently from state to state")
     return bound.pop()

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from ...surfaces import Roughness
 
     Array = NDArray[np.float64]
+    Number = float | Array
     Index = NDArray[np.intp]
     Body = tuple[float, float, float]
 
@@ -47,49 +48,72 @@ class Side:
     Lengths are in units of the size x, loads in x²·Pa, areas in x². The tip radius is R. The
     area stops at the great circle, πR/2 (π/4 for a sphere); from there on the load is mean
     pressure × great circle, and constant where the law has no plastic pressure to go on to.
+
+    E* and H may be arrays (M, 1), one row a material, for a law that all bind alike.
+
+    Attributes
+    ----------
+    kinks : array (..., k)
+        Increasing reduced indentations where the formula changes; constant beyond the last.
     """
 
     def __init__(
-        self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, R: float = 0.5
+        self, law: AbstractAsperityLaw, E_star: Number, H: Number, nu: Number, R: float = 0.5
     ):
         self.law, self.H, self.R = law.bound(R=R, E_star=E_star, H=H, nu=nu), H, R
-        self.delta_1 = float(self.law.yield_interference(R=R, E_star=E_star, H=H))
+        self.delta_1 = self.law.yield_interference(R=R, E_star=E_star, H=H)
         self.full = 0.5 / self.delta_1  # reduced area of the great circle
         self.cap = self._cap()
+        self.unit = self.R * math.pi * self.delta_1 * self.H
         self.plateau = self.law.branches[-1].regime == "plastic"
-        kinks = self.law.breakpoints
-        if not self.plateau:
-            kinks = tuple(y for y in kinks if y < self.cap)
-        self.kinks = sorted({*kinks, self.cap})
-        self.limit = float(self.force(np.array([2 * self.kinks[-1] * self.delta_1]))[0])
+        kinks = [self.cap]
+        for y in self.law.breakpoints:
+            if self.plateau:
+                kinks.append(np.full_like(self.cap, y))
+            elif np.any(y < self.cap):
+                kinks.append(np.minimum(y, self.cap))
+        self.kinks = np.sort(np.concatenate([np.atleast_1d(y) for y in kinks], axis=-1), axis=-1)
+        self.limit = self.unit * self.reduced_force(2 * self.kinks[..., -1:])
 
-    def _cap(self) -> float:
+    def _cap(self) -> Array:
         """Reduced interference at which the area reaches the great circle."""
+        from scipy.optimize.elementwise import find_root
 
-        from scipy.optimize import brentq
+        full = np.asarray(self.full, dtype=float)
 
-        def excess(y: float) -> float:
-            return float(self.law.reduced("area", y)) - self.full
+        def excess(y: Array, full: Array) -> Array:
+            return self.law.reduced("area", y) - full
 
-        high = max(self.full, 1.0)
-        if excess(high) <= 0:
-            return high
-        low = 0.4 * self.full
-        return brentq(excess, low if excess(low) < 0 else 0.0, high, xtol=1e-300, rtol=1e-15)
+        low, high = 0.4 * full, np.maximum(full, 1.0)
+        low = np.where(excess(low, full) < 0, low, 0.0)
+        root = find_root(
+            excess,
+            (low, high),
+            args=(full,),
+            tolerances={"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0},
+        )
+        return np.where(excess(high, full) <= 0, high, root.x)
 
-    def force(self, delta: Array) -> Array:
-        y = delta / self.delta_1
+    def reduced_force(self, y: Array) -> Array:
+        """Load over `unit` at y = δ/δ_1."""
         if not self.plateau:
             y = np.minimum(y, self.cap)
         force = self.law.reduced("force", y)
         over = y > self.cap
         if np.any(over):
-            force[over] *= self.full / self.law.reduced("area", y[over])
-        return self.R * math.pi * self.delta_1 * self.H * force
+            full = np.broadcast_to(self.full, y.shape)[over]
+            force[over] *= full / self.law.reduced("area", y[over])
+        return force
+
+    def reduced_area(self, y: Array) -> Array:
+        """Area over πRδ_1 at y = δ/δ_1."""
+        return np.minimum(self.law.reduced("area", y), self.full)
+
+    def force(self, delta: Array) -> Array:
+        return self.unit * self.reduced_force(delta / self.delta_1)
 
     def area(self, delta: Array) -> Array:
-        area = np.minimum(self.law.reduced("area", delta / self.delta_1), self.full)
-        return self.R * math.pi * self.delta_1 * area
+        return self.R * math.pi * self.delta_1 * self.reduced_area(delta / self.delta_1)
 
     def regime(self, delta: Array) -> Array:
         """Index into `REGIMES`; beyond the great circle a contact that can yield is plastic."""
@@ -99,7 +123,7 @@ class Side:
         return np.where((y >= self.cap) & self.plateau, REGIMES.index("plastic"), index)
 
     def indentation(self, force: float) -> float:
-        """Inverse of `force` below the limit."""
+        """Inverse of `force` below the limit, for one material."""
 
         from scipy.optimize import brentq
 
@@ -134,9 +158,9 @@ class SqueezedParticle:
                 force = float(side.force(np.array([delta]))[0])
                 if self.equal:
                     kinks.add(2 * delta)
-                elif force < other.limit * (1 - 1e-12):
+                elif force < float(other.limit[0]) * (1 - 1e-12):
                     kinks.add(delta + other.indentation(force))
-                elif force < other.limit * (1 + 1e-12):
+                elif force < float(other.limit[0]) * (1 + 1e-12):
                     kinks.add(delta + other.kinks[-1] * other.delta_1)
         self.kinks = np.array(sorted(kinks))
         if self.kinks[-1] > DEEPEST_SQUEEZE:
@@ -201,7 +225,7 @@ class SqueezedParticle:
         # beyond the last kink the softer side takes the rest; two equal limits share it
         past = eps > high
         if np.any(past):
-            limits = [side.limit for side in self.sides]
+            limits = [float(side.limit[0]) for side in self.sides]
             rest = eps - high
             if math.isclose(*limits, rel_tol=1e-12):
                 gained = 0.5 * rest
@@ -220,7 +244,7 @@ class SqueezedParticle:
         out[:, 0] = self.sides[0].force(one)
         if not self.equal:
             past = eps > self.kinks[-1]
-            out[past, 0] = min(side.limit for side in self.sides)
+            out[past, 0] = min(float(side.limit[0]) for side in self.sides)
         for i in range(3):
             out[:, 1 + i] = np.where(regime == i, a1, 0.0)
         out[:, 4] = a2
@@ -257,7 +281,9 @@ class SizeAverage:
         # leading powers of u as the last particle loses contact
         edge = 0 if isinstance(sizes, Monodisperse) else 2
         self.powers = np.array([2.0 + edge] * 6 + [float(edge)])
-        self.join = max(0.5 * self.top, self.bottom)
+        self.join = self.bottom
+        if 0.5 * self.top - self.bottom > 1e-12 * self.top:  # a sliver is rounding
+            self.join = 0.5 * self.top
         gaps = [x * (1 - eps) for x in sizes.kinks for eps in (0.0, *particle.kinks)]
         gaps += [x * f for x in sizes.pieces for f in (0.25, 0.5) if x > 1e-4 * self.top]
         known = np.array(sorted({g for g in gaps if self.bottom < g < self.top}))
