@@ -3,29 +3,33 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .asperities import AsperitySum, GaussianSum, gaussian_rule, scales
 from .contact import Contact, Interface, together
-from .distributions import Distribution
+from .distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
 from .heights import GaussianHeights
 from .laws.base import AbstractAsperityLaw
+from .laws.particle.rules import squeeze_rule
 from .laws.particle.series import (
     COLUMNS,
     SeatAverage,
     SeatedParticles,
+    SizeAverage,
     contact_sides,
     size_average,
 )
 from .laws.particle.series import Series as ParticleSeries
-from .materials import MaterialPair
-from .numerics import PiecewiseChebyshev
+from .materials import MaterialPair, reduced_modulus, softer_hardness
+from .numerics import PiecewiseChebyshev, panel_rule, subdivide
 from .surfaces import Roughness
 
 if TYPE_CHECKING:
@@ -114,6 +118,12 @@ class _Rules:
             self.count += len(at)
             self.rules.append(rule)
         return self.known[key]
+
+    def add_each(self, at: Array, columns: Array) -> Array:
+        """Begin and end (M, 2) of rules (M, n) with columns (M, n, k), one for each state."""
+        count, n = at.shape
+        begin = self.add(object(), at.ravel(), columns.reshape(count * n, -1))[0]
+        return begin + n * np.arange(count)[:, None] + np.array([0, n])
 
 
 class _Batch:
@@ -339,55 +349,196 @@ class States(_Batch):
         law, particles, changed = varied.particle_law, contact.particles, varied.particles
         if not isinstance(law, ParticleSeries) or particles is None or changed is None:
             raise TypeError("these particles are not for shared nodes")
-        if any(name.startswith(("surfaces.", "particles.material.")) for name in arrays):
-            raise TypeError("the materials of the particles vary")
-        sides = contact_sides(contact.surfaces, particles.material)
-        self.kinds[:, k.SHADOW] = shadow = (
-            COLUMNS.index(law.shadow) if law.shadow in COLUMNS else -1
-        )
+        if any(name.startswith("particle_law.law") for name in arrays):
+            raise TypeError("the law varies")
+        self.kinds[:, k.SHADOW] = COLUMNS.index(law.shadow) if law.shadow in COLUMNS else -1
+        own = law.seat == "rough" and own_particles(arrays)
+        parts = self._squeezed if own else self._averaged
         coverage = np.zeros(len(self.kinds))
-        rough = law.seat == "rough"
-        for p, (share, ratio, sizes) in enumerate(_one_shape(particles.diameter, arrays)):
-            scale, shape = sizes.standardised()
-            average = size_average(law.law, *sides, shape, law.tip_radius)
-            size = scale * ratio
-            density = changed.areal_density * share
-            coverage += math.pi / 4 * density * size**2 * shape.moment(2)
-            width = law.zeta_std * varied.roughness.sigma / size if rough else 0.0 * size
+        for p, part in enumerate(parts(contact, varied, arrays)):
             at = k.PARTS + p * k.PART_KINDS
-            here = self.kinds[:, at : at + k.PART_KINDS]
-            if rough:
-                here[:, 0] = k.ROUGH_NODES
-                here[:, 3:5] = self._rules.add("one", np.ones(1), np.ones((1, 1)))
-                octaves = np.broadcast_to(np.frexp(width)[1] - 1, len(here))
-                for octave in np.unique(octaves):
-                    if average.top - average.bottom > MOST_WIDTHS * 2.0**octave:
-                        raise TypeError("the seat is too smooth for shared nodes")
-                    rule = average.nodes(1.25 * 2.0**octave)
-                    weighted = rule[1][:, None] * rule[2]
-                    ends = self._rules.add((average, octave), rule[0], weighted)
-                    here[octaves == octave, 1:3] = ends
-            else:
-                here[:, 0] = k.PLANE
-                # without small gaps the second function is not asked for
-                for i, function in enumerate((average.upper, average.lower or average.upper)):
-                    here[:, 1 + 2 * i : 3 + 2 * i] = self._panels.add_average(function, shadow)
+            self.kinds[:, at : at + k.PART_KINDS] = part.pop("kinds")
+            coverage += part.pop("coverage")
             at = k.VALUES + p * k.PART_VALUES
-            for column, values in (
-                *((k.SIZE, size), (k.FACTOR, density * size**2), (k.WIDTH, width)),
-                (k.OFFSET, law.seat_offset(varied.roughness)),
-                (k.REACH, average.top + k.SEAT_REACH * width),
-                (k.LEAST, average.bottom - k.SEAT_REACH * width),
-                *((k.TOP, average.top), (k.BOTTOM, average.bottom), (k.JOIN, average.join)),
-            ):
-                self.values[:, at + column] = values
-            self.values[:, at + k.POWERS : at + k.FLOOR] = average.powers
-            self.values[:, at + k.FLOOR : at + k.PART_VALUES] = average.floor
-        coverage *= 2 * law.tip_radius
+            self.values[:, at + k.OFFSET] = law.seat_offset(varied.roughness)
+            self.values[:, at + k.POWERS : at + k.FLOOR] = part.pop("powers", 0.0)
+            self.values[:, at + k.FLOOR : at + k.PART_VALUES] = part.pop("floor")
+            for name, values in part.items():
+                self.values[:, at + getattr(k, name)] = values
         if np.any(coverage >= 1):
             raise TypeError("some particles are jammed")  # said better, one contact at a time
         if law.shadow == "covered":
-            self.values[:, k.COVERAGE] = coverage
+            self.values[:, k.COVERAGE] = 2 * law.tip_radius * coverage
+
+    def _averaged(
+        self, contact: Contact, varied: Contact, arrays: Mapping[str, Array]
+    ) -> Iterator[dict[str, Any]]:
+        """Parts of one material and shape: size averages that all states share."""
+        from . import kernels as k
+
+        law: Any = varied.particle_law
+        particles, changed = contact.particles, varied.particles
+        assert particles is not None
+        assert changed is not None
+        if any(name.startswith(MATERIALS) for name in arrays):
+            raise TypeError("the materials of the particles vary")
+        sides = contact_sides(contact.surfaces, particles.material)
+        shadow = self.kinds[0, k.SHADOW]
+        rough = law.seat == "rough"
+        for share, ratio, sizes in _one_shape(particles.diameter, arrays):
+            scale, shape = sizes.standardised()
+            average = size_average(law.law, *sides, shape, law.tip_radius)
+            size = scale * ratio
+            factor = changed.areal_density * share * size**2
+            width = law.zeta_std * varied.roughness.sigma / size if rough else 0.0 * size
+            kinds = np.empty((len(self.kinds), k.PART_KINDS), np.int64)
+            kinds[:, 0] = k.ROUGH_NODES if rough else k.PLANE
+            if rough:
+                kinds[:, 3:5] = self._rules.add("one", np.ones(1), np.ones((1, 1)))
+                octaves = np.broadcast_to(np.frexp(width)[1] - 1, len(kinds))
+                for octave in np.unique(octaves):
+                    ends = self._rules.add((average, octave), *_seat_rule(average, int(octave)))
+                    kinds[octaves == octave, 1:3] = ends
+            else:
+                # without small gaps the second function is not asked for
+                for i, function in enumerate((average.upper, average.lower or average.upper)):
+                    kinds[:, 1 + 2 * i : 3 + 2 * i] = self._panels.add_average(function, shadow)
+            yield {
+                "kinds": kinds,
+                "coverage": math.pi / 4 * factor * shape.moment(2),
+                **{"SIZE": size, "FACTOR": factor, "WIDTH": width},
+                "REACH": average.top + k.SEAT_REACH * width,
+                "LEAST": average.bottom - k.SEAT_REACH * width,
+                **{"TOP": average.top, "BOTTOM": average.bottom, "JOIN": average.join},
+                **{"powers": average.powers, "floor": average.floor},
+            }
+
+    def _squeezed(
+        self, contact: Contact, varied: Contact, arrays: Mapping[str, Array]
+    ) -> Iterator[dict[str, Any]]:
+        """Parts whose material or shape varies, on a rough seat: nodes for each state."""
+        from . import kernels as k
+
+        law: Any = varied.particle_law
+        particles, changed = contact.particles, varied.particles
+        assert particles is not None
+        assert changed is not None
+        count = len(self.kinds)
+
+        def column(values: Any) -> Array:
+            return np.broadcast_to(values, count)[:, None]
+
+        body = changed.material
+        sides = [
+            (column(reduced_modulus(surface, body)), column(softer_hardness(surface, body)))
+            for surface in (varied.surfaces.first, varied.surfaces.second)
+        ]
+        if not any(np.ptp(values) for side in sides for values in side):
+            sides = [(E[:1], H[:1]) for E, H in sides]  # one rule for all
+        bare = {
+            law.law.bound(R=law.tip_radius, E_star=float(E[0, 0]), H=float(H[0, 0]), nu=nu)
+            for (E, H), nu in itertools.product(sides, (0.1, 0.4))
+        }
+        if bare != {law.law}:
+            raise TypeError("the law of the particles depends on their material")
+        sigma = column(law.zeta_std * varied.roughness.sigma)
+        for share, size, sizes in _sizes(particles.diameter, changed.diameter, arrays, count):
+            width = sigma / size
+            x, weight = sizes(float(width.min()))
+            if x[..., -1].max() > MOST_WIDTHS * width.min():
+                raise TypeError("the seat is too smooth for nodes")
+            panels = width / x[..., -1:]
+            rule = squeeze_rule(
+                law.law,
+                *sides,
+                tip_radius=law.tip_radius,
+                widths=panels if len(sides[0][0]) > 1 else panels.min(keepdims=True),
+                split_areas=law.shadow == "footprint",
+            )
+            factor = changed.areal_density * share * size[:, 0] ** 2
+            kinds = np.empty((count, k.PART_KINDS), np.int64)
+            kinds[:, 0] = k.ROUGH_NODES
+            kinds[:, 1:3] = self._rules.add_each(rule.gaps, rule.weighted)
+            kinds[:, 3:5] = self._rules.add_each(x, (weight * x**3)[..., None])
+            deepest = np.minimum(x[..., 0] * rule.bottom, x[..., -1] * rule.bottom)
+            yield {
+                "kinds": kinds,
+                "coverage": math.pi / 4 * factor * np.sum(weight * x**2, axis=-1),
+                **{"SIZE": size[:, 0], "FACTOR": factor, "WIDTH": width[:, 0]},
+                "REACH": x[..., -1] + k.SEAT_REACH * width[:, 0],
+                "LEAST": deepest - k.SEAT_REACH * width[:, 0],
+                **{"TOP": x[..., -1], "BOTTOM": rule.bottom, "floor": rule.floor},
+            }
+
+
+MATERIALS = ("surfaces.", "particles.material.")
+"""Inputs on which the contact of a particle depends."""
+
+
+def own_particles(arrays: Mapping[str, Array]) -> bool:
+    """Whether the material or the shape of the particles varies from state to state."""
+    varies = [name for name, values in arrays.items() if np.ptp(values) > 0]
+    shapes = [name for name in varies if name.startswith("particles.diameter.")]
+    if any(name.startswith(MATERIALS) for name in varies):
+        return True
+    if len(shapes) == 2:  # in proportion, the shape is one
+        one, two = (arrays[name] / arrays[name].flat[0] for name in shapes)
+        return not np.allclose(one, two, rtol=1e-14, atol=0)
+    return bool(shapes)
+
+
+def fineness(contact: Contact, arrays: Mapping[str, Array]) -> Array:
+    """Particle sizes over roughness, up to a factor: it tells how many nodes a state needs."""
+    sizes = arrays.get("particles.diameter.mean", np.ones(1))
+    rough = arrays.get("roughness.sigma", np.ones(1)) * arrays.get("particle_law.zeta_std", 1.0)
+    return np.broadcast_to(sizes / rough, max(map(len, arrays.values())))
+
+
+@lru_cache(maxsize=128)
+def _seat_rule(average: SizeAverage, octave: int) -> tuple[Array, Array]:
+    """Gaps and weighted columns for seats of 2^octave to 2^(octave + 1) in the size."""
+    if average.top - average.bottom > MOST_WIDTHS * 2.0**octave:
+        raise TypeError("the seat is too smooth for shared nodes")
+    gaps, weight, values = average.nodes(1.25 * 2.0**octave)
+    return gaps, weight[:, None] * values
+
+
+def _sizes(
+    base: Distribution, varied: Distribution, arrays: Mapping[str, Array], count: int
+) -> Iterator[tuple[float, Array, Callable[[float], tuple[Array, Array]]]]:
+    """Weight, size (N, 1) [m], and a rule over the sizes in its unit for a width to resolve."""
+    if not any(name.startswith("particles.diameter.") for name in arrays):
+        for weight, part in base.components:
+            scale, shape = part.standardised()
+            yield weight, np.full((count, 1), scale), partial(_shape_rule, shape)
+    elif isinstance(varied, Monodisperse):
+        yield 1.0, np.asarray(varied.mean)[:, None], lambda _: (np.ones((1, 1)), np.ones((1, 1)))
+    elif isinstance(varied, TruncatedGaussian):
+        size = np.broadcast_to(varied.mean, count)[:, None]
+        std = np.broadcast_to(varied.std, count)[:, None] / size
+        yield 1.0, size, partial(_gaussian_sizes, std, np.broadcast_to(varied.n, count)[:, None])
+    else:
+        raise TypeError("the shape of these sizes varies")
+
+
+def _shape_rule(shape: Distribution, width: float) -> tuple[Array, Array]:
+    """Diameters and number weights of a fixed shape."""
+    if isinstance(shape, Monodisperse):
+        return np.full((1, 1), shape.mean), np.ones((1, 1))
+    edges = subdivide(np.array(shape.pieces), width=1.5 * width)
+    x, weight = panel_rule(edges, 12)
+    return x[None], (weight * shape.pdf(x))[None]
+
+
+def _gaussian_sizes(std: Array, n: Array, width: float) -> tuple[Array, Array]:
+    """Diameters over the mean and number weights of truncated Gaussians of their own widths."""
+    high = np.minimum(n, NORMAL_CUT)
+    low = np.maximum(-high, -1 / std)
+    # one panel: 2e-13 for a cut at 3 and a seat ten times as wide
+    count = math.ceil(np.max((high - low) / 6 * (16 + 6 * std / width)))
+    u, weight = panel_rule(np.concatenate([low, high], axis=1), count)
+    density = np.exp(-0.5 * u * u) * weight
+    return 1 + std * u, density / density.sum(axis=1, keepdims=True)
 
 
 MOST_WIDTHS = 2_000.0

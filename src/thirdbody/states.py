@@ -83,8 +83,8 @@ ABSENT = ("particles.diameter.mean", "particles.areal_density")
 """Inputs that are zero where there are no particles."""
 FEWEST = 20
 """Different values of an input for which shared nodes are quicker than tables of each."""
-AT_ONCE = 50_000
-"""States laid out at a time."""
+AT_ONCE, FEW = 50_000, 512
+"""States laid out at a time, and where each has nodes of its own."""
 FATES = (
     "ok",
     "no equilibrium: the load is beyond the most this model carries down to a separation of "
@@ -110,8 +110,12 @@ def _compiled(
     if len(numbers) < len(arrays) or not present.all():
         return None
     parts = []
-    for start in range(0, len(loads), AT_ONCE):
-        here = slice(start, start + AT_ONCE)
+    own = engine.own_particles(numbers)
+    # states that need as many nodes side by side
+    order = np.argsort(engine.fineness(contact, numbers)) if own else np.arange(len(loads))
+    at_once = FEW if own else AT_ONCE
+    for start in range(0, len(loads), at_once):
+        here = order[start : start + at_once]
         inputs = {name: values[here] for name, values in numbers.items()}
         try:
             batch = engine.States(contact, inputs, len(loads[here]))
@@ -119,7 +123,8 @@ def _compiled(
             return None
         parts.append(batch.columns(load, loads[here]))
         parts[-1]["status"] = np.array(FATES, dtype=object)[parts[-1]["status"]]
-    return {name: np.concatenate([part[name] for part in parts]) for name in COLUMNS}
+    back = np.argsort(order)
+    return {name: np.concatenate([part[name] for part in parts])[back] for name in COLUMNS}
 
 
 def _by_groups(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import itertools
 import math
 from collections.abc import Callable
@@ -58,7 +59,7 @@ class Side:
     """
 
     def __init__(
-        self, law: AbstractAsperityLaw, E_star: Number, H: Number, nu: Number, R: float = 0.5
+        self, law: AbstractAsperityLaw, E_star: Number, H: Number, nu: float, R: float = 0.5
     ):
         self.law, self.H, self.R = law.bound(R=R, E_star=E_star, H=H, nu=nu), H, R
         self.delta_1 = self.law.yield_interference(R=R, E_star=E_star, H=H)
@@ -84,15 +85,31 @@ class Side:
         def excess(y: Array, full: Array) -> Array:
             return self.law.reduced("area", y) - full
 
-        low, high = 0.4 * full, np.maximum(full, 1.0)
-        low = np.where(excess(low, full) < 0, low, 0.0)
-        root = find_root(
-            excess,
-            (low, high),
-            args=(full,),
-            tolerances={"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0},
-        )
-        return np.where(excess(high, full) <= 0, high, root.x)
+        points = self.law.breakpoints or (1.0,)
+        ends = np.array([0.5 * points[0], 2 * points[-1]])
+        # most areas grow like the indentation while elastic, and again when plastic
+        elastic, plastic = full * (ends / self.law.reduced("area", ends))[:, *(None,) * full.ndim]
+        y = np.where(elastic <= points[0], elastic, plastic)
+        rest = np.abs(excess(y, full)) > 4e-16 * full
+        if np.any(rest):
+            low, high = 0.4 * full[rest], np.maximum(full[rest], 1.0)
+            low = np.where(excess(low, full[rest]) < 0, low, 0.0)
+            found = find_root(
+                excess,
+                (low, high),
+                args=(full[rest],),
+                tolerances={"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0},
+            )
+            y[rest] = np.where(excess(high, full[rest]) <= 0, high, found.x)
+        return y
+
+    @staticmethod
+    def chosen(first: NDArray[np.bool_], one: Side, two: Side) -> Side:
+        """For each material side one where ``first``, else side two."""
+        out = copy.copy(one)
+        for name in ("H", "delta_1", "full", "cap", "unit", "kinks", "limit"):
+            setattr(out, name, np.where(first, getattr(one, name), getattr(two, name)))
+        return out
 
     def reduced_force(self, y: Array) -> Array:
         """Load over `unit` at y = δ/δ_1."""
