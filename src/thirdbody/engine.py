@@ -291,7 +291,7 @@ class States(_Batch):
         if any(name.startswith("asperity_law.") for name in arrays):
             raise TypeError("the law varies")
         varied = contact.with_arrays(arrays)
-        particles = None if contact.two_body else contact.particles
+        particles = None if bare(contact, arrays) else contact.particles
         super().__init__(count, 0 if particles is None else len(particles.diameter.components))
         datum = 0.0 if particles is None else contact.particle_law.centre
         self._add_asperities(contact, varied, datum)
@@ -435,11 +435,11 @@ class States(_Batch):
         ]
         if not any(np.ptp(values) for side in sides for values in side):
             sides = [(E[:1], H[:1]) for E, H in sides]  # one rule for all
-        bare = {
+        bound = {
             law.law.bound(R=law.tip_radius, E_star=float(E[0, 0]), H=float(H[0, 0]), nu=nu)
             for (E, H), nu in itertools.product(sides, (0.1, 0.4))
         }
-        if bare != {law.law}:
+        if bound != {law.law}:
             raise TypeError("the law of the particles depends on their material")
         sigma = column(law.zeta_std * varied.roughness.sigma)
         for share, size, sizes in _sizes(particles.diameter, changed.diameter, arrays, count):
@@ -475,6 +475,11 @@ MATERIALS = ("surfaces.", "particles.material.")
 """Inputs on which the contact of a particle depends."""
 
 
+def bare(contact: Contact, arrays: Mapping[str, Array]) -> bool:
+    """Whether there are no particles in any of the states."""
+    return contact.two_body and "particles.areal_density" not in arrays
+
+
 def own_particles(arrays: Mapping[str, Array]) -> bool:
     """Whether the material or the shape of the particles varies from state to state."""
     varies = [name for name, values in arrays.items() if np.ptp(values) > 0]
@@ -487,7 +492,7 @@ def own_particles(arrays: Mapping[str, Array]) -> bool:
     return bool(shapes)
 
 
-def fineness(contact: Contact, arrays: Mapping[str, Array]) -> Array:
+def fineness(arrays: Mapping[str, Array]) -> Array:
     """Particle sizes over roughness, up to a factor: it tells how many nodes a state needs."""
     sizes = arrays.get("particles.diameter.mean", np.ones(1))
     rough = arrays.get("roughness.sigma", np.ones(1)) * arrays.get("particle_law.zeta_std", 1.0)

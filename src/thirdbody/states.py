@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -70,92 +71,149 @@ def solve_states(
         sizes = ", ".join(f"{name} {values.shape}" for name, values in inputs.items())
         raise InvalidValue(f"inputs of different lengths: {sizes}; each must be one or N") from None
     loads = np.atleast_1d(arrays.pop(load))
+    arrays = {name: np.atleast_1d(values) for name, values in arrays.items()}
     if loads.ndim > 1:
         raise InvalidValue(f"inputs have {loads.ndim} dimensions; give numbers or 1-D arrays")
-    if any(len(np.unique(values)) >= FEWEST for values in arrays.values()):
-        columns = _compiled(contact, arrays, load, loads)
-        if columns is not None:
-            return columns
-    return _by_groups(contact, arrays, load, loads)
+    absent = np.zeros(len(loads), bool)
+    for name in ABSENT:
+        absent |= arrays.get(name, np.ones(1)) == 0
+    bare = {name: v for name, v in arrays.items() if not name.startswith("particles.")}
+    parts = []
+    if not absent.all():
+        parts.append((contact, arrays, np.flatnonzero(~absent)))
+    if absent.any():
+        parts.append((contact.replace(particles=None), bare, np.flatnonzero(absent)))
+    return _joined(
+        len(loads),
+        [
+            (which, _solve(base, _taken(inputs, which), load, loads[which]))
+            for base, inputs, which in parts
+        ],
+    )
 
 
 ABSENT = ("particles.diameter.mean", "particles.areal_density")
 """Inputs that are zero where there are no particles."""
+DEMANDING = ("asperity_law.", "particle_law.law.", "particles.diameter.", *engine.MATERIALS)
+"""Inputs that change the contact of one asperity or particle, which nodes may share."""
 FEWEST = 20
-"""Different values of an input for which shared nodes are quicker than tables of each."""
+"""Different states for which nodes are quicker than tables of each."""
 AT_ONCE, FEW = 50_000, 512
 """States laid out at a time, and where each has nodes of its own."""
-FATES = (
-    "ok",
-    "no equilibrium: the load is beyond the most this model carries down to a separation of "
-    "-3 sigma_s; check the unit of the load",
-    "no equilibrium: the load is below the smallest load this model resolves; check the unit of "
-    "the load",
+FATES = np.array(
+    [
+        "ok",
+        "no equilibrium: the load is beyond the most this model carries down to a separation of "
+        "-3 sigma_s; check the unit of the load",
+        "no equilibrium: the load is below the smallest load this model resolves; check the unit "
+        "of the load",
+    ],
+    dtype=object,
 )
 
+Arrays = Mapping[str, NDArray[Any]]
+Columns = dict[str, NDArray[Any]]
 
-def _compiled(
-    contact: Contact, arrays: Mapping[str, NDArray[Any]], load: str, loads: NDArray[np.float64]
-) -> dict[str, NDArray[Any]] | None:
-    """Every column by the compiled engine, or None where it does not know these inputs."""
-    if not engine.available():
-        return None
-    arrays = {name: np.atleast_1d(values) for name, values in arrays.items()}
-    numbers = {
-        name: values.astype(float) for name, values in arrays.items() if values.dtype.kind in "iuf"
-    }
-    present = np.ones(len(loads), bool)
-    for name in ABSENT:
-        present &= numbers.get(name, np.ones(1)) != 0
-    if len(numbers) < len(arrays) or not present.all():
-        return None
+
+def _taken(arrays: Arrays, which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
+    return {name: values[which] for name, values in arrays.items()}
+
+
+def _joined(count: int, parts: list[tuple[NDArray[np.intp], Columns]]) -> Columns:
+    """Columns of all states from those of some."""
+    out: Columns = {}
+    for which, columns in parts:
+        for name, column in columns.items():
+            if name not in out:
+                kind = object if column.dtype.kind in "UO" else column.dtype
+                out[name] = np.empty(count, dtype=kind)
+            out[name][which] = column
+    return {name: out[name] for name in COLUMNS}
+
+
+def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
+    """Every column: by nodes that states share where they can, the others one by one."""
+    groups = _groups(arrays, len(loads))
+    numeric = all(values.dtype.kind in "iuf" for values in arrays.values())
+    if not (numeric and engine.available() and groups.max() + 1 >= FEWEST):
+        return _by_groups(contact, arrays, groups, load, loads)
+    numbers = {name: values.astype(float) for name, values in arrays.items()}
+    try:
+        return _by_nodes(contact, numbers, load, loads)
+    except TypeError:
+        odd = np.zeros(len(loads), bool)
+        for name, values in numbers.items():
+            if name.startswith(DEMANDING):
+                odd |= values != _own(contact, name)
     parts = []
-    own = engine.own_particles(numbers)
-    # states that need as many nodes side by side
-    order = np.argsort(engine.fineness(contact, numbers)) if own else np.arange(len(loads))
-    at_once = FEW if own else AT_ONCE
-    for start in range(0, len(loads), at_once):
-        here = order[start : start + at_once]
-        inputs = {name: values[here] for name, values in numbers.items()}
+    if len(even := np.flatnonzero(~odd)):
+        plain = {k: v[even] for k, v in numbers.items() if not k.startswith(DEMANDING)}
         try:
-            batch = engine.States(contact, inputs, len(loads[here]))
+            parts.append((even, _by_nodes(contact, plain, load, loads[even])))
         except TypeError:
-            return None
-        parts.append(batch.columns(load, loads[here]))
-        parts[-1]["status"] = np.array(FATES, dtype=object)[parts[-1]["status"]]
+            odd[:] = True
+    if len(rest := np.flatnonzero(odd)):
+        some = _taken(arrays, rest)
+        parts.append((rest, _by_groups(contact, some, groups[rest], load, loads[rest])))
+    return _joined(len(loads), parts)
+
+
+def _own(contact: Contact, name: str) -> Any:
+    """The value of an input in the contact itself."""
+    value: Any = contact
+    for part in name.split("."):
+        value = getattr(value, part, None)
+    return np.nan if value is None else value
+
+
+def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
+    """Every column by the compiled engine; TypeError where it does not know these inputs."""
+    own = not engine.bare(contact, arrays) and engine.own_particles(arrays)
+    # states that need as many nodes side by side
+    order = np.argsort(engine.fineness(arrays), kind="stable") if own else np.arange(len(loads))
+    at_once = FEW if own else AT_ONCE
+
+    def part(start: int) -> Columns:
+        here = order[start : start + at_once]
+        batch = engine.States(contact, _taken(arrays, here), len(here))
+        columns = batch.columns(load, loads[here])
+        return columns | {"status": FATES[columns["status"]]}
+
+    starts = range(0, len(loads), at_once)
+    first = part(0)  # refused, or compiled, once
+    with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
+        parts = [first, *pool.map(part, starts[1:])]
     back = np.argsort(order)
     return {name: np.concatenate([part[name] for part in parts])[back] for name in COLUMNS}
 
 
 def _by_groups(
     contact: Contact,
-    arrays: Mapping[str, NDArray[Any]],
+    arrays: Arrays,
+    groups: NDArray[np.intp],
     load: str,
     loads: NDArray[np.float64],
-) -> dict[str, NDArray[Any]]:
+) -> Columns:
     """Every column, one contact after another."""
-    columns: dict[str, NDArray[Any]] = {}
-    for which in _groups(arrays, len(loads)):
+    order = np.argsort(groups, kind="stable")
+    parts = []
+    for which in np.split(order, np.flatnonzero(np.diff(groups[order])) + 1):
         state = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RangeWarning)
             result = solve(state, **{load: loads[which]})  # type: ignore[arg-type]
-        for name, column in result.columns().items():
-            if name not in columns:
-                kind = object if column.dtype.kind in "UO" else column.dtype
-                columns[name] = np.empty(len(loads), dtype=kind)
-            columns[name][which] = column
-    return {name: columns[name] for name in COLUMNS}
+        parts.append((which, result.columns()))
+    return _joined(len(loads), parts)
 
 
-def _groups(arrays: Mapping[str, NDArray[Any]], count: int) -> list[NDArray[np.intp]]:
-    """The numbers of the states that have equal inputs."""
-    if not arrays:
-        return [np.arange(count)]
-    keys = np.stack([np.unique(values, return_inverse=True)[1] for values in arrays.values()])
-    group = np.unique(keys, axis=1, return_inverse=True)[1].ravel()
-    order = np.argsort(group, kind="stable")
-    return np.split(order, np.flatnonzero(np.diff(group[order])) + 1)
+def _groups(arrays: Arrays, count: int) -> NDArray[np.intp]:
+    """A number for each state, the same for equal inputs, from zero without a gap."""
+    group = np.zeros(count, np.intp)
+    for values in arrays.values():
+        codes = np.unique(values, return_inverse=True)[1].ravel()
+        both = group * (codes.max() + 1) + codes
+        group = np.unique(both, return_inverse=True)[1].ravel()
+    return group
 
 
 def varied(contact: Contact, changes: Mapping[str, Any]) -> Contact:
