@@ -22,10 +22,11 @@ def cite(contact: Contact) -> str:
     """
     laws: list[Law] = [contact.asperity_law]
     sources = [contact.surfaces.first.source, contact.surfaces.second.source]
-    if contact.particles is not None and not contact.two_body:
-        laws.append(contact.particle_law)
-        inner = getattr(contact.particle_law, "law", None)
+    for particles in contact.populations:
+        law = contact.law_of(particles)
+        laws.append(law)
+        inner = getattr(law, "law", None)
         laws += [inner] if inner is not None else []
-        sources.append(contact.particles.material.source)
+        sources.append(particles.material.source)
     lines = [law.citation + (f", doi:{law.doi}" if law.doi else "") for law in laws]
     return "\n".join(dict.fromkeys(lines + [text for text in sources if text]))

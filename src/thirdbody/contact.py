@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from .asperities import asperity_sum
 from .laws.asperity import ZMC, AbstractAsperityLaw
 from .laws.particle import AbstractParticleLaw, Series
+from .laws.particle.series import together_in
 from .materials import MaterialPair
 from .particles import Particles
 from .surfaces import Roughness
@@ -42,8 +43,10 @@ class Contact(Value):
         The equivalent rough surface.
     asperity_law : AbstractAsperityLaw, optional
         What one asperity does; `ZMC` by default.
-    particles : Particles, optional
-        None, or a density of zero, is two-body contact.
+    particles : Particles or tuple of Particles, optional
+        None, or a density of zero, is two-body contact. Several populations (wear debris, dust,
+        an additive) lie side by side, each with its material, sizes and, if it has one, its law;
+        dotted names number them, ``particles.0.areal_density``.
     particle_law : AbstractParticleLaw, optional
         What one particle does; `Series` on the rough seat by default.
 
@@ -60,12 +63,14 @@ class Contact(Value):
     surfaces: MaterialPair
     roughness: Roughness
     asperity_law: AbstractAsperityLaw = field(default_factory=ZMC)
-    particles: Particles | None = None
+    particles: Particles | tuple[Particles, ...] | None = None
     particle_law: AbstractParticleLaw = field(default_factory=Series)
 
     def __post_init__(self) -> None:
         if self.particle_law is None:
             object.__setattr__(self, "particle_law", Series())
+        if isinstance(self.particles, list):
+            object.__setattr__(self, "particles", tuple(self.particles))
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:
@@ -80,11 +85,50 @@ class Contact(Value):
             for name, kind in kinds.items()
             if not isinstance(getattr(self, name), kind)
         ]
-        if not isinstance(self.particles, Particles | None):
-            out.append(f"Contact.particles = {self.particles!r} must be Particles or None")
+        given = self.particles if isinstance(self.particles, tuple) else (self.particles,)
+        if not all(isinstance(each, Particles) for each in given) and given != (None,):
+            out.append(
+                f"Contact.particles = {self.particles!r} must be Particles, several, or None"
+            )
+        out = out or self._population_problems()
         if not out and self.roughness.ellipticity is not None:
             out += _shape_problems(self.asperity_law)
         return out
+
+    def _population_problems(self) -> list[str]:
+        """Mistakes that concern several populations."""
+        out = []
+        covered = sum(each.coverage for each in self.populations)
+        if covered >= 1:
+            out.append(
+                f"Contact.particles are jammed: together they would cover {covered:.3g} of the "
+                "nominal area and it must stay below 1"
+            )
+        for each in self.populations:
+            if each.law is not None and not isinstance(each.law, AbstractParticleLaw):
+                out.append(
+                    f"Particles.law = {each.law!r} must be a particle law, e.g. "
+                    "particle.Series(seat='plane')"
+                )
+        if not out and len({self.law_of(each).centre for each in self.populations}) > 1:
+            out.append(
+                "Contact.particles follow laws that count d from different planes (Horng2022 and "
+                "others); give all of them one kind of law"
+            )
+        return out
+
+    @property
+    def populations(self) -> tuple[Particles, ...]:
+        """The populations of particles that have a density."""
+        if self.particles is None:
+            return ()
+        given = self.particles if isinstance(self.particles, tuple) else (self.particles,)
+        return tuple(each for each in given if each.areal_density > 0)
+
+    def law_of(self, particles: Particles) -> AbstractParticleLaw:
+        """The law that a population follows."""
+        law = particles.law
+        return law if isinstance(law, AbstractParticleLaw) else self.particle_law
 
     @property
     def E_ss(self) -> float:
@@ -94,7 +138,7 @@ class Contact(Value):
     @property
     def two_body(self) -> bool:
         """No particles between the surfaces."""
-        return self.particles is None or self.particles.areal_density == 0
+        return not self.populations
 
     def table(
         self,
@@ -178,15 +222,18 @@ class Interface:
 
     def __init__(self, contact: Contact):
         self.contact = contact
-        datum = 0.0 if contact.two_body else contact.particle_law.centre
+        laws = [contact.law_of(each) for each in contact.populations]
         self.asperities = asperity_sum(
-            contact.asperity_law, contact.roughness, contact.surfaces, datum
+            contact.asperity_law,
+            contact.roughness,
+            contact.surfaces,
+            laws[0].centre if laws else 0.0,
         )
-        self.particles = None
-        if contact.particles is not None and not contact.two_body:
-            self.particles = contact.particle_law.response(
-                contact.surfaces, contact.roughness, contact.particles
-            )
+        self.populations = [
+            law.response(contact.surfaces, contact.roughness, each)
+            for law, each in zip(laws, contact.populations, strict=True)
+        ]
+        self.particles = together_in(self.populations) if self.populations else None
 
     @property
     def monotone(self) -> bool:

@@ -30,6 +30,7 @@ from .laws.particle.series import (
 from .laws.particle.series import Series as ParticleSeries
 from .materials import MaterialPair, reduced_modulus, softer_hardness
 from .numerics import PiecewiseChebyshev, panel_rule, subdivide
+from .particles import Particles
 from .surfaces import Roughness
 
 if TYPE_CHECKING:
@@ -292,6 +293,8 @@ class States(_Batch):
             raise TypeError("the law varies")
         varied = contact.with_arrays(arrays)
         particles = None if bare(contact, arrays) else contact.particles
+        if isinstance(particles, tuple) or (particles is not None and particles.law is not None):
+            raise TypeError("several populations")
         super().__init__(count, 0 if particles is None else len(particles.diameter.components))
         datum = 0.0 if particles is None else contact.particle_law.centre
         self._add_asperities(contact, varied, datum)
@@ -346,8 +349,8 @@ class States(_Batch):
     ) -> None:
         from . import kernels as k
 
-        law, particles, changed = varied.particle_law, contact.particles, varied.particles
-        if not isinstance(law, ParticleSeries) or particles is None or changed is None:
+        law, particles = varied.particle_law, contact.particles
+        if not (isinstance(law, ParticleSeries) and isinstance(particles, Particles)):
             raise TypeError("these particles are not for shared nodes")
         if any(name.startswith("particle_law.law") for name in arrays):
             raise TypeError("the law varies")
@@ -378,8 +381,8 @@ class States(_Batch):
 
         law: Any = varied.particle_law
         particles, changed = contact.particles, varied.particles
-        assert particles is not None
-        assert changed is not None
+        assert isinstance(particles, Particles)
+        assert isinstance(changed, Particles)
         if any(name.startswith(MATERIALS) for name in arrays):
             raise TypeError("the materials of the particles vary")
         sides = contact_sides(contact.surfaces, particles.material)
@@ -421,8 +424,8 @@ class States(_Batch):
 
         law: Any = varied.particle_law
         particles, changed = contact.particles, varied.particles
-        assert particles is not None
-        assert changed is not None
+        assert isinstance(particles, Particles)
+        assert isinstance(changed, Particles)
         count = len(self.kinds)
 
         def column(values: Any) -> Array:

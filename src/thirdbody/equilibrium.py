@@ -75,6 +75,8 @@ class Equilibrium:
     residual: Number = _column("r", "1", "relative imbalance |F_t/F − 1|")
     iterations: int | NDArray[np.int_] = _column("n", "", "evaluations of the load")
     warnings: tuple[str, ...] = ()
+    populations: tuple[PopulationShare, ...] = ()
+    """What each of several populations carries; empty for one."""
 
     @property
     def scales(self) -> dict[str, float]:
@@ -91,6 +93,21 @@ class Equilibrium:
         """Contact mode with other thresholds, by area (as in the paper) or by load."""
         share = self.particle_area_share if basis == "area" else self.particle_load_share
         return _mode(share, eps_1, eps_2)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PopulationShare:
+    """What one of several populations of particles carries: floats for one load, else arrays."""
+
+    name: str
+    F_sa_star: Number
+    """Load over A_n E_ss [1]"""
+    A_sa: Number
+    """Real area on surface 1 over A_n [1]"""
+    load_share: Number
+    """of the total load [1]"""
+    area_share: Number
+    """of the total real area [1]"""
 
 
 COLUMNS = {item.name: dict(item.metadata) for item in fields(Equilibrium) if item.metadata}
@@ -470,10 +487,38 @@ def _state(
         full, d, bound.mean_plane, rough.sigma, contact.E_ss, target=target, F_star=F_star
     )
     columns |= {"status": status.astype(str), "iterations": iterations}
+    shares = _population_shares(contact, bound, d, columns, scalar)
     if scalar:
         columns = {name: values[0].item() for name, values in columns.items()}
     notes = _warnings(contact, bound, full, d)
-    return Equilibrium(contact=contact, warnings=notes, **columns)
+    return Equilibrium(contact=contact, warnings=notes, populations=shares, **columns)
+
+
+def _population_shares(
+    contact: Contact, bound: Interface, d: Array, columns: Mapping[str, Any], scalar: bool
+) -> tuple[PopulationShare, ...]:
+    """What each of several populations carries at separations d."""
+    if len(bound.populations) < 2:
+        return ()
+    out = []
+    pairs = zip(contact.populations, bound.populations, strict=True)
+    for number, (particles, response) in enumerate(pairs):
+        part = {name: np.full(len(d), np.nan) for name in ("F_sa", "A_sa")}
+        known = np.isfinite(d)
+        fields = response.fields(d[known])
+        part["F_sa"][known] = fields["F_sa"]
+        part["A_sa"][known] = fields["A_e"] + fields["A_ep"] + fields["A_p"]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            values = {
+                "F_sa_star": part["F_sa"] / contact.E_ss,
+                "A_sa": part["A_sa"],
+                "load_share": part["F_sa"] / columns["pressure"],
+                "area_share": part["A_sa"] / columns["A_t"],
+            }
+        if scalar:
+            values = {name: value[0].item() for name, value in values.items()}
+        out.append(PopulationShare(name=particles.name or f"particles {number + 1}", **values))
+    return tuple(out)
 
 
 def as_columns(
@@ -534,17 +579,24 @@ def _warnings(
                 f"{tips.name}: at the highest load {100 * share:.0f} % of the asperities' load is "
                 f"on those {tips.beyond}"
             )
-    particles = contact.particles
-    if particles is not None and bound.particles is not None:
-        law = contact.particle_law
-        out += law.warnings(contact.surfaces, contact.roughness, particles)
-        if particles.coverage >= 0.3:
-            out.append(
-                f"particles would cover {particles.coverage:.2g} of the nominal area: above 0.3 "
-                "they touch each other"
-            )
+    if bound.particles is not None:
+        out += about_particles(contact)
         if np.any(full["shadow"] >= 1):
             out.append("particles shadow the whole area: the area correction was cut at zero")
         if not bound.monotone and np.any(d < 0):
             out.append("d < 0: the paper's particle integrals have no meaning there")
     return tuple(out)
+
+
+def about_particles(contact: Contact) -> list[str]:
+    """One sentence for each way in which the particles leave the model's validity."""
+    out = []
+    for each in contact.populations:
+        out += contact.law_of(each).warnings(contact.surfaces, contact.roughness, each)
+    covered = sum(each.coverage for each in contact.populations)
+    if covered >= 0.3:
+        out.append(
+            f"particles would cover {covered:.2g} of the nominal area: above 0.3 they touch each "
+            "other"
+        )
+    return out

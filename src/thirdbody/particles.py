@@ -24,6 +24,10 @@ class Particles(Value):
         Sizes x by number [m].
     areal_density : float
         η_a, particles per nominal area [1/m²].
+    name : str, optional
+        What results call this population, where several share one interface.
+    law : AbstractParticleLaw, optional
+        What one of these particles does; without it the particle law of the contact.
 
     Raises
     ------
@@ -45,6 +49,8 @@ class Particles(Value):
     areal_density: float = quantity(
         "η_a", "1/m^2", "particles per nominal area", ge=0, hint="1e11 / m^2 is 1e11"
     )
+    name: str = ""
+    law: Value | None = None
 
     def _problems(self) -> list[str]:
         out: list[str] = []

@@ -35,6 +35,7 @@ from matplotlib.ticker import PercentFormatter
 
 from .equilibrium import Equilibrium, solve
 from .errors import InvalidValue
+from .particles import Particles
 from .transitions import Transitions
 
 if TYPE_CHECKING:
@@ -677,8 +678,8 @@ def mode_map(
     >>> ax.get_xlabel()
     'Particle size over roughness $x_a/\\\\sigma$ [1]'
     """
-    if contact.two_body or contact.particles is None:
-        raise InvalidValue("plot.mode_map: the contact has no particles; give Contact.particles")
+    if contact.two_body or not isinstance(contact.particles, Particles):
+        raise InvalidValue("plot.mode_map needs one population of particles in Contact.particles")
     sizes = np.geomspace(0.1, 10, 200) if ratio is None else np.asarray(ratio, dtype=float)
     loads = np.geomspace(1e-7, 1e-3, 200) if F_star is None else np.asarray(F_star, dtype=float)
     for name, values in (("ratio", sizes), ("F_star", loads)):
@@ -728,7 +729,7 @@ def _solved_map(
 ) -> tuple[NDArray[np.int_], NDArray[np.float64]]:
     """Index into `MODES` (−1: none) and particle load share, both (sizes, loads)."""
     particles = contact.particles
-    assert particles is not None
+    assert isinstance(particles, Particles)
     diameter = particles.diameter
     x_a = getattr(diameter, "mean", None) or diameter.mean_diameter
     index = np.full((len(sizes), len(loads)), -1)

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from .citations import cite
 from .contact import Contact
 from .designs import DESIGNS, Span
-from .equilibrium import COLUMNS, given_load, solve
+from .equilibrium import COLUMNS, about_particles, given_load, solve
 from .errors import InvalidValue, RangeWarning
 from .reduction import Reduction
 from .states import solve_states, varied
@@ -356,7 +356,7 @@ class Plan:
             sign = -1 if self.load == "d" else 1
             if hardest is None or sign * load > hardest[0]:
                 hardest = sign * load, load, contact
-            for sentence in _about_contact(contact):
+            for sentence in about_particles(contact):
                 found.setdefault(_wording(sentence), sentence)
         if hardest is not None:
             _, load, contact = hardest
@@ -384,19 +384,6 @@ def all_notes(notes: list[str], summary: Mapping[str, Any]) -> list[str]:
         )
     if summary["shadow"] >= 1:
         out.append("particles shadow the whole area: the area correction was cut at zero")
-    return out
-
-
-def _about_contact(contact: Contact) -> list[str]:
-    particles = contact.particles
-    if particles is None or contact.two_body:
-        return []
-    out = list(contact.particle_law.warnings(contact.surfaces, contact.roughness, particles))
-    if particles.coverage >= 0.3:
-        out.append(
-            f"particles would cover {particles.coverage:.2g} of the nominal area: above 0.3 "
-            "they touch each other"
-        )
     return out
 
 

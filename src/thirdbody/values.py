@@ -137,10 +137,8 @@ class Value:
             else:
                 now[head] = value
         for head, deeper in inner.items():
-            part = now.get(head, getattr(self, head))
-            if not isinstance(part, Value):
-                raise InvalidValue(f"{type(self).__name__}.{head} has no fields of its own")
-            now[head] = part.replace(**deeper)
+            where, part = f"{type(self).__name__}.{head}", now.get(head, getattr(self, head))
+            now[head] = _replaced(where, part, deeper)
         return dataclasses.replace(self, **now)  # type: ignore[type-var]
 
     def with_arrays(self, changes: Mapping[str, NDArray[np.float64]]) -> Self:
@@ -203,6 +201,23 @@ class Value:
         if kind not in Value._classes:
             raise InvalidValue(f"type = {kind!r} is not a class of this library")
         return Value._classes[kind](**{k: _revive(v) for k, v in data.items() if k != "type"})
+
+
+def _replaced(where: str, part: Any, changes: dict[str, Any]) -> Any:
+    """A value, or a tuple of them with the number of the one before the dot, with changes."""
+    if isinstance(part, Value):
+        return part.replace(**changes)
+    if not isinstance(part, tuple):
+        raise InvalidValue(f"{where} has no fields of its own")
+    items = list(part)
+    for key, value in changes.items():
+        number, _, rest = key.partition(".")
+        if not (number.isdecimal() and int(number) < len(items) and rest):
+            raise InvalidValue(
+                f"{where} holds {len(items)} values; name one, e.g. {where}.0.areal_density"
+            )
+        items[int(number)] = _replaced(f"{where}.{number}", items[int(number)], {rest: value})
+    return tuple(items)
 
 
 def _plain(value: Any) -> Any:

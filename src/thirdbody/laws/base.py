@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
@@ -294,3 +294,21 @@ class ParticleResponse:
     def fields(self, d: Array) -> dict[str, Array]:
         """F_sa [Pa], A_e, A_ep, A_p on surface 1, A_sa2 on surface 2, and the shadow ς."""
         raise NotImplementedError
+
+
+class ParticlesTogether(ParticleResponse):
+    """Several populations side by side: loads, areas and shadows add."""
+
+    def __init__(self, responses: Sequence[ParticleResponse]):
+        self.responses = responses
+        self.reach = max(each.reach for each in responses)
+        self.monotone = all(each.monotone for each in responses)
+        self.resolution = min(each.resolution for each in responses)
+
+    def load(self, d: Array) -> tuple[Array, Array]:
+        loads, shadows = zip(*(each.load(d) for each in self.responses), strict=True)
+        return np.sum(loads, axis=0), np.sum(shadows, axis=0)
+
+    def fields(self, d: Array) -> dict[str, Array]:
+        parts = [each.fields(d) for each in self.responses]
+        return {name: np.sum([part[name] for part in parts], axis=0) for name in parts[0]}

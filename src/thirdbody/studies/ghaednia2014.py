@@ -125,7 +125,7 @@ def stacked(
     0.0087
     """
     dust = contact(size=size, spread=spread, stiffness=stiffness).particles
-    assert dust is not None
+    assert isinstance(dust, tb.Particles)
     pair = contact().surfaces
     return GhaedniaMultiscale(
         surface=Stack.self_affine(
@@ -257,7 +257,7 @@ def conductance_ratio(
     asperities = interface(bare).load(with_particles)[:, 1]
     conductance = asperities / dusty.E_ss
     if conducting:
-        assert dusty.particles is not None
+        assert isinstance(dusty.particles, tb.Particles)
         E_sa = tb.MaterialPair(dusty.surfaces.first, dusty.particles.material).E_star
         total = interface(dusty).load(with_particles)[:, 1]
         conductance = conductance + 2 * (total - asperities) / E_sa
@@ -287,7 +287,7 @@ def flattening(reading: Reading, pressure: float) -> Measurement:
     if reading.name not in LAWS:
         return Measurement.absent("the particles lie on a part of the surface only")
     dusty = contact(reading.name)
-    assert dusty.particles is not None
+    assert isinstance(dusty.particles, tb.Particles)
     return Measurement.of(tb.solve(dusty, pressure=pressure).A_sa / dusty.particles.coverage)
 
 

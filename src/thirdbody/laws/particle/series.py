@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -19,7 +19,13 @@ from ...materials import reduced_modulus
 from ...numerics import PiecewiseChebyshev, panel_rule, subdivide
 from ...values import choice, quantity
 from ..asperity.hermite import Hermite
-from ..base import REGIMES, AbstractAsperityLaw, AbstractParticleLaw, ParticleResponse
+from ..base import (
+    REGIMES,
+    AbstractAsperityLaw,
+    AbstractParticleLaw,
+    ParticleResponse,
+    ParticlesTogether,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -33,7 +39,7 @@ if TYPE_CHECKING:
     Index = NDArray[np.intp]
     Body = tuple[float, float, float]
 
-__all__ = ["Series", "SqueezedParticle"]
+__all__ = ["Series", "SqueezedParticle", "together_in"]
 
 COLUMNS = ("force", "elastic", "elastoplastic", "plastic", "second", "footprint", "projected")
 """What one particle contributes: load, area on surface 1 by regime, area on surface 2, larger of
@@ -766,3 +772,17 @@ class SeatedParticles(ParticleResponse):
             "A_sa2": total[:, 4],
             "shadow": self._shadow(total[:, self._shadow_column][:, None])[:, 0],
         }
+
+
+def together_in(responses: Sequence[ParticleResponse]) -> ParticleResponse:
+    """Populations side by side, as one sum where their shadows follow one rule."""
+    if len(responses) == 1:
+        return responses[0]
+    seated = [each for each in responses if isinstance(each, SeatedParticles)]
+    if len(seated) < len(responses) or len({each.shadow for each in seated}) > 1:
+        return ParticlesTogether(responses)
+    return SeatedParticles(
+        [part for each in seated for part in each.parts],
+        seated[0].shadow,
+        sum(each.coverage for each in seated),
+    )
