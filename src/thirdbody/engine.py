@@ -311,7 +311,11 @@ class States(_Batch):
         centre, sigma_s = self.values[:, CENTRE], self.values[:, SIGMA_S]
         E, rough = self.varied.E_ss, self.varied.roughness
         target = None if load == "d" else loads * E if load == "F_star" else loads
-        given = (loads - centre) / sigma_s if target is None else None
+        given = None
+        if target is None:
+            given = (loads - centre) / sigma_s
+            if given.min() < -GaussianSum.DEEPEST:
+                raise TypeError("nodes do not reach so deep")
         h, iterations, fate, raw = self.solve(np.arange(len(loads)), target, given)
         h[fate != 0] = np.nan
         for values in raw.values():

@@ -196,6 +196,10 @@ def _asperity_nodes(rules, begin, end, w, h, fields, out):
 def _asperities(m, kinds, values, series, rules, h, fields, out):
     """Load [Pa] with two derivatives in h, or with ``fields`` load and areas by regime."""
     kind, begin, end = kinds[m, KIND], kinds[m, BEGIN], kinds[m, END]
+    if h > values[m, HIGHEST]:
+        for k in range(4):
+            out[k] = 0.0
+        return
     if kind == BY_NODES:
         w = values[m, W]
         # beyond, the exponent has dropped by 36
