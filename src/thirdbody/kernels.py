@@ -15,7 +15,7 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-__all__ = ["FIELDS", "scan_loads", "solve_states"]
+__all__ = ["FIELDS", "evaluate", "scan_loads", "solve_states"]
 
 SUM = {"nnan", "ninf", "nsz", "arcp", "contract", "reassoc"}
 """Sums may be reordered into vectors; inputs are finite."""
@@ -452,6 +452,15 @@ def _root(m, kinds, values, series, rules, target, h, total, out, each):
             return h, n, TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
         last = size
     return h, MOST, OK
+
+
+@njit(nogil=True, cache=True)
+def evaluate(series, x, out):
+    """The first row of a Chebyshev series at every x, into ``out``."""
+    row = np.empty(1)
+    for i in range(len(x)):
+        _series(series, 0, len(series), x[i], LOAD, 1, row)
+        out[i] = row[0]
 
 
 @njit(nogil=True, cache=True)

@@ -38,6 +38,25 @@ SEAT_WIDTHS = 1.25
 """Widest panel in widths of the seat."""
 
 
+class _Function:
+    """A piecewise Chebyshev function of one column, evaluated by the compiled engine."""
+
+    def __init__(self, function: PiecewiseChebyshev):
+        from ...kernels import LOAD, PANEL, TERMS
+
+        self.series = np.zeros((len(function.half), PANEL + 1, TERMS))
+        self.series[:, LOAD] = function.coefficients[:, :, 0]
+        self.series[:, PANEL, 0] = function.edges[:-1]
+        self.series[:, PANEL, 1] = function.half
+
+    def __call__(self, x: Array) -> Array:
+        from ...kernels import evaluate
+
+        out = np.empty_like(x)
+        evaluate(self.series, x, out)
+        return out
+
+
 class InverseLaw:
     """Reduced indentation y of a law from its load f(y), and from its mean pressure f/a.
 
@@ -60,15 +79,18 @@ class InverseLaw:
         """y at the ends of the panels that resolve y of f."""
         self._check(np.array(points))
         if self.first < self.last:
-            self._force = PiecewiseChebyshev(
+            log_y = PiecewiseChebyshev(
                 lambda f: np.log(self._solve("force", np.exp(f)))[:, None],
                 np.log(law.reduced("force", np.array(points))),
             )
-            self.bends = np.exp(self._force(self._force.edges[1:-1])[:, 0])
+            self.bends = np.exp(log_y(log_y.edges[1:-1])[:, 0])
+            self._force = _Function(log_y)
             # near the last breakpoint the pressure may approach its limit like a square
             rise = np.sqrt(self.pressures[1] - self._pressure_at(np.array(points)))[::-1]
-            self._rise = PiecewiseChebyshev(
-                lambda r: self._solve("pressure", self.pressures[1] - r * r)[:, None], rise
+            self._rise = _Function(
+                PiecewiseChebyshev(
+                    lambda r: self._solve("pressure", self.pressures[1] - r * r)[:, None], rise
+                )
             )
 
     def _pressure_at(self, y: Array) -> Array:
@@ -104,14 +126,14 @@ class InverseLaw:
 
     def of_force(self, f: Array) -> Array:
         """y at which the law carries f."""
-        y = self.first * (f / self.forces[0]) ** (2 / 3)
         if self.elastic:
-            return y
-        beyond = f >= self.forces[1]
-        y[beyond] = self.last * f[beyond] / self.forces[1]
-        between = (f > self.forces[0]) & ~beyond
+            return self.first * (f / self.forces[0]) ** (2 / 3)
+        y = f * (self.last / self.forces[1])
+        below = f <= self.forces[0]
+        y[below] = self.first * (f[below] / self.forces[0]) ** (2 / 3)
+        between = ~below & (f < self.forces[1])
         if np.any(between):
-            y[between] = np.exp(self._force(np.log(f[between]))[:, 0])
+            y[between] = np.exp(self._force(np.log(f[between])))
         return y
 
     def of_pressure(self, p: Array) -> Array:
@@ -120,7 +142,7 @@ class InverseLaw:
         y[p >= self.pressures[1]] = self.last
         between = (p > self.pressures[0]) & (p < self.pressures[1])
         if np.any(between):
-            y[between] = self._rise(np.sqrt(self.pressures[1] - p[between]))[:, 0]
+            y[between] = self._rise(np.sqrt(self.pressures[1] - p[between]))
         return y
 
     def on(self, side: Side, f: Array) -> Array:
