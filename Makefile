@@ -2,7 +2,7 @@
 #
 #   make demo     solve an example, redraw the figures of the paper, say where they are
 #   make test     all tests
-#   make bench    speed
+#   make bench    speed, into benchmarks/results.md
 #   make format   tidy the code
 #   make clean    remove what these commands made
 #
@@ -47,8 +47,9 @@ demo: $(VENV)/installed
 test: $(VENV)/installed-test
 	$(RUN)/python -m pytest -q -n $(WORKERS) --dist worksteal --durations 10
 
-bench: $(VENV)/installed
+bench: $(VENV)/installed-test
 	$(RUN)/python benchmarks/run.py
+	$(RUN)/python benchmarks/sweep.py
 
 format: $(VENV)/installed-test
 	$(RUN)/ruff check --fix .

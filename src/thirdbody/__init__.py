@@ -6,7 +6,8 @@ integrates laws over populations, and `solve` finds the separation that balances
 
 from typing import TYPE_CHECKING, Any
 
-from . import asperity, particle
+from . import asperity, particle, surfaces
+from .assess import Assessment, assess
 from .citations import cite
 from .compare import compare
 from .contact import Contact
@@ -16,6 +17,7 @@ from .distributions import (
     LogNormal,
     Mixture,
     Monodisperse,
+    PowerLaw,
     TruncatedGaussian,
     Uniform,
     Weibull,
@@ -34,17 +36,21 @@ from .heights import (
 from .materials import Material, MaterialPair, materials
 from .particles import Particles
 from .sensitivities import Sensitivity, sensitivity
+from .spectral import SpectralMoments
 from .states import solve_states
 from .surfaces import Roughness
 from .sweep import sweep
+from .topography import Topography
 from .transitions import Critical, Transitions, TurningPoint, transitions
+from .uncertainty import Propagation, Uncertain, critical_loads, propagate
 
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from . import fractal, interaction, plot, reference, rough_body, waviness
+    from . import fractal, interaction, plot, reference, rough_body, synthetic, waviness
 
 __all__ = [
+    "Assessment",
     "Contact",
     "Critical",
     "Distribution",
@@ -65,24 +71,32 @@ __all__ = [
     "NoEquilibrium",
     "NoTransition",
     "Particles",
+    "PowerLaw",
+    "Propagation",
     "RangeWarning",
     "Roughness",
     "Sensitivity",
+    "SpectralMoments",
     "ThirdBodyError",
+    "Topography",
     "Transitions",
     "TruncatedGaussian",
     "TurningPoint",
+    "Uncertain",
     "Uniform",
     "Weibull",
     "WeibullHeights",
     "asperity",
+    "assess",
     "cite",
     "compare",
+    "critical_loads",
     "fractal",
     "interaction",
     "materials",
     "particle",
     "plot",
+    "propagate",
     "pull_off",
     "reference",
     "roots",
@@ -90,14 +104,18 @@ __all__ = [
     "sensitivity",
     "solve",
     "solve_states",
+    "surfaces",
     "sweep",
+    "synthetic",
     "transitions",
     "waviness",
 ]
 
 
 # imported when first used, to keep the start quick
-_LATER = frozenset({"fractal", "interaction", "plot", "reference", "rough_body", "waviness"})
+_LATER = frozenset(
+    {"fractal", "interaction", "plot", "reference", "rough_body", "synthetic", "waviness"}
+)
 
 
 def __getattr__(name: str) -> Any:

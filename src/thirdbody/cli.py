@@ -10,6 +10,7 @@ import csv
 import dataclasses
 import io
 import json
+import math
 import os
 import sys
 import warnings
@@ -377,6 +378,43 @@ def sweep(
         raise NoEquilibrium("no state of the sweep has an equilibrium; check the unit of the load")
 
 
+# -------------------------------------------------------------------------- assess
+@app.command()
+def assess(
+    study: Annotated[
+        Path,
+        typer.Argument(metavar="STUDY.toml", help="A study file with a table [uncertainty]."),
+    ],
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object and nothing else.")
+    ] = False,
+    html_file: Annotated[
+        Path | None,
+        typer.Option("--html", metavar="FILE", help="Write the page with figures, one file."),
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="As in solve; may be repeated."),
+    ] = None,
+) -> None:
+    """One page: the mode at the operating load, how sure it is, and what would change it."""
+    from .assess import assess_study
+    from .files import write_text
+    from .study import load_study
+
+    asked = load_study(study, settings or ())
+    for sentence in asked.notes:
+        _one_line(sentence)
+    answer = assess_study(asked)
+    if html_file is not None:
+        write_text(html_file, answer.html())
+        print(f"written: {html_file}", file=sys.stderr)
+    if as_json:
+        print(json.dumps(answer.to_dict(), indent=1, allow_nan=False))
+    else:
+        _console().print(answer.page())
+
+
 # -------------------------------------------------------------------------- compare
 @app.command()
 def compare(
@@ -575,6 +613,193 @@ def table(
     )
 
 
+# -------------------------------------------------------------------------- surface
+@app.command()
+def surface(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help='A measured surface or profile, or "example".')
+    ],
+    cutoff: Annotated[
+        str | None,
+        typer.Option("--cutoff", metavar="LENGTH", help='E.g. "2 um"; 0 as sampled.'),
+    ] = None,
+    detrend: Annotated[
+        str | None,
+        typer.Option("--detrend", help="Form to remove: none, tilt (default) or curvature."),
+    ] = None,
+    unit: Annotated[
+        str | None, typer.Option("--unit", help="Of a file that tells none, e.g. um.")
+    ] = None,
+    spacing: Annotated[
+        str | None,
+        typer.Option("--spacing", metavar="LENGTH[,LENGTH]", help="Of a file that tells none."),
+    ] = None,
+    channel: Annotated[
+        str | None, typer.Option("--channel", help="Number or name of a channel of the file.")
+    ] = None,
+    resolution: Annotated[
+        str | None,
+        typer.Option(
+            "--resolution", metavar="LENGTH", help="Shortest wave the instrument tells apart."
+        ),
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object and nothing else.")
+    ] = False,
+    csv_file: Annotated[
+        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per cut-off.")
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Folder for surface.png, .svg and .json."),
+    ] = None,
+) -> None:
+    """Moments and asperities of a measured surface, and what they owe to the cut-off."""
+    from .topography import from_topography
+    from .units import to_si
+
+    problems: list[str] = []
+
+    def metres(option: str, text: str) -> float:
+        try:
+            return to_si(text, "m")
+        except InvalidValue as error:
+            problems.extend(f"{option}: {sentence}" for sentence in error.problems)
+            return 1.0
+
+    given: dict[str, Any] = {"detrend": detrend, "unit": unit, "channel": channel}
+    for name, text in (("cutoff", cutoff), ("resolution", resolution)):
+        given[name] = None if text is None else metres(f"--{name}", text)
+    if spacing is not None:
+        given["spacing"] = tuple(metres("--spacing", part) for part in spacing.split(","))
+    if out is not None and out.exists() and not out.is_dir():
+        problems.append(f"--out {out} must be a folder, and a file of that name exists")
+    if problems:
+        raise InvalidValue(*problems)
+    found = from_topography(file, **given)
+    result = found.to_dict()
+    for sentence in found.warnings:
+        _one_line(sentence)
+    written = []
+    if csv_file is not None:
+        _write_curve(csv_file, result)
+        written.append(csv_file)
+    if out is not None:
+        written += _write_surface(out, found, result)
+    if as_json:
+        print(json.dumps(_finite(result), indent=1, allow_nan=False))
+    else:
+        _show_surface(found, result)
+    for path in written:
+        print(f"written: {path}", file=sys.stderr)
+
+
+def _finite(value: Any) -> Any:
+    """Plain data with None for numbers that are not finite."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _write_curve(path: Path, result: dict[str, Any]) -> None:
+    from .files import write_text
+
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    units, curve = result["units"], _finite(result["curve"])
+    writer.writerow(f"{name} [{units[name]}]" if units[name] else name for name in curve)
+    writer.writerows(zip(*curve.values(), strict=True))
+    write_text(path, text.getvalue())
+
+
+def _write_surface(folder: Path, found: Any, result: dict[str, Any]) -> list[Path]:
+    import matplotlib as mpl
+
+    from .files import whole, write_text
+    from .plot import surface as draw
+
+    folder.mkdir(parents=True, exist_ok=True)
+    out = [folder / f"surface.{suffix}" for suffix in ("png", "svg", "json")]
+    drawing = draw(found)
+    with whole(out[0]) as png, whole(out[1]) as svg:
+        drawing.savefig(png, dpi=200)
+        with mpl.rc_context({"svg.hashsalt": "thirdbody"}):
+            drawing.savefig(svg, metadata={"Date": None})
+        write_text(out[2], json.dumps(_finite(result), indent=1, allow_nan=False) + "\n")
+    return out
+
+
+def _show_surface(found: Any, result: dict[str, Any]) -> None:
+    """What was read, the answer at the cut-off used, and its course with the cut-off."""
+    console = _console()
+    points = " x ".join(map(str, result["points"]))
+    sides = " x ".join(map(_length, result["size"]))
+    kind = "map" if found.dim == 2 else "profile"
+    console.print(f"{found.source}: {kind} of {points} points, {sides}")
+    sampled, used = result["as_sampled"], result["cutoff"]
+    console.print(
+        f"as sampled: RMS height {_length(sampled['rms_height'])}, RMS "
+        f"{'gradient' if found.dim == 2 else 'slope'} {_number(sampled['rms_slope'])}, RMS "
+        f"curvature {_number(sampled['rms_curvature'])} 1/m"
+    )
+    limit = "" if used["instrument_limit"] is None else _length(used["instrument_limit"]) + ", "
+    console.print(f"limit of the instrument: {limit}{used['instrument_limit_reason']}")
+    console.print(f"recommended cut-off: {_length(used['recommended'])}: {used['reason']}")
+    console.print()
+    at = "as sampled" if used["used"] == 0 else f"at {_length(used['used'])}"
+    columns = ("sigma", "R", "eta [1/m^2]", "eta R sigma", "alpha", "sigma_s", "y_s")
+    answer = _table((at, *columns), right=True)
+    answer.columns[0].justify = "left"
+    spectral = found.moments_at(method="spectrum")
+    for label, one in (("differences", found.moments), ("spectrum", spectral)):
+        answer.add_row(
+            label,
+            _length(one.sigma),
+            _length(one.R),
+            _number(one.eta),
+            _number(one.eta * one.R * one.sigma),
+            _number(one.alpha),
+            _length(one.sigma_s),
+            _length(one.y_s),
+        )
+    if found.dim == 2 and found.summits.count > 1:
+        counted = found.summits
+        answer.add_row(
+            f"{counted.count} summits",
+            _length(found.moments.sigma),
+            _length(counted.R),
+            _number(counted.density),
+            _number(counted.density * counted.R * found.moments.sigma),
+            "-",
+            _length(counted.sigma_s),
+            _length(counted.y_s),
+        )
+    console.print(answer)
+    curve = _finite(result["curve"])
+    heads = ("cut-off", "sigma", "gradient", "alpha", "R", "R counted", "eta", "eta counted")
+    course = _table((*heads, "R per octave"), right=True)
+    change = found.curve().per_octave("R")
+    for i, cut in enumerate(curve["cutoff"]):
+        course.add_row(
+            _length(cut),
+            _length(curve["sigma"][i]),
+            _number(curve["rms_gradient"][i]),
+            _number(curve["alpha"][i]),
+            _length(curve["R"][i]),
+            _length(curve["R_counted"][i]),
+            _number(curve["eta"][i]),
+            _number(curve["eta_counted"][i]),
+            f"{100 * change[i]:+.0f} %",
+        )
+    console.print(course)
+    console.print(
+        f"skewness {result['skewness']:.3g}, kurtosis {result['kurtosis']:.3g}, mean square slopes "
+        f"{_number(result['anisotropy'])} : 1 along and across"
+    )
+
+
 # -------------------------------------------------------------------------- reproduce
 @app.command()
 def reproduce(
@@ -725,30 +950,86 @@ def _about_option(item: dataclasses.Field, default: Any) -> dict[str, Any]:
 
 @app.command("materials")
 def list_materials(
+    query: Annotated[
+        list[str] | None,
+        typer.Argument(help="Words of name, kind or description.", show_default=False),
+    ] = None,
+    own: Annotated[
+        list[Path] | None,
+        typer.Option("--file", help="A TOML file of your own materials.", show_default=False),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    as_table: Annotated[
+        bool, typer.Option("--markdown", help="Print the tables of the page docs/materials.md.")
+    ] = False,
 ) -> None:
-    """The materials of the library, with source and range."""
+    """The materials of the library, with range and source: thirdbody materials bearing steel."""
     from .materials import materials
 
-    entries = materials.entries()
+    if as_json and as_table:
+        raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")
+    library = materials.load(*own) if own else materials
+    asked = " ".join(query or [])
+    every = library.entries()
+    entries = {name: every[name] for name in library.search(asked)}
     if as_json:
         print(json.dumps(entries, indent=1, allow_nan=False))
         return
-    table = _table(("name", "E", "nu", "H", "what", "source"))
+    if not entries:
+        kinds = dict.fromkeys(entry.get("kind", "") for entry in every.values())
+        raise InvalidValue(
+            f"no material has {asked!r} in its name or description; "
+            f"there are kinds {', '.join(filter(None, kinds))}"
+        )
+    if as_table:
+        print(_materials_in_markdown(entries))
+        return
+    table = _table(("name", "what", "E", "nu", "H", "standing", "source"))
     for name, entry in entries.items():
         doi = f", doi:{entry['doi']}" if entry.get("doi") else ""
         table.add_row(
             name,
-            _pressure(entry["E"]) + _spread(entry, "E", 1e9),
-            f"{entry['nu']:g}" + _spread(entry, "nu", 1.0),
-            _pressure(entry["H"]) + _spread(entry, "H", 1e9),
             entry.get("about", ""),
+            _in_range(entry, "E", 1e9, " GPa"),
+            _in_range(entry, "nu", 1.0, ""),
+            _in_range(entry, "H", 1e9, " GPa"),
+            entry.get("standing", ""),
             entry["source"] + doi,
         )
     _console().print(table)
 
 
-def _spread(entry: dict[str, Any], key: str, scale: float) -> str:
-    """The range met between sources, where the library states one."""
-    ends = entry.get("range", {}).get(key)
-    return f" ({ends[0] / scale:g} to {ends[1] / scale:g})" if ends else ""
+def _in_range(entry: dict[str, Any], key: str, scale: float, unit: str) -> str:
+    """A value and, where sources differ, the range between them."""
+    if key not in entry:
+        return "-"
+    low, high = entry.get("range", {}).get(key, (entry[key], entry[key]))
+    spread = f" ({low / scale:.5g} to {high / scale:.5g})" if low < high else ""
+    return f"{entry[key] / scale:.5g}{unit}{spread}"
+
+
+def _materials_in_markdown(entries: dict[str, dict[str, Any]]) -> str:
+    """Two tables: the numbers, and where each comes from."""
+    numbers = {
+        "E": ("E [GPa]", 1e9),
+        "nu": ("ν", 1.0),
+        "H": ("H [GPa]", 1e9),
+        "density": ("ρ [kg/m³]", 1.0),
+        "thermal_conductivity": ("κ [W/(m K)]", 1.0),
+        "specific_heat": ("c_p [J/(kg K)]", 1.0),
+        "resistivity": ("ρ_e [nΩ m]", 1e-9),
+    }
+    lines = [
+        "| name | what | " + " | ".join(title for title, _ in numbers.values()) + " |",
+        "| --- " * (2 + len(numbers)) + "|",
+    ]
+    for name, entry in entries.items():
+        cells = (_in_range(entry, key, scale, "") for key, (_, scale) in numbers.items())
+        lines.append(f"| `{name}` | {entry.get('about', '')} | {' | '.join(cells)} |")
+    lines += ["", "| name | standing | source | numbers from elsewhere |", "| --- " * 4 + "|"]
+    for name, entry in entries.items():
+        doi = entry.get("doi")
+        source = entry["source"] + (f", [{doi}](https://doi.org/{doi})" if doi else "")
+        elsewhere = "; ".join(f"**{key}** {told}" for key, told in entry.get("sources", {}).items())
+        lines.append(f"| `{name}` | {entry.get('standing', '')} | {source} | {elsewhere} |")
+    return "\n".join(lines)

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -31,7 +31,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import PercentFormatter
+from matplotlib.ticker import (
+    EngFormatter,
+    FuncFormatter,
+    LogLocator,
+    NullFormatter,
+    PercentFormatter,
+)
 
 from .equilibrium import Equilibrium, solve
 from .errors import InvalidValue
@@ -43,16 +49,21 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from .contact import Contact
+    from .topography import Topography
+    from .uncertainty import Propagation
 
 __all__ = [
     "MODE_COLOURS",
     "OKABE_ITO",
     "area",
+    "bands",
     "mode_map",
     "modes",
     "regimes",
     "separation",
     "shares",
+    "surface",
+    "tornado",
 ]
 
 OKABE_ITO = {
@@ -679,7 +690,9 @@ def mode_map(
     'Particle size over roughness $x_a/\\\\sigma$ [1]'
     """
     if contact.two_body or not isinstance(contact.particles, Particles):
-        raise InvalidValue("plot.mode_map needs one population of particles in Contact.particles")
+        raise InvalidValue(
+            "plot.mode_map: the contact has no particles, or several kinds; give one kind"
+        )
     sizes = np.geomspace(0.1, 10, 200) if ratio is None else np.asarray(ratio, dtype=float)
     loads = np.geomspace(1e-7, 1e-3, 200) if F_star is None else np.asarray(F_star, dtype=float)
     for name, values in (("ratio", sizes), ("F_star", loads)):
@@ -758,3 +771,432 @@ def _middle(
     depth = np.asarray(distance_transform_edt(padded))[1:-1, 1:-1]
     i, j = np.unravel_index(np.argmax(depth), depth.shape)
     return float(sizes[i]), float(loads[j])
+
+
+# ------------------------------------------------------------------ uncertain inputs
+def bands(
+    data: Propagation,
+    of: str = "particle_load_share",
+    ax: Axes | None = None,
+    *,
+    mark: float | None = None,
+) -> Axes:
+    """Bands of one result over the load: half and nine tenths of the samples, and the median.
+
+    Parameters
+    ----------
+    data : Propagation
+        From `propagate` with several loads.
+    of : str, optional
+        Which output.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; a new figure when left out.
+    mark : float, optional
+        A load to mark.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Notes
+    -----
+    The bands lie between the outermost quantiles of the data, and between those next to them. The
+    dashed line is the contact with its own inputs.
+
+    Examples
+    --------
+    >>> import numpy as np, thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> found = tb.propagate(contact, {"roughness.sigma": (80e-9, 120e-9)}, samples=64,
+    ...                      pressure=np.geomspace(1e6, 1e7, 5), outputs=["A_t"])
+    >>> bands(found, "A_t").get_xscale()
+    'log'
+    """
+    if of not in data.bands:
+        raise InvalidValue(
+            f"plot.bands: {of!r} has no band in the data; it holds {', '.join(data.bands)}"
+        )
+    if np.ndim(data.bands[of]) != 2:
+        raise InvalidValue(
+            f"plot.bands: {of!r} has one band, not one for each load; propagate with several loads"
+        )
+    ax = _axes(ax)
+    x, band = np.asarray(data.loads), np.asarray(data.bands[of])
+    order = np.argsort(data.probabilities)
+    pairs = len(order) // 2
+    for k in range(pairs):
+        low, high = order[k], order[-1 - k]
+        part = data.probabilities[high] - data.probabilities[low]
+        ax.fill_between(
+            x,
+            band[:, low],
+            band[:, high],
+            color=_tint(OKABE_ITO["blue"], 0.22 + 0.33 * k / max(pairs - 1, 1)),
+            linewidth=0,
+            label=f"{100 * part:.3g} % of cases",
+        )
+    if len(order) % 2:
+        middle = order[pairs]
+        name = "median" if data.probabilities[middle] == 0.5 else "middle"
+        ax.plot(x, band[:, middle], color=OKABE_ITO["blue"], linewidth=1.6, label=name)
+    ax.plot(x, data.nominal[of], color="black", linewidth=1.1, linestyle="--", label="nominal")
+    share = of.endswith("_share")
+    _dress(ax, data.load, of, xlog=data.load != "d", ylog=not share and bool(np.all(band > 0)))
+    if share:
+        _share_axis(ax)
+    if of not in AXIS_LABELS:
+        ax.set_ylabel(_output_label(of))
+    ax.set_xlim(x.min(), x.max())
+    if mark is not None:
+        ax.axvline(mark, color="0.25", linewidth=1.0, linestyle=":", label="this load")
+    ax.legend(fontsize="small", frameon=False)
+    return ax
+
+
+def tornado(
+    data: Propagation,
+    of: str,
+    ax: Axes | None = None,
+    *,
+    at: int = 0,
+    values: Mapping[str, tuple[float, float]] | None = None,
+) -> Axes:
+    """What each input does alone to one result, from its 5th to its 95th percentile.
+
+    Parameters
+    ----------
+    data : Propagation
+        From `propagate`.
+    of : str
+        Which output. A logarithmic axis where it changes more than threefold.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; a new figure when left out.
+    at : int, optional
+        Number of the load, where several were given.
+    values : mapping, optional
+        ``data.tornado(of)[of]``, where it is at hand.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        One bar an input, the strongest on top: the part towards the low end of the input is
+        blue, towards the high end orange and hatched. The ends of the input stand beside.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> found = tb.propagate(contact, {"roughness.R": (2e-6, 3e-6)}, pressure=1e7,
+    ...                      samples=64, outputs=["A_t"])
+    >>> [text.get_text() for text in tornado(found, "A_t").get_yticklabels()]
+    ['$R$']
+    """
+    if of not in data.nominal:
+        raise InvalidValue(
+            f"plot.tornado: {of!r} is not in the data; it holds {', '.join(data.nominal)}"
+        )
+    rows = data.tornado(of, at=at)[of] if values is None else dict(values)
+    middle = float(np.atleast_1d(data.nominal[of])[at if np.ndim(data.nominal[of]) else 0])
+    ends = np.array([*rows.values(), (middle, middle)], dtype=float)
+    known = ends[np.isfinite(ends)]
+    if not np.isfinite(middle):
+        raise InvalidValue(f"plot.tornado: {of!r} does not exist for the contact itself")
+    log = bool(known.min() > 0 and known.max() > 3 * known.min())
+    ax = _axes(ax, (5.4, 1.3 + 0.36 * len(rows)))
+    styles = (
+        ("low end of the input", _tint(OKABE_ITO["blue"], 0.8), ""),
+        ("high end of the input", _tint(OKABE_ITO["orange"], 0.8), "////"),
+    )
+    for row, (label, (low, high)) in enumerate(rows.items()):
+        input_ends = [data.inputs[label].at(p) for p in (0.05, 0.95)]
+        # where both ends lie on one side, the first stands left and the second right all the same
+        sides = [-1, 1] if low < high or low == high else [1, -1]
+        each = zip((low, high), input_ends, styles, sides, strict=True)
+        for value, end, (_, colour, hatch), side in each:
+            if not np.isfinite(value):
+                continue
+            ax.barh(
+                row,
+                value - middle,
+                left=middle,
+                height=0.62,
+                color=colour,
+                edgecolor="white",
+                hatch=hatch,
+                linewidth=0.0,
+            )
+            outer = max(value, middle) if side > 0 else min(value, middle)
+            ax.annotate(
+                _engineering(end, _unit_of(data, label)),
+                (outer, row),
+                xytext=(3 * side, 0),
+                textcoords="offset points",
+                ha="left" if side > 0 else "right",
+                va="center",
+                fontsize="x-small",
+            )
+    ax.axvline(middle, color="black", linewidth=1.0)
+    _dress(ax, of, "", xlog=log)
+    ax.set_xlabel(AXIS_LABELS.get(of, _output_label(of)))
+    if of.endswith("_share"):
+        ax.xaxis.set_major_formatter(PercentFormatter(1, decimals=0, symbol=""))
+    elif of in ("d", "h"):
+        ax.xaxis.set_major_formatter(EngFormatter("m"))
+        ax.set_xlabel(ax.get_xlabel().removesuffix(" [m]"))
+    ax.set_yticks(range(len(rows)), [_input_label(label) for label in rows])
+    ax.tick_params(axis="y", length=0)
+    ax.grid(visible=False, axis="y")
+    ax.set_ylim(len(rows) - 0.4, -0.6)
+    # room for what stands beside the bars
+    first, last = known.min(), known.max()
+    if log:
+        ax.set_xlim(first * (first / last) ** ROOM, last * (last / first) ** ROOM)
+    elif last > first:
+        ax.set_xlim(first - ROOM * (last - first), last + ROOM * (last - first))
+    handles = [
+        Patch(facecolor=colour, edgecolor="white", hatch=hatch, label=name)
+        for name, colour, hatch in styles
+    ]
+    ax.legend(
+        handles=handles,
+        ncols=2,
+        fontsize="small",
+        frameon=False,
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+    )
+    return ax
+
+
+ROOM = 0.45
+"""Width beside the longest bars of a tornado, over theirs."""
+OUTPUT_LABELS = {
+    "F_cr1": r"Critical load $F^*_{cr1}$ [1]",
+    "F_cr2": r"Critical load $F^*_{cr2}$ [1]",
+    "F_tpca.A": r"Load of the largest area share $F^*_{tpca}$ [1]",
+    "F_tpca.B": r"Load of equal load shares $F^*_{tpca}$ [1]",
+    "F/F_cr1": r"Load over the first critical load $F/F_{cr1}$ [1]",
+    "F/F_cr2": r"Load over the second critical load $F/F_{cr2}$ [1]",
+    "plastic_share": r"Plastic part of the real area $A_p/A_t$ [%]",
+}
+BODIES = {
+    "surfaces.first": "surface 1",
+    "surfaces.second": "surface 2",
+    "particles.material": "particles",
+}
+
+
+def _output_label(of: str) -> str:
+    from .uncertainty import OUTPUTS
+
+    about = OUTPUTS[of]
+    meaning = about["meaning"]
+    return OUTPUT_LABELS.get(of, f"{meaning[:1].upper() + meaning[1:]} [{about['unit']}]")
+
+
+def _input_label(label: str) -> str:
+    """What an input is called beside its bar; of several that move together, of all."""
+    names = [name.strip() for name in label.split("+")]
+    sides = {name.rpartition(".")[0]: name.rpartition(".")[2] for name in names}
+    if set(sides) <= set(BODIES):
+        bodies = "both surfaces"
+        if set(sides) != {"surfaces.first", "surfaces.second"}:
+            bodies = " + ".join(BODIES[side] for side in sides)
+        letter = next(iter(sides.values()))
+        symbol = {"E": "$E$", "nu": r"$\nu$", "H": "$H$"}.get(letter, letter)
+        return f"{symbol} of {bodies}"
+    loads = {"pressure": "pressure", "F_star": "load $F^*$", "d": "separation $d$"}
+    return loads.get(label) or " + ".join(SYMBOLS.get(name, (name, ""))[0] for name in names)
+
+
+def _unit_of(data: Propagation, label: str) -> str:
+    from .sensitivities import _declared
+
+    loads = {"pressure": "Pa", "F_star": "1", "d": "m"}
+    return loads.get(label) or _declared(data.contact, label.split("+")[0].strip())["unit"]
+
+
+# ------------------------------------------------------------------ a measured surface
+def surface(topography: Topography) -> Figure:
+    """A measured surface and what its asperities owe to the cut-off, in six panels.
+
+    Parameters
+    ----------
+    topography : Topography
+        From `thirdbody.surfaces.from_topography`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Heights; power spectrum; gradient, radius and density against the cut-off, by differences,
+        by the spectrum, and counted; heights of the summits.
+
+    Examples
+    --------
+    >>> from thirdbody.surfaces import from_topography
+    >>> len(surface(from_topography("example")).axes)  # the colour bar is one
+    7
+    """
+    drawing = Figure(figsize=(10.5, 6.2), dpi=150, layout="constrained")
+    panels = drawing.subplots(2, 3)
+    _heights_panel(topography, panels[0, 0])
+    _spectrum_panel(topography, panels[0, 1])
+    _cutoff_panels(topography, [panels[0, 2], panels[1, 0], panels[1, 1]])
+    _summits_panel(topography, panels[1, 2])
+    for letter, ax in zip("abcdef", panels.flat, strict=True):
+        ax.set_title(f"({letter})", loc="left", fontsize="medium")
+    return drawing
+
+
+def _length_scale(largest: float) -> tuple[float, str]:
+    return next(
+        (size, unit)
+        for size, unit in ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"), (0.0, "nm"))
+        if largest >= 0.3 * size
+    )
+
+
+def _heights_panel(topography: Topography, ax: Axes) -> None:
+    across, unit = _length_scale(max(topography.size))
+    z = topography.heights
+    tall, unit_z = _length_scale(float(np.nanmax(np.abs(z))) or 1e-9)
+    if topography.dim == 1:
+        x = np.arange(len(z)) * topography.spacing[0]
+        ax.plot(x / across, z / tall, color=_tint(OKABE_ITO["blue"], 0.6), linewidth=0.8)
+        ax.plot(x / across, topography.filtered() / tall, color="black", linewidth=0.8)
+        _dress(ax, f"$x$ [{unit}]", f"Height $z$ [{unit_z}]", xlog=False)
+        ax.legend(["as sampled", "above the cut-off"], frameon=False, fontsize="small")
+        ax.margins(x=0, y=0.15)
+        return
+    width, height = (side / across for side in topography.size)
+    low, high = np.nanpercentile(z / tall, [0.5, 99.5])
+    image = ax.imshow(
+        z.T / tall,
+        origin="lower",
+        extent=(0, width, 0, height),
+        cmap="cividis",
+        vmin=low,
+        vmax=high,
+        interpolation="nearest",
+    )
+    assert ax.figure is not None
+    ax.figure.colorbar(image, ax=ax, label=f"Height $z$ [{unit_z}]", extend="both", shrink=0.85)
+    ax.set_facecolor(OKABE_ITO["vermilion"])
+    ax.set_xlabel(f"$x$ [{unit}]")
+    ax.set_ylabel(f"$y$ [{unit}]")
+
+
+def _mark_cutoff(topography: Topography, ax: Axes, scale: float) -> list[Any]:
+    """Grey where data do not stand for the surface; lines at the cut-off used and the limit."""
+    left, right = ax.get_xlim()
+    grey = ax.axvspan(left, topography.recommended[0] / scale, color="0.92", zorder=0)
+    grey.set_label("not recommended")
+    marks: list[Any] = [grey]
+    if topography.limit is not None:
+        colour = _tint(OKABE_ITO["purple"], 0.6)
+        line = ax.axvline(topography.limit / scale, color=colour, linewidth=3.0)
+        line.set_label("instrument's limit")
+        marks.append(line)
+    if topography.cutoff > 0:
+        line = ax.axvline(topography.cutoff / scale, color="black", linestyle="--", linewidth=1.0)
+        line.set_label("cut-off used")
+        marks.append(line)
+    ax.set_xlim(left, right)
+    return marks
+
+
+def _few_ticks(ax: Axes) -> None:
+    """Numbers inside the decades of a logarithmic axis that spans less than two."""
+    for axis, (low, high) in ((ax.xaxis, ax.get_xlim()), (ax.yaxis, ax.get_ylim())):
+        axis.set_minor_formatter(NullFormatter())
+        if high / low < 100:
+            axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 6 * low else range(1, 10)))
+            if 1e-3 <= low and high < 1e4:
+                axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+            else:
+                axis.set_major_formatter(FuncFormatter(lambda value, _: _scientific(value)))
+
+
+def _spectrum_panel(topography: Topography, ax: Axes) -> None:
+    wavelength, density = topography.psd()
+    scale, unit = _length_scale(float(wavelength[len(wavelength) // 2]))
+    seen = density > 0
+    ax.plot(wavelength[seen] / scale, density[seen], color=OKABE_ITO["blue"], linewidth=1.6)
+    power = "4" if topography.dim == 2 else "3"
+    _dress(ax, f"Wavelength [{unit}]", f"Power spectral density $C$ [m$^{power}$]", ylog=True)
+    top = float(density.max())
+    low, high = ax.get_ylim()
+    ax.set_ylim(max(low, 1e-16 * top), high)
+    marks = _mark_cutoff(topography, ax, scale)
+    ax.legend(handles=marks, frameon=False, fontsize="small", loc="lower right")
+
+
+def _cutoff_panels(topography: Topography, axes: Sequence[Axes]) -> None:
+    from .spectral import SpectralMoments
+
+    curve = topography.curve()
+    spectral = [
+        SpectralMoments(m0=m0, m2=m2, m4=m4)
+        for m0, m2, m4 in zip(
+            *(curve[f"{name}_spectrum"] for name in ("m0", "m2", "m4")), strict=True
+        )
+    ]
+    scale, unit = _length_scale(float(np.median(curve["cutoff"])))
+    R_scale, R_unit = _length_scale(float(np.median(curve["R"])))
+    labels = {
+        "rms_gradient": ("RMS gradient [1]", 1.0),
+        "R": (f"Mean asperity radius $R$ [{R_unit}]", R_scale),
+        "eta": (r"Asperity density $\eta$ [m$^{-2}$]", 1.0),
+    }
+    x = curve["cutoff"] / scale
+    for ax, (name, (label, by)) in zip(axes, labels.items(), strict=True):
+        ax.plot(x, curve[name] / by, color=OKABE_ITO["blue"], label="differences")
+        values = np.array([getattr(one, name) for one in spectral])
+        ax.plot(x, values / by, color=OKABE_ITO["vermilion"], linestyle="--", label="spectrum")
+        counted = curve.columns.get(f"{name}_counted")
+        if counted is not None and np.isfinite(counted).any():
+            ax.plot(
+                x,
+                counted / by,
+                color=OKABE_ITO["green"],
+                linestyle="none",
+                marker="o",
+                markersize=4,
+                markerfacecolor="none",
+                label="summits counted",
+            )
+        _dress(ax, rf"Cut-off wavelength $\lambda_c$ [{unit}]", label, ylog=True)
+        shown, names = ax.get_legend_handles_labels()
+        ax.legend(shown, names, frameon=False, fontsize="small")
+        _mark_cutoff(topography, ax, scale)
+        _few_ticks(ax)
+
+
+def _summits_panel(topography: Topography, ax: Axes) -> None:
+    summits, moments = topography.summits, topography.moments
+    map_ = topography.dim == 2
+    heights = summits.heights if map_ else topography.filtered()
+    heights = heights[np.isfinite(heights)]
+    scale, unit = _length_scale(float(np.max(np.abs(heights), initial=1e-9)))
+    mean, std = (moments.y_s, moments.sigma_s) if map_ else (0.0, moments.sigma)
+    what = "summits counted" if map_ else "heights of the profile"
+    law = "Nayak, Gaussian" if map_ else "Gaussian of the same RMS"
+    bins = max(8, min(40, int(1.5 * len(heights) ** 0.5)))
+    ax.hist(
+        heights / scale,
+        bins=bins,
+        density=True,
+        color=_tint(OKABE_ITO["green"], 0.4),
+        label=f"{what} ({len(heights)})",
+    )
+    low, high = min(heights.min(), mean - 3.5 * std), max(heights.max(), mean + 3.5 * std)
+    z = np.linspace(low, high, 300)
+    density = np.exp(-0.5 * ((z - mean) / std) ** 2) / (std * math.sqrt(2 * math.pi))
+    ax.plot(z / scale, density * scale, color="black", linewidth=1.2, label=law)
+    _dress(ax, f"Height above the mean plane [{unit}]", f"Density [1/{unit}]", xlog=False)
+    ax.set_ylim(0, 1.3 * ax.get_ylim()[1])
+    ax.legend(frameon=False, fontsize="small")

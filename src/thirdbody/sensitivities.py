@@ -149,7 +149,7 @@ def inputs(contact: Contact) -> dict[str, float]:
 def _numbers(value: Value, prefix: str) -> Iterator[tuple[str, float]]:
     for item in dataclasses.fields(value):  # type: ignore[arg-type]
         part = getattr(value, item.name)
-        if "quantity" in item.metadata and part is not None:
+        if "quantity" in item.metadata and item.compare and part is not None:
             yield prefix + item.name, part
         elif isinstance(part, Value):
             yield from _numbers(part, f"{prefix}{item.name}.")

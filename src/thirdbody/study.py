@@ -14,7 +14,8 @@ import os
 import re
 import tomllib
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -23,7 +24,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from pydantic import AfterValidator, ConfigDict, PlainValidator, ValidationError, create_model
 
-from . import asperity, particle
+from . import asperity, cleanliness, particle
 from .citations import cite
 from .contact import Contact
 from .distributions import (
@@ -31,6 +32,7 @@ from .distributions import (
     LogNormal,
     Mixture,
     Monodisperse,
+    PowerLaw,
     TruncatedGaussian,
     Uniform,
     Weibull,
@@ -46,12 +48,15 @@ from .heights import (
     JohnsonHeights,
     WeibullHeights,
 )
-from .materials import Material, MaterialPair, materials
+from .materials import Material, MaterialLibrary, MaterialPair, materials
 from .particles import Particles
+from .sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
 from .surfaces import Roughness
 from .sweep import DESIGNS, Plan, make_plan
+from .topography import FORMS, from_topography
 from .transitions import Critical, Transitions, TurningPoint, transitions
-from .units import EXAMPLES, say, to_si
+from .uncertainty import KINDS, Uncertain, Uncertainty
+from .units import EXAMPLES, quantity_to_si, say, to_si
 from .values import allowed_range, problem_with, quantity
 
 __all__ = ["DISTRIBUTIONS", "HEIGHTS", "LOADS", "Study", "check", "load_study", "run_study"]
@@ -62,6 +67,7 @@ DISTRIBUTIONS = {
     "weibull": Weibull,
     "uniform": Uniform,
     "histogram": Histogram,
+    "power-law": PowerLaw,
     "monodisperse": Monodisperse,
     "mixture": Mixture,
 }
@@ -86,9 +92,37 @@ LOADS = {
 }
 """The ways to give a load, as quantities."""
 
+_COUNTED = {
+    "iso4406": ("level", "smallest", "largest"),
+    "as4059": ("smallest", "largest"),
+    "nas1638": ("smallest", "largest"),
+    "test_dust": ("limit", "smallest"),
+    "sizes": ("weighting", "fit", "smallest"),
+}
+"""Keys of [particles] that stand in the place of a distribution, and their options."""
+_AMOUNT = {
+    name: declared.metadata["quantity"]
+    for name, declared in {
+        "gap": quantity("h_gap", "m", "height of the fluid whose particles are trapped", gt=0),
+        "film": quantity("h_gap", "m", "film thickness, another word for gap", gt=0),
+        "particle_density": quantity("ρ_p", "kg/m^3", "density of the particles", gt=0),
+        "oil_density": quantity("ρ_f", "kg/m^3", "density of the fluid", gt=0),
+        "smallest": quantity("x_min", "m", "smallest diameter", gt=0),
+        "largest": quantity("x_max", "m", "largest diameter", gt=0),
+    }.items()
+}
+"""The numbers that lead from a count or a concentration to an areal density."""
+
 _ONE_OF = {"load": tuple(LOADS), "sweep": tuple(LOADS), "roughness": ("eta", "eta_R_sigma")}
 """Keys of a table of which only one can be given."""
-_UNITS_OF_LISTS = {"edges": "m", "counts": "1", "weights": "1", "ratios": "1", "radii": "1"}
+_UNITS_OF_LISTS = {
+    "edges": "m",
+    "counts": "1",
+    "slopes": "1",
+    "weights": "1",
+    "ratios": "1",
+    "radii": "1",
+}
 _MOST_POINTS = 1_000_000
 _ALSO_CALLED = {
     "normal": ("truncated-gaussian", "gaussian"),
@@ -119,6 +153,8 @@ class Study:
         What is allowed but looks like a slip, one sentence each.
     sweep : Plan, optional
         The states of the table [sweep].
+    uncertainty : Uncertainty, optional
+        What the table [uncertainty] says of the inputs.
     """
 
     title: str
@@ -127,6 +163,7 @@ class Study:
     values: np.ndarray
     notes: tuple[str, ...] = ()
     sweep: Plan | None = None
+    uncertainty: Uncertainty | None = None
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -174,12 +211,12 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
     >>> study.contact.roughness.sigma, study.values.tolist()
     (2e-07, [5000000.0])
     """
-    return check(_override(_read(Path(path)), list(overrides)))
+    return check(_override(_read(Path(path)), list(overrides)), folder=Path(path).parent)
 
 
-def check(data: dict[str, Any]) -> Study:
-    """The study that a parsed file describes; raises as `load_study`."""
-    return _Reader().study(data)
+def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
+    """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
+    return _Reader(folder).study(data)
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -288,7 +325,10 @@ class _Key(NamedTuple):
 class _Reader:
     """Puts together the pydantic model that fits one file, and tells its mistakes."""
 
-    def __init__(self) -> None:
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.library: MaterialLibrary | None = materials
+        """The materials that the file can name; None when they cannot be read."""
         self.problems: list[str] = []
         self.notes: list[str] = []
         self.keys: dict[str, dict[str, str]] = {}
@@ -299,10 +339,14 @@ class _Reader:
     # ------------------------------------------------------------------ the whole file
     def study(self, data: dict[str, Any]) -> Study:
         data = _with_nested_names(data)
+        self.library = self.own_materials(data.get("materials"))
         part = {key: data.get(key) for key in ("surfaces", "roughness", "particles", "load")}
         loads_of_sweep = [name for name in LOADS if _get(data.get("sweep"), name) is not None]
         keys = {
             "title": _Key(self.text("title"), False, "a line of text"),
+            "materials": _Key(
+                self.text("materials"), False, 'a file of your own materials, "mine.toml"'
+            ),
             "surfaces": _Key(
                 self.surfaces("surfaces", part["surfaces"]),
                 True,
@@ -326,6 +370,9 @@ class _Reader:
                 'a table [load] with one of F_star, pressure, separation, e.g. pressure = "5 MPa"',
             ),
             "sweep": _Key(self.sweep("sweep", data.get("sweep"), data), False, ""),
+            "uncertainty": _Key(
+                self.uncertainty("uncertainty", data.get("uncertainty"), data), False, ""
+            ),
         }
         model = self.table("", keys, self.build)
         try:
@@ -337,7 +384,9 @@ class _Reader:
     def build(self, values: dict[str, Any]) -> Study:
         if self.problems:
             raise InvalidValue(*self.problems)
+        values.pop("materials", None)
         asked = values.pop("sweep", None)
+        uncertain = values.pop("uncertainty", None)
         load, loads = values.pop("load", None) or self.ends(asked)
         title = values.pop("title", "")
         if "particles" not in values and values.pop("particle_law", None) is not None:
@@ -351,6 +400,7 @@ class _Reader:
             values=loads,
             notes=tuple(dict.fromkeys(self.notes)),
             sweep=plan,
+            uncertainty=uncertain,
         )
 
     # ------------------------------------------------------------------ tables
@@ -364,10 +414,9 @@ class _Reader:
         return self.table(path, keys, lambda values: self.make(MaterialPair, path, values))
 
     def roughness(self, path: str, data: Any) -> Any:
-        keys = self.keys_of(Roughness, path, data)
         if isinstance(data, dict) and "topography" in data:
-            keys = {name: key._replace(required=False) for name, key in keys.items()}
-            keys["topography"] = _Key(self.refused(f"{path}.topography"), False, "")
+            return self.topography(path, data)
+        keys = self.keys_of(Roughness, path, data)
         spare = self.only_one(path, data)
         shape = _get(data, "ellipticity")
         two_faces = _get(shape, "R_first") is not None and _get(shape, "R_second") is not None
@@ -387,6 +436,88 @@ class _Reader:
             return self.make(Roughness, path, kept)
 
         return self.table(path, keys, build)
+
+    def topography(self, path: str, data: dict[str, Any]) -> Any:
+        """A measured surface instead of σ, R and η; two files are the two faces."""
+        keys = {
+            name: _Key(_plain(self.measured_too(f"{path}.{name}")), False, "")
+            for name in self.keys_of(Roughness, path, {})
+        }
+        measured = data.get("heights") == "measured"
+        heights = _plain(str) if measured else self.heights(f"{path}.heights", data.get("heights"))
+        cutoff = quantity("λ_c", "m", "cut-off wavelength", ge=0).metadata["quantity"]
+        spacing = quantity("Δ", "m", "distance of neighbouring points", gt=0).metadata["quantity"]
+        lengths = self.amounts(f"{path}.spacing", spacing, data.get("spacing"))
+        keys |= {
+            "topography": _Key(_plain(self.files(f"{path}.topography")), True, "a file"),
+            "cutoff": _Key(
+                _plain(self.number(f"{path}.cutoff", cutoff)), False, _about("cutoff", cutoff)
+            ),
+            "detrend": _Key(_plain(self.word(f"{path}.detrend", FORMS)), False, "form to remove"),
+            "heights": _Key(heights, False, "distribution of asperity heights, or measured"),
+            "unit": _Key(self.text(f"{path}.unit"), False, "unit of a file that tells none"),
+            "spacing": _Key(lengths, False, _about("spacing", spacing)),
+            "channel": _Key(self.text(f"{path}.channel"), False, "name of a channel of the file"),
+        }
+
+        def build(values: dict[str, Any]) -> Roughness:
+            files, heights = values.pop("topography"), values.pop("heights", None)
+            if "spacing" in values:
+                values["spacing"] = tuple(values["spacing"])
+            if len(files) == 2 and isinstance(heights, str):
+                raise InvalidValue(
+                    f'{path}.heights = "measured" goes with one file: summits of two faces do not '
+                    "add, only their moments do"
+                )
+            try:
+                faces = [from_topography(file, **values) for file in files]
+                cutoff = max(face.cutoff for face in faces)
+                if len(faces) == 2 and min(face.cutoff for face in faces) < cutoff:
+                    faces = [from_topography(f, **values | {"cutoff": cutoff}) for f in files]
+                for face in faces:
+                    self.notes += [f"{path}.topography: {text}" for text in face.warnings]
+                if len(faces) == 1:
+                    return faces[0].roughness(heights=heights)
+                return (faces[0].moments + faces[1].moments).roughness(heights=heights)
+            except InvalidValue as error:
+                raise InvalidValue(
+                    *(
+                        f"{path}.{text}"
+                        if re.match(r"(cutoff|detrend|unit|spacing|channel)\b", text)
+                        else f"{path}.topography: {text}"
+                        for text in error.problems
+                    )
+                ) from None
+
+        return self.table(path, keys, build)
+
+    def files(self, path: str) -> Callable[[Any], list[Path]]:
+        """One file or two, beside the study file or in the working folder."""
+
+        def read(value: Any) -> list[Path]:
+            names = value if isinstance(value, list) else [value]
+            if not (1 <= len(names) <= 2 and all(isinstance(name, str) for name in names)):
+                raise InvalidValue(
+                    f"{path} = {say(value)} must be the name of a file in quotes, or a list of two "
+                    "for the two faces"
+                )
+            beside = [self.folder / name for name in names]
+            return [
+                near
+                if near.exists() or (not Path(name).exists() and name != "example")
+                else Path(name)
+                for near, name in zip(beside, names, strict=True)
+            ]
+
+        return read
+
+    def measured_too(self, path: str) -> Callable[[Any], Any]:
+        def refuse(value: Any) -> None:
+            raise InvalidValue(
+                f"{path} = {say(value)} is told by the topography as well; remove one of the two"
+            )
+
+        return refuse
 
     def ellipticity(self, path: str, data: Any) -> Any:
         """Classes of ratios, or two faces at an angle."""
@@ -490,34 +621,199 @@ class _Reader:
             return self.table(path, keys, lambda values: self.make(Material, path, values))
 
         def from_library(value: Any) -> Material:
-            if isinstance(value, str) and value in materials:
-                return materials[value]
-            near = _near(str(value), materials)
+            known = self.library
+            if known is None:
+                return materials["S45C"]  # no name can be judged, and the study is refused anyway
+            if isinstance(value, str) and value in known:
+                return known[value]
+            near = known.near(str(value))
+            some = ", ".join(list(known)[:3])
             raise InvalidValue(
                 f"{path} = {say(value)} is not a material of the library "
-                f"({', '.join(materials)})"
+                f"({some} and {len(known) - 3} more: thirdbody materials)"
                 + (f"; did you mean {say(near)}?" if near else "")
                 + '; another material is written { E = "205 GPa", nu = 0.29, H = "5 GPa" }'
             )
 
         return _plain(from_library)
 
+    def own_materials(self, given: Any) -> MaterialLibrary | None:
+        """The library with the materials of the file that the study names."""
+        if not isinstance(given, str):
+            return materials
+        try:
+            return materials.load(self.folder / given)
+        except InvalidValue as error:
+            self.problems += [f"materials = {say(given)}: {problem}" for problem in error.problems]
+            return None
+
     def particles(self, path: str, data: Any) -> Any:
         own = self.keys_of(Particles, path, data)
-        material = own["material"]
-        own["material"] = material._replace(
+        own["material"] = own["material"]._replace(
             about='what the particles are made of, e.g. material = "SiO2"'
         )
-        names = {item.name for item in dataclasses.fields(Particles)}
+        own["areal_density"] = own["areal_density"]._replace(
+            about=f'{own["areal_density"].about}, or concentration = "0.1 wt%" with gap = "1 um"'
+        )
+        given = [key for key in ("distribution", *_COUNTED) if _get(data, key) is not None]
+        kind = given[0] if given else "distribution"
+        wrong = self.amount(path, data, kind, own)
+        if len(given) > 1:
+            shown = ", ".join(f"{path}.{key} = {say(data[key])}" for key in given)
+            wrong.append(f"{shown}: each of these gives the sizes; keep one of them")
+        self.problems += wrong
+        own |= {key: _Key(Any, False, "") for key in _COUNTED}
+        if kind != "distribution":
+            return self.counted(path, data, kind, own, wrong)
 
         def build(values: dict[str, Any]) -> Particles:
-            sizes = {key: value for key, value in values.items() if key not in names}
-            mine = {key: value for key, value in values.items() if key in names}
-            kind = DISTRIBUTIONS[sizes.pop("distribution")]
-            mine["diameter"] = self.make(kind, path, sizes)
-            return self.make(Particles, path, mine)
+            if wrong:
+                raise InvalidValue(*wrong)
+            mine = {key: values.pop(key) for key in own if key in values}
+            diameter = self.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
+            return self.laden(path, mine, diameter)
 
         return self.variant(path, data, "distribution", DISTRIBUTIONS, build, own)
+
+    def amount(self, path: str, data: Any, kind: str, own: dict[str, _Key]) -> list[str]:
+        """Adds the keys that lead to an areal density; what is wrong with those of the file."""
+        coded = kind in ("iso4406", "as4059", "nas1638")
+        names = ["gap", "film"]
+        if not coded:
+            names += ["oil_density"] if kind == "test_dust" else ["oil_density", "particle_density"]
+            reader = _plain(self.concentration(f"{path}.concentration"))
+            own["concentration"] = _Key(reader, False, 'e.g. "0.1 wt%"')
+        for name in names:
+            reader = _plain(self.number(f"{path}.{name}", _AMOUNT[name]))
+            own[name] = _Key(reader, False, _about(name, _AMOUNT[name]))
+        given = data if isinstance(data, dict) else {}
+        by_volume = coded or given.get("concentration") is not None
+        if by_volume:
+            own["areal_density"] = own["areal_density"]._replace(required=False)
+
+        def shown(*keys: str) -> list[str]:
+            return [f"{path}.{key} = {say(given[key])}" for key in keys if key in given]
+
+        wrong = []
+        for pair in ((kind if coded else "concentration", "areal_density"), ("gap", "film")):
+            if len(both := shown(*pair)) > 1:
+                wrong.append(f"{', '.join(both)}: only one of these can be given; remove the other")
+        if by_volume and not shown("gap", "film"):
+            wrong.append(
+                f"{path}.gap is missing: the height of the fluid whose particles are trapped, e.g. "
+                f'gap = "1 um"; {kind if coded else "concentration"} counts them per volume'
+            )
+        if not by_volume and (idle := shown(*names)):
+            wrong.append(f"{idle[0]} has no effect without {path}.concentration")
+        return wrong
+
+    def counted(
+        self, path: str, data: Any, kind: str, own: dict[str, _Key], wrong: list[str]
+    ) -> Any:
+        """Particles from a code, a test dust or a measured histogram."""
+        keys = dict(own)
+        words = {
+            "level": cleanliness.LEVELS,
+            "limit": cleanliness.LIMITS,
+            "weighting": tuple(WEIGHTINGS),
+            "fit": tuple(FITS),
+        }
+        for name in _COUNTED[kind]:
+            where = f"{path}.{name}"
+            if name in words:
+                keys[name] = _Key(_plain(self.word(where, words[name])), False, "")
+            else:
+                about = _AMOUNT[name]
+                keys[name] = _Key(_plain(self.number(where, about)), False, _about(name, about))
+        keys[kind] = _Key(_plain(self.count_of(path, data, kind)), True, "")
+
+        def build(values: dict[str, Any]) -> Particles:
+            if wrong:
+                raise InvalidValue(*wrong)
+            found = values.pop(kind)
+            options = {name: values.pop(name) for name in _COUNTED[kind] if name in values}
+            with self.told(path):
+                if kind == "sizes":
+                    smallest = options.get("smallest")
+                    source = found.fit(options["fit"]) if "fit" in options else found
+                    return self.laden(path, values, source.by_number(smallest))
+                gap = values.pop("gap", values.pop("film", None))
+                if kind == "iso4406":
+                    return Particles.from_iso4406(found, gap=gap, **options, **values)
+                if kind == "test_dust":
+                    if given := values.pop("concentration", None):
+                        values |= {"concentration": given.amount, "by": given.by, "gap": gap}
+                    return Particles.test_dust(found, **options, **values)
+                return Particles.from_cleanliness_class(kind, found, gap=gap, **options, **values)
+
+        return self.table(path, keys, build)
+
+    def count_of(self, path: str, data: Any, kind: str) -> Callable[[Any], Any]:
+        """Reads the key that says what was counted."""
+        where = f"{path}.{kind}"
+
+        def measured(value: Any) -> MeasuredSizes:
+            if not isinstance(value, str):
+                raise InvalidValue(f'{say(value)} must be the name of a file, e.g. "sizes.csv"')
+            given = _get(data, "weighting")
+            known = isinstance(given, str) and given in WEIGHTINGS
+            beside = self.folder / value
+            file = beside if beside.exists() else Path(value)
+            return read_sizes(file, weighting=given if known else "number")
+
+        def read(value: Any) -> Any:
+            try:
+                if kind == "sizes":
+                    return measured(value)
+                if kind == "iso4406":
+                    cleanliness.read_iso4406(value)
+                elif kind == "test_dust":
+                    dust = cleanliness.dust_table(value)
+                    if not dust["verified"]:
+                        self.notes.append(
+                            f"{where} = {say(value)}: its table is that of {dust['edition']} and "
+                            "was not compared with a printed copy; compare it with the "
+                            "certificate of the dust"
+                        )
+                else:
+                    cleanliness.suspension_of_class(kind, value)
+            except InvalidValue as error:
+                raise InvalidValue(f"{where}: {error}") from None
+            return value
+
+        return read
+
+    def concentration(self, path: str) -> Callable[[Any], cleanliness.Concentration]:
+        def read(value: Any) -> cleanliness.Concentration:
+            try:
+                return cleanliness.concentration(value)
+            except InvalidValue as error:
+                raise InvalidValue(f"{path} = {error}") from None
+
+        return read
+
+    def laden(self, path: str, values: dict[str, Any], diameter: Any) -> Particles:
+        """Particles with these sizes, and the density or the concentration of the file."""
+        if "concentration" not in values:
+            return self.make(Particles, path, values | {"diameter": diameter})
+        found = values.pop("concentration")
+        gap = values.pop("gap", values.pop("film", None))
+        with self.told(path):
+            return Particles.from_concentration(
+                found.amount, by=found.by, gap=gap, diameter=diameter, **values
+            )
+
+    @contextmanager
+    def told(self, path: str) -> Iterator[None]:
+        """Complaints about particles, with the name of their table."""
+        try:
+            yield
+        except InvalidValue as error:
+            told = (text.removeprefix("Particles.") for text in error.problems)
+            keyed = re.compile(r"[a-z_]+ (=|is missing)")
+            raise InvalidValue(
+                *(f"{path}{'.' if keyed.match(text) else ': '}{text}" for text in told)
+            ) from None
 
     def sizes(self, path: str, data: Any) -> Any:
         def build(values: dict[str, Any]) -> Any:
@@ -579,17 +875,7 @@ class _Reader:
 
     def variables(self, path: str, data: Any, whole: dict[str, Any], sampled: bool) -> Any:
         """The inputs that may vary, in tables like those of the file."""
-        sizes = DISTRIBUTIONS.get(str(_get(whole.get("particles"), "distribution")))
-        kinds: dict[str, list[type | None]] = {
-            "surfaces.first": [Material],
-            "surfaces.second": [Material],
-            "roughness": [Roughness],
-            "asperity_law": [_law(whole, "asperity_law", asperity.REGISTRY, "zmc")],
-        }
-        if "particles" in whole:
-            kinds["particles"] = [Particles, sizes]
-            kinds["particles.material"] = [Material]
-            kinds["particle_law"] = [_law(whole, "particle_law", particle.REGISTRY, "series")]
+        kinds = self.kinds(whole)
 
         def table(prefix: str, tree: Any) -> Any:
             where = f"{path}.{prefix}" if prefix else path
@@ -611,6 +897,22 @@ class _Reader:
             return self.table(where, keys, lambda values: values)
 
         return table("", _get(data, "vary"))
+
+    @staticmethod
+    def kinds(whole: dict[str, Any]) -> dict[str, list[type | None]]:
+        """The classes whose fields each table of the file holds."""
+        sizes = DISTRIBUTIONS.get(str(_get(whole.get("particles"), "distribution")))
+        kinds: dict[str, list[type | None]] = {
+            "surfaces.first": [Material],
+            "surfaces.second": [Material],
+            "roughness": [Roughness],
+            "asperity_law": [_law(whole, "asperity_law", asperity.REGISTRY, "zmc")],
+        }
+        if "particles" in whole:
+            kinds["particles"] = [Particles, sizes]
+            kinds["particles.material"] = [Material]
+            kinds["particle_law"] = [_law(whole, "particle_law", particle.REGISTRY, "series")]
+        return kinds
 
     def reductions(self, path: str, data: Any) -> Any:
         def share(value: Any) -> list[float]:
@@ -635,6 +937,115 @@ class _Reader:
             "mean": _Key(self.switch(f"{path}.mean"), False, ""),
         }
         return self.table(path, keys, lambda values: values)
+
+    # ------------------------------------------------------------------ uncertainty
+    def uncertainty(self, path: str, data: Any, whole: dict[str, Any]) -> Any:
+        """What is known of the inputs, by names like those of the file."""
+        kinds = self.kinds(whole)
+
+        def read(given: Any) -> dict[str, Uncertain]:
+            if not isinstance(given, dict) or not given:
+                raise InvalidValue(
+                    f"{path}.inputs = {say(given)} must be a table of inputs, e.g. "
+                    '{ "roughness.sigma" = { low = "80 nm", high = "120 nm" } }'
+                )
+            out: dict[str, Uncertain] = {}
+            problems: list[str] = []
+            for label, entry in _ranges(given).items():
+                where = f"{path}.inputs.{say(label)}"
+                try:
+                    names, about = zip(
+                        *(
+                            self.uncertain_name(where, name, kinds, whole)
+                            for name in label.split("+")
+                        ),
+                        strict=True,
+                    )
+                    out["+".join(names)] = self.uncertain(where, about[0], entry)
+                except InvalidValue as error:
+                    problems += error.problems
+            if problems:
+                raise InvalidValue(*problems)
+            return out
+
+        keys = {
+            "samples": _Key(_plain(self.count(f"{path}.samples", least=64, most=2**24)), False, ""),
+            "seed": _Key(_plain(self.count(f"{path}.seed", least=0, most=2**63)), False, ""),
+            "inputs": _Key(
+                _plain(read),
+                True,
+                "what is known of each input, e.g. "
+                '"roughness.sigma" = { low = "80 nm", high = "120 nm" }',
+            ),
+        }
+        return self.table(path, keys, lambda values: Uncertainty(**values))
+
+    def uncertain_name(
+        self,
+        where: str,
+        name: str,
+        kinds: Mapping[str, list[type | None]],
+        whole: dict[str, Any],
+    ) -> tuple[str, dict[str, Any]]:
+        """Dotted name of the field and what it is, for an input as the file calls it."""
+        table, _, last = name.strip().rpartition(".")
+        if table == "load" and last in LOADS:
+            if _get(whole.get("load"), last) is None:
+                raise InvalidValue(f"{where}: {name} is not the load that [load] gives")
+            return {"separation": "d"}.get(last, last), LOADS[last]
+        known: dict[str, tuple[str, dict[str, Any]]] = {}
+        for path, some in kinds.items():
+            for kind in filter(None, some):
+                inner = path
+                if path == "particles" and kind is not Particles:
+                    inner = "particles.diameter"
+                for item in dataclasses.fields(kind):
+                    if meta := item.metadata.get("quantity"):
+                        known[f"{path}.{item.name}"] = f"{inner}.{item.name}", meta
+        known |= {inner: (inner, meta) for inner, meta in known.values()}
+        if name.strip() in known:
+            return known[name.strip()]
+        if table == "particles" and "particles" not in whole:
+            raise InvalidValue(f"{where}: there is no [particles] table, so {name} is no input")
+        near = _near(name.strip(), known)
+        raise InvalidValue(
+            f"{where}: {name.strip()} is not a number of this study"
+            + (f"; did you mean {near}?" if near else f"; it has {', '.join(known)}")
+        )
+
+    def uncertain(self, where: str, about: dict[str, Any], entry: Any) -> Uncertain:
+        """One distribution: which it is follows from its keys."""
+        ways = (
+            '{ low, high }, with spacing = "log" for a range of decades, '
+            "{ mean, std } or { median, gsd }"
+        )
+        if not isinstance(entry, dict):
+            raise InvalidValue(f"{where} = {say(entry)} must be one of {ways}")
+        spacing = entry.get("spacing", "linear")
+        given = {key: value for key, value in entry.items() if key != "spacing"}
+        fits = [kind for kind, names in KINDS.items() if set(names) == set(given)]
+        if not fits or ("spacing" in entry and "low" not in given):
+            raise InvalidValue(f"{where} = {say(entry)} must be one of {ways}")
+        kind = fits[0]
+        if "spacing" in entry:
+            self.word(f"{where}.spacing", ("linear", "log"))(spacing)
+            kind = "log-uniform" if spacing == "log" else kind
+        # of a spread only the sign is known: the range is that of the input
+        spread = about | {"gt": 0, "ge": None, "lt": None, "le": None, "hint": ""}
+        numbers: list[float] = []
+        problems: list[str] = []
+        for name in KINDS[kind]:
+            meant = {"std": spread, "gsd": spread | {"unit": "1"}}.get(name, about)
+            try:
+                numbers.append(self.number(f"{where}.{name}", meant)(given[name]))
+            except InvalidValue as error:
+                problems += error.problems
+        if problems:
+            raise InvalidValue(*problems)
+        try:
+            return Uncertain(kind, *numbers)
+        except InvalidValue as error:
+            raise InvalidValue(*(f"{where}: {text}" for text in error.problems)) from None
 
     def words(self, path: str, options: Iterable[str] | None) -> Any:
         """One word or a list of words."""
@@ -766,7 +1177,7 @@ class _Reader:
     def number(self, path: str, about: dict[str, Any]) -> Callable[[Any], float]:
         def read(value: Any) -> float:
             try:
-                number = to_si(value, about["unit"])
+                number = quantity_to_si(value, about)
             except InvalidValue as error:
                 elsewhere = "; a load in Pa goes under the key pressure"
                 cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
@@ -867,16 +1278,6 @@ class _Reader:
             raise InvalidValue(
                 f"{path} = {say(value)} must be a list of size distributions, e.g. "
                 '[{ distribution = "monodisperse", mean = "100 nm" }, ...]'
-            )
-
-        return _plain(refuse)
-
-    def refused(self, path: str) -> Any:
-        def refuse(value: Any) -> None:
-            raise InvalidValue(
-                f"{path} = {say(value)} is not supported by this version; give the RMS height "
-                "sigma and the mean asperity radius R of the measured surface instead, and its "
-                "bandwidth alpha and asperity density eta where they are known"
             )
 
         return _plain(refuse)
@@ -1100,6 +1501,16 @@ def _with_nested_names(data: dict[str, Any]) -> dict[str, Any]:
         else:
             table[last] = value
     return data | {"sweep": data["sweep"] | {"vary": tree}}
+
+
+def _ranges(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
+    """Names of uncertain inputs, in quotes or as tables, and what is said of each."""
+    out: dict[str, Any] = {}
+    for name, value in tree.items():
+        where = f"{path}.{name}" if path else name
+        inner = isinstance(value, dict) and any(isinstance(part, dict) for part in value.values())
+        out |= _ranges(value, where) if inner else {where: value}
+    return out
 
 
 def _span(values: Any) -> bool:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 from .ellipticity import Ellipticity
 from .heights import GaussianHeights, Heights
 from .values import Value, quantity
 
-__all__ = ["ETA_R_SIGMA", "Roughness"]
+if TYPE_CHECKING:
+    from .topography import from_topography
+
+__all__ = ["ETA_R_SIGMA", "Roughness", "from_topography"]
 
 ETA_R_SIGMA = 0.0455
 """ηRσ of an isotropic Gaussian surface with bandwidth α = 5 (McCool 1986, rounded as in use)."""
@@ -93,3 +97,12 @@ class Roughness(Value):
     def y_s(self) -> float:
         """Height of the mean asperity plane above the mean surface plane y_s [m]."""
         return 4 * self.sigma / (math.pi * self.alpha) ** 0.5
+
+
+def __getattr__(name: str) -> Any:
+    # measured surfaces stand on Roughness, so they come after it
+    if name == "from_topography":
+        from .topography import from_topography
+
+        return from_topography
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

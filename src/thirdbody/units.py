@@ -9,19 +9,24 @@ from __future__ import annotations
 import difflib
 import math
 import re
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import cache
 from typing import Any, NoReturn
 
 from .errors import InvalidValue
 
-__all__ = ["EXAMPLES", "say", "to_si"]
+__all__ = ["EXAMPLES", "quantity_to_si", "say", "to_si"]
 
 EXAMPLES = {
     "m": '"300 nm"',
     "Pa": '"5 GPa"',
     "1/m^2": '"1e11 / m^2"',
     "J/m^2": '"50 mJ/m^2"',
+    "kg/m^3": '"7800 kg/m^3"',
+    "W/m/K": '"46 W/m/K"',
+    "J/kg/K": '"460 J/kg/K"',
+    "ohm*m": '"2e-7 ohm*m"',
     "1": "0.5",
 }
 """How a value in each of the library's units may be written."""
@@ -45,6 +50,9 @@ _KINDS = {
     "s": "a time",
     "m/s": "a speed",
     "K": "a temperature",
+    "W/m/K": "a thermal conductivity",
+    "J/kg/K": "a specific heat",
+    "ohm*m": "an electrical resistivity",
     "J": "an energy",
     "rad/s": "a rate",
     "Pa*s": "a viscosity",
@@ -58,6 +66,10 @@ _NUMBER = re.compile(
 _FACTOR = re.compile(
     r"\s*(?P<sign>[*/·×]?)\s*(?P<name>[^\W\d_]+|%|1)(?:(?:\s*(?:\^|\*\*)\s*)?(?P<power>-?\d\d?))?"
 )
+_HARDNESS = re.compile(
+    r"(?P<number>[^\s\d]*[\d.,]+(?:[eE][+-]?\d+)?)\s*(?P<scale>H(?:V|BW?|BS|RC|K))(?:\s*[\d.]+)?"
+)
+"""A hardness number, as "700 HV", "700 HV10", "62 HRC"; the test load behind it is not used."""
 _SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
@@ -108,6 +120,46 @@ def to_si(value: Any, unit: str) -> float:
     if not rest:
         return float(number.group())
     return _scaled(number.group(), _normal(rest, shown, unit), shown, unit)
+
+
+def quantity_to_si(value: Any, about: Mapping[str, Any]) -> float:
+    """One number in SI for a quantity; a hardness may be a number on a hardness scale.
+
+    Parameters
+    ----------
+    value : float or str
+        As for `to_si`; where a hardness [Pa] is needed also "700 HV", "62 HRC", "200 HB",
+        "870 HK": the mean pressure on the projected area (`thirdbody.hardness.pressure`).
+    about : mapping
+        What `thirdbody.values.quantity` says of the quantity: its unit and meaning.
+
+    Returns
+    -------
+    float
+        The value in SI.
+
+    Raises
+    ------
+    InvalidValue
+        One sentence that begins with the value.
+
+    Examples
+    --------
+    >>> H = {"unit": "Pa", "meaning": "hardness"}
+    >>> quantity_to_si("5 GPa", H), round(quantity_to_si("62 HRC", H) / 1e9, 2)
+    (5000000000.0, 7.89)
+    """
+    wanted = about["unit"] == "Pa" and about["meaning"].startswith("hardness")
+    match = _HARDNESS.fullmatch(value.strip()) if wanted and isinstance(value, str) else None
+    if match is None:
+        return to_si(value, about["unit"])
+    from .hardness import pressure
+
+    try:
+        return pressure(to_si(match["number"], "1"), match["scale"])
+    except InvalidValue as error:
+        told = str(error)
+        return _refuse(told if told.startswith('"') else f"{say(value)} cannot be used: {told}")
 
 
 def _refuse(sentence: str) -> NoReturn:

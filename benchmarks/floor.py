@@ -1,0 +1,67 @@
+"""What the exponentials of a state cost: no quadrature over these nodes can be quicker.
+
+python benchmarks/floor.py
+"""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from thirdbody import engine, kernels
+
+Array = NDArray[np.float64]
+
+
+@njit(fastmath=kernels.SUM, nogil=True)
+def _total(x: Array) -> float:
+    total = 0.0
+    for i in range(len(x)):
+        total += kernels.exp(x[i])
+    return total
+
+
+def nanoseconds() -> float:
+    """Processor time of one `kernels.exp` in a loop of vectors over the first cache, best of 30."""
+    x = np.random.default_rng(0).uniform(-40, 0, 1_000)
+    _total(x)
+    best = math.inf
+    for _ in range(30):
+        start = time.process_time_ns()
+        for _ in range(2_000):
+            _total(x)
+        best = min(best, time.process_time_ns() - start)
+    return best / 2_000 / len(x)
+
+
+def exponentials(states: engine.States, h: Array) -> Array:
+    """Exponentials of one evaluation of the load at separations h [σ_s]: (N,).
+
+    Nodes within reach, as `kernels` chooses them, and the factor exp(−h²/2).
+    """
+    k, kinds, values = kernels, states.kinds, states.values
+    nodes = states.rules[k.AT]
+    count = np.ones(len(h))
+    for m in range(len(h)):
+        below = (math.sqrt(h[m] * h[m] + 72.0) - h[m]) / values[m, k.W]
+        count[m] += np.searchsorted(nodes[kinds[m, k.BEGIN] : kinds[m, k.END]], below)
+        d = values[m, k.CENTRE] + values[m, k.SIGMA_S] * h[m]
+        for p in range((kinds.shape[1] - k.PARTS) // k.PART_KINDS):
+            i, v = k.PARTS + p * k.PART_KINDS, k.VALUES + p * k.PART_VALUES
+            if kinds[m, i] != k.ROUGH_NODES:
+                continue
+            gap = (d + values[m, v + k.OFFSET]) / values[m, v + k.SIZE]
+            reach = k.SEAT_REACH * values[m, v + k.WIDTH]
+            gaps = nodes[kinds[m, i + 1] : kinds[m, i + 2]]
+            for size in nodes[kinds[m, i + 3] : kinds[m, i + 4]]:
+                low, high = np.searchsorted(gaps, [(gap - reach) / size, (gap + reach) / size])
+                count[m] += high - low
+    return count
+
+
+if __name__ == "__main__":
+    print(f"{nanoseconds():.2f} ns an exponential")
