@@ -68,6 +68,11 @@ def threads() -> int:
     return len(usable(0)) if usable else os.cpu_count() or 1
 
 
+def pulls(law: AbstractAsperityLaw) -> bool:
+    """Whether the load may be tension, which the compiled balance does not know."""
+    return law.start < 0 or law.onset < 0
+
+
 class _Panels:
     """Piecewise Chebyshev functions one after another in the kernel's layout, each kept once."""
 
@@ -228,7 +233,7 @@ class Interfaces(_Batch):
     def _add_asperities(self, m: int, asperities: Any) -> None:
         from . import kernels as k
 
-        if not isinstance(asperities, AsperitySum) or asperities.reduced.start < 0:
+        if not isinstance(asperities, AsperitySum) or pulls(asperities.reduced.law):
             raise TypeError("these asperities are not for the compiled engine")
         reduced = asperities.reduced
         table = reduced.table  # type: ignore[attr-defined]
@@ -332,7 +337,7 @@ class States(_Batch):
 
         rough, surfaces = varied.roughness, varied.surfaces
         law = _common_law(contact.asperity_law, rough, surfaces)
-        if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity or law.start < 0:
+        if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity or pulls(law):
             raise TypeError("these asperities are not for shared nodes")
         w, units = scales(law, rough, surfaces)
         octaves = np.broadcast_to(np.frexp(w)[1] - 1, len(self.kinds))

@@ -61,6 +61,8 @@ LOWEST, START, MOST = -3.0, 1.0, 100
 """Lowest separation searched [σ_s], the first guess, and the most evaluations of the load."""
 ROUNDING = 1e-16
 """Error [σ_s] that a third-order step may leave behind."""
+RESIDUAL = 2e-13
+"""Imbalance of the load above which a solved state is polished."""
 
 
 @intrinsic
@@ -266,9 +268,12 @@ def _rough_nodes(kinds, values, m, i, v, rules, gap, shadow, fields, out, each):
         out[k] = 0.0
     for n in range(kinds[m, i + 3], kinds[m, i + 4]):
         size, weight = rules[AT, n], rules[0, n]
-        reach = SEAT_REACH * width
-        begin = _below(rules, kinds[m, i + 1], kinds[m, i + 2], (gap - reach) / size)
-        end = _below(rules, begin, kinds[m, i + 2], (gap + reach) / size)
+        begin, end = kinds[m, i + 1], kinds[m, i + 2]
+        # far above the last node its neighbours count as deep as the exponent drops by 36
+        above = max(gap - size * rules[AT, end - 1], 0.0)
+        reach = math.sqrt(above * above + 72.0 * width * width)
+        begin = _below(rules, begin, end, (gap - max(reach, SEAT_REACH * width)) / size)
+        end = _below(rules, begin, end, (gap + SEAT_REACH * width) / size)
         _seat_nodes(rules, begin, end, gap, width, size, shadow, fields, each)
         z = (size * values[m, v + BOTTOM] - gap) / width
         if z > -SEAT_REACH:
@@ -454,6 +459,23 @@ def _root(m, kinds, values, series, rules, target, h, total, out, each):
     return h, MOST, OK
 
 
+@njit(fastmath=EXACT)
+def _columns(m, kinds, values, series, rules, h, total, out, each, row):
+    """The columns `FIELDS` at a separation."""
+    _asperities(m, kinds, values, series, rules, h, True, out)
+    for k in range(4):
+        row[k] = out[k]
+    for k in range(4, 10):
+        row[k] = 0.0
+    if kinds.shape[1] > PARTS:
+        d = values[m, CENTRE] + values[m, SIGMA_S] * h
+        _particles(m, kinds, values, series, rules, d, True, total, out, each)
+        for k in range(5):
+            row[4 + k] = total[k]
+        shadow = kinds[m, SHADOW]
+        row[9] = values[m, COVERAGE] if shadow < 0 else total[shadow]
+
+
 @njit(nogil=True, cache=True)
 def evaluate(series, x, out):
     """The first row of a Chebyshev series at every x, into ``out``."""
@@ -489,15 +511,13 @@ def solve_states(kinds, values, series, rules, scan, which, target, h, given, co
             h[i], count[i], fate[i] = _root(
                 m, kinds, values, series, rules, target[i], guess, total, out, each
             )
-        _asperities(m, kinds, values, series, rules, h[i], True, out)
-        for k in range(4):
-            rows[i, k] = out[k]
-        for k in range(4, 10):
-            rows[i, k] = 0.0
-        if kinds.shape[1] > PARTS:
-            d = values[m, CENTRE] + values[m, SIGMA_S] * h[i]
-            _particles(m, kinds, values, series, rules, d, True, total, out, each)
-            for k in range(5):
-                rows[i, 4 + k] = total[k]
-            shadow = kinds[m, SHADOW]
-            rows[i, 9] = values[m, COVERAGE] if shadow < 0 else total[shadow]
+        _columns(m, kinds, values, series, rules, h[i], total, out, each, rows[i])
+        # where ln F is not smooth, a third-order step leaves more behind than it seems
+        for _ in range(3):
+            F = (1 - rows[i, 9]) * rows[i, 0] + rows[i, 4]
+            if given or fate[i] != OK or abs(F / target[i] - 1) < RESIDUAL:
+                break
+            F, F1, _ = _load(m, kinds, values, series, rules, h[i], total, out, each)
+            count[i] += 1
+            h[i] -= (F - target[i]) / F1
+            _columns(m, kinds, values, series, rules, h[i], total, out, each, rows[i])

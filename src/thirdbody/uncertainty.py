@@ -873,9 +873,10 @@ def propagate(
     Notes
     -----
     Inputs are independent; correlated ones are not offered. What moves together stands joined by
-    "+". Standard errors are the spread of eight scramblings over √8: for smooth results some
-    1e-4 of a band at 2¹⁴ samples, falling faster than 1/√N. A critical load below the window of
-    `transitions` counts as 0 and one above it as ∞, so that quantiles hold for all samples.
+    "+". Standard errors are the spread of eight scramblings over √8: for smooth results
+    some 1e-3 of the width of a band at 2¹⁴ samples, falling faster than 1/√N. A critical load
+    below the window of `transitions` counts as 0 and one above it as ∞, so that quantiles hold
+    for all samples.
     Materials and sizes that vary cost 10 to 160 µs a state and core on the rough seat; on the
     plane seat, under `asperity_law` options and for heights that are not Gaussian, states with
     other inputs are solved one by one, tens in a second.

@@ -173,7 +173,7 @@ class Value:
             about = fields[head].metadata.get("quantity")
             if about is None:
                 raise TypeError(f"{type(self).__name__}.{head} is not a quantity")
-            for extreme in (values.min(), values.max()):
+            for extreme in (float(values.min()), float(values.max())):
                 if why := problem_with(about, extreme):
                     raise InvalidValue(f"{type(self).__name__}.{head} = {extreme!r} {why}")
             now[head] = values

@@ -120,7 +120,7 @@ class InverseLaw:
             return found - value
 
         ends = np.full_like(value, self.first), np.full_like(value, self.last)
-        tolerances = {"xatol": 0.0, "xrtol": 1e-16, "fatol": 0.0, "frtol": 0.0}
+        tolerances = {"xatol": 0.0, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
         root = find_root(excess, ends, args=(value,), tolerances=tolerances)
         return np.clip(root.x, self.first, self.last)
 
