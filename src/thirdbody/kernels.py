@@ -54,7 +54,7 @@ AT = 7
 for a rule of sizes the weight in the first."""
 
 SEAT_REACH = 9.0
-"""Standard deviations of the seat beyond which nothing is counted."""
+"""Standard deviations of the seat above a gap that count; twice as many count below it."""
 OK, TOO_MUCH, TOO_LITTLE = range(3)
 """What became of a state."""
 LOWEST, START, MOST = -3.0, 1.0, 100
@@ -269,14 +269,12 @@ def _rough_nodes(kinds, values, m, i, v, rules, gap, shadow, fields, out, each):
     for n in range(kinds[m, i + 3], kinds[m, i + 4]):
         size, weight = rules[AT, n], rules[0, n]
         begin, end = kinds[m, i + 1], kinds[m, i + 2]
-        # far above the last node its neighbours count as deep as the exponent drops by 36
-        above = max(gap - size * rules[AT, end - 1], 0.0)
-        reach = math.sqrt(above * above + 72.0 * width * width)
-        begin = _below(rules, begin, end, (gap - max(reach, SEAT_REACH * width)) / size)
+        # far above the largest particles the many below them carry the load
+        begin = _below(rules, begin, end, (gap - 2 * SEAT_REACH * width) / size)
         end = _below(rules, begin, end, (gap + SEAT_REACH * width) / size)
         _seat_nodes(rules, begin, end, gap, width, size, shadow, fields, each)
         z = (size * values[m, v + BOTTOM] - gap) / width
-        if z > -SEAT_REACH:
+        if z > -2 * SEAT_REACH:
             share = 0.5 * math.erfc(-z / math.sqrt(2)) / size
             density = math.exp(-0.5 * z * z) / (width * math.sqrt(2 * math.pi) * size)
             if fields:
