@@ -174,18 +174,21 @@ def _asperity_nodes(rules, begin, end, w, h, fields, out):
     """Σ c exp(−hwy − w²y²/2) with the moments 1, wy, w²y² of the load, or of every column."""
     a, b = -h * w, -0.5 * w * w
     s0 = s1 = s2 = s3 = 0.0
+    # slices, because their indices are never negative
+    at, c0 = rules[AT, begin:end], rules[0, begin:end]
     if fields:
-        for j in range(begin, end):
-            y = rules[AT, j]
+        c1, c2, c3 = rules[1, begin:end], rules[2, begin:end], rules[3, begin:end]
+        for j in range(len(at)):
+            y = at[j]
             e = exp((a + b * y) * y)
-            s0 += e * rules[0, j]
-            s1 += e * rules[1, j]
-            s2 += e * rules[2, j]
-            s3 += e * rules[3, j]
+            s0 += e * c0[j]
+            s1 += e * c1[j]
+            s2 += e * c2[j]
+            s3 += e * c3[j]
     else:
-        for j in range(begin, end):
-            y = rules[AT, j]
-            e = exp((a + b * y) * y) * rules[0, j]
+        for j in range(len(at)):
+            y = at[j]
+            e = exp((a + b * y) * y) * c0[j]
             s0 += e
             s1 += e * y
             s2 += e * y * y
@@ -230,26 +233,30 @@ def _seat_nodes(rules, begin, end, gap, width, size, shadow, fields, out):
     """Σ c exp(−z²/2) over local gaps: load and shadow with two derivatives, or every column."""
     inverse = 1 / width
     norm = inverse / math.sqrt(2 * math.pi)
+    at, c0 = rules[AT, begin:end], rules[0, begin:end]
     if fields:
+        c1, c2, c3 = rules[1, begin:end], rules[2, begin:end], rules[3, begin:end]
+        c4, c5, c6 = rules[4, begin:end], rules[5, begin:end], rules[6, begin:end]
         a = b = c = d = e = f = g = 0.0
-        for i in range(begin, end):
-            z = (gap - size * rules[AT, i]) * inverse
+        for i in range(len(at)):
+            z = (gap - size * at[i]) * inverse
             density = exp(-0.5 * z * z)
-            a += density * rules[0, i]
-            b += density * rules[1, i]
-            c += density * rules[2, i]
-            d += density * rules[3, i]
-            e += density * rules[4, i]
-            f += density * rules[5, i]
-            g += density * rules[6, i]
+            a += density * c0[i]
+            b += density * c1[i]
+            c += density * c2[i]
+            d += density * c3[i]
+            e += density * c4[i]
+            f += density * c5[i]
+            g += density * c6[i]
         out[0], out[1], out[2], out[3] = norm * a, norm * b, norm * c, norm * d
         out[4], out[5], out[6] = norm * e, norm * f, norm * g
         return
+    c1 = rules[shadow, begin:end]
     s0 = s1 = s2 = t0 = t1 = t2 = 0.0
-    for i in range(begin, end):
-        z = (gap - size * rules[AT, i]) * inverse
+    for i in range(len(at)):
+        z = (gap - size * at[i]) * inverse
         density = exp(-0.5 * z * z)
-        load, area = density * rules[0, i], density * rules[shadow, i]
+        load, area = density * c0[i], density * c1[i]
         s0 += load
         s1 += load * z
         s2 += load * z * z
