@@ -10,6 +10,7 @@ Because S(ω) jumps are inside the integral, derivatives with respect to d hold 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from functools import lru_cache
 
 import numpy as np
@@ -37,14 +38,13 @@ def by_regime(law: AbstractAsperityLaw, y: Array) -> Array:
     return np.stack([law.reduced("force", y), *areas], axis=-1)
 
 
-class ReducedSum:
+class ReducedSum(ABC):
     """One law over heights, lengths in σ_s: what its subclasses, made for kinds of heights, share.
 
     With w = ω_1/σ_s it holds ∫f(t/w) φ(h+t) dt and ∫a(t/w) φ(h+t) dt at separations h; equal
     laws, heights and w share one table, whatever the surface.
     """
 
-    NODES = 20
     DEEPEST = 5.0
     """Separations below −DEEPEST σ_s are outside every asperity model."""
     highest: float
@@ -69,13 +69,13 @@ class ReducedSum:
         load = weight * np.abs(self.law.reduced("force", t / self.w)) * self.heights.pdf(h + t)
         return float(load[t > limit].sum() / load.sum()) if load.any() else 0.0
 
+    @abstractmethod
     def load(self, h: Array) -> Array:
         """Load, and its first and second derivative with respect to h: (N, 3)."""
-        raise NotImplementedError
 
+    @abstractmethod
     def fields(self, h: Array) -> Array:
         """Load, elastic, elastoplastic and plastic area: (N, 4)."""
-        raise NotImplementedError
 
 
 class GaussianRule:

@@ -13,7 +13,7 @@ so a new law is one file with its equations.
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
@@ -277,7 +277,7 @@ class AbstractParticleLaw(Law):
         return []
 
 
-class ParticleResponse:
+class ParticleResponse(ABC):
     """Particles between two surfaces, per nominal area, as functions of the separation d [m]."""
 
     reach: float
@@ -287,13 +287,13 @@ class ParticleResponse:
     resolution: float = np.inf
     """Step of d [m] that resolves the load, where it is not monotone."""
 
+    @abstractmethod
     def load(self, d: Array) -> tuple[Array, Array]:
         """Pressure F_sa and shadow ς with first and second derivative: two arrays (N, 3)."""
-        raise NotImplementedError
 
+    @abstractmethod
     def fields(self, d: Array) -> dict[str, Array]:
         """F_sa [Pa], A_e, A_ep, A_p on surface 1, A_sa2 on surface 2, and the shadow ς."""
-        raise NotImplementedError
 
 
 class ParticlesTogether(ParticleResponse):
