@@ -6,7 +6,7 @@ integrates laws over populations, and `solve` finds the separation that balances
 
 from typing import TYPE_CHECKING, Any
 
-from . import asperity, particle, surfaces
+from . import asperity, outputs, particle, surfaces
 from .assess import Assessment, assess
 from .citations import cite
 from .compare import compare
@@ -94,6 +94,7 @@ __all__ = [
     "fractal",
     "interaction",
     "materials",
+    "outputs",
     "particle",
     "plot",
     "propagate",

@@ -20,6 +20,7 @@ from .heights import GaussianHeights, Heights
 from .laws.base import REGIMES, AbstractAsperityLaw
 from .materials import MaterialPair
 from .numerics import PiecewiseChebyshev, panel_rule, subdivide
+from .spots import AsperitySpots
 from .surfaces import Roughness
 
 __all__ = ["AsperitySum", "DensitySum", "GaussianSum", "MixedSum", "asperity_sum", "reduced_sum"]
@@ -31,11 +32,15 @@ KINDS = (0, 1, 1, 1)
 
 def by_regime(law: AbstractAsperityLaw, y: Array) -> Array:
     """Reduced load, and area sorted by regime, of asperities pressed by y = ω/ω_1: (..., 4)."""
-    which = np.searchsorted(law.breakpoints, y, side="right")
-    regime = np.array([branch.regime for branch in law.branches])[which]
-    area = law.reduced("area", y)
-    areas = [np.where(regime == name, area, 0.0) for name in REGIMES]
+    regime, area = regimes(law, y), law.reduced("area", y)
+    areas = [np.where(regime == i, area, 0.0) for i in range(len(REGIMES))]
     return np.stack([law.reduced("force", y), *areas], axis=-1)
+
+
+def regimes(law: AbstractAsperityLaw, y: Array) -> NDArray[np.intp]:
+    """Index into `REGIMES` of asperities pressed by y = ω/ω_1."""
+    order = np.array([REGIMES.index(branch.regime) for branch in law.branches])
+    return order[np.searchsorted(law.breakpoints, y, side="right")]
 
 
 class ReducedSum(ABC):
@@ -77,6 +82,13 @@ class ReducedSum(ABC):
     def fields(self, h: Array) -> Array:
         """Load, elastic, elastoplastic and plastic area: (N, 4)."""
 
+    @abstractmethod
+    def nodes(self, h: Array) -> tuple[Array, Array | None, Array]:
+        """Interferences y = ω/ω_1 (M, n), and of one asperity how many are there.
+
+        Two arrays as in `Spots`: the share of each state, and the number.
+        """
+
 
 class GaussianRule:
     """Nodes in the reduced interference y for Gaussian heights, good for an octave of w.
@@ -89,8 +101,10 @@ class GaussianRule:
     ----------
     y : array (n,)
         Increasing.
+    weight : array (n,)
+        Of the nodes in y, with the constant 1/√(2π).
     columns : array (n, 4)
-        Load, elastic, elastoplastic and plastic area.
+        The weighted load, elastic, elastoplastic and plastic area.
     """
 
     NODES, WIDTH = 16, 2.5
@@ -110,8 +124,8 @@ class GaussianRule:
         root, root_weight = panel_rule(np.sqrt(edges[:2] - law.start), self.NODES)
         y, weight = panel_rule(edges[1:], self.NODES)
         self.y = np.concatenate([law.start + root**2, y])
-        weight = np.concatenate([2 * root * root_weight, weight]) / math.sqrt(2 * math.pi)
-        self.columns = weight[:, None] * by_regime(law, self.y)
+        self.weight = np.concatenate([2 * root * root_weight, weight]) / math.sqrt(2 * math.pi)
+        self.columns = self.weight[:, None] * by_regime(law, self.y)
 
 
 @lru_cache(maxsize=256)
@@ -132,7 +146,7 @@ class GaussianSum(ReducedSum):
 
     def __init__(self, law: AbstractAsperityLaw, heights: Heights, w: float):
         super().__init__(law, heights, w)
-        rule = gaussian_rule(law, math.frexp(w)[1] - 1)
+        self.rule = rule = gaussian_rule(law, math.frexp(w)[1] - 1)
         self.t = w * rule.y
         columns = w * rule.columns
         force = columns[:, :1]
@@ -172,6 +186,10 @@ class GaussianSum(ReducedSum):
         out[:, 1:] = np.maximum(out[:, 1:], 0.0)  # rounding of the other regimes
         return out
 
+    def nodes(self, h: Array) -> tuple[Array, Array | None, Array]:
+        share = np.exp(-0.5 * (h[:, None] + self.t) ** 2)
+        return self.rule.y[:, None], share, self.w * self.rule.weight[:, None]
+
 
 class DensitySum(ReducedSum):
     """Any other heights: panels split where the law or the density changes its formula."""
@@ -190,8 +208,8 @@ class DensitySum(ReducedSum):
         span = subdivide(span, width=4.0)
         self.table = PiecewiseChebyshev(self._sum, span, tolerance=1e-13, max_depth=30, kinds=KINDS)
 
-    def _sum(self, h: Array) -> Array:
-        """∫ columns(t) φ(h + t) dt for (N,) separations in σ_s: (N, 4)."""
+    def _nodes(self, h: Array) -> tuple[Array, Array]:
+        """Interferences t and weights φ(h + t) dt for (N,) separations in σ_s: (N, n)."""
         pieces = np.array(self.heights.pieces)
         shape = (len(h), len(self.marks))
         edges = np.concatenate([pieces - h[:, None], np.broadcast_to(self.marks, shape)], axis=1)
@@ -199,7 +217,11 @@ class DensitySum(ReducedSum):
         edges = np.clip(edges, low, np.maximum(low, pieces[-1] - h[:, None]))
         root, weight = panel_rule(np.sort(np.sqrt(edges - self.start), axis=1), 16)
         t = self.start + root**2
-        density = self.heights.pdf(h[:, None] + t) * 2 * root * weight
+        return t, self.heights.pdf(h[:, None] + t) * 2 * root * weight
+
+    def _sum(self, h: Array) -> Array:
+        """∫ columns(t) φ(h + t) dt for (N,) separations in σ_s: (N, 4)."""
+        t, density = self._nodes(h)
         used = density > 0
         columns = np.zeros((*t.shape, 4))
         columns[used] = by_regime(self.law, t[used] / self.w)
@@ -221,6 +243,10 @@ class DensitySum(ReducedSum):
         if np.any(below := h < low):
             out[below] = self._sum(h[below])
         return out
+
+    def nodes(self, h: Array) -> tuple[Array, Array | None, Array]:
+        t, density = self._nodes(h)
+        return t / self.w, None, density
 
 
 @lru_cache(maxsize=512)
@@ -248,6 +274,7 @@ class AsperitySum:
     ):
         bound = law.bound(R=rough.R, E_star=surfaces.E_star, H=surfaces.H, nu=surfaces.softer.nu)
         w, self.units = scales(bound, rough, surfaces)
+        self.rough, self.surfaces = rough, surfaces
         self.sigma_s = rough.sigma_s
         self.centre = datum * rough.sigma
         self.reduced = reduced_sum(bound, rough.heights, float(w))
@@ -265,6 +292,32 @@ class AsperitySum:
     def fields(self, d: Array) -> Array:
         """F_ss [Pa], A_e, A_ep, A_p without shadow: (N, 4)."""
         return self.reduced.fields((d - self.centre) / self.sigma_s) * self.units
+
+    def spots(self, d: Array) -> list[AsperitySpots]:
+        """Every asperity in contact at d, without shadow."""
+        rough, law, H = self.rough, self.reduced.law, self.surfaces.H
+        h = (d - self.centre) / self.sigma_s
+        y, share, number = self.reduced.nodes(h)
+        omega_1 = self.reduced.w * self.sigma_s
+        unit = math.pi * rough.R * omega_1
+        return [
+            AsperitySpots(
+                share=share,
+                number=rough.density * number,
+                load=unit * H * law.reduced("force", y),
+                area=unit * law.reduced("area", y),
+                regime=regimes(law, y),
+                depth=omega_1 * y,
+                R=rough.R,
+                law=law,
+                E_star=self.surfaces.E_star,
+                H=H,
+                heights=rough.heights,
+                sigma_s=self.sigma_s,
+                lowest=h,
+                density=np.full(len(h), rough.density),
+            )
+        ]
 
 
 class MixedSum:
@@ -295,6 +348,10 @@ class MixedSum:
     def fields(self, d: Array) -> Array:
         """As `AsperitySum.fields`."""
         return np.sum([part.fields(d) for part in self.parts], axis=0)
+
+    def spots(self, d: Array) -> list[AsperitySpots]:
+        """As `AsperitySum.spots`, one item a shape."""
+        return [spots for part in self.parts for spots in part.spots(d)]
 
 
 @lru_cache(maxsize=512)

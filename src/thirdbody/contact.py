@@ -19,6 +19,7 @@ from .laws.asperity import ZMC, AbstractAsperityLaw
 from .laws.particle import AbstractParticleLaw, Series
 from .laws.particle.series import together_in
 from .materials import MaterialPair
+from .outputs.base import AbstractOutput, problems_of
 from .particles import Particles
 from .surfaces import Roughness
 from .values import Value
@@ -49,6 +50,9 @@ class Contact(Value):
         dotted names number them, ``particles.0.areal_density``.
     particle_law : AbstractParticleLaw, optional
         What one particle does; `Series` on the rough seat by default.
+    outputs : AbstractOutput or tuple of them, optional
+        What else its states tell: friction, temperature, conductance, wear (`thirdbody.outputs`).
+        Contacts that carry load alike are equal whatever their outputs.
 
     Examples
     --------
@@ -65,12 +69,16 @@ class Contact(Value):
     asperity_law: AbstractAsperityLaw = field(default_factory=ZMC)
     particles: Particles | tuple[Particles, ...] | None = None
     particle_law: AbstractParticleLaw = field(default_factory=Series)
+    outputs: tuple[AbstractOutput, ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         if self.particle_law is None:
             object.__setattr__(self, "particle_law", Series())
         if isinstance(self.particles, list):
             object.__setattr__(self, "particles", tuple(self.particles))
+        if isinstance(self.outputs, AbstractOutput):
+            object.__setattr__(self, "outputs", (self.outputs,))
+        object.__setattr__(self, "outputs", tuple(self.outputs))
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:
@@ -93,7 +101,7 @@ class Contact(Value):
         out = out or self._population_problems()
         if not out and self.roughness.ellipticity is not None:
             out += _shape_problems(self.asperity_law)
-        return out
+        return out or problems_of(self.outputs, self)
 
     def _population_problems(self) -> list[str]:
         """Mistakes that concern several populations."""

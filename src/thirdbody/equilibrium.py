@@ -20,6 +20,7 @@ from . import engine
 from .contact import Contact, Interface, interface
 from .errors import InvalidValue, NoEquilibrium, RangeWarning
 from .numerics import halley_root
+from .outputs.base import column, evaluate
 
 __all__ = ["Equilibrium", "pull_off", "roots", "solve"]
 
@@ -77,6 +78,8 @@ class Equilibrium:
     warnings: tuple[str, ...] = ()
     populations: tuple[PopulationShare, ...] = ()
     """What each of several populations carries; empty for one."""
+    outputs: Mapping[str, Number] = field(default_factory=dict)
+    """Every column of the outputs that the contact carries, by name."""
 
     @property
     def scales(self) -> dict[str, float]:
@@ -84,8 +87,9 @@ class Equilibrium:
         return {"E_ss": self.contact.E_ss, "sigma": self.contact.roughness.sigma}
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """Every column as a 1-D array."""
-        return {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
+        """Every column as a 1-D array, those of the outputs last."""
+        own = {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
+        return own | {name: np.atleast_1d(values) for name, values in self.outputs.items()}
 
     def modes(
         self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: str = "area"
@@ -112,6 +116,16 @@ class PopulationShare:
 
 COLUMNS = {item.name: dict(item.metadata) for item in fields(Equilibrium) if item.metadata}
 """Symbol, unit and meaning of every column of a result."""
+
+
+def about(name: str) -> dict[str, str]:
+    """Symbol, unit and meaning of a column, of the state itself or of an output."""
+    return COLUMNS[name] if name in COLUMNS else column(name)._asdict()
+
+
+def columns_of(contact: Contact) -> tuple[str, ...]:
+    """Names of the columns that states of a contact have."""
+    return (*COLUMNS, *(name for output in contact.outputs for name in output.columns))
 
 
 def _mode(particle_share: ArrayLike, eps_1: float, eps_2: float) -> Any:
@@ -488,10 +502,14 @@ def _state(
     )
     columns |= {"status": status.astype(str), "iterations": iterations}
     shares = _population_shares(contact, bound, d, columns, scalar)
+    outputs, more = evaluate(contact, bound, columns) if contact.outputs else ({}, [])
     if scalar:
         columns = {name: values[0].item() for name, values in columns.items()}
-    notes = _warnings(contact, bound, full, d)
-    return Equilibrium(contact=contact, warnings=notes, populations=shares, **columns)
+        outputs = {name: values[0].item() for name, values in outputs.items()}
+    notes = (*_warnings(contact, bound, full, d), *more)
+    return Equilibrium(
+        contact=contact, warnings=notes, populations=shares, outputs=outputs, **columns
+    )
 
 
 def _population_shares(

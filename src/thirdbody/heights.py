@@ -19,6 +19,7 @@ import numpy as np
 from scipy import special
 
 from .errors import InvalidValue
+from .numerics import panel_rule
 from .values import Value, quantity
 
 if TYPE_CHECKING:
@@ -69,6 +70,17 @@ class Heights(Value):
     def ppf(self, q: ArrayLike) -> Array:
         """Height below which a fraction q of the asperities lies."""
 
+    def sf(self, z: ArrayLike) -> Array:
+        """Fraction of the asperities above a height."""
+        z = np.asarray(z, dtype=float)
+        edges = np.clip(np.array(self.pieces), z[..., None], None)
+        nodes, weights = panel_rule(edges, 24)
+        return np.sum(weights * self.pdf(nodes), axis=-1)
+
+    def isf(self, q: ArrayLike) -> Array:
+        """Height above which a fraction q of the asperities lies."""
+        return self.ppf(1 - np.asarray(q, dtype=float))
+
     def sample(self, rng: np.random.Generator, size: int | tuple[int, ...]) -> Array:
         """Random heights in units of σ_s."""
         return self.ppf(rng.random(size))
@@ -94,6 +106,12 @@ class GaussianHeights(Heights):
 
     def ppf(self, q: ArrayLike) -> Array:
         return special.ndtri(np.asarray(q, dtype=float))
+
+    def sf(self, z: ArrayLike) -> Array:
+        return special.ndtr(-np.asarray(z, dtype=float))
+
+    def isf(self, q: ArrayLike) -> Array:
+        return -special.ndtri(np.asarray(q, dtype=float))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,6 +145,12 @@ class ExponentialHeights(Heights):
 
     def ppf(self, q: ArrayLike) -> Array:
         return -np.log1p(-np.asarray(q, dtype=float)) - 1
+
+    def sf(self, z: ArrayLike) -> Array:
+        return np.exp(-(np.maximum(z, -1.0) + 1))
+
+    def isf(self, q: ArrayLike) -> Array:
+        return -np.log(np.asarray(q, dtype=float)) - 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

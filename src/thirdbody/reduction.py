@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .equilibrium import COLUMNS
+from .equilibrium import about
 from .errors import InvalidValue
 
 __all__ = ["Reduction"]
@@ -162,17 +162,17 @@ class Reduction:
             "solved": (False, {"units": "1", "long_name": "share of samples that were solved"})
         }
         for name in columns:
-            about = COLUMNS[name]
-            unit = {"units": about["unit"], "symbol": about["symbol"]}
+            told = about(name)
+            unit = {"units": told["unit"], "symbol": told["symbol"]}
             for kind in kinds:
-                words_of = {"long_name": words[kind].format(about["meaning"])}
+                words_of = {"long_name": words[kind].format(told["meaning"])}
                 out[f"{name}_{kind}"] = (False, unit | words_of)
             if name in thresholds:
-                said = f"share of samples with {about['symbol']} > {thresholds[name]:g}"
+                said = f"share of samples with {told['symbol']} > {thresholds[name]:g}"
                 extra = {"units": "1", "long_name": said, "threshold": thresholds[name]}
                 out[f"{name}_exceeds"] = (False, extra)
             if self.quantiles:
-                words_of = {"long_name": f"quantiles of the {about['meaning']}"}
+                words_of = {"long_name": f"quantiles of the {told['meaning']}"}
                 out[f"{name}_quantile"] = (True, unit | words_of)
         return out
 

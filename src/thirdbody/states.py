@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import engine
-from .contact import Contact
+from .contact import Contact, interface
 from .equilibrium import COLUMNS, given_load, solve
 from .errors import InvalidValue, RangeWarning
+from .outputs.base import evaluate
 
 __all__ = ["solve_states", "varied"]
 
@@ -74,6 +75,8 @@ def solve_states(
     arrays = {name: np.atleast_1d(values) for name, values in arrays.items()}
     if loads.ndim > 1:
         raise InvalidValue(f"inputs have {loads.ndim} dimensions; give numbers or 1-D arrays")
+    if contact.outputs:
+        return _with_outputs(contact, arrays, load, loads)
     absent = np.zeros(len(loads), bool)
     for name in ABSENT:
         absent |= arrays.get(name, np.ones(1)) == 0
@@ -129,6 +132,24 @@ def _joined(count: int, parts: list[tuple[NDArray[np.intp], Columns]]) -> Column
                 out[name] = np.empty(count, dtype=kind)
             out[name][which] = column
     return {name: out[name] for name in COLUMNS}
+
+
+def _with_outputs(
+    contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]
+) -> Columns:
+    """Every column of the states, then the outputs of each contact among them."""
+    inputs = {name: v for name, v in arrays.items() if not name.startswith("outputs.")}
+    given: dict[str, Any] = {load: loads}
+    out = solve_states(contact.replace(outputs=()), vary=inputs or None, **given)
+    # states of one contact share their spots; those of one surface share its tables
+    groups = _groups(arrays, len(loads))
+    order = np.argsort(groups, kind="stable")
+    for which in np.split(order, np.flatnonzero(np.diff(groups[order])) + 1):
+        own = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
+        values, _ = evaluate(own, interface(own), _taken(out, which))
+        for name, column in values.items():
+            out.setdefault(name, np.full(len(loads), np.nan))[which] = column
+    return out
 
 
 def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:

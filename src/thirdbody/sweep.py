@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from .citations import cite
 from .contact import Contact
 from .designs import DESIGNS, Span
-from .equilibrium import COLUMNS, about_particles, given_load, solve
+from .equilibrium import about, about_particles, columns_of, given_load, solve
 from .errors import InvalidValue, RangeWarning
 from .reduction import Reduction
 from .states import solve_states, varied
@@ -454,8 +454,9 @@ def make_plan(
     if design == "zip" and len({size for size in sizes.values() if size != 1}) > 1:
         shown = ", ".join(f"{name} {size}" for name, size in sizes.items())
         problems.append(f"design = 'zip' needs inputs of one length, and got {shown}")
+    known = columns_of(contact)
     if columns is not None:
-        problems += [p for name in columns for p in _not_known("column", name, tuple(COLUMNS))]
+        problems += [p for name in columns for p in _not_known("column", name, known)]
     if problems:
         raise InvalidValue(*problems)
 
@@ -469,7 +470,7 @@ def make_plan(
         if spans:
             assert samples is not None
             dims.append(Sampled(spans, design, samples, seed, 0, samples))
-    kept = tuple(name for name in COLUMNS if name != load and name in (columns or COLUMNS))
+    kept = tuple(name for name in known if name != load and name in (columns or known))
     if reduce is None:
         return Plan(contact, load, tuple(dims), kept, None, chunk)
     words = ("mode", "status", "iterations", *(() if columns else ("residual",)))
@@ -565,10 +566,11 @@ def _refused(contact: Contact, label: str, name: str, values: NDArray[Any]) -> l
 
 def _quantity(contact: Contact, name: str) -> dict[str, Any] | None:
     """Symbol, unit and range of an input by its dotted name."""
-    *path, last = name.split(".")
-    owner: Any = contact
-    for step in path:
-        owner = getattr(owner, step, None)
+    path, _, last = name.rpartition(".")
+    try:
+        owner = contact.part(path)
+    except InvalidValue:
+        return None
     if not dataclasses.is_dataclass(owner):
         return None
     found = (item.metadata.get("quantity") for item in dataclasses.fields(owner))
@@ -641,8 +643,9 @@ def _shown(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def _attributes(name: str) -> dict[str, Any]:
-    about = COLUMNS[name]
-    out = {"units": about["unit"], "long_name": about["meaning"], "symbol": about["symbol"]}
+    told = about(name)
+    out: dict[str, Any] = {"units": told["unit"], "long_name": told["meaning"]}
+    out["symbol"] = told["symbol"]
     if name in CODES:
         words = CODES[name]
         out |= {"flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}

@@ -141,6 +141,18 @@ class Value:
             now[head] = _replaced(where, part, deeper)
         return dataclasses.replace(self, **now)  # type: ignore[type-var]
 
+    def part(self, path: str) -> Any:
+        """What a dotted name stands for: a field, or an item of a tuple by place or name."""
+        where: Any = self
+        for step in filter(None, path.split(".")):
+            if isinstance(where, tuple):
+                where = where[_index(path, list(where), step)]
+            elif isinstance(where, Value) and hasattr(where, step):
+                where = getattr(where, step)
+            else:
+                raise InvalidValue(f"{type(self).__name__} has no {path!r}")
+        return where
+
     def with_arrays(self, changes: Mapping[str, NDArray[np.float64]]) -> Self:
         """A stand-in that holds an array (N,) in some of its quantities, one value a state.
 
@@ -210,14 +222,26 @@ def _replaced(where: str, part: Any, changes: dict[str, Any]) -> Any:
     if not isinstance(part, tuple):
         raise InvalidValue(f"{where} has no fields of its own")
     items = list(part)
+    inner: dict[int, dict[str, Any]] = {}
     for key, value in changes.items():
-        number, _, rest = key.partition(".")
-        if not (number.isdecimal() and int(number) < len(items) and rest):
-            raise InvalidValue(
-                f"{where} holds {len(items)} values; name one, e.g. {where}.0.areal_density"
-            )
-        items[int(number)] = _replaced(f"{where}.{number}", items[int(number)], {rest: value})
+        which, _, rest = key.partition(".")
+        inner.setdefault(_index(where, items, which), {})[rest] = value
+    for index, deeper in inner.items():
+        items[index] = _replaced(f"{where}.{index}", items[index], deeper)
     return tuple(items)
+
+
+def _index(where: str, items: list[Any], which: str) -> int:
+    """Place of an item by its number or its name."""
+    names = [getattr(item, "name", "") for item in items]
+    if which.isdecimal() and int(which) < len(items):
+        return int(which)
+    if which in names:
+        return names.index(which)
+    known = ", ".join([*map(str, range(len(items))), *filter(None, names)]) or "none"
+    raise InvalidValue(
+        f"{where} holds {len(items)} values and no {which!r}; name one by place or name: {known}"
+    )
 
 
 def _plain(value: Any) -> Any:

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
+from ..errors import InvalidValue
 from ..numerics import panel_rule
 from ..values import Value
 
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
     from ..materials import MaterialPair
     from ..particles import Particles
+    from ..spots import ParticleSpots
     from ..surfaces import Roughness
 
     Array = NDArray[np.float64]
@@ -35,6 +37,10 @@ if TYPE_CHECKING:
 __all__ = ["REGIMES", "AbstractAsperityLaw", "AbstractParticleLaw", "Branch", "Jump", "Law"]
 
 REGIMES = ("elastic", "elastoplastic", "plastic")
+NO_SPOTS = (
+    "this particle law knows loads and areas of all particles together, not how deep one of them "
+    "sits; outputs need particle.Series or particle.Flakes"
+)
 
 
 class Branch(NamedTuple):
@@ -294,6 +300,21 @@ class ParticleResponse(ABC):
     @abstractmethod
     def fields(self, d: Array) -> dict[str, Array]:
         """F_sa [Pa], A_e, A_ep, A_p on surface 1, A_sa2 on surface 2, and the shadow ς."""
+
+    def probe(self, eps: Array) -> ParticleSpots:
+        """Particles of unit size squeezed by ε, one a row: (N, 1)."""
+        raise InvalidValue(NO_SPOTS)
+
+    def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
+        """Every loaded particle at d (N,), in groups.
+
+        Parameters
+        ----------
+        d : array (N,)
+        splits : sequence of float, optional
+            Squeezes over diameter ε where what is asked of a particle changes its formula.
+        """
+        raise InvalidValue(NO_SPOTS)
 
 
 class ParticlesTogether(ParticleResponse):

@@ -17,6 +17,7 @@ from ...distributions import Distribution, Monodisperse
 from ...errors import InvalidValue
 from ...materials import reduced_modulus
 from ...numerics import PiecewiseChebyshev, panel_rule, subdivide
+from ...spots import ParticleSpots, seat_shares
 from ...values import choice, quantity
 from ..asperity.hermite import Hermite
 from ..base import (
@@ -138,7 +139,7 @@ class Side:
     def area(self, delta: Array) -> Array:
         return self.R * math.pi * self.delta_1 * self.reduced_area(delta / self.delta_1)
 
-    def regime(self, delta: Array) -> Array:
+    def regime(self, delta: Array) -> Index:
         """Index into `REGIMES`; beyond the great circle a contact that can yield is plastic."""
         y = delta / self.delta_1
         order = np.array([REGIMES.index(branch.regime) for branch in self.law.branches])
@@ -257,6 +258,14 @@ class SqueezedParticle:
             one = np.where(past, share * high + gained, one)
         return one, eps - one
 
+    def force(self, eps: Array, one: Array) -> Array:
+        """Load over x² at ε, of which ``one`` is the first side's."""
+        force = self.sides[0].force(one)
+        if self.equal:
+            return force
+        limit = min(float(side.limit[0]) for side in self.sides)
+        return np.where(eps > self.kinks[-1], limit, force)
+
     def __call__(self, eps: Array) -> Array:
         """The seven `COLUMNS` per x² at ε > 0: (N, 7)."""
         eps = np.asarray(eps, dtype=float)
@@ -264,10 +273,7 @@ class SqueezedParticle:
         a1, a2 = self.sides[0].area(one), self.sides[1].area(two)
         regime = self.sides[0].regime(one)
         out = np.empty((len(eps), len(COLUMNS)))
-        out[:, 0] = self.sides[0].force(one)
-        if not self.equal:
-            past = eps > self.kinks[-1]
-            out[past, 0] = min(float(side.limit[0]) for side in self.sides)
+        out[:, 0] = self.force(eps, one)
         for i in range(3):
             out[:, 1 + i] = np.where(regime == i, a1, 0.0)
         out[:, 4] = a2
@@ -275,6 +281,27 @@ class SqueezedParticle:
         out[:, 6] = self.great_circle
         out[eps <= 0] = 0.0
         return out
+
+    def spots(self, x: Array, delta: Array, *, share: Array | None, number: Array) -> ParticleSpots:
+        """Particles of sizes x squeezed by δ (M, n), so many of each."""
+        eps = np.divide(delta, x, out=np.zeros_like(x), where=x > 0).ravel()
+        depths = self.indentations(eps)
+        pairs = list(zip(self.sides, depths, strict=True))
+        areas = [np.where(eps > 0, side.area(one), 0.0).reshape(x.shape) for side, one in pairs]
+        regimes = [side.regime(one).reshape(x.shape) for side, one in pairs]
+        one, two = (x * part.reshape(x.shape) for part in depths)
+        return ParticleSpots(
+            share=share,
+            number=number,
+            load=x**2 * np.where(eps > 0, self.force(eps, depths[0]), 0.0).reshape(x.shape),
+            x=x,
+            radius=self.sides[0].R * x,
+            depths=(one, two),
+            areas=(x**2 * areas[0], x**2 * areas[1]),
+            regimes=(regimes[0], regimes[1]),
+            yields=(float(self.sides[0].delta_1), float(self.sides[1].delta_1)),
+            hardness=(float(self.sides[0].H), float(self.sides[1].H)),
+        )
 
 
 @lru_cache(maxsize=512)
@@ -348,23 +375,32 @@ class SizeAverage:
             out[part] = self._average(gap[part, None], rise[part, None])
         return out
 
-    def _average(self, gap: Array, rise: Array) -> Array:
+    def _sizes(
+        self, gap: Array, rise: Array, splits: Sequence[float] = ()
+    ) -> tuple[Array, Array, Array]:
+        """Diameters, squeezes and weights φ_a(x) dx of sums over sizes: (N, n) for (N, 1)."""
         particle, sizes = self.particle, self.sizes
+        if isinstance(sizes, Monodisperse):
+            return np.full_like(gap, sizes.mean), rise, (rise > 0).astype(float)
         low, high = sizes.support
         pieces = np.array(sizes.pieces)
         # δ at which a size, or a regime of some size, sets in; x = δ/ε must be positive
         of_sizes = np.where(gap > 0.5 * high, rise - (high - pieces), pieces - gap)
-        eps = particle.panels
+        eps = np.concatenate([particle.panels, splits])
         of_regimes = gap * np.divide(eps, 1 - eps, out=np.zeros_like(eps), where=eps != 1)
         deltas = np.concatenate([of_sizes, of_regimes], axis=1)
         deltas = np.clip(deltas, np.maximum(of_sizes[:, :1], 0.0), rise)
         root, weight = panel_rule(np.sort(np.sqrt(deltas), axis=1), 16)
         delta = root * root
         diameter = np.clip(gap + delta, low, high)
-        density = sizes.pdf(diameter) * diameter**2 * 2 * root * weight
+        return diameter, delta, sizes.pdf(diameter) * 2 * root * weight
+
+    def _average(self, gap: Array, rise: Array) -> Array:
+        diameter, delta, weight = self._sizes(gap, rise)
+        density = weight * diameter**2
         used = density > 0
         values = np.zeros((*density.shape, len(COLUMNS)))
-        values[used] = particle(delta[used] / diameter[used])
+        values[used] = self.particle(delta[used] / diameter[used])
         return np.einsum("gn,gnk->gk", density, values)
 
     def __call__(self, gaps: Array) -> Array:
@@ -403,19 +439,42 @@ class SizeAverage:
     def nodes(self, width: float) -> tuple[Array, Array, Array]:
         """Gauss nodes in the gap, weights and P there, for sums over a seat of this width.
 
-        The panels of the tables, cut where they are wider than the seat: increasing gaps (M,),
-        weights (M,), values (M, 7).
+        Increasing gaps (M,), weights (M,), values (M, 7).
         """
-        u, weight = _seat_rule(_cut(self.upper.edges**2, width) ** 0.5, width, np.square)
-        gaps, weights = self.top - u * u, 2 * u * weight
-        values = self.upper(u) * u[:, None] ** self.powers
-        gaps, weights, values = gaps[::-1], weights[::-1], values[::-1]
+        gaps, rise, weights = self.gaps(width)
+        values = np.empty((len(gaps), len(COLUMNS)))
+        upper = gaps >= self.join
+        u = np.sqrt(rise[upper])
+        values[upper] = self.upper(u) * u[:, None] ** self.powers
         if self.lower is not None:
-            g, weight = _seat_rule(_cut(self.lower.edges, width), width, np.asarray)
-            gaps = np.concatenate([g, gaps])
-            weights = np.concatenate([weight, weights])
-            values = np.concatenate([self.lower(g), values])
+            values[~upper] = self.lower(gaps[~upper])
         return gaps, weights, values
+
+    def gaps(self, width: float, splits: Sequence[float] = ()) -> tuple[Array, Array, Array]:
+        """Gaps, x_max − gap and weights of `nodes`; more kinks ``splits`` of ε may be given.
+
+        The panels of the tables, cut where they are wider than the seat.
+        """
+        more = np.array([x * (1 - eps) for x in self.sizes.kinks for eps in splits])
+        edges = self._cuts(self.upper.edges**2, self.top - more)
+        u, weight = _seat_rule(_cut(edges, width) ** 0.5, width, np.square)
+        rise, weights = u * u, 2 * u * weight
+        if self.lower is not None:
+            edges = self._cuts(self.lower.edges, more)
+            g, weight = _seat_rule(_cut(edges, width), width, np.asarray)
+            rise = np.concatenate([rise, self.top - g[::-1]])
+            weights = np.concatenate([weights, weight[::-1]])
+        return self.top - rise[::-1], rise[::-1], weights[::-1]
+
+    @staticmethod
+    def _cuts(edges: Array, more: Array) -> Array:
+        inside = more[(more > edges[0]) & (more < edges[-1])]
+        return _distinct(np.sort(np.concatenate([edges, inside]))) if len(inside) else edges
+
+    def spots(self, gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
+        """Every particle squeezed in gaps (N,) under which they rest on a plane."""
+        x, delta, weight = self._sizes(gap[:, None], self.top - gap[:, None], splits)
+        return self.particle.spots(x, np.maximum(delta, 0.0), share=None, number=weight)
 
 
 def _seat_rule(edges: Array, width: float, gap: Callable[[Array], Array]) -> tuple[Array, Array]:
@@ -652,7 +711,7 @@ class SeatAverage:
     """
 
     def __init__(self, average: SizeAverage, width: float):
-        self.average, self.width = average, width
+        self.average, self.width, self.particle = average, width, average.particle
         span = (average.top - average.bottom) / width
         if span > WIDEST:
             raise InvalidValue(
@@ -697,6 +756,22 @@ class SeatAverage:
         out[gap < low] = self.floor
         return out
 
+    def spots(self, mean_gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
+        """Every squeezed particle at mean gaps (N,); particles squeezed deepest stand together."""
+        gaps, rise, weights = self.average.gaps(self.width, splits)
+        reach = NORMAL_REACH * self.width
+        near = slice(*np.searchsorted(gaps, [mean_gap.min() - reach, mean_gap.max() + reach]))
+        gaps, rise, weights = gaps[near], rise[near], weights[near]
+        bottom = self.average.bottom
+        rows = np.append(gaps, bottom)[:, None], np.append(rise, self.average.top - bottom)[:, None]
+        x, delta, weight = self.average._sizes(*rows, splits)
+        return self.average.particle.spots(
+            x,
+            np.maximum(delta, 0.0),
+            share=seat_shares(gaps, mean_gap, self.width, bottom),
+            number=weight * np.append(weights, 1.0)[:, None],
+        )
+
     def derivatives(self, gap: Array, columns: tuple[int, ...]) -> Array:
         """Some columns with two derivatives: (N, len(columns), 3)."""
         low, high = self.table.edges[[0, -1]]
@@ -720,6 +795,7 @@ class Part:
         self, average: SizeAverage | SeatAverage, scale: float, density: float, *, offset: float
     ):
         self.average, self.scale, self.offset = average, scale, offset
+        self.density = density
         self.factor = density * scale**2
         top = average.top if isinstance(average, SizeAverage) else average.table.edges[-1]
         self.reach = scale * top - offset
@@ -730,6 +806,10 @@ class Part:
 
     def columns(self, d: Array) -> Array:
         return self.factor * self.average((d + self.offset) / self.scale)
+
+    def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
+        found = self.average.spots((d + self.offset) / self.scale, splits)
+        return found.of_size(self.scale, self.density)
 
 
 DEEPEST_SQUEEZE = 1e3
@@ -772,6 +852,17 @@ class SeatedParticles(ParticleResponse):
             "A_sa2": total[:, 4],
             "shadow": self._shadow(total[:, self._shadow_column][:, None])[:, 0],
         }
+
+    def probe(self, eps: Array) -> ParticleSpots:
+        average = self.parts[0].average
+        particle = (
+            average.average.particle if isinstance(average, SeatAverage) else average.particle
+        )
+        one = np.ones((len(eps), 1))
+        return particle.spots(one, eps[:, None], share=None, number=one)
+
+    def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
+        return [part.spots(d, splits) for part in self.parts]
 
 
 def together_in(responses: Sequence[ParticleResponse]) -> ParticleResponse:
