@@ -16,7 +16,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
 import numpy as np
-from scipy import special
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -169,18 +168,3 @@ class ParticleSpots(Spots):
             depths=(scale * one, scale * two),
             areas=(scale**2 * first, scale**2 * second),
         )
-
-
-def normal_density(z: Array) -> Array:
-    """φ(z) = exp(−z²/2)/√(2π)."""
-    return np.exp(-0.5 * z * z) / np.sqrt(2 * np.pi)
-
-
-def seat_shares(gaps: Array, mean_gap: Array, width: float, bottom: float) -> Array:
-    """Density of seats under each gap (N, M), and last the part of seats with less than ``bottom``.
-
-    Local gaps are Gaussian about the mean gap.
-    """
-    z = (mean_gap[:, None] - gaps) / width
-    below = special.ndtr((bottom - mean_gap) / width)
-    return np.hstack([normal_density(z) / width, below[:, None]])

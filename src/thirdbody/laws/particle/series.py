@@ -17,7 +17,7 @@ from ...distributions import Distribution, Monodisperse
 from ...errors import InvalidValue
 from ...materials import reduced_modulus
 from ...numerics import PiecewiseChebyshev, panel_rule, subdivide
-from ...spots import ParticleSpots, seat_shares
+from ...spots import ParticleSpots
 from ...values import choice, quantity
 from ..asperity.hermite import Hermite
 from ..base import (
@@ -375,7 +375,7 @@ class SizeAverage:
             out[part] = self._average(gap[part, None], rise[part, None])
         return out
 
-    def _sizes(
+    def of_sizes(
         self, gap: Array, rise: Array, splits: Sequence[float] = ()
     ) -> tuple[Array, Array, Array]:
         """Diameters, squeezes and weights φ_a(x) dx of sums over sizes: (N, n) for (N, 1)."""
@@ -396,7 +396,7 @@ class SizeAverage:
         return diameter, delta, sizes.pdf(diameter) * 2 * root * weight
 
     def _average(self, gap: Array, rise: Array) -> Array:
-        diameter, delta, weight = self._sizes(gap, rise)
+        diameter, delta, weight = self.of_sizes(gap, rise)
         density = weight * diameter**2
         used = density > 0
         values = np.zeros((*density.shape, len(COLUMNS)))
@@ -473,7 +473,7 @@ class SizeAverage:
 
     def spots(self, gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         """Every particle squeezed in gaps (N,) under which they rest on a plane."""
-        x, delta, weight = self._sizes(gap[:, None], self.top - gap[:, None], splits)
+        x, delta, weight = self.of_sizes(gap[:, None], self.top - gap[:, None], splits)
         return self.particle.spots(x, np.maximum(delta, 0.0), share=None, number=weight)
 
 
@@ -757,19 +757,27 @@ class SeatAverage:
         return out
 
     def spots(self, mean_gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
-        """Every squeezed particle at mean gaps (N,); particles squeezed deepest stand together."""
-        gaps, rise, weights = self.average.gaps(self.width, splits)
+        """Every squeezed particle at mean gaps (N,)."""
+        average = self.average
         reach = NORMAL_REACH * self.width
-        near = slice(*np.searchsorted(gaps, [mean_gap.min() - reach, mean_gap.max() + reach]))
+        lowest, highest = mean_gap.min() - reach, mean_gap.max() + reach
+        gaps, rise, weights = average.gaps(self.width, splits)
+        near = slice(*np.searchsorted(gaps, [lowest, highest]))
         gaps, rise, weights = gaps[near], rise[near], weights[near]
-        bottom = self.average.bottom
-        rows = np.append(gaps, bottom)[:, None], np.append(rise, self.average.top - bottom)[:, None]
-        x, delta, weight = self.average._sizes(*rows, splits)
-        return self.average.particle.spots(
+        if lowest < average.bottom:
+            # loads no longer change there, but depths do
+            edges = _cut(np.array([lowest, average.bottom]), self.width)
+            below, weight = panel_rule(edges, SEAT_NODES)
+            gaps = np.concatenate([below, gaps])
+            rise = np.concatenate([average.top - below, rise])
+            weights = np.concatenate([weight, weights])
+        x, delta, weight = average.of_sizes(gaps[:, None], rise[:, None], splits)
+        z = (mean_gap[:, None] - gaps) / self.width
+        return self.particle.spots(
             x,
             np.maximum(delta, 0.0),
-            share=seat_shares(gaps, mean_gap, self.width, bottom),
-            number=weight * np.append(weights, 1.0)[:, None],
+            share=np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi)),
+            number=weight * weights[:, None],
         )
 
     def derivatives(self, gap: Array, columns: tuple[int, ...]) -> Array:
