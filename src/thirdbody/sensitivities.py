@@ -24,6 +24,7 @@ import numpy as np
 from .contact import Contact, interface
 from .equilibrium import COLUMNS, EPS_1, EPS_2, Equilibrium, given_load, solve
 from .errors import InvalidValue
+from .outputs.base import AbstractOutput
 from .states import solve_states, varied
 from .surfaces import ETA_R_SIGMA
 from .transitions import transitions
@@ -136,7 +137,11 @@ def _plain(value: Any) -> Any:
 
 # -------------------------------------------------------------------------- inputs
 def inputs(contact: Contact) -> dict[str, float]:
-    """Every number that a contact is made of and that can be varied, by its dotted name."""
+    """Every number that a contact is made of and that can be varied, by its dotted name.
+
+    Several populations are numbered, ``particles.0.areal_density``; outputs go by their names,
+    ``outputs.friction.tau_ss``.
+    """
     out = dict(_numbers(contact, ""))
     rough = contact.roughness
     if rough.eta is None and rough.eta_R_sigma is None:
@@ -153,6 +158,11 @@ def _numbers(value: Value, prefix: str) -> Iterator[tuple[str, float]]:
             yield prefix + item.name, part
         elif isinstance(part, Value):
             yield from _numbers(part, f"{prefix}{item.name}.")
+        elif isinstance(part, tuple):
+            for place, each in enumerate(part):
+                label = each.name if isinstance(each, AbstractOutput) else place
+                if isinstance(each, Value):
+                    yield from _numbers(each, f"{prefix}{item.name}.{label}.")
 
 
 def _default_inputs(contact: Contact) -> list[str]:
@@ -163,10 +173,10 @@ def _default_inputs(contact: Contact) -> list[str]:
     groups: dict[Any, list[str]] = {}
     for name, value in known.items():
         side, _, last = name.rpartition(".")
-        body = side in ("surfaces.first", "surfaces.second", "particles.material")
+        body = side in ("surfaces.first", "surfaces.second") or side.endswith(".material")
         if body and last == "H":
             key: Any = ("H", value)
-        elif body and alike and value and side != "particles.material":
+        elif body and alike and value and not side.endswith(".material"):
             key = (last, "surfaces")
         else:
             key = name
@@ -227,10 +237,8 @@ def _scale(contact: Contact, name: str, value: float) -> float:
 
 def _declared(contact: Contact, name: str) -> dict[str, Any]:
     """Symbol, unit and range of an input."""
-    *path, last = name.split(".")
-    owner: Any = contact
-    for step in path:
-        owner = getattr(owner, step)
+    path, _, last = name.rpartition(".")
+    owner = contact.part(path)
     (about,) = (i.metadata["quantity"] for i in dataclasses.fields(owner) if i.name == last)
     return about
 
@@ -241,13 +249,12 @@ def _no_input(contact: Contact, name: str, known: Iterable[str]) -> str:
 
     if contact.two_body and name.startswith("particle"):
         return f"to = {name!r} says nothing of a contact without particles"
-    owner: Any = contact
-    for step in name.split("."):
-        if not hasattr(owner, step):
-            near = difflib.get_close_matches(name, list(known), n=1)
-            guess = f"did you mean {near[0]!r}?" if near else f"the inputs are {', '.join(known)}"
-            return f"to = {name!r} is not an input; {guess}"
-        owner = getattr(owner, step)
+    try:
+        owner = contact.part(name)
+    except InvalidValue:
+        near = difflib.get_close_matches(name, list(known), n=1)
+        guess = f"did you mean {near[0]!r}?" if near else f"the inputs are {', '.join(known)}"
+        return f"to = {name!r} is not an input; {guess}"
     if name in ("roughness.eta", "roughness.eta_R_sigma"):
         given = "eta_R_sigma" if name.endswith("eta") else "eta"
         return f"to = {name!r} is not given; the density follows from 'roughness.{given}', use that"
@@ -529,8 +536,8 @@ def sensitivity(
     ----------
     contact : Contact
     of : str or list of str
-        Columns of `Equilibrium` at the given load, and critical loads F* of `transitions`:
-        "F_cr1", "F_cr2", "F_tpca.A", "F_tpca.B".
+        Columns of `Equilibrium` and of the contact's outputs at the given load, and critical
+        loads F* of `transitions`: "F_cr1", "F_cr2", "F_tpca.A", "F_tpca.B".
     to : str or list of str, optional
         Dotted names of numbers of the contact, such as "roughness.sigma" or
         "particles.diameter.mean"; "F_star", "pressure" or "d", whichever is given; or several
@@ -581,8 +588,10 @@ def sensitivity(
     >>> round(found.elasticity["A_t"]["pressure"], 3)
     0.976
     """
-    results = _results(of)
-    plain = [name for name in results if name in NUMBERS]
+    results = _results(of, contact)
+    plain = [name for name in results if name not in CRITICAL]
+    if not set(plain) - set(NUMBERS):
+        contact = contact.replace(outputs=())
     loads = {"F_star": F_star, "pressure": pressure, "d": d}
     given = {name: value for name, value in loads.items() if value is not None}
     load = ""
@@ -600,7 +609,8 @@ def sensitivity(
     entries: dict[str, dict[str, Entry]] = {}
     if plain:
         state = solve(contact, **given)  # type: ignore[arg-type]
-        value = {name: np.atleast_1d(getattr(state, name)) for name in plain}
+        columns = state.columns()
+        value = {name: columns[name] for name in plain}
         entries = _of_columns(contact, state, moved, load, plain)
     for name in results:
         if name in CRITICAL:
@@ -636,15 +646,16 @@ def sensitivity(
     )
 
 
-def _results(of: str | Sequence[str]) -> list[str]:
+def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
     """The names of ``of``, each once."""
+    known = (*NUMBERS, *(name for each in contact.outputs for name in each.columns), *CRITICAL)
     names = list(dict.fromkeys([of] if isinstance(of, str) else of))
     if not names:
         raise InvalidValue("of is empty; name a column of Equilibrium or a critical load")
     if problems := [
-        f"of = {name!r} has no derivative; it must be one of {', '.join((*NUMBERS, *CRITICAL))}"
+        f"of = {name!r} has no derivative; it must be one of {', '.join(known)}"
         for name in names
-        if name not in (*NUMBERS, *CRITICAL)
+        if name not in known
     ]:
         raise InvalidValue(*problems)
     return names

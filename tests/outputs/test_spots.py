@@ -175,6 +175,19 @@ def test_swept_outputs_are_those_of_each_contact():
         )
 
 
+def test_slopes_of_outputs():
+    case = contact(outputs=tb.outputs.Counts())
+    found = tb.sensitivity(case, of=["n_sa"], to=["roughness.sigma", "pressure"], pressure=5e6)
+    for name in ("roughness.sigma", "pressure"):
+        ends = []
+        for factor in (1 - 1e-4, 1 + 1e-4):
+            sigma = 100e-9 * (factor if name != "pressure" else 1)
+            p = 5e6 * (factor if name == "pressure" else 1)
+            moved = case.replace(**{"roughness.sigma": sigma})
+            ends.append(np.log(tb.solve(moved, pressure=p).outputs["n_sa"]))
+        assert found.elasticity["n_sa"][name] == pytest.approx((ends[1] - ends[0]) / 2e-4, rel=1e-6)
+
+
 def test_unsolved_states_have_no_outputs():
     case = contact(outputs=tb.outputs.Counts())
     state = tb.solve(case, F_star=np.array([1e-5, 1e3]))
