@@ -7,7 +7,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -340,24 +340,34 @@ class SizeAverage:
         # the sizes are known to rounding, so their densities to rounding over their width
         width = (self.top - low) / self.top
         tolerance = 1e-13 + (2e-15 / width if width > 0 else 0.0)
+        self.tolerance = tolerance
         rise = np.sqrt(self.top - np.array([self.join, *known[known > self.join]]))
-        self.upper = PiecewiseChebyshev(
-            self._reduced,
-            _distinct(np.array([0.0, *np.sort(rise)])),
-            tolerance=tolerance,
-            kinds=KINDS,
-        )
-        self.lower = None
+        self.rises = _distinct(np.array([0.0, *np.sort(rise)]))
+        """Breakpoints in u above the join."""
+        self.gaps_below = np.empty(0)
+        """Breakpoints in the gap below the join, if there are gaps."""
         if self.bottom < self.join:
-            gaps_below = [self.bottom, *known[known < self.join], self.join]
-            self.lower = PiecewiseChebyshev(
-                lambda g: self.average(g, self.top - g),
-                _distinct(np.array(gaps_below)),
-                tolerance=tolerance,
-                kinds=KINDS,
-            )
+            below = [self.bottom, *known[known < self.join], self.join]
+            self.gaps_below = _distinct(np.array(below))
         bottom = np.array([self.bottom])
         self.floor = self.average(bottom, self.top - bottom)[0]
+
+    @cached_property
+    def upper(self) -> PiecewiseChebyshev:
+        """P/u^powers as a function of u, above the join."""
+        return PiecewiseChebyshev(self._reduced, self.rises, tolerance=self.tolerance, kinds=KINDS)
+
+    @cached_property
+    def lower(self) -> PiecewiseChebyshev | None:
+        """P as a function of the gap, below the join."""
+        if not len(self.gaps_below):
+            return None
+        return PiecewiseChebyshev(
+            lambda g: self.average(g, self.top - g),
+            self.gaps_below,
+            tolerance=self.tolerance,
+            kinds=KINDS,
+        )
 
     def _reduced(self, u: Array) -> Array:
         return self.average(self.top - u * u, u * u) / u[:, None] ** self.powers
@@ -439,9 +449,11 @@ class SizeAverage:
     def nodes(self, width: float) -> tuple[Array, Array, Array]:
         """Gauss nodes in the gap, weights and P there, for sums over a seat of this width.
 
-        Increasing gaps (M,), weights (M,), values (M, 7).
+        The panels of the tables, cut where they are wider than the seat: increasing gaps (M,),
+        weights (M,), values (M, 7).
         """
-        gaps, rise, weights = self.gaps(width)
+        lower = None if self.lower is None else self.lower.edges
+        gaps, rise, weights = self._gaps(self.upper.edges, lower, width)
         values = np.empty((len(gaps), len(COLUMNS)))
         upper = gaps >= self.join
         u = np.sqrt(rise[upper])
@@ -451,25 +463,27 @@ class SizeAverage:
         return gaps, weights, values
 
     def gaps(self, width: float, splits: Sequence[float] = ()) -> tuple[Array, Array, Array]:
-        """Gaps, x_max − gap and weights of `nodes`; more kinks ``splits`` of ε may be given.
+        """As `nodes` without the tables: gaps, x_max − gap, weights (M,); relative error 1e-10.
 
-        The panels of the tables, cut where they are wider than the seat.
+        ``splits`` are more values of ε at which sums over gaps have a kink.
         """
         more = np.array([x * (1 - eps) for x in self.sizes.kinks for eps in splits])
-        edges = self._cuts(self.upper.edges**2, self.top - more)
-        u, weight = _seat_rule(_cut(edges, width) ** 0.5, width, np.square)
+        more = more[(more > self.bottom) & (more < self.top)]
+        upper = np.sqrt(self.top - more[more > self.join])
+        lower = None
+        if len(self.gaps_below):
+            lower = _distinct(np.sort([*self.gaps_below, *more[more < self.join]]))
+        return self._gaps(_distinct(np.sort([*self.rises, *upper])), lower, width)
+
+    def _gaps(self, upper: Array, lower: Array | None, width: float) -> tuple[Array, Array, Array]:
+        """Nodes on panels between edges in u and, below the join, in the gap."""
+        u, weight = _seat_rule(_cut(upper**2, width) ** 0.5, width, np.square)
         rise, weights = u * u, 2 * u * weight
-        if self.lower is not None:
-            edges = self._cuts(self.lower.edges, more)
-            g, weight = _seat_rule(_cut(edges, width), width, np.asarray)
+        if lower is not None:
+            g, weight = _seat_rule(_cut(lower, width), width, np.asarray)
             rise = np.concatenate([rise, self.top - g[::-1]])
             weights = np.concatenate([weights, weight[::-1]])
         return self.top - rise[::-1], rise[::-1], weights[::-1]
-
-    @staticmethod
-    def _cuts(edges: Array, more: Array) -> Array:
-        inside = more[(more > edges[0]) & (more < edges[-1])]
-        return _distinct(np.sort(np.concatenate([edges, inside]))) if len(inside) else edges
 
     def spots(self, gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         """Every particle squeezed in gaps (N,) under which they rest on a plane."""
@@ -718,15 +732,23 @@ class SeatAverage:
                 f"particle diameters range over {span:.3g} widths of the seat, more than "
                 f"{WIDEST:g}: the surface is smooth for such particles, use seat = 'plane'"
             )
-        self.gaps, weight, values = average.nodes(width)
-        self.weights = weight[:, None] * values / (width * math.sqrt(2 * math.pi))
         self.floor = average.floor
-        low = average.bottom - NORMAL_REACH * width
-        high = average.top + NORMAL_REACH * width
-        panels = min(math.ceil((high - low) / (3 * width)), 32)
-        self.table = PiecewiseChebyshev(
+        self.low = average.bottom - NORMAL_REACH * width
+        self.high = average.top + NORMAL_REACH * width
+
+    @cached_property
+    def nodes(self) -> tuple[Array, Array]:
+        """Gaps, and the weighted columns there."""
+        gaps, weight, values = self.average.nodes(self.width)
+        return gaps, weight[:, None] * values / (self.width * math.sqrt(2 * math.pi))
+
+    @cached_property
+    def table(self) -> PiecewiseChebyshev:
+        """Every column as a function of the mean gap."""
+        panels = min(math.ceil((self.high - self.low) / (3 * self.width)), 32)
+        return PiecewiseChebyshev(
             self._over_seats,
-            np.linspace(low, high, panels + 1),
+            np.linspace(self.low, self.high, panels + 1),
             tolerance=1e-12,
             max_depth=20,
             kinds=KINDS,
@@ -734,23 +756,24 @@ class SeatAverage:
 
     def _over_seats(self, mean_gap: Array) -> Array:
         """The columns averaged over seats by quadrature: (N, 7)."""
+        gaps, weights = self.nodes
         z = (self.average.bottom - mean_gap) / self.width
         out = special.ndtr(z)[:, None] * self.floor
         order = np.argsort(mean_gap)
-        at_once = max(1, 400_000 // min(len(self.gaps), 1000))
+        at_once = max(1, 400_000 // min(len(gaps), 1000))
         for part in np.array_split(order, math.ceil(len(order) / at_once)):
-            lowest, highest = mean_gap[part[0]], min(mean_gap[part[-1]], self.gaps[-1])
+            lowest, highest = mean_gap[part[0]], min(mean_gap[part[-1]], gaps[-1])
             near = slice(
-                np.searchsorted(self.gaps, min(lowest, highest) - 2 * NORMAL_REACH * self.width),
-                np.searchsorted(self.gaps, highest + NORMAL_REACH * self.width),
+                np.searchsorted(gaps, min(lowest, highest) - 2 * NORMAL_REACH * self.width),
+                np.searchsorted(gaps, highest + NORMAL_REACH * self.width),
             )
-            z = (mean_gap[part, None] - self.gaps[near]) / self.width
-            out[part] += np.exp(-0.5 * z * z) @ self.weights[near]
+            z = (mean_gap[part, None] - gaps[near]) / self.width
+            out[part] += np.exp(-0.5 * z * z) @ weights[near]
         return out
 
     def __call__(self, gap: Array) -> Array:
         """Every column: (N, 7)."""
-        low, high = self.table.edges[[0, -1]]
+        low, high = self.low, self.high
         out = self.table(np.clip(gap, low, high))
         out[gap > high] = 0.0
         out[gap < low] = self.floor
@@ -782,7 +805,7 @@ class SeatAverage:
 
     def derivatives(self, gap: Array, columns: tuple[int, ...]) -> Array:
         """Some columns with two derivatives: (N, len(columns), 3)."""
-        low, high = self.table.edges[[0, -1]]
+        low, high = self.low, self.high
         out = self.table.derivatives(np.clip(gap, low, high), columns)
         out[gap > high] = 0.0
         out[gap < low] = 0.0
@@ -805,7 +828,7 @@ class Part:
         self.average, self.scale, self.offset = average, scale, offset
         self.density = density
         self.factor = density * scale**2
-        top = average.top if isinstance(average, SizeAverage) else average.table.edges[-1]
+        top = average.top if isinstance(average, SizeAverage) else average.high
         self.reach = scale * top - offset
 
     def load(self, d: Array, shadow: int) -> Array:
