@@ -237,7 +237,7 @@ def test_transitions_never_fail(monkeypatch):
     def fail(*_, **__):
         raise tb.NoTransition("none in this range")
 
-    monkeypatch.setattr(study, "transitions", fail)
+    monkeypatch.setattr(study.run, "transitions", fail)
     result = run("solve", DUSTY, "--json")
     assert result.exit_code == 0
     answer = strict(result.stdout)

@@ -1,9 +1,16 @@
 """Several populations of particles in one interface."""
 
+import csv
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import thirdbody as tb
+from thirdbody import cli
+from thirdbody.study import load_study
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 SIZES = tb.TruncatedGaussian(mean=300e-9, std=24e-9)
@@ -115,3 +122,74 @@ def test_round_trip_and_many_states():
 def test_mistakes(make, words):
     with pytest.raises(tb.InvalidValue, match=words):
         make()
+
+
+# ---------------------------------------------------------------------------- the command line
+EXAMPLE = Path(__file__).parents[1] / "examples" / "dust_and_debris.toml"
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+
+def test_json_says_what_each_population_carries():
+    loads = np.array([1e5, 5e6])
+    answer = json.loads(run("solve", EXAMPLE, "--json", "--set", "load.pressure=[1e5, 5e6]").stdout)
+    state = tb.solve(load_study(EXAMPLE).contact, pressure=loads)
+    assert [part["name"] for part in answer["populations"]] == ["dust", "debris"]
+    for told, part in zip(answer["populations"], state.populations, strict=True):
+        for name in ("F_sa_star", "A_sa", "load_share", "area_share"):
+            assert told[name] == getattr(part, name).tolist()
+    whole = np.sum([part["load_share"] for part in answer["populations"]], axis=0)
+    np.testing.assert_allclose(whole, answer["states"]["particle_load_share"], rtol=1e-12)
+    assert [body["name"] for body in answer["inputs"]["particles"]] == ["dust", "debris"]
+
+
+def test_json_keeps_the_place_of_an_unsolved_state():
+    answer = json.loads(run("solve", EXAMPLE, "--json", "--set", "load.F_star=[1e-5, 1e3]").stdout)
+    for part in answer["populations"]:
+        assert part["load_share"][0] > 0
+        assert part["load_share"][1] is None
+
+
+def test_csv_has_columns_for_each_population(tmp_path):
+    path = tmp_path / "states.csv"
+    setting = ("--set", "load.pressure=[1e5, 5e6]")
+    assert run("solve", EXAMPLE, "--csv", path, *setting).exit_code == 0
+    with path.open(newline="", encoding="utf-8") as file:
+        head, *rows = csv.reader(file)
+    answer = json.loads(run("solve", EXAMPLE, "--json", *setting).stdout)
+    for part in answer["populations"]:
+        for name in ("F_sa_star", "A_sa", "load_share", "area_share"):
+            column = head.index(f"{part['name']}: {name} [1]")
+            assert [float(row[column]) for row in rows] == part[name]
+
+
+def test_the_table_and_the_sentence_name_each_population():
+    text = " ".join(run("solve", EXAMPLE, "--set", "load.pressure=80 kPa").stdout.split())
+    for words in ("dust: load", "dust: area", "debris: load", "debris: area"):
+        assert words in text
+    share = tb.solve(load_study(EXAMPLE).contact, pressure=80e3).populations
+    dust, debris = (f"{100 * part.load_share:.3g} %" for part in share)
+    assert f"(dust {dust}, debris {debris})" in text
+
+
+def test_laws_are_compared_with_several_populations():
+    result = run("compare", EXAMPLE, "--laws", "zmc,ke", "--set", "load.pressure=5 MPa")
+    assert result.exit_code == 0, result.stderr
+    assert "particles' load" in result.stdout
+
+
+def test_populations_may_be_uncertain(tmp_path):
+    path = tmp_path / "study.toml"
+    known = """
+[uncertainty]
+samples = 256
+[uncertainty.inputs]
+particles.0.areal_density = { median = "1e11 / m^2", gsd = 1.5 }
+"particles.1.median" = { mean = "400 nm", std = "10 nm" }
+"""
+    path.write_text(EXAMPLE.read_text("utf-8") + known, "utf-8")
+    result = run("assess", path, "--json", "--set", "load.pressure=5 MPa")
+    assert result.exit_code == 0, result.stderr
+    assert "particles.1.diameter.median" in result.stdout

@@ -3,13 +3,16 @@
 import copy
 import re
 import tomllib
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import thirdbody as tb
-from thirdbody.study import DISTRIBUTIONS, HEIGHTS, LOADS, check, load_study, run_study
+from thirdbody.study import DISTRIBUTIONS, HEIGHTS, LOADS, check, load_study, run_study, whole
+from thirdbody.study.reader import Table
+from thirdbody.values import Value, choice, quantity
 
 EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.toml"))
 
@@ -340,7 +343,7 @@ def test_poisson_ratio_at_its_ends(write, value):
         ("n = 3", "median = 3", ["particles.median", 'goes with distribution = "log-normal"']),
         ("n = 3", "qqq = 3", ["particles.qqq = 3", "known here", "distribution", "areal_density"]),
         ("[load]", "[laod]", ["[laod]", "did you mean [load]?"]),
-        ("[load]", "[friction]\nmu = 0.1\n[load]", ["[friction]", "not a known table", "load"]),
+        ("[load]", "[gearbox]\nteeth = 12\n[load]", ["[gearbox]", "not a known table", "load"]),
         ("points =", "point =", ["load.F_star.point", "did you mean points?"]),
         ('title = "Dust"', "k = 3", ["k = 3", "belongs to [asperity_law]"]),
     ],
@@ -547,17 +550,32 @@ ODD += [float("nan"), 10**400, {"from": 1}, {"E": 1}, "9e99999 nm", "x" * 5000]
 
 
 def _places(data, path=()):
-    for key, value in data.items():
+    for key, value in data.items() if isinstance(data, dict) else enumerate(data):
         yield (*path, key)
-        if isinstance(value, dict):
+        if isinstance(value, (dict, list)):
             yield from _places(value, (*path, key))
 
 
-def test_any_value_anywhere_is_read_or_refused_in_sentences():
-    """No value of any type, under any key, ends in another error."""
+def _one_population():
     good = tomllib.loads(GOOD)
     good["roughness"]["heights"] = {"name": "johnson", "skewness": 0.1, "kurtosis": 3.5}
-    places = [*_places(good), ("particle_law", "law"), ("particles", "parts"), ("load", "pressure")]
+    return good, [("particle_law", "law"), ("particles", "parts"), ("load", "pressure")]
+
+
+def _two_populations():
+    good = tomllib.loads(SEVERAL)
+    good["sweep"] = {"vary": {"particles.0.areal_density": [1e10], "particles": {"1": {}}}}
+    good["uncertainty"] = {"inputs": {"particles.1.median": {"low": 1e-7, "high": 2e-7}}}
+    more = [("particles", 0, key) for key in ("law", "parts", "iso4406", "concentration")]
+    more += [("sweep", "vary", "particles", key) for key in ("0", "1", "mean")]
+    return good, more
+
+
+@pytest.mark.parametrize("study", [_one_population, _two_populations])
+def test_any_value_anywhere_is_read_or_refused_in_sentences(study):
+    """No value of any type, under any key, ends in another error."""
+    good, more = study()
+    places = [*_places(good), *more]
     refused = tried = 0
     for i, place in enumerate(places):
         # a fifth of the odd values at each place, all of them over the file
@@ -568,7 +586,10 @@ def test_any_value_anywhere_is_read_or_refused_in_sentences():
             table = data
             for name in tables:
                 table = table[name]
-            table.pop(key, None) if value is None else table.update({key: value})
+            if value is not None:
+                table[key] = value
+            elif isinstance(table, list) or key in table:
+                del table[key]
             try:
                 check(data)
             except tb.InvalidValue as error:
@@ -577,6 +598,194 @@ def test_any_value_anywhere_is_read_or_refused_in_sentences():
                     assert len(problem) < 900
                     assert "\n" not in problem
     assert refused > 0.8 * tried
+
+
+# ---------------------------------------------------------------------------- populations
+SEVERAL = (
+    GOOD.replace("[particles]", '[[particles]]\nname = "dust"').replace("[load]", "{more}[load]")
+).replace(
+    "{more}",
+    """[[particles]]
+name = "debris"
+material = { E = "205 GPa", nu = 0.29, H = "8 GPa" }
+distribution = "log-normal"
+median = "200 nm"
+gsd = 1.5
+areal_density = "2e10 / m^2"
+[particles.law]
+name = "series"
+zeta_mean = -0.5
+""",
+)
+
+
+def test_several_populations_are_those_of_python(write):
+    study = load_study(write(text=SEVERAL))
+    one = load_study(write()).contact
+    debris = tb.Particles(
+        material=tb.Material(E=205e9, nu=0.29, H=8e9),
+        diameter=tb.LogNormal(median=200e-9, gsd=1.5),
+        areal_density=2e10,
+        name="debris",
+        law=tb.particle.Series(zeta_mean=-0.5),
+    )
+    assert study.notes == ()
+    both = (one.particles.replace(name="dust"), debris)
+    assert study.contact == one.replace(particles=both)
+
+
+def test_one_table_of_a_list_is_the_table(write):
+    alone = load_study(write(text=GOOD.replace("[particles]", "[[particles]]")))
+    one = load_study(write())
+    assert alone.contact.particles == (one.contact.particles,)
+    assert run_study(alone)["states"] == run_study(one)["states"]
+    assert run_study(alone)["populations"] == []
+
+
+def test_populations_may_be_counted(write):
+    text = SEVERAL.replace('distribution = "log-normal"', 'iso4406 = "18/16/13"\ngap = "1 um"')
+    text = re.sub(r'median = "200 nm"\ngsd = 1.5\nareal_density = "2e10 / m\^2"\n', "", text)
+    made = load_study(write(text=text)).contact.particles[1]
+    body = tb.Material(E=205e9, nu=0.29, H=8e9)
+    counted = tb.Particles.from_iso4406("18/16/13", gap="1 um", material=body)
+    assert (made.diameter, made.areal_density) == (counted.diameter, counted.areal_density)
+    assert (made.name, made.law) == ("debris", tb.particle.Series(zeta_mean=-0.5))
+
+
+@pytest.mark.parametrize(
+    ("override", "field", "value"),
+    [
+        ("particles.0.mean=500 nm", "particles.0.diameter.mean", 500e-9),
+        ("particles.1.areal_density=3e10", "particles.1.areal_density", 3e10),
+        ("particles.1.law.zeta_mean=0.5", "particles.1.law.zeta_mean", 0.5),
+        ("particles.1.material.H=9 GPa", "particles.1.material.H", 9e9),
+        ("particles.0.name=sand", "particles.0.name", "sand"),
+    ],
+)
+def test_overrides_of_a_population(write, override, field, value):
+    plain = load_study(write(text=SEVERAL)).contact
+    assert load_study(write(text=SEVERAL), [override]).contact == plain.replace(**{field: value})
+
+
+@pytest.mark.parametrize(
+    ("override", "words"),
+    [
+        ("particles.mean=1e-7", ["particles is a list of 2", "e.g. particles.0.mean"]),
+        ("particles.2.mean=1e-7", ["numbered 0 to 1", "e.g. particles.0.mean"]),
+        ("particles.0.maen=1", ["particles.0.maen = 1", "did you mean mean?"]),
+        ("particles.0.mean=1 GPa", ['particles.0.mean = "1 GPa"', "is a pressure"]),
+        ("particles.0=3", ["particles.0 = 3 must be a table"]),
+        ("particles.1.name=dust", ['particles.1.name = "dust"', "name of particles.0"]),
+        ("particles.1.law.seat=rouhg", ["particles.1.law.seat", 'did you mean "rough"?']),
+        ("particles.1.law.name=horng2022", ["particles.1.law.zeta_mean", "not a known key"]),
+        ("particles.1.law=horng2022", ["particles follow laws", "different planes"]),
+        ("particles.0.areal_density=1e14", ["particles.0.areal_density", "jammed"]),
+        ("particles.0.iso4406=18/16/13", ["particles.0.distribution", "keep one"]),
+    ],
+)
+def test_mistakes_in_populations(problems, override, words):
+    only(problems(text=SEVERAL, overrides=[override])[:1], *words)
+
+
+def test_populations_that_jam_only_together(problems):
+    found = problems(text=SEVERAL.replace("1e11 /", "9e12 /").replace("2e10 /", "1.5e13 /"))
+    only(found, "particles are jammed: together")
+
+
+def test_one_table_has_no_number(problems):
+    only(problems(overrides=["particles.0.mean=1e-7"]), "one table [particles]", "particles.mean")
+
+
+def test_laws_that_have_no_effect_are_noted(write):
+    law = '[particles.law]\nname = "series"\nzeta_mean = -0.5\n[particle_law]'
+    (note,) = load_study(write(("[particle_law]", law))).notes
+    assert "[particle_law] has no effect" in note
+
+
+# ---------------------------------------------------------------------------- inputs that vary
+@pytest.mark.parametrize(
+    ("line", "field"),
+    [
+        ('"particles.0.areal_density" = [1e10, 2e10]', "particles.0.areal_density"),
+        ('"particles.0.mean" = [2e-7, 3e-7]', "particles.0.diameter.mean"),
+        ('particles.1.median = [2e-7, "300 nm"]', "particles.1.diameter.median"),
+        ('"particles.1.law.zeta_mean" = [0.0, 0.5]', "particles.1.law.zeta_mean"),
+        ('"particles.0.material.H" = ["5 GPa", "6 GPa"]', "particles.0.material.H"),
+    ],
+)
+def test_sweeps_over_a_population(write, line, field):
+    study = load_study(write(text=SEVERAL + f"[sweep.vary]\n{line}\n"))
+    solved = study.sweep.whole.solve()["A_t"]
+    (dim,) = (dim for dim in study.sweep.dims if dim.name != "F_star")
+    assert dim.name == field
+    last = study.contact.replace(**{field: dim.values[field][-1]})
+    by_hand = tb.solve(last, F_star=study.values).A_t
+    np.testing.assert_allclose(solved.reshape(2, -1)[-1], by_hand, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ('"particles.areal_density" = [1e10]', ["several particles", "particles.0.areal_density?"]),
+        ('"particles.2.mean" = [1e-7]', ["sweep.vary.particles.2", "known here: 0, 1"]),
+        ('"particles.0.name" = ["x"]', ["no part in the contact (a label)"]),
+        (
+            '"surfaces.first.density" = [7800]',
+            ["first.density = [7800]", "no part", "mass density"],
+        ),
+        ('"surfaces.second.source" = ["x"]', ["surfaces.second.source", "no part", "label"]),
+        ('"particles.0.material.resistivity" = [1]', ["no part", "electrical resistivity"]),
+    ],
+)
+def test_what_cannot_vary(problems, line, words):
+    only(problems(text=SEVERAL + f"[sweep.vary]\n{line}\n"), *words)
+
+
+def test_what_a_contact_fills_in_cannot_vary(problems):
+    text = GOOD.replace('name = "zmc"\nk = 0.4', 'name = "jkr"\nw = 0.03')
+    found = problems(text=text + '[sweep.vary]\n"asperity_law.scale" = [0.1]\n')
+    only(found, "sweep.vary.asperity_law.scale", "follows from the contact")
+
+
+def test_uncertain_populations(write, problems):
+    start = SEVERAL + "[uncertainty.inputs]\n"
+    study = load_study(
+        write(
+            text=start + '"particles.1.median" = { low = 1e-7, high = 2e-7 }\n'
+            "particles.0.areal_density = { median = 1e10, gsd = 2 }\n"
+        )
+    )
+    names = ["particles.1.diameter.median", "particles.0.areal_density"]
+    assert list(study.uncertainty.inputs) == names
+    line = '"particles.0.material.density" = { low = 1, high = 2 }'
+    only(problems(text=start + line), "particles.0.material.density", "no part in the contact")
+    line = '"particles.mean" = { low = 1e-7, high = 2e-7 }'
+    only(problems(text=start + line), "did you mean particles.0.mean?")
+
+
+# ---------------------------------------------------------------------------- tables to come
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sliding(Value):
+    """What a table of an output may hold."""
+
+    tau: float = quantity("τ", "Pa", "shear strength", gt=0, hint="MPa are '90 MPa'")
+    rule: str = choice("how it grows", "constant", "linear", default="constant")
+
+
+def test_a_table_is_one_entry_of_the_list(write, problems, monkeypatch):
+    sliding = Table(
+        name="sliding",
+        read=lambda reader, path, data: reader.value(path, data, Sliding),
+        role="output",
+    )
+    monkeypatch.setattr(whole, "TABLES", (*whole.TABLES, sliding))
+    assert load_study(write()).outputs == {}
+    study = load_study(write(text=GOOD + '[sliding]\ntau = "90 MPa"\n'))
+    assert study.outputs == {"sliding": Sliding(tau=90e6)}
+    only(problems(text=GOOD + "[slidign]\ntau = 1e6\n"), "did you mean [sliding]?")
+    only(problems(text=GOOD + "[sliding]\ntua = 1e6\n"), "sliding.tua", "did you mean tau?")
+    only(problems(text=GOOD + "[sliding]\ntau = -1\n"), "sliding.tau = -1 must be > 0 [Pa]")
+    only(problems(text=GOOD + '[sliding]\ntau = 1e6\nrule = "liner"\n'), 'did you mean "linear"')
 
 
 # ---------------------------------------------------------------------------- files
@@ -752,6 +961,11 @@ def test_what_the_examples_say():
     assert 0.025 < small["particle_load_share"][-1] < 0.035
     debris = run_study(load_study(example("bearing_wear_debris")))["states"]
     assert debris["particle_load_share"][0] > 0.999
+    both = run_study(load_study(example("dust_and_debris"), ["load.pressure=[80e3, 5e5, 6e5]"]))
+    dust, wear = (part["load_share"] for part in both["populations"])
+    assert wear[0] == pytest.approx(0.9, abs=0.02)
+    assert dust[2] > wear[2]
+    assert dust[1] / wear[1] == pytest.approx(1, abs=0.2)
     clean = run_study(load_study(example("two_body_reference")))["states"]
     for area, elastoplastic in zip(clean["A_t"], clean["A_ep"], strict=True):
         assert elastoplastic > 0.5 * area

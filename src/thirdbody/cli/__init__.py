@@ -1,0 +1,58 @@
+"""The command line: ``thirdbody solve STUDY.toml`` and its neighbours.
+
+Each command is a file in `commands`; what several share is in `options`, what they print in `show`,
+and `streams` says what goes to which stream with which exit status.
+"""
+
+from __future__ import annotations
+
+import io
+import sys
+from importlib import import_module
+from typing import Annotated
+
+import typer
+
+from .commands import COMMANDS
+from .streams import Commands
+
+__all__ = ["app", "main"]
+
+app = typer.Typer(
+    cls=Commands,
+    name="thirdbody",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help="Contact of rough surfaces with particles between them.",
+)
+
+
+def main() -> None:
+    """Entry point of the command ``thirdbody``."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+    app()
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from .. import __version__
+
+        print(f"thirdbody {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Contact of rough surfaces with particles between them."""
+
+
+for name in COMMANDS:
+    app.command(name)(import_module(f".commands.{name}", __name__).command)

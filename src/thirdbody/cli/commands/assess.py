@@ -1,0 +1,42 @@
+"""``thirdbody assess``: how sure the answer is, on one page."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..options import AsJson, Settings, read_study
+from ..show import terminal
+
+__all__ = ["command"]
+
+
+def command(
+    study: Annotated[
+        Path,
+        typer.Argument(metavar="STUDY.toml", help="A study file with a table [uncertainty]."),
+    ],
+    as_json: AsJson = False,
+    html_file: Annotated[
+        Path | None,
+        typer.Option("--html", metavar="FILE", help="Write the page with figures, one file."),
+    ] = None,
+    settings: Settings = None,
+) -> None:
+    """One page: the mode at the operating load, how sure it is, and what would change it."""
+    from ...assess import assess_study
+    from ...files import write_text
+
+    asked = read_study(study, settings)
+    answer = assess_study(asked)
+    if html_file is not None:
+        write_text(html_file, answer.html())
+        print(f"written: {html_file}", file=sys.stderr)
+    if as_json:
+        print(json.dumps(answer.to_dict(), indent=1, allow_nan=False))
+    else:
+        terminal().print(answer.page())

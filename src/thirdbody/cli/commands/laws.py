@@ -1,0 +1,97 @@
+"""``thirdbody laws``: what one asperity or particle may do."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from typing import Annotated, Any
+
+import typer
+
+from ..options import AsJson
+from ..show import table_of, terminal
+
+__all__ = ["command"]
+
+
+def command(
+    as_json: AsJson = False,
+    as_page: Annotated[
+        bool, typer.Option("--markdown", help="Print the page of asperity laws, docs/laws.md.")
+    ] = False,
+) -> None:
+    """The laws of asperities and particles, with citation and range."""
+    from ... import asperity, particle
+    from ...units import say
+
+    if as_json and as_page:
+        raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")
+    if as_page:
+        from ...compare import laws_page
+
+        print(laws_page(), end="")
+        return
+
+    kinds = {"asperity": asperity.REGISTRY, "particle": particle.REGISTRY}
+    found = {
+        kind: [_about_law(law) for law in registry.values()] for kind, registry in kinds.items()
+    }
+    if as_json:
+        print(json.dumps(found, indent=1, allow_nan=False))
+        return
+    console = terminal()
+    for kind, entries in found.items():
+        table = table_of(("name", "law", "valid range", "citation"))
+        for entry in entries:
+            doi = f", doi:{entry['doi']}" if entry["doi"] else ""
+            table.add_row(
+                entry["name"],
+                f"{entry['title']} ({entry['year']})",
+                entry["valid_range"],
+                f"{entry['citation']}{doi} ({entry['provenance']})",
+            )
+        console.print(f"[{kind}_law]")
+        console.print(table)
+        for entry in filter(lambda entry: entry["options"], entries):
+            table = table_of((f"options of {entry['name']}", "default", "allowed", "meaning"))
+            for option in entry["options"]:
+                default = "-" if option["default"] is None else say(option["default"])
+                table.add_row(option["key"], default, option["allowed"], option["meaning"])
+            console.print(table)
+
+
+def _about_law(law: type) -> dict[str, Any]:
+    from ...study import filled_in
+
+    about = ("name", "title", "year", "citation", "doi", "provenance", "valid_range")
+    usual = law()
+    options = [
+        _about_option(item, getattr(usual, item.name))
+        for item in dataclasses.fields(law)
+        if item.name not in filled_in(law)
+    ]
+    return {key: getattr(law, key) for key in about} | {"options": options}
+
+
+def _about_option(item: dataclasses.Field, default: Any) -> dict[str, Any]:
+    from ...units import say
+    from ...values import allowed_range
+
+    default = getattr(default, "name", default)
+    allowed, meaning, unit = "", "", ""
+    if about := item.metadata.get("quantity"):
+        allowed, unit = allowed_range(about).removeprefix("must be "), about["unit"]
+        meaning = f"{about['meaning']} {about['symbol']}"
+    elif about := item.metadata.get("choice"):
+        allowed, meaning = ", ".join(map(say, about["options"])), about["meaning"]
+    elif isinstance(default, bool):
+        allowed = "true, false"
+    elif isinstance(default, str):
+        allowed = "name of an asperity law, or a table with its options"
+    return {
+        "key": item.name,
+        "default": default,
+        "allowed": allowed,
+        "unit": unit,
+        "meaning": meaning,
+    }

@@ -1,0 +1,101 @@
+"""``thirdbody materials``: the bodies there are, with range and source."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ...errors import InvalidValue
+from ..options import AsJson
+from ..show import table_of, terminal
+
+__all__ = ["command"]
+
+
+def command(
+    query: Annotated[
+        list[str] | None,
+        typer.Argument(help="Words of name, kind or description.", show_default=False),
+    ] = None,
+    own: Annotated[
+        list[Path] | None,
+        typer.Option("--file", help="A TOML file of your own materials.", show_default=False),
+    ] = None,
+    as_json: AsJson = False,
+    as_table: Annotated[
+        bool, typer.Option("--markdown", help="Print the tables of the page docs/materials.md.")
+    ] = False,
+) -> None:
+    """The materials of the library, with range and source: thirdbody materials bearing steel."""
+    from ...materials import materials
+
+    if as_json and as_table:
+        raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")
+    library = materials.load(*own) if own else materials
+    asked = " ".join(query or [])
+    every = library.entries()
+    entries = {name: every[name] for name in library.search(asked)}
+    if as_json:
+        print(json.dumps(entries, indent=1, allow_nan=False))
+        return
+    if not entries:
+        kinds = dict.fromkeys(entry.get("kind", "") for entry in every.values())
+        raise InvalidValue(
+            f"no material has {asked!r} in its name or description; "
+            f"there are kinds {', '.join(filter(None, kinds))}"
+        )
+    if as_table:
+        print(_materials_in_markdown(entries))
+        return
+    table = table_of(("name", "what", "E", "nu", "H", "standing", "source"))
+    for name, entry in entries.items():
+        doi = f", doi:{entry['doi']}" if entry.get("doi") else ""
+        table.add_row(
+            name,
+            entry.get("about", ""),
+            _in_range(entry, "E", 1e9, " GPa"),
+            _in_range(entry, "nu", 1.0, ""),
+            _in_range(entry, "H", 1e9, " GPa"),
+            entry.get("standing", ""),
+            entry["source"] + doi,
+        )
+    terminal().print(table)
+
+
+def _in_range(entry: dict[str, Any], key: str, scale: float, unit: str) -> str:
+    """A value and, where sources differ, the range between them."""
+    if key not in entry:
+        return "-"
+    low, high = entry.get("range", {}).get(key, (entry[key], entry[key]))
+    spread = f" ({low / scale:.5g} to {high / scale:.5g})" if low < high else ""
+    return f"{entry[key] / scale:.5g}{unit}{spread}"
+
+
+def _materials_in_markdown(entries: dict[str, dict[str, Any]]) -> str:
+    """Two tables: the numbers, and where each comes from."""
+    numbers = {
+        "E": ("E [GPa]", 1e9),
+        "nu": ("ν", 1.0),
+        "H": ("H [GPa]", 1e9),
+        "density": ("ρ [kg/m³]", 1.0),
+        "thermal_conductivity": ("κ [W/(m K)]", 1.0),
+        "specific_heat": ("c_p [J/(kg K)]", 1.0),
+        "resistivity": ("ρ_e [nΩ m]", 1e-9),
+    }
+    lines = [
+        "| name | what | " + " | ".join(title for title, _ in numbers.values()) + " |",
+        "| --- " * (2 + len(numbers)) + "|",
+    ]
+    for name, entry in entries.items():
+        cells = (_in_range(entry, key, scale, "") for key, (_, scale) in numbers.items())
+        lines.append(f"| `{name}` | {entry.get('about', '')} | {' | '.join(cells)} |")
+    lines += ["", "| name | standing | source | numbers from elsewhere |", "| --- " * 4 + "|"]
+    for name, entry in entries.items():
+        doi = entry.get("doi")
+        source = entry["source"] + (f", [{doi}](https://doi.org/{doi})" if doi else "")
+        elsewhere = "; ".join(f"**{key}** {told}" for key, told in entry.get("sources", {}).items())
+        lines.append(f"| `{name}` | {entry.get('standing', '')} | {source} | {elsewhere} |")
+    return "\n".join(lines)

@@ -1,0 +1,184 @@
+"""``thirdbody solve``: separation, area, load shares and mode under the loads of a study."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ...errors import NoEquilibrium
+from ..options import AsJson, Settings, StudyFile, read_study
+from ..show import as_length, as_number, as_percent, as_pressure, table_of, terminal
+from ..streams import warn, write_csv
+
+__all__ = ["command", "summary"]
+
+MOST_ROWS = 20
+
+Columns = dict[str, Callable[[int], str]]
+"""Heads of columns, and the cell of a state."""
+
+
+def command(
+    study: StudyFile,
+    as_json: AsJson = False,
+    csv_file: Annotated[
+        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per state.")
+    ] = None,
+    settings: Settings = None,
+) -> None:
+    """Separation, real contact area, load shares and contact mode under the loads of a study."""
+    from ...study import run_study
+
+    if as_json and csv_file is not None:
+        raise typer.BadParameter("--json and --csv exclude each other; run the command twice")
+    asked = read_study(study, settings)
+    result = run_study(asked)
+    for sentence in result["warnings"][len(asked.notes) :]:
+        warn(sentence)
+    statuses = result["states"]["status"]
+    solved = statuses.count("ok")
+    if as_json:
+        print(json.dumps(result, indent=1, allow_nan=False))
+    elif solved and csv_file is not None:
+        write_csv(csv_file, *_columns(result))
+        print(f"{len(statuses)} states written to {csv_file}", file=sys.stderr)
+    elif solved:
+        _show(result)
+    if not solved:
+        more = f" (and so for all {len(statuses)} states)" if len(statuses) > 1 else ""
+        raise NoEquilibrium(statuses[0] + more)
+
+
+def _columns(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    """Columns of the states, then those of each of several populations, and their units."""
+    from ...equilibrium import COLUMNS
+
+    columns = dict(result["states"])
+    units = {name: COLUMNS[name]["unit"] for name in columns}
+    for part in result["populations"]:
+        mine = {f"{part['name']}: {key}": part[key] for key in part if key != "name"}
+        columns |= mine
+        units |= dict.fromkeys(mine, "1")
+    return columns, units
+
+
+def _show(result: dict[str, Any]) -> None:
+    """The result for a reader: states, populations, transitions, one sentence."""
+    console = terminal()
+    states, scales = result["states"], result["scales"]
+    three_body = result["inputs"]["particles"] is not None
+    console.print(f"{result['title'] or 'Study'} (thirdbody {result['version']})")
+    console.print(f"E_ss = {scales['E_ss'] / 1e9:.4g} GPa, sigma = {as_length(scales['sigma'])}")
+
+    loads: Columns = {
+        "F*": lambda i: as_number(states["F_star"][i]),
+        "pressure": lambda i: as_pressure(states["pressure"][i]),
+    }
+    columns = loads | {
+        "d": lambda i: as_length(states["d"][i]),
+        "d/sigma": lambda i: as_number(states["d_star"][i]),
+        "A_t": lambda i: as_number(states["A_t"][i]),
+        "A_ss": lambda i: as_number(states["A_ss"][i]),
+    }
+    if three_body:
+        columns |= {
+            "A_sa": lambda i: as_number(states["A_sa"][i]),
+            "particles' load": lambda i: as_percent(states["particle_load_share"][i]),
+            "particles' area": lambda i: as_percent(states["particle_area_share"][i]),
+            "mode": lambda i: states["mode"][i] or "-",
+        }
+    total = len(states["status"])
+    console.print(_some_states(columns, total))
+    if result["populations"]:
+        console.print("Of the whole load and of the whole real area:")
+        console.print(_some_states(loads | _population_columns(result["populations"]), total))
+    if total > MOST_ROWS:
+        console.print(f"{MOST_ROWS} of {total} states shown; --csv FILE writes all\n")
+    for status in dict.fromkeys(states["status"]):
+        if status != "ok":
+            console.print(f"{states['status'].count(status)} state(s) unsolved: {status}")
+    if three_body:
+        console.print(_transition_table(result["transitions"], scales["E_ss"]))
+    console.print(summary(result))
+
+
+def _some_states(columns: Columns, total: int) -> Any:
+    """A row a state; of many states some, evenly spread."""
+    table = table_of(columns, right=True)
+    rows = min(total, MOST_ROWS)
+    for row in range(rows):
+        i = round(row * (total - 1) / max(rows - 1, 1))
+        table.add_row(*(cell(i) for cell in columns.values()))
+    return table
+
+
+def _population_columns(populations: list[dict[str, Any]]) -> Columns:
+    """Shares of load and area of each population."""
+
+    def share(part: dict[str, Any], key: str) -> Callable[[int], str]:
+        return lambda i: as_percent(part[key][i])
+
+    out: Columns = {}
+    for part in populations:
+        out[f"{part['name']}: load"] = share(part, "load_share")
+        out[f"{part['name']}: area"] = share(part, "area_share")
+    return out
+
+
+def _transition_table(critical: dict[str, Any], E_ss: float) -> Any:
+    turning = critical["F_tpca"]
+    rows = {
+        "F_cr1: asperities come into contact (p-s to hybrid)": critical["F_cr1"],
+        "F_cr2: particles have little of the contact left (hybrid to s-s)": critical["F_cr2"],
+        "F_tpca A: largest particle share": turning["A"],
+        "F_tpca B: equal loads": turning["B"],
+        "F_tpca C: strongest bend of the area": turning["C"],
+    }
+    table = table_of(("critical load", "F*", "pressure", "status"))
+    for name, entry in rows.items():
+        value = entry["value"]
+        load = None if value is None else value * E_ss
+        table.add_row(name, as_number(value), as_pressure(load), entry["status"])
+    return table
+
+
+def summary(result: dict[str, Any]) -> str:
+    """The result in plain words."""
+    states = result["states"]
+    known = [i for i, status in enumerate(states["status"]) if status == "ok"]
+    three_body = result["inputs"]["particles"] is not None
+    words = {
+        "p-s": "nearly all real contact is on particles (p-s)",
+        "hybrid": "real contact is on particles and on asperities (hybrid)",
+        "s-s": "nearly all real contact is on asperities (s-s)",
+    }
+
+    def state(i: int) -> str:
+        gap = f"separation {as_length(states['d'][i])} ({states['d_star'][i]:.3g} sigma)"
+        area = f"real contact area {as_percent(states['A_t'][i])} of the nominal area"
+        if not three_body:
+            return f"{gap}, {area}"
+        share = f"particles carry {as_percent(states['particle_load_share'][i])} of the load"
+        if parts := result["populations"]:
+            each = (f"{part['name']} {as_percent(part['load_share'][i])}" for part in parts)
+            share += f" ({', '.join(each)})"
+        if states["mode"][i] is None:
+            return f"no contact, {gap}"
+        return f"{words[states['mode'][i]]}; {share}, {gap}, {area}"
+
+    def load(i: int) -> str:
+        return f"{as_pressure(states['pressure'][i])} (F* = {as_number(states['F_star'][i])})"
+
+    known.sort(key=lambda i: states["pressure"][i])
+    first, last = known[0], known[-1]
+    if first == last:
+        return f"At {load(first)}: {state(first)}."
+    modes = [states["mode"][i] or "no contact" for i in known]
+    path = [mode for i, mode in enumerate(modes) if i == 0 or mode != modes[i - 1]]
+    passes = f" In between the mode goes {' -> '.join(path)}." if len(path) > 1 else ""
+    return f"At {load(first)}: {state(first)}. At {load(last)}: {state(last)}.{passes}"

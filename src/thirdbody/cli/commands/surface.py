@@ -1,0 +1,179 @@
+"""``thirdbody surface``: moments and asperities of a measured surface."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ...errors import InvalidValue
+from ..options import AsJson, not_a_folder
+from ..show import as_length, as_number, finite, table_of, terminal
+from ..streams import warn, write_csv
+
+__all__ = ["command"]
+
+
+def command(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help='A measured surface or profile, or "example".')
+    ],
+    cutoff: Annotated[
+        str | None,
+        typer.Option("--cutoff", metavar="LENGTH", help='E.g. "2 um"; 0 as sampled.'),
+    ] = None,
+    detrend: Annotated[
+        str | None,
+        typer.Option("--detrend", help="Form to remove: none, tilt (default) or curvature."),
+    ] = None,
+    unit: Annotated[
+        str | None, typer.Option("--unit", help="Of a file that tells none, e.g. um.")
+    ] = None,
+    spacing: Annotated[
+        str | None,
+        typer.Option("--spacing", metavar="LENGTH[,LENGTH]", help="Of a file that tells none."),
+    ] = None,
+    channel: Annotated[
+        str | None, typer.Option("--channel", help="Number or name of a channel of the file.")
+    ] = None,
+    resolution: Annotated[
+        str | None,
+        typer.Option(
+            "--resolution", metavar="LENGTH", help="Shortest wave the instrument tells apart."
+        ),
+    ] = None,
+    as_json: AsJson = False,
+    csv_file: Annotated[
+        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per cut-off.")
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Folder for surface.png, .svg and .json."),
+    ] = None,
+) -> None:
+    """Moments and asperities of a measured surface, and what they owe to the cut-off."""
+    from ...topography import from_topography
+    from ...units import to_si
+
+    problems: list[str] = []
+
+    def metres(option: str, text: str) -> float:
+        try:
+            return to_si(text, "m")
+        except InvalidValue as error:
+            problems.extend(f"{option}: {sentence}" for sentence in error.problems)
+            return 1.0
+
+    given: dict[str, Any] = {"detrend": detrend, "unit": unit, "channel": channel}
+    for name, text in (("cutoff", cutoff), ("resolution", resolution)):
+        given[name] = None if text is None else metres(f"--{name}", text)
+    if spacing is not None:
+        given["spacing"] = tuple(metres("--spacing", part) for part in spacing.split(","))
+    problems += not_a_folder(out)
+    if problems:
+        raise InvalidValue(*problems)
+    found = from_topography(file, **given)
+    result = found.to_dict()
+    for sentence in found.warnings:
+        warn(sentence)
+    written = []
+    if csv_file is not None:
+        write_csv(csv_file, finite(result["curve"]), result["units"])
+        written.append(csv_file)
+    if out is not None:
+        written += _write_surface(out, found, result)
+    if as_json:
+        print(json.dumps(finite(result), indent=1, allow_nan=False))
+    else:
+        _show_surface(found, result)
+    for path in written:
+        print(f"written: {path}", file=sys.stderr)
+
+
+def _write_surface(folder: Path, found: Any, result: dict[str, Any]) -> list[Path]:
+    import matplotlib as mpl
+
+    from ...files import whole, write_text
+    from ...plot import surface as draw
+
+    folder.mkdir(parents=True, exist_ok=True)
+    out = [folder / f"surface.{suffix}" for suffix in ("png", "svg", "json")]
+    drawing = draw(found)
+    with whole(out[0]) as png, whole(out[1]) as svg:
+        drawing.savefig(png, dpi=200)
+        with mpl.rc_context({"svg.hashsalt": "thirdbody"}):
+            drawing.savefig(svg, metadata={"Date": None})
+        write_text(out[2], json.dumps(finite(result), indent=1, allow_nan=False) + "\n")
+    return out
+
+
+def _show_surface(found: Any, result: dict[str, Any]) -> None:
+    """What was read, the answer at the cut-off used, and its course with the cut-off."""
+    console = terminal()
+    points = " x ".join(map(str, result["points"]))
+    sides = " x ".join(map(as_length, result["size"]))
+    kind = "map" if found.dim == 2 else "profile"
+    console.print(f"{found.source}: {kind} of {points} points, {sides}")
+    sampled, used = result["as_sampled"], result["cutoff"]
+    console.print(
+        f"as sampled: RMS height {as_length(sampled['rms_height'])}, RMS "
+        f"{'gradient' if found.dim == 2 else 'slope'} {as_number(sampled['rms_slope'])}, RMS "
+        f"curvature {as_number(sampled['rms_curvature'])} 1/m"
+    )
+    limit = "" if used["instrument_limit"] is None else as_length(used["instrument_limit"]) + ", "
+    console.print(f"limit of the instrument: {limit}{used['instrument_limit_reason']}")
+    console.print(f"recommended cut-off: {as_length(used['recommended'])}: {used['reason']}")
+    console.print()
+    at = "as sampled" if used["used"] == 0 else f"at {as_length(used['used'])}"
+    columns = ("sigma", "R", "eta [1/m^2]", "eta R sigma", "alpha", "sigma_s", "y_s")
+    answer = table_of((at, *columns), right=True)
+    answer.columns[0].justify = "left"
+    spectral = found.moments_at(method="spectrum")
+    for label, one in (("differences", found.moments), ("spectrum", spectral)):
+        answer.add_row(
+            label,
+            as_length(one.sigma),
+            as_length(one.R),
+            as_number(one.eta),
+            as_number(one.eta * one.R * one.sigma),
+            as_number(one.alpha),
+            as_length(one.sigma_s),
+            as_length(one.y_s),
+        )
+    if found.dim == 2 and found.summits.count > 1:
+        counted = found.summits
+        answer.add_row(
+            f"{counted.count} summits",
+            as_length(found.moments.sigma),
+            as_length(counted.R),
+            as_number(counted.density),
+            as_number(counted.density * counted.R * found.moments.sigma),
+            "-",
+            as_length(counted.sigma_s),
+            as_length(counted.y_s),
+        )
+    console.print(answer)
+    curve = finite(result["curve"])
+    heads = ("cut-off", "sigma", "gradient", "alpha", "R", "R counted", "eta", "eta counted")
+    course = table_of((*heads, "R per octave"), right=True)
+    change = found.curve().per_octave("R")
+    for i, cut in enumerate(curve["cutoff"]):
+        course.add_row(
+            as_length(cut),
+            as_length(curve["sigma"][i]),
+            as_number(curve["rms_gradient"][i]),
+            as_number(curve["alpha"][i]),
+            as_length(curve["R"][i]),
+            as_length(curve["R_counted"][i]),
+            as_number(curve["eta"][i]),
+            as_number(curve["eta_counted"][i]),
+            f"{100 * change[i]:+.0f} %",
+        )
+    console.print(course)
+    console.print(
+        f"skewness {result['skewness']:.3g}, kurtosis {result['kurtosis']:.3g}, mean square slopes "
+        f"{as_number(result['anisotropy'])} : 1 along and across"
+    )

@@ -1,0 +1,88 @@
+"""``thirdbody sweep``: many states, in a folder."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ...errors import InvalidValue, NoEquilibrium
+from ..options import Settings
+from ..streams import INTERRUPTED, complain, warn
+
+__all__ = ["command"]
+
+
+def command(
+    study: Annotated[
+        Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [sweep].")
+    ],
+    out: Annotated[
+        Path,
+        typer.Option(
+            "--out", metavar="DIR", help="Folder for the states; the same command resumes."
+        ),
+    ],
+    format: Annotated[
+        str, typer.Option("--format", metavar="zarr|netcdf", help="Of the data in DIR.")
+    ] = "zarr",
+    workers: Annotated[
+        int, typer.Option("--workers", metavar="N", help="Threads that solve blocks of states.")
+    ] = 1,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler", metavar="ADDRESS", help="A Dask cluster that solves them instead."
+        ),
+    ] = None,
+    settings: Settings = None,
+) -> None:
+    """Many states, in a folder: on a grid, in pairs or sampled; resumable."""
+    from ...streaming import FORMATS, run
+    from ...study import load_study
+
+    problems = []
+    if format not in FORMATS:
+        problems.append(f"--format {format} must be one of {', '.join(FORMATS)}")
+    if workers < 1:
+        problems.append(f"--workers {workers} must be at least 1")
+    try:
+        asked = load_study(study, settings or ())
+        if asked.sweep is None:
+            problems.append(
+                f"{study} has no table [sweep]: it says what is varied, e.g. "
+                '[sweep.vary] roughness.sigma = ["50 nm", "100 nm"]'
+            )
+    except InvalidValue as error:
+        problems += error.problems
+    if problems:
+        raise InvalidValue(*problems)
+    for sentence in asked.notes:
+        warn(sentence)
+    plan = asked.sweep
+    assert plan is not None
+    client = None
+    if scheduler is not None:
+        from ...cluster import connected
+
+        client = connected(scheduler)
+    try:
+        folder = run(plan, out, format=format, workers=workers, client=client, progress=True)
+    except KeyboardInterrupt:
+        done = len(list((out / "done").glob("*.json")))
+        complain([f"interrupted after {done} of {plan.count} blocks; the same command goes on"])
+        raise typer.Exit(INTERRUPTED) from None
+    finally:
+        if client is not None:
+            client.close()
+    summary = folder.finished
+    assert summary is not None
+    with folder.open() as data:
+        for sentence in filter(None, data.attrs["warnings"].splitlines()):
+            warn(sentence)
+    unsolved = f", {summary['unsolved']:,} without equilibrium" if summary["unsolved"] else ""
+    print(f"{summary['states']:,} states in {folder.data}{unsolved}", file=sys.stderr)
+    if summary["unsolved"] == summary["states"]:
+        raise NoEquilibrium("no state of the sweep has an equilibrium; check the unit of the load")

@@ -1,0 +1,87 @@
+"""``thirdbody table``: pressure and area against separation, for other solvers."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ...errors import InvalidValue
+from ..options import Settings, StudyFile, read_study
+from ..show import as_length, as_pressure
+
+__all__ = ["command"]
+
+
+def command(
+    study: StudyFile,
+    out: Annotated[Path, typer.Option("--out", metavar="FILE", help="The file to write.")],
+    form: Annotated[
+        str | None,
+        typer.Option(
+            "--format",
+            metavar="NAME",
+            help="csv, abaqus, comsol, avl, python or c; without it by the suffix of FILE: "
+            ".csv, .inp, .txt (COMSOL), .avl, .py, .c.",
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float, typer.Option("--tolerance", help="Relative error of pressure and area.")
+    ] = 1e-6,
+    low: Annotated[
+        str | None, typer.Option("--from", metavar="LENGTH", help='Lower end, e.g. "50 nm".')
+    ] = None,
+    high: Annotated[
+        str | None, typer.Option("--to", metavar="LENGTH", help='Upper end, e.g. "0.4 um".')
+    ] = None,
+    coordinate: Annotated[
+        str,
+        typer.Option("--coordinate", help="h, from the mean surface plane, or d as in solve."),
+    ] = "h",
+    units: Annotated[
+        str | None,
+        typer.Option("--units", help="SI or mm (mm, MPa), for abaqus and avl."),
+    ] = None,
+    settings: Settings = None,
+) -> None:
+    """Pressure and real area of a study's contact against separation, for other solvers."""
+    from ...table import FORMATS, rounded_up
+    from ...units import to_si
+
+    suffixes = {suffix: name for name, (_, suffix) in FORMATS.items()}
+    name = form or suffixes.get(out.suffix.lower())
+    problems = []
+    if name is None:
+        problems.append(
+            f"--out {out}: the suffix does not say which format; add --format "
+            f"{', '.join(FORMATS)}, or use one of {', '.join(suffixes)}"
+        )
+    elif name not in FORMATS:
+        problems.append(f"--format {name} must be one of {', '.join(FORMATS)}")
+    elif units is not None and name not in ("abaqus", "avl"):
+        problems.append(f"--units {units} has no meaning for {name}, which is in SI units")
+    ends: dict[str, float | None] = {"low": None, "high": None}
+    for key, option, text in (("low", "--from", low), ("high", "--to", high)):
+        if text is not None:
+            try:
+                ends[key] = to_si(text, "m")
+            except InvalidValue as error:
+                problems += [f"{option}: {sentence}" for sentence in error.problems]
+    if problems or name is None:
+        raise InvalidValue(*problems)
+    asked = read_study(study, settings)
+    made = asked.contact.table(
+        low=ends["low"], high=ends["high"], tolerance=tolerance, coordinate=coordinate
+    )
+    write, _ = FORMATS[name]
+    write(made, out, **({} if units is None else {"units": units}))
+    first, last = (as_pressure(float(made.p(end))) for end in made.h[[0, -1]])
+    print(
+        f"written: {out} ({name}): {coordinate} from {as_length(made.h[0])} to "
+        f"{as_length(made.h[-1])}, p from {first} to {last}; relative errors at most "
+        f"{rounded_up(made.error.p)} of p, {rounded_up(made.error.A)} of A_t, "
+        f"{rounded_up(made.error.dp_dh)} of dp/d{coordinate}",
+        file=sys.stderr,
+    )

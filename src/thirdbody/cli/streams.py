@@ -1,0 +1,77 @@
+"""What goes to which stream, and the exit status.
+
+Standard output holds the answer and nothing else; progress, warnings and errors go to standard
+error. Exit status: 0 done, 2 bad input, 3 no equilibrium or no transition in the range searched.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import sys
+import warnings
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+from ..errors import InvalidValue, NoEquilibrium, NoTransition
+
+__all__ = ["INTERRUPTED", "Commands", "complain", "warn", "write_csv"]
+
+BAD_INPUT, NO_ANSWER, INTERRUPTED, BROKEN_PIPE = 2, 3, 130, 141
+
+
+class Commands(TyperGroup):
+    """Turns errors and warnings of every command into lines on standard error."""
+
+    def invoke(self, ctx: Any) -> Any:
+        with warnings.catch_warnings():
+            warnings.showwarning = warn
+            try:
+                answer = super().invoke(ctx)
+                sys.stdout.flush()
+                return answer
+            except InvalidValue as error:
+                complain(error.problems)
+                raise typer.Exit(BAD_INPUT) from None
+            except (NoEquilibrium, NoTransition) as error:
+                complain([str(error)])
+                raise typer.Exit(NO_ANSWER) from None
+            except KeyboardInterrupt:
+                complain(["interrupted"])
+                raise typer.Exit(INTERRUPTED) from None
+            except BrokenPipeError:
+                # whoever read the output has gone: leave quietly, also at the last flush
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+                raise typer.Exit(BROKEN_PIPE) from None
+            except OSError as error:
+                where = f" {error.filename}" if error.filename else " the output"
+                complain([f"cannot read or write{where}: {error.strerror or error}"])
+                raise typer.Exit(BAD_INPUT) from None
+
+
+def complain(sentences: Iterable[str]) -> None:
+    """Errors, a line each."""
+    for sentence in sentences:
+        for line in sentence.splitlines():
+            print(f"error: {line}", file=sys.stderr)
+
+
+def warn(message: Warning | str, *_: Any, **__: Any) -> None:
+    """A warning, in one line."""
+    print(f"warning: {' '.join(str(message).split())}", file=sys.stderr)
+
+
+def write_csv(path: Path, columns: dict[str, list[Any]], units: Mapping[str, str]) -> None:
+    """A file with a line of names and units, and a row a state."""
+    from ..files import write_text
+
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(f"{name} [{units[name]}]" if units[name] else name for name in columns)
+    writer.writerows(zip(*columns.values(), strict=True))
+    write_text(path, text.getvalue())

@@ -1,0 +1,100 @@
+"""How many particles: a density per area, or a concentration and the gap that traps it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from .. import cleanliness
+from ..errors import InvalidValue
+from ..particles import Particles
+from ..units import say
+from ..values import quantity
+from .fields import about_of
+from .one_value import number
+from .reader import Key, Reader, plain
+
+__all__ = ["AMOUNT", "amount", "laden", "told"]
+
+AMOUNT = {
+    name: declared.metadata["quantity"]
+    for name, declared in {
+        "gap": quantity("h_gap", "m", "height of the fluid whose particles are trapped", gt=0),
+        "film": quantity("h_gap", "m", "film thickness, another word for gap", gt=0),
+        "particle_density": quantity("ρ_p", "kg/m^3", "density of the particles", gt=0),
+        "oil_density": quantity("ρ_f", "kg/m^3", "density of the fluid", gt=0),
+        "smallest": quantity("x_min", "m", "smallest diameter", gt=0),
+        "largest": quantity("x_max", "m", "largest diameter", gt=0),
+    }.items()
+}
+"""The numbers that lead from a count or a concentration to an areal density."""
+
+
+def amount(reader: Reader, path: str, data: Any, kind: str, own: dict[str, Key]) -> list[str]:
+    """Adds the keys that lead to an areal density; what is wrong with those of the file."""
+    coded = kind in ("iso4406", "as4059", "nas1638")
+    names = ["gap", "film"]
+    if not coded:
+        names += ["oil_density"] if kind == "test_dust" else ["oil_density", "particle_density"]
+        read = plain(_concentration(f"{path}.concentration"))
+        own["concentration"] = Key(read, False, 'e.g. "0.1 wt%"')
+    for name in names:
+        read = plain(number(reader, f"{path}.{name}", AMOUNT[name]))
+        own[name] = Key(read, False, about_of(name, AMOUNT[name]))
+    given = data if isinstance(data, dict) else {}
+    by_volume = coded or given.get("concentration") is not None
+    if by_volume:
+        own["areal_density"] = own["areal_density"]._replace(required=False)
+
+    def shown(*keys: str) -> list[str]:
+        return [f"{path}.{key} = {say(given[key])}" for key in keys if key in given]
+
+    wrong = []
+    for pair in ((kind if coded else "concentration", "areal_density"), ("gap", "film")):
+        if len(both := shown(*pair)) > 1:
+            wrong.append(f"{', '.join(both)}: only one of these can be given; remove the other")
+    if by_volume and not shown("gap", "film"):
+        wrong.append(
+            f"{path}.gap is missing: the height of the fluid whose particles are trapped, e.g. "
+            f'gap = "1 um"; {kind if coded else "concentration"} counts them per volume'
+        )
+    if not by_volume and (idle := shown(*names)):
+        wrong.append(f"{idle[0]} has no effect without {path}.concentration")
+    return wrong
+
+
+def laden(reader: Reader, path: str, values: dict[str, Any], diameter: Any) -> Particles:
+    """Particles with these sizes, and the density or the concentration of the file."""
+    if "concentration" not in values:
+        return reader.make(Particles, path, values | {"diameter": diameter})
+    found = values.pop("concentration")
+    gap = values.pop("gap", values.pop("film", None))
+    with told(path):
+        return Particles.from_concentration(
+            found.amount, by=found.by, gap=gap, diameter=diameter, **values
+        )
+
+
+@contextmanager
+def told(path: str) -> Iterator[None]:
+    """Complaints about particles, with the name of their table."""
+    try:
+        yield
+    except InvalidValue as error:
+        sentences = (text.removeprefix("Particles.") for text in error.problems)
+        keyed = re.compile(r"[a-z_]+ (=|is missing)")
+        raise InvalidValue(
+            *(f"{path}{'.' if keyed.match(text) else ': '}{text}" for text in sentences)
+        ) from None
+
+
+def _concentration(path: str) -> Callable[[Any], cleanliness.Concentration]:
+    def read(value: Any) -> cleanliness.Concentration:
+        try:
+            return cleanliness.concentration(value)
+        except InvalidValue as error:
+            raise InvalidValue(f"{path} = {error}") from None
+
+    return read

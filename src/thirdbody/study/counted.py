@@ -1,0 +1,106 @@
+"""Sizes and numbers of particles from a code, a test dust or a measured histogram."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from .. import cleanliness
+from ..errors import InvalidValue
+from ..particles import Particles
+from ..sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
+from ..units import say
+from .concentration import AMOUNT, laden, told
+from .fields import about_of
+from .one_value import number, word
+from .reader import Key, Reader, get, plain
+
+__all__ = ["COUNTED", "counted"]
+
+COUNTED = {
+    "iso4406": ("level", "smallest", "largest"),
+    "as4059": ("smallest", "largest"),
+    "nas1638": ("smallest", "largest"),
+    "test_dust": ("limit", "smallest"),
+    "sizes": ("weighting", "fit", "smallest"),
+}
+"""Keys of [particles] that stand in the place of a distribution, and their options."""
+
+
+def counted(
+    reader: Reader, path: str, data: Any, kind: str, own: dict[str, Key], wrong: list[str]
+) -> Any:
+    """Particles from a code, a test dust or a measured histogram."""
+    keys = dict(own)
+    words = {
+        "level": cleanliness.LEVELS,
+        "limit": cleanliness.LIMITS,
+        "weighting": tuple(WEIGHTINGS),
+        "fit": tuple(FITS),
+    }
+    for name in COUNTED[kind]:
+        where = f"{path}.{name}"
+        if name in words:
+            keys[name] = Key(plain(word(where, words[name])), False, "")
+        else:
+            about = AMOUNT[name]
+            keys[name] = Key(plain(number(reader, where, about)), False, about_of(name, about))
+    keys[kind] = Key(plain(_count_of(reader, path, data, kind)), True, "")
+
+    def build(values: dict[str, Any]) -> Particles:
+        if wrong:
+            raise InvalidValue(*wrong)
+        found = values.pop(kind)
+        options = {name: values.pop(name) for name in COUNTED[kind] if name in values}
+        with told(path):
+            if kind == "sizes":
+                smallest = options.get("smallest")
+                source = found.fit(options["fit"]) if "fit" in options else found
+                return laden(reader, path, values, source.by_number(smallest))
+            gap = values.pop("gap", values.pop("film", None))
+            if kind == "iso4406":
+                return Particles.from_iso4406(found, gap=gap, **options, **values)
+            if kind == "test_dust":
+                if given := values.pop("concentration", None):
+                    values |= {"concentration": given.amount, "by": given.by, "gap": gap}
+                return Particles.test_dust(found, **options, **values)
+            return Particles.from_cleanliness_class(kind, found, gap=gap, **options, **values)
+
+    return reader.table(path, keys, build)
+
+
+def _count_of(reader: Reader, path: str, data: Any, kind: str) -> Callable[[Any], Any]:
+    """Reads the key that says what was counted."""
+    where = f"{path}.{kind}"
+
+    def measured(value: Any) -> MeasuredSizes:
+        if not isinstance(value, str):
+            raise InvalidValue(f'{say(value)} must be the name of a file, e.g. "sizes.csv"')
+        given = get(data, "weighting")
+        known = isinstance(given, str) and given in WEIGHTINGS
+        beside = reader.folder / value
+        file = beside if beside.exists() else Path(value)
+        return read_sizes(file, weighting=given if known else "number")
+
+    def read(value: Any) -> Any:
+        try:
+            if kind == "sizes":
+                return measured(value)
+            if kind == "iso4406":
+                cleanliness.read_iso4406(value)
+            elif kind == "test_dust":
+                dust = cleanliness.dust_table(value)
+                if not dust["verified"]:
+                    reader.notes.append(
+                        f"{where} = {say(value)}: its table is that of {dust['edition']} and "
+                        "was not compared with a printed copy; compare it with the "
+                        "certificate of the dust"
+                    )
+            else:
+                cleanliness.suspension_of_class(kind, value)
+        except InvalidValue as error:
+            raise InvalidValue(f"{where}: {error}") from None
+        return value
+
+    return read

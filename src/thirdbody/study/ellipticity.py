@@ -1,0 +1,75 @@
+"""Shapes of elliptic asperities in [roughness]."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ..ellipticity import FACES, Ellipticity
+from ..errors import InvalidValue
+from ..units import say
+from .fields import about_of
+from .one_value import number, refused
+from .reader import Key, Reader, plain
+
+__all__ = ["ellipticity"]
+
+NO_SHAPE = (
+    "must be a table: { ratios = [1, 2, 5], weights = [5, 3, 2] }, or "
+    '{ first = 4, second = 2, angle = "30 deg" } for two faces'
+)
+SECOND_SHAPE = (
+    "is for two faces at an angle, ratios for the asperities of both together; keep one of the two"
+)
+
+
+def ellipticity(reader: Reader, path: str, data: Any) -> Any:
+    """Classes of ratios, or two faces at an angle."""
+    if not isinstance(data, dict):
+        return plain(refused(path, NO_SHAPE))
+    if "ratios" in data or not {"first", "second", "angle"} & data.keys():
+        keys = reader.keys_of(Ellipticity, path, data)
+        keys["ratios"] = keys["ratios"]._replace(about="e.g. ratios = [1, 2, 5]")
+        for key in {"first", "second", "angle", "R_first", "R_second"} & data.keys():
+            keys[key] = Key(plain(refused(f"{path}.{key}", SECOND_SHAPE)), False, "")
+        return reader.table(path, keys, lambda values: reader.make(Ellipticity, path, values))
+    names = {"first": "first_ratio", "second": "second_ratio"}
+    keys = {}
+    for key in ("first", "second", "R_first", "R_second"):
+        about = FACES[names.get(key, key)]
+        read = plain(number(reader, f"{path}.{key}", about))
+        keys[key] = Key(read, key in names, about_of(key, about))
+    example = 'angle = "30 deg", or angle = "random"'
+    keys["angle"] = Key(plain(_angle(reader, f"{path}.angle")), True, example)
+    if len({"R_first", "R_second"} & data.keys()) == 1:
+        reader.problems.append(
+            f"{path} has the radius of one face only; give both R_first and R_second, or "
+            "neither where they are equal"
+        )
+
+    def build(values: dict[str, Any]) -> Ellipticity:
+        try:
+            return Ellipticity.combined(**{names.get(k, k): v for k, v in values.items()})
+        except InvalidValue as error:
+            raise InvalidValue(
+                *(text.replace("first_ratio", f"{path}.first") for text in error.problems)
+            ) from None
+
+    return reader.table(path, keys, build)
+
+
+def _angle(reader: Reader, path: str) -> Callable[[Any], Any]:
+    """An angle between two faces, or the word "random"."""
+
+    def read(value: Any) -> Any:
+        if value == "random":
+            return value
+        try:
+            return number(reader, path, FACES["angle"])(value)
+        except InvalidValue:
+            raise InvalidValue(
+                f"{path} = {say(value)} must be an angle from 0 to 90 degrees, "
+                'e.g. "30 deg" (a number is in rad), or "random"'
+            ) from None
+
+    return read

@@ -1,0 +1,90 @@
+"""The inputs of a study by their names in the file: what may be varied or uncertain."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from .. import asperity, particle
+from ..materials import Material
+from ..particles import Particles
+from ..surfaces import Roughness
+from .fields import filled_in, idle
+from .laws import class_of
+from .particles import populations
+from .reader import get
+from .vocabulary import DISTRIBUTIONS
+
+__all__ = ["Input", "field_of", "inputs_of"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Input:
+    """One field of the contact that the file can name."""
+
+    table: str
+    key: str
+    quantity: dict[str, Any] | None
+    choice: dict[str, Any] | None
+    idle: str
+    """Why varying it changes nothing; empty where it does."""
+
+    @property
+    def name(self) -> str:
+        """As in the file."""
+        return f"{self.table}.{self.key}"
+
+    @property
+    def field(self) -> str:
+        """As in Python, for `Contact.replace`."""
+        return field_of(self.table, self.key)
+
+
+def field_of(table: str, key: str) -> str:
+    """The dotted name of a field: sizes stand beside the other keys of [particles] in a file."""
+    own = {item.name for item in dataclasses.fields(Particles)}
+    if re.fullmatch(r"particles(\.\d+)?", table) and key not in own:
+        return f"{table}.diameter.{key}"
+    return f"{table}.{key}"
+
+
+def inputs_of(whole: dict[str, Any]) -> list[Input]:
+    """Every field of the tables of a file that holds a number, a word or a label."""
+    found: dict[tuple[str, str], Input] = {}
+    for table, kind in _kinds(whole):
+        without_effect = {
+            name: f"has no part in the contact ({what}), so nothing would change with it"
+            for name, what in idle(kind).items()
+        }
+        without_effect |= dict.fromkeys(
+            filled_in(kind), "follows from the contact, whatever is given for it"
+        )
+        for item in dataclasses.fields(kind):
+            about = {name: item.metadata.get(name) for name in ("quantity", "choice")}
+            why = without_effect.get(item.name, "")
+            if why or any(about.values()):
+                one = Input(table=table, key=item.name, idle=why, **about)
+                found.setdefault((table, item.name), one)
+    return list(found.values())
+
+
+def _kinds(whole: dict[str, Any]) -> list[tuple[str, type]]:
+    """The classes whose fields each table of the file holds."""
+    found: list[tuple[str, type | None]] = [
+        ("surfaces.first", Material),
+        ("surfaces.second", Material),
+        ("roughness", Roughness),
+        ("asperity_law", class_of(whole.get("asperity_law", "zmc"), asperity.REGISTRY)),
+    ]
+    tables = populations(whole)
+    for path, table in tables.items():
+        sizes = DISTRIBUTIONS.get(str(get(table, "distribution")))
+        found += [(path, Particles), (path, sizes), (f"{path}.material", Material)]
+        if get(table, "law") is not None:
+            found.append((f"{path}.law", class_of(table["law"], particle.REGISTRY)))
+    if any(get(table, "law") is None for table in tables.values()):
+        common = class_of(whole.get("particle_law", "series"), particle.REGISTRY)
+        found.append(("particle_law", common))
+    return [(path, kind) for path, kind in found if kind is not None]

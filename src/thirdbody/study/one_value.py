@@ -1,0 +1,154 @@
+"""One value of a study file: a number with a unit, a word, a switch, a list of these."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InvalidValue
+from ..units import EXAMPLES, quantity_to_si, say, to_si
+from ..values import allowed_range, problem_with
+from .vocabulary import in_words, near
+
+if TYPE_CHECKING:
+    from .reader import Reader
+
+__all__ = ["count", "number", "numbers", "refused", "switch", "text", "word", "words"]
+
+MOST_POINTS = 1_000_000
+
+
+def number(reader: Reader, path: str, about: dict[str, Any]) -> Callable[[Any], float]:
+    """A number in SI inside the range of its quantity; text has a unit."""
+
+    def read(value: Any) -> float:
+        try:
+            found = quantity_to_si(value, about)
+        except InvalidValue as error:
+            elsewhere = "; a load in Pa goes under the key pressure"
+            cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
+            raise InvalidValue(f"{path} = {error}{cause}") from None
+        if not math.isfinite(found):
+            allowed = allowed_range(about).removeprefix("must be ")
+            allowed = "" if allowed.startswith("a finite") else f"; it must be {allowed}"
+            raise InvalidValue(f"{path} = {say(value)} is not a finite number{allowed}")
+        if why := problem_with(about, found):
+            meant = "" if about["hint"] else f"; it is the {about['meaning']}"
+            raise InvalidValue(f"{path} = {say(value)} {in_words(why)}{meant}")
+        _plausible(reader, path, about["unit"], value, found)
+        return found
+
+    return read
+
+
+def _plausible(reader: Reader, path: str, unit: str, value: Any, number: float) -> None:
+    """Note a number that is allowed but looks like a forgotten unit."""
+    usual = None
+    if unit == "m" and abs(number) >= 0.01:
+        usual = "nm" if abs(number) >= 10 else "um"
+    elif unit == "Pa" and number < 1e5 and not path.startswith(("load", "sweep.pressure")):
+        usual = "GPa"
+    if usual is None:
+        return
+    if isinstance(value, str) and re.search(r"[^\d\s.+-]", value):
+        cause = "check its unit (upper and lower case matter)"
+    else:
+        cause = f'a number without a unit is in SI; was "{number:g} {usual}" meant?'
+    reader.notes.append(f"{path} = {say(value)} is taken as {number:g} {unit}: {cause}")
+
+
+def count(path: str, *, least: int = 1, most: int = MOST_POINTS) -> Callable[[Any], int]:
+    """A whole number."""
+
+    def read(value: Any) -> int:
+        whole = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if not (whole and value == value // 1 and least <= value <= most):
+            raise InvalidValue(
+                f"{path} = {say(value)} must be a whole number from {least} to {most}"
+            )
+        return int(value)
+
+    return read
+
+
+def word(path: str, options: Iterable[str]) -> Callable[[Any], str]:
+    """One of a few words."""
+
+    def read(value: Any) -> str:
+        if isinstance(value, str) and value in options:
+            return value
+        meant = near(str(value), options)
+        raise InvalidValue(
+            f"{path} = {say(value)} must be one of {', '.join(map(say, options))}"
+            + (f"; did you mean {say(meant)}?" if meant else "")
+        )
+
+    return read
+
+
+def words(path: str, options: Iterable[str] | None) -> Callable[[Any], list[str]]:
+    """One word or a list of words."""
+
+    def read(value: Any) -> list[str]:
+        values = value if isinstance(value, list) else [value]
+        if options is not None:
+            return [word(path, options)(item) for item in values]
+        if not all(isinstance(item, str) for item in values):
+            raise InvalidValue(f"{path} = {say(value)} must be a list of names in quotes")
+        return values
+
+    return read
+
+
+def text(path: str) -> Callable[[Any], str]:
+    """Text in quotes."""
+
+    def read(value: Any) -> str:
+        if isinstance(value, str):
+            return value
+        raise InvalidValue(f'{path} = {say(value)} must be text in quotes, e.g. "{value}"')
+
+    return read
+
+
+def switch(path: str) -> Callable[[Any], bool]:
+    """True or false."""
+
+    def read(value: Any) -> bool:
+        if isinstance(value, bool):
+            return value
+        raise InvalidValue(f"{path} = {say(value)} must be true or false, without quotes")
+
+    return read
+
+
+def numbers(path: str, unit: str) -> Callable[[Any], tuple[float, ...]]:
+    """A list of numbers; the class of the table checks their range."""
+
+    def read(value: Any) -> tuple[float, ...]:
+        if not isinstance(value, list):
+            raise InvalidValue(
+                f"{path} = {say(value)} must be a list, e.g. [{EXAMPLES[unit]}, ...]"
+            )
+        out, problems = [], []
+        for i, item in enumerate(value):
+            try:
+                out.append(to_si(item, unit))
+            except InvalidValue as error:
+                problems.append(f"{path}[{i}] = {error}")
+        if problems:
+            raise InvalidValue(*problems)
+        return tuple(out)
+
+    return read
+
+
+def refused(path: str, why: str) -> Callable[[Any], Any]:
+    """A key that is known and has no place here."""
+
+    def read(value: Any) -> Any:
+        raise InvalidValue(f"{path} = {say(value)} {why}")
+
+    return read

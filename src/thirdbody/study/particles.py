@@ -1,0 +1,83 @@
+"""The table [particles], or several populations side by side, each headed [[particles]]."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import AfterValidator
+
+from ..errors import InvalidValue
+from ..particles import Particles
+from ..units import say
+from .concentration import amount, laden
+from .counted import COUNTED, counted
+from .laws import particle_law
+from .reader import Key, Reader, Table, get
+from .vocabulary import DISTRIBUTIONS
+
+__all__ = ["TABLE", "populations"]
+
+LAW = "law of these particles, in the place of [particle_law]"
+
+
+def populations(whole: dict[str, Any]) -> dict[str, Any]:
+    """The tables of all populations of a file by their paths, particles or particles.0, ..."""
+    given = whole.get("particles")
+    if isinstance(given, list) and given:
+        return {f"particles.{i}": table for i, table in enumerate(given)}
+    return {"particles": given} if "particles" in whole else {}
+
+
+def particles(reader: Reader, path: str, data: Any) -> Any:
+    """One population, or a list of them."""
+    if not (isinstance(data, list) and data):
+        return _population(reader, path, data)
+    named: dict[str, int] = {}
+    for i, table in enumerate(data):
+        name = get(table, "name")
+        if isinstance(name, str) and name and named.setdefault(name, i) != i:
+            reader.problems.append(
+                f"{path}.{i}.name = {say(name)} is the name of {path}.{named[name]} as well; "
+                "results could not tell them apart"
+            )
+    several = tuple(_population(reader, f"{path}.{i}", table) for i, table in enumerate(data))
+    return Annotated[tuple[several], AfterValidator(tuple)]  # type: ignore[valid-type]
+
+
+def _population(reader: Reader, path: str, data: Any) -> Any:
+    """One population, whose sizes are a distribution or were counted."""
+    own = reader.keys_of(Particles, path, data)
+    own["material"] = own["material"]._replace(
+        about='what the particles are made of, e.g. material = "SiO2"'
+    )
+    own["areal_density"] = own["areal_density"]._replace(
+        about=f'{own["areal_density"].about}, or concentration = "0.1 wt%" with gap = "1 um"'
+    )
+    own["law"] = Key(_law(reader, f"{path}.law", get(data, "law")), False, LAW)
+    given = [key for key in ("distribution", *COUNTED) if get(data, key) is not None]
+    kind = given[0] if given else "distribution"
+    wrong = amount(reader, path, data, kind, own)
+    if len(given) > 1:
+        shown = ", ".join(f"{path}.{key} = {say(data[key])}" for key in given)
+        wrong.append(f"{shown}: each of these gives the sizes; keep one of them")
+    reader.problems += wrong
+    own |= {key: Key(Any, False, "") for key in COUNTED}
+    if kind != "distribution":
+        return counted(reader, path, data, kind, own, wrong)
+
+    def build(values: dict[str, Any]) -> Particles:
+        if wrong:
+            raise InvalidValue(*wrong)
+        mine = {key: values.pop(key) for key in own if key in values}
+        diameter = reader.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
+        return laden(reader, path, mine, diameter)
+
+    return reader.variant(path, data, "distribution", DISTRIBUTIONS, build, own)
+
+
+def _law(reader: Reader, path: str, data: Any) -> Any:
+    """The law of one population; its keys are known only where the file names one."""
+    return Any if data is None else particle_law(reader, path, data)
+
+
+TABLE = Table(name="particles", read=particles)

@@ -1,0 +1,211 @@
+"""The machinery under every table: a pydantic model that fits one file, put together key by key."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, NamedTuple
+
+from pydantic import AfterValidator, ConfigDict, PlainValidator, create_model
+
+from ..errors import InvalidValue
+from ..materials import MaterialLibrary, materials
+from ..units import say
+from .fields import UNITS_OF_LISTS, about_of, filled_in, needed_fields
+from .mistakes import Known, retold
+from .one_value import number, numbers, switch, text, word
+from .vocabulary import near
+
+__all__ = ["Key", "Reader", "Table", "get", "plain"]
+
+ONE_OF = {
+    "load": ("F_star", "pressure", "separation"),
+    "sweep": ("F_star", "pressure", "separation"),
+    "roughness": ("eta", "eta_R_sigma"),
+}
+"""Keys of a table of which only one can be given."""
+
+
+class Key(NamedTuple):
+    """One key of a table: the type pydantic checks, whether it must stand, what it is."""
+
+    type: Any
+    required: bool
+    about: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """One top-level table or key of a study file.
+
+    Parameters
+    ----------
+    name : str
+        As in the file.
+    read : callable
+        From the reader, the path and the data under it (None where it is left out): the type that
+        pydantic checks, which gives the object.
+    about : str, optional
+        What a user is told when it is missing.
+    required : callable, optional
+        Whether it must stand, from the whole file.
+    role : {"contact", "study", "output"}
+        An argument of `Contact`; of use to the study itself; or what the file asks of an output
+        that follows from the solved contact, kept in ``Study.outputs``.
+    """
+
+    name: str
+    read: Callable[[Reader, str, Any], Any]
+    about: str = ""
+    required: Callable[[Mapping[str, Any]], bool] = lambda whole: False
+    role: str = "contact"
+
+
+FieldReader = Callable[["Reader", str, Any], Any]
+
+
+class Reader:
+    """What the readers of all tables of one file share.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the file lies: names of other files count from there.
+    whole : dict
+        The parsed file.
+    fields : mapping
+        For fields that are themselves tables: the type as declared in the value class, how it is
+        read and what it is.
+    """
+
+    def __init__(
+        self, folder: Path, whole: dict[str, Any], fields: Mapping[str, tuple[FieldReader, str]]
+    ) -> None:
+        self.folder = folder
+        self.whole = whole
+        self.fields = fields
+        self.library: MaterialLibrary | None = materials
+        """The materials that the file can name; None when they cannot be read."""
+        self.problems: list[str] = []
+        """Mistakes that concern several keys at once."""
+        self.notes: list[str] = []
+        """What is allowed but looks like a slip."""
+        self.known = Known()
+
+    # ------------------------------------------------------------------ tables
+    def value(self, path: str, data: Any, kind: type) -> Any:
+        """A table that stands for a value class: its fields are the keys."""
+        keys = self.keys_of(kind, path, data)
+        return self.table(path, keys, lambda values: self.make(kind, path, values))
+
+    def keys_of(self, kind: type, path: str, data: Any) -> dict[str, Key]:
+        """The keys of a table that stands for a value class.
+
+        A field of a kind that a file cannot express, or that a contact fills in, is left out,
+        and so is not a known key.
+        """
+        out = {}
+        own = filled_in(kind)
+        for item in dataclasses.fields(kind):
+            if item.name in own:
+                continue
+            where = f"{path}.{item.name}"
+            declared = str(getattr(item.type, "__name__", item.type))
+            about = ""
+            if meta := item.metadata.get("quantity"):
+                read, about = plain(number(self, where, meta)), about_of(item.name, meta)
+            elif meta := item.metadata.get("choice"):
+                read, about = plain(word(where, meta["options"])), meta["meaning"]
+            elif declared in self.fields:
+                read_field, about = self.fields[declared]
+                read = read_field(self, where, get(data, item.name))
+            elif item.name in UNITS_OF_LISTS:
+                unit = UNITS_OF_LISTS[item.name]
+                read, about = plain(numbers(where, unit)), f"a list of numbers [{unit}]"
+            elif declared == "bool":
+                read = plain(switch(where))
+            elif declared == "str":
+                read = plain(text(where))
+            else:
+                continue
+            out[item.name] = Key(read, item.name in needed_fields(kind), about)
+        return out
+
+    def variant(
+        self,
+        path: str,
+        data: Any,
+        tag: str,
+        kinds: Mapping[str, type],
+        build: Callable[[dict[str, Any]], Any],
+        common: dict[str, Key],
+    ) -> Any:
+        """A table whose other keys depend on the word under ``tag``.
+
+        When the word is missing or misspelt, the rest of the table is checked all the same:
+        against the nearest kind, or against what any kind would take.
+        """
+        asked = get(data, tag)
+        chosen = asked if isinstance(asked, str) and asked in kinds else near(str(asked), kinds)
+        self.known.variants[path] = (
+            tag,
+            {
+                name: {item.name for item in dataclasses.fields(kind)} - filled_in(kind)
+                for name, kind in kinds.items()
+            },
+        )
+        words = ", ".join(map(say, kinds))
+        keys = {tag: Key(plain(word(f"{path}.{tag}", kinds)), True, f"one of {words}")}
+        if chosen is not None:
+            keys |= self.keys_of(kinds[chosen], path, data) | common
+        else:
+            for kind in kinds.values():
+                any_kind = self.keys_of(kind, path, data)
+                for name, key in any_kind.items():
+                    keys.setdefault(name, key._replace(required=False))
+            keys |= common
+        return self.table(path, keys, build)
+
+    def table(self, path: str, keys: dict[str, Key], build: Callable[[dict[str, Any]], Any]) -> Any:
+        """A pydantic model for the table, followed by the object it stands for."""
+        self.known.keys[path] = {name: key.about for name, key in keys.items()}
+        fields: dict[str, Any] = {
+            name: (key.type, ... if key.required else None) for name, key in keys.items()
+        }
+        config = ConfigDict(extra="forbid", arbitrary_types_allowed=True, protected_namespaces=())
+        model = create_model(path or "study", __config__=config, **fields)
+
+        def finish(values: Any) -> Any:
+            return build({name: getattr(values, name) for name in values.model_fields_set})
+
+        return Annotated[model, AfterValidator(finish)]
+
+    # ------------------------------------------------------------------ several keys at once
+    def only_one(self, path: str, data: Any) -> list[str]:
+        """Tell of keys that say the same thing twice; the ones to leave out."""
+        given = [key for key in ONE_OF[path] if get(data, key) is not None]
+        if len(given) > 1:
+            shown = ", ".join(f"{path}.{key} = {say(data[key])}" for key in given)
+            self.problems.append(f"{shown}: only one of these can be given; remove the other")
+        return given[1:]
+
+    def make(self, kind: type, path: str, values: dict[str, Any]) -> Any:
+        """The object, its own complaints told with the keys of the file."""
+        try:
+            return kind(**values)
+        except InvalidValue as error:
+            raise InvalidValue(
+                *(retold(problem, kind.__name__, path, values) for problem in error.problems)
+            ) from None
+
+
+def plain(read: Callable[[Any], Any]) -> Any:
+    """A type that reads one value."""
+    return Annotated[Any, PlainValidator(read)]
+
+
+def get(data: Any, key: str) -> Any:
+    """An entry of a table, None where there is no table or no entry."""
+    return data.get(key) if isinstance(data, dict) else None

@@ -1,0 +1,78 @@
+"""The text of a study file as tables, and what is wrong with its syntax."""
+
+from __future__ import annotations
+
+import difflib
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from ..errors import InvalidValue
+
+__all__ = ["read", "value_of"]
+
+
+def read(path: Path) -> dict[str, Any]:
+    """The tables of a file; InvalidValue says why it cannot be read, with the line."""
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        near = difflib.get_close_matches(
+            path.name, [p.name for p in _toml_files(path)], n=1, cutoff=0.75
+        )
+        guess = f"; did you mean {path.with_name(near[0])}?" if near else ""
+        raise InvalidValue(f"cannot read {path}: there is no such file{guess}") from None
+    except IsADirectoryError:
+        raise InvalidValue(f"cannot read {path}: it is a folder, not a study file") from None
+    except UnicodeDecodeError as error:
+        line = path.read_bytes()[: error.start].count(b"\n") + 1
+        raise InvalidValue(
+            f"cannot read {path}: line {line} is not UTF-8 text; save the file as UTF-8, "
+            "or write um instead of µm"
+        ) from None
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise InvalidValue(f"cannot read {path}: {why.lower()}") from None
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InvalidValue(_syntax(path, text, str(error))) from None
+    except RecursionError:
+        raise InvalidValue(f"{path} is nested too deeply to be a study file") from None
+
+
+def value_of(text: str) -> Any:
+    """A value as in TOML; text that is not TOML counts as a string."""
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except (tomllib.TOMLDecodeError, RecursionError):
+        return text.strip()
+    return parsed["value"] if set(parsed) == {"value"} else text.strip()
+
+
+def _toml_files(path: Path) -> list[Path]:
+    try:
+        return list(path.parent.glob("*.toml"))
+    except OSError:
+        return []
+
+
+def _syntax(path: Path, text: str, message: str) -> str:
+    """A TOML syntax error with its line and the likely cause."""
+    where = re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)", message)
+    lines = text.splitlines() or [""]
+    number = int(where[1]) if where and where[1] else len(lines)
+    line = lines[min(number, len(lines)) - 1].split("#")[0].strip()
+    what = message[: where.start()] if where else message
+    out = f"{path}, line {number}: {what[:1].lower()}{what[1:]}, in: {line}"
+    key, equals, value = (part.strip() for part in line.partition("="))
+    if "overwrite" in what:
+        return f"{out}; {key} is given twice"
+    if equals and re.fullmatch(r"[+-]?[\d.,]+(?:[eE][+-]?\d+)?\s*[^\d\s,.\]}].*", value):
+        return f'{out}; a value with a unit stands in quotes: {key} = "{value}"'
+    if equals and re.fullmatch(r"[A-Za-zµ][\w .-]*", value):
+        return f'{out}; words stand in quotes: {key} = "{value}"'
+    if equals and re.fullmatch(r"[+-]?(\d+,\d+|\.\d+.*|\d+\.)", value):
+        return f"{out}; numbers have a decimal point between digits: 2.8, 0.4, 5.0"
+    return out

@@ -1,0 +1,96 @@
+"""A measured surface in [roughness], instead of σ, R and η."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ..errors import InvalidValue
+from ..surfaces import Roughness
+from ..topography import FORMS, from_topography
+from ..units import say
+from ..values import quantity
+from .amounts import amounts
+from .fields import about_of
+from .heights import heights
+from .one_value import number, refused, text, word
+from .reader import Key, Reader, plain
+
+__all__ = ["topography"]
+
+CUTOFF = quantity("λ_c", "m", "cut-off wavelength", ge=0).metadata["quantity"]
+SPACING = quantity("Δ", "m", "distance of neighbouring points", gt=0).metadata["quantity"]
+
+
+def topography(reader: Reader, path: str, data: dict[str, Any]) -> Any:
+    """A measured surface instead of σ, R and η; two files are the two faces."""
+    told_twice = "is told by the topography as well; remove one of the two"
+    keys = {
+        name: Key(plain(refused(f"{path}.{name}", told_twice)), False, "")
+        for name in reader.keys_of(Roughness, path, {})
+    }
+    measured = data.get("heights") == "measured"
+    shape = plain(str) if measured else heights(reader, f"{path}.heights", data.get("heights"))
+    cutoff = plain(number(reader, f"{path}.cutoff", CUTOFF))
+    lengths = amounts(reader, f"{path}.spacing", SPACING, data.get("spacing"))
+    keys |= {
+        "topography": Key(plain(_files(reader, f"{path}.topography")), True, "a file"),
+        "cutoff": Key(cutoff, False, about_of("cutoff", CUTOFF)),
+        "detrend": Key(plain(word(f"{path}.detrend", FORMS)), False, "form to remove"),
+        "heights": Key(shape, False, "distribution of asperity heights, or measured"),
+        "unit": Key(plain(text(f"{path}.unit")), False, "unit of a file that tells none"),
+        "spacing": Key(lengths, False, about_of("spacing", SPACING)),
+        "channel": Key(plain(text(f"{path}.channel")), False, "name of a channel of the file"),
+    }
+
+    def build(values: dict[str, Any]) -> Roughness:
+        files, heights = values.pop("topography"), values.pop("heights", None)
+        if "spacing" in values:
+            values["spacing"] = tuple(values["spacing"])
+        if len(files) == 2 and isinstance(heights, str):
+            raise InvalidValue(
+                f'{path}.heights = "measured" goes with one file: summits of two faces do not '
+                "add, only their moments do"
+            )
+        try:
+            faces = [from_topography(file, **values) for file in files]
+            cutoff = max(face.cutoff for face in faces)
+            if len(faces) == 2 and min(face.cutoff for face in faces) < cutoff:
+                faces = [from_topography(f, **values | {"cutoff": cutoff}) for f in files]
+            for face in faces:
+                reader.notes += [f"{path}.topography: {sentence}" for sentence in face.warnings]
+            if len(faces) == 1:
+                return faces[0].roughness(heights=heights)
+            return (faces[0].moments + faces[1].moments).roughness(heights=heights)
+        except InvalidValue as error:
+            raise InvalidValue(
+                *(
+                    f"{path}.{told}"
+                    if re.match(r"(cutoff|detrend|unit|spacing|channel)\b", told)
+                    else f"{path}.topography: {told}"
+                    for told in error.problems
+                )
+            ) from None
+
+    return reader.table(path, keys, build)
+
+
+def _files(reader: Reader, path: str) -> Callable[[Any], list[Path]]:
+    """One file or two, beside the study file or in the working folder."""
+
+    def read(value: Any) -> list[Path]:
+        names = value if isinstance(value, list) else [value]
+        if not (1 <= len(names) <= 2 and all(isinstance(name, str) for name in names)):
+            raise InvalidValue(
+                f"{path} = {say(value)} must be the name of a file in quotes, or a list of two "
+                "for the two faces"
+            )
+        beside = [reader.folder / name for name in names]
+        return [
+            near if near.exists() or (not Path(name).exists() and name != "example") else Path(name)
+            for near, name in zip(beside, names, strict=True)
+        ]
+
+    return read

@@ -1,0 +1,86 @@
+"""The words of study files: distributions, heights, loads, and what else people call them."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable
+
+from ..distributions import (
+    Histogram,
+    LogNormal,
+    Mixture,
+    Monodisperse,
+    PowerLaw,
+    TruncatedGaussian,
+    Uniform,
+    Weibull,
+)
+from ..heights import (
+    ExponentialHeights,
+    GaussianHeights,
+    Heights,
+    HistogramHeights,
+    JohnsonHeights,
+    WeibullHeights,
+)
+from ..values import quantity
+
+__all__ = ["DISTRIBUTIONS", "HEIGHTS", "LOADS", "in_words", "near"]
+
+DISTRIBUTIONS = {
+    "truncated-gaussian": TruncatedGaussian,
+    "log-normal": LogNormal,
+    "weibull": Weibull,
+    "uniform": Uniform,
+    "histogram": Histogram,
+    "power-law": PowerLaw,
+    "monodisperse": Monodisperse,
+    "mixture": Mixture,
+}
+"""Every size distribution by the word that study files use."""
+
+HEIGHTS: dict[str, type[Heights]] = {
+    "gaussian": GaussianHeights,
+    "exponential": ExponentialHeights,
+    "weibull": WeibullHeights,
+    "johnson": JohnsonHeights,
+    "histogram": HistogramHeights,
+}
+"""Every distribution of asperity heights by the word that study files use."""
+
+LOADS = {
+    name: declared.metadata["quantity"]
+    for name, declared in {
+        "F_star": quantity("F*", "1", "load F/(A_n E_ss)", gt=0),
+        "pressure": quantity("p", "Pa", "nominal pressure", gt=0, hint="MPa are 5e6 or '5 MPa'"),
+        "separation": quantity("d", "m", "separation from the mean asperity height"),
+    }.items()
+}
+"""The ways to give a load, as quantities."""
+
+ALSO_CALLED = {
+    "normal": ("truncated-gaussian", "gaussian"),
+    "gauss": ("truncated-gaussian", "gaussian"),
+    "rosin-rammler": ("weibull",),
+    "pearson": ("johnson",),
+    "delta": ("monodisperse",),
+    "single": ("monodisperse",),
+}
+"""Other words for distributions, to suggest the right one."""
+
+
+def near(word: str, options: Iterable[str]) -> str | None:
+    """The option that was probably meant."""
+    folded = {option.lower(): option for option in options}
+    known = (name for name in ALSO_CALLED.get(word.lower(), ()) if name in folded)
+    word = next(known, word)
+    found = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
+    return folded[found[0]] if found else None
+
+
+def in_words(sentence: str) -> str:
+    """Class names of the library in the words of study files."""
+    for name, kind in DISTRIBUTIONS.items():
+        sentence = re.sub(rf"\b{kind.__name__}\b(?!\.)", f'distribution = "{name}"', sentence)
+    return sentence

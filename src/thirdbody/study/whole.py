@@ -1,0 +1,156 @@
+"""A study file as a whole: what it asks for, checked before anything is computed."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import TypeAdapter, ValidationError
+
+from ..contact import Contact
+from ..equilibrium import Equilibrium, solve
+from ..errors import InvalidValue
+from ..sweep import Plan
+from ..uncertainty import Uncertainty
+from .overrides import override
+from .reader import Key, Reader
+from .sweep import ends, plan, with_nested_names
+from .tables import FIELDS, TABLES
+from .toml import read
+
+__all__ = ["Study", "check", "load_study"]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Study:
+    """What a study file asks for.
+
+    Parameters
+    ----------
+    title : str
+        As in the file.
+    contact : Contact
+        The interface.
+    load : {"F_star", "pressure", "separation"}
+        Which load is given.
+    values : array (N,)
+        Its values: F* [1], p [Pa] or d [m].
+    notes : tuple of str
+        What is allowed but looks like a slip, one sentence each.
+    sweep : Plan, optional
+        The states of the table [sweep].
+    uncertainty : Uncertainty, optional
+        What the table [uncertainty] says of the inputs.
+    outputs : mapping, optional
+        What the tables of outputs that follow from the solved contact ask for, by their names.
+    """
+
+    title: str
+    contact: Contact
+    load: str
+    values: np.ndarray
+    notes: tuple[str, ...] = ()
+    sweep: Plan | None = None
+    uncertainty: Uncertainty | None = None
+    outputs: Mapping[str, Any] = field(default_factory=dict)
+
+    def solve(self) -> Equilibrium:
+        """Every state, as arrays; see `thirdbody.solve`."""
+        given: dict[str, Any] = {"d" if self.load == "separation" else self.load: self.values}
+        return solve(self.contact, **given)
+
+
+def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> Study:
+    """Read a study file.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file.
+    overrides : iterable of str, optional
+        ``"particles.mean=500 nm"``: keys to set after reading, values as in TOML; text that is
+        not TOML counts as a string. One load takes the place of the load in the file. Several
+        populations are numbered from 0, ``"particles.0.mean=500 nm"``.
+
+    Returns
+    -------
+    Study
+
+    Raises
+    ------
+    InvalidValue
+        Every mistake of the file, one sentence each in ``problems``: the key, its value, what
+        is allowed, and the likely cause.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> file = Path(tempfile.mkdtemp()) / "study.toml"
+    >>> _ = file.write_text('''
+    ... [surfaces]
+    ... first = "S45C"
+    ... second = "S45C"
+    ... [roughness]
+    ... sigma = "100 nm"
+    ... R = "2.8 um"
+    ... [load]
+    ... pressure = "5 MPa"
+    ... ''')
+    >>> study = load_study(file, ["roughness.sigma=200 nm"])
+    >>> study.contact.roughness.sigma, study.values.tolist()
+    (2e-07, [5000000.0])
+    """
+    return check(override(read(Path(path)), list(overrides)), folder=Path(path).parent)
+
+
+def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
+    """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
+    data = with_nested_names(data)
+    reader = Reader(folder, data, FIELDS)
+    keys = {
+        table.name: Key(
+            table.read(reader, table.name, data.get(table.name)), table.required(data), table.about
+        )
+        for table in TABLES
+    }
+    model = reader.table("", keys, lambda values: _study(reader, values))
+    try:
+        return TypeAdapter(model).validate_python(data)
+    except ValidationError as error:
+        problems = [*reader.known.tell(error), *reader.problems]
+    raise InvalidValue(*dict.fromkeys(problems))
+
+
+def _study(reader: Reader, values: dict[str, Any]) -> Study:
+    """The study, from the objects that its tables stand for."""
+    if reader.problems:
+        raise InvalidValue(*reader.problems)
+
+    def of(role: str) -> dict[str, Any]:
+        return {t.name: values[t.name] for t in TABLES if t.role == role and t.name in values}
+
+    parts, own = of("contact"), of("study")
+    if "particles" not in parts and parts.pop("particle_law", None) is not None:
+        reader.notes.append("[particle_law] has no effect, because there is no [particles] table")
+    given = parts.get("particles", ())
+    several = given if isinstance(given, tuple) else (given,)
+    if "particle_law" in parts and all(each.law is not None for each in several):
+        reader.notes.append("[particle_law] has no effect: all particles have laws of their own")
+    asked = own.get("sweep")
+    load, loads = own.get("load") or ends(asked or {})
+    contact = reader.make(Contact, "", parts)
+    states = None if asked is None else plan(reader, contact, load, loads, asked)
+    return Study(
+        title=own.get("title", ""),
+        contact=contact,
+        load=load,
+        values=loads,
+        notes=tuple(dict.fromkeys(reader.notes)),
+        sweep=states,
+        uncertainty=own.get("uncertainty"),
+        outputs=of("output"),
+    )
