@@ -1,5 +1,6 @@
 """The page for an engineer: its numbers, its sentences, its bytes."""
 
+import html
 import json
 import os
 import re
@@ -14,7 +15,7 @@ from typer.testing import CliRunner
 
 import thirdbody as tb
 from thirdbody import cli, plot
-from thirdbody.assess import assess_study
+from thirdbody.assess import assess, assess_study
 from thirdbody.study import load_study
 
 ROOT = Path(__file__).parents[1]
@@ -285,3 +286,26 @@ def test_bands_enclose_the_median():
         plot.bands(found, "F_cr1")
     with pytest.raises(tb.InvalidValue, match="has no band"):
         plot.bands(found, "A_t")
+
+
+def test_a_law_without_critical_loads_says_so_and_keeps_its_bands():
+    dusty = DUSTY.replace(particle_law=tb.particle.Horng2022())
+    answer = assess(dusty, {"roughness.sigma": (90e-9, 110e-9)}, pressure=5e6, samples=64)
+    margins, state = answer.sections()[1:3]
+    (sentence,) = margins.sentences
+    assert sentence.startswith("No critical loads: with Horng2022")
+    assert state.rows
+    assert answer.decisive == "particle_load_share"
+    assert sentence in html.unescape(answer.html())
+    basis = answer.sections()[-1].sentences[0]
+    assert "critical" not in basis
+
+
+def test_the_page_is_made_for_small_and_dark_screens(page):
+    """Tables scroll by themselves; every colour is a variable that the dark scheme sets."""
+    text = page.html()
+    assert text.count("<div><table>") == text.count("<table>") == 3
+    style = text[text.index("<style>") : text.index("</style>")]
+    assert "prefers-color-scheme:dark" in style
+    light, dark = re.findall(r":root{(?:color-scheme:light dark;)?(--[^}]*)}", style)
+    assert re.findall(r"--[a-z]+", light) == re.findall(r"--[a-z]+", dark)

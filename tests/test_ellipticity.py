@@ -13,6 +13,8 @@ from scipy.special import elliprd, elliprf
 import thirdbody as tb
 from thirdbody.ellipticity import combined_tips
 from thirdbody.study import check, run_study
+from thirdbody.synthetic import self_affine
+from thirdbody.topography import from_topography
 
 STEEL = tb.materials["S45C"]
 PAIR = tb.MaterialPair(STEEL, STEEL)
@@ -490,3 +492,99 @@ def test_mistakes_in_a_study_file(shape, words):
 def test_a_study_with_a_round_law():
     with pytest.raises(tb.InvalidValue, match="asperity_law is zmc, whose tips are round"):
         check(study({"ratios": [1, 2]}, law="zmc"))
+
+
+# ---------------------------------------------------------------- summits of a measured surface
+def crossed_waves(first, second, amplitudes, points=512, side=10e-6):
+    """Two waves of whole periods, their numbers along the axes given, and their curvatures."""
+    x = np.arange(points) / points
+    phases = (2 * np.pi * (m * x[:, None] + n * x) for m, n in (first, second))
+    h = sum(a * np.cos(phase) for a, phase in zip(amplitudes, phases, strict=True))
+    kappa = [
+        a * (2 * np.pi / side) ** 2 * (m * m + n * n)
+        for a, (m, n) in zip(amplitudes, (first, second), strict=True)
+    ]
+    made = from_topography(h, spacing=side / points, periodic=True, cutoff=0)
+    return made, max(kappa), min(kappa)
+
+
+@pytest.mark.parametrize(
+    ("first", "second"), [((4, 0), (0, 8)), ((3, 4), (-8, 6)), ((6, 6), (-4, 4))]
+)
+def test_summits_of_crossed_waves_have_their_curvatures(first, second):
+    """At a summit of a cos k₁x + b cos k₂x, k₁ ⊥ k₂, the curvatures are ak₁² and bk₂²."""
+    made, larger, smaller = crossed_waves(first, second, (20e-9, 12e-9))
+    principal = made.summits_at(0).principal
+    # second differences at 51 points a wave and points beside the summit: 0.5 %
+    np.testing.assert_allclose(principal[:, 0], larger, rtol=5e-3)
+    np.testing.assert_allclose(principal[:, 1], smaller, rtol=5e-3)
+    rough = made.roughness(ellipticity="measured")
+    for ratio, radius, _ in rough.ellipticity.classes:
+        assert ratio == pytest.approx(larger / smaller, rel=1e-2)
+        assert radius * rough.R == pytest.approx(1 / math.sqrt(larger * smaller), rel=1e-2)
+    assert sum(each.share for each in rough.ellipticity.classes) == pytest.approx(1)
+
+
+def wavy(points, seed):
+    """Heights [m] of an isotropic random surface, 20 points to its shortest wave."""
+    lengths = {"sigma": 20e-9, "shortest": 2e-6, "longest": 8e-6, "spacing": 1e-7}
+    return self_affine(**lengths, hurst=0.7, points=points, seed=seed).heights
+
+
+def test_a_stretched_surface_has_stretched_summits():
+    """Twice the spacing along x, a quarter of that curvature: the tensor tells, point by point."""
+    h = wavy(256, seed=3)
+    plain, stretched = (
+        from_topography(h, spacing=s, periodic=True, cutoff=0).summits_at(0).principal
+        for s in ((1e-7, 1e-7), (2e-7, 1e-7))
+    )
+    assert len(plain) == len(stretched) > 50
+    product = stretched.prod(axis=1) / plain.prod(axis=1)  # of the determinant: 1/4 each
+    np.testing.assert_allclose(product, 0.25, rtol=1e-9)
+    assert np.median(stretched[:, 0] / stretched[:, 1]) > np.median(plain[:, 0] / plain[:, 1])
+
+
+def test_classes_of_summits_carry_what_the_summits_carry():
+    """Elastic load and area of the classes, against the sum over every summit."""
+    from thirdbody.laws.asperity.elliptic import elliptic_hertz
+
+    h = wavy(512, seed=4)
+    made = from_topography(h, spacing=(2e-7, 1e-7), periodic=True, cutoff=0)
+    kappa = made.summits_at(0).principal
+    kappa = kappa[kappa[:, 1] > 0]
+    shape = made.roughness(ellipticity="measured")
+    tips = [elliptic_hertz(a / b) for a, b in kappa]
+    R_g = 1 / np.sqrt(kappa.prod(axis=1)) / shape.R
+    load = np.mean([tip.root_R_F for tip in tips] * np.sqrt(R_g))
+    area = np.mean([tip.R_A for tip in tips] * R_g)
+    classes = [(elliptic_hertz(a), rho, w) for a, rho, w in shape.ellipticity.classes]
+    assert len(kappa) > 200
+    assert len(classes) == 64
+    assert sum(w * t.root_R_F * rho**0.5 for t, rho, w in classes) == pytest.approx(load, rel=1e-12)
+    assert sum(w * t.R_A * rho for t, rho, w in classes) == pytest.approx(area, rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("curvatures", "R", "words"),
+    [
+        ([[1e5, -1e5], [2e5, 1e5]], 1e-6, "50 % of 2 summits"),
+        (np.empty((0, 2)), 1e-6, r"must be \(N, 2\)"),
+        ([[1e5, 1e5, 1e5]], 1e-6, r"must be \(N, 2\)"),
+        ([[1e5, 1e5]], -1.0, "R = -1"),
+    ],
+)
+def test_curvatures_that_are_no_summits(curvatures, R, words):
+    with pytest.raises(tb.InvalidValue, match=words):
+        tb.Ellipticity.from_curvatures(curvatures, R=R)
+
+
+def test_a_measured_surface_solves_with_its_own_tips():
+    rough = from_topography("example").roughness(ellipticity="measured")
+    law = tb.asperity.EllipticZMC()
+    state = tb.solve(tb.Contact(surfaces=PAIR, roughness=rough, asperity_law=law), pressure=1e6)
+    plain = rough.replace(ellipticity=None)
+    still = tb.solve(tb.Contact(surfaces=PAIR, roughness=plain), pressure=1e6)
+    assert state.F_star == pytest.approx(still.F_star)
+    assert state.d != still.d
+    with pytest.raises(tb.InvalidValue, match="measured"):
+        from_topography("example").roughness(ellipticity="round")

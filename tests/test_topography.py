@@ -679,10 +679,11 @@ def test_the_command_prints_json(tmp_path):
 
 def test_the_page_prints_what_it_says(capsys):
     page = (Path(__file__).parents[1] / "docs" / "surfaces.md").read_text("utf-8")
-    code = page.split("```python\n")[1].split("```")[0]
-    shown = page.split("```\n\n```\n")[1].split("```")[0]
-    exec(compile(code, "surfaces.md", "exec"), {})
-    assert capsys.readouterr().out == shown
+    names = {}
+    for block in page.split("```python\n")[1:3]:
+        code, shown = block.split("```\n\n```\n")
+        exec(compile(code, "surfaces.md", "exec"), names)
+        assert capsys.readouterr().out == shown.split("```")[0]
 
 
 def test_radii_of_a_self_affine_surface_grow_as_the_page_says():

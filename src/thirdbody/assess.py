@@ -198,6 +198,8 @@ class Assessment:
 
     def _margins(self) -> Section:
         found = self.propagation
+        if "F_cr1" not in found.bands:
+            return Section("Margins", sentences=(NO_CRITICAL.format(_law_of(found)),))
         rows, sentences = [], []
         E = found.contact.E_ss
         for name in (name for name in CRITICAL if name in found.bands):
@@ -296,7 +298,7 @@ class Assessment:
         out = []
         F = found.nominal["F_star"]
         for name, modes in (("F_cr1", ("p-s", "hybrid")), ("F_cr2", ("hybrid", "s-s"))):
-            critical = found.nominal[name]
+            critical = found.nominal.get(name, math.nan)
             if 0 < critical < math.inf and self.mode in modes:
                 word = "fall" if critical < F else "rise"
                 other = modes[0] if critical < F else modes[1]
@@ -328,9 +330,10 @@ class Assessment:
         from . import __version__
 
         found = self.propagation
+        sought = f" and {found.critical_samples} of the critical loads"
         out = [
-            f"{found.samples} samples of the state and {found.critical_samples} of the critical "
-            f"loads (scrambled Sobol points, seed {found.seed}); inputs independent of each "
+            f"{found.samples} samples of the state{sought if found.critical_samples else ''} "
+            f"(scrambled Sobol points, seed {found.seed}); inputs independent of each "
             f"other; thirdbody {__version__}."
         ]
         if self.exact:
@@ -371,12 +374,18 @@ class Assessment:
         for section in self.sections():
             body.append(f"<section><h2>{html.escape(section.title)}</h2>")
             if section.rows:
-                cells = "".join(f"<th>{html.escape(text)}</th>" for text in section.head)
-                body.append(f"<table><thead><tr>{cells}</tr></thead><tbody>")
-                for row in section.rows:
-                    cells = "".join(f"<td>{html.escape(text)}</td>" for text in row)
-                    body.append(f"<tr>{cells}</tr>")
-                body.append("</tbody></table>")
+                # a table too wide for a small screen scrolls by itself
+                kinds = [' class="words"' if text in WORDS else "" for text in section.head]
+                rows = [
+                    "".join(
+                        f"<{tag}{kind}>{html.escape(text)}</{tag}>"
+                        for text, kind in zip(row, kinds, strict=True)
+                    )
+                    for tag, row in (("th", section.head), *(("td", row) for row in section.rows))
+                ]
+                body.append(f"<div><table><thead><tr>{rows[0]}</tr></thead><tbody>")
+                body += [f"<tr>{row}</tr>" for row in rows[1:]]
+                body.append("</tbody></table></div>")
             body += [f"<p>{html.escape(sentence)}</p>" for sentence in section.sentences]
             if section.title in ("State", "Inputs that matter"):
                 words, picture = next(figures)
@@ -423,16 +432,34 @@ class Assessment:
         return [*out, (words, _picture(ax.figure))]
 
 
+NO_CRITICAL = (
+    "No critical loads: with {} as the law of the particles, the load need not fall as the "
+    "separation grows, so that several separations may carry one load and the mode may change "
+    "more than once; the bands of the state below hold, and `transitions` seeks the critical "
+    "loads of single contacts."
+)
+"""What stands for the margins of a law whose load does not tell its separation."""
+
+WORDS = ("where", "result")
+"""Columns of words, which may break."""
+
 STYLE = """
-body{font:15px/1.45 system-ui,sans-serif;color:#111;max-width:60rem;margin:2rem auto;padding:0 1rem}
-h1{font-size:1.5rem}h2{font-size:1.05rem;border-bottom:1px solid #999;margin:1.4rem 0 .5rem}
-table{border-collapse:collapse;width:100%;font-size:.86rem}
-th,td{padding:.2rem .5rem;border-bottom:1px solid #ddd;text-align:right;vertical-align:top}
-th:first-child,td:first-child{text-align:left}
-p{margin:.4rem 0}figure{margin:.8rem 0;text-align:center}img{max-width:100%;width:32rem}
-figcaption{font-size:.82rem;color:#444}
+:root{color-scheme:light dark;--ink:#111;--paper:#fff;--soft:#444;--line:#ddd;--rule:#999}
+@media screen and (prefers-color-scheme:dark){
+:root{--ink:#e6e6e6;--paper:#16181b;--soft:#b4b4b4;--line:#3a3d41;--rule:#777}}
+body{font:15px/1.45 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:60rem;
+margin:2rem auto;padding:0 1rem;overflow-wrap:anywhere}
+h1{font-size:1.5rem}h2{font-size:1.05rem;border-bottom:1px solid var(--rule);margin:1.4rem 0 .5rem}
+div{overflow-x:auto}table{border-collapse:collapse;width:100%;font-size:.86rem}
+th,td{padding:.2rem .5rem;border-bottom:1px solid var(--line);text-align:right;vertical-align:top;
+white-space:nowrap}
+th{vertical-align:bottom}th:first-child,td:first-child,.words{text-align:left}
+.words,th{white-space:normal;overflow-wrap:normal;min-width:3.2rem}td.words{min-width:11rem}
+p{margin:.4rem 0}figure{margin:.8rem 0;text-align:center}
+img{max-width:100%;width:32rem;box-sizing:border-box;background:#fff;border-radius:.3rem}
+figcaption{font-size:.82rem;color:var(--soft)}
 @media print{body{margin:0;max-width:none;font-size:10pt}section,figure,tr{break-inside:avoid}
-img{width:11cm}@page{size:A4;margin:15mm}}
+div{overflow:visible}th,td{white-space:normal}img{width:11cm}@page{size:A4;margin:15mm}}
 """
 
 
@@ -445,6 +472,10 @@ def _picture(figure: Any) -> str:
     with rc_context({"svg.hashsalt": "thirdbody", "svg.fonttype": "path"}):
         (figure or Figure(figsize=(1, 1))).savefig(out, format="svg", metadata={"Date": None})
     return base64.b64encode(out.getvalue()).decode("ascii")
+
+
+def _law_of(found: Propagation) -> str:
+    return type(found.contact.particle_law).__name__
 
 
 # -------------------------------------------------------------------------- numbers in words

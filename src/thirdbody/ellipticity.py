@@ -64,6 +64,10 @@ FACES = {
 ACCURACY = 1e-12
 """How well the classes of a density must give the means of `_probes`, all of order one."""
 MOST_CLASSES = 64
+BINS = 8
+"""Classes of measured summits by ratio, and within each by radius."""
+MOST_SADDLES = 0.1
+"""Share of summits counted that may lack a second curvature."""
 SMALLEST_WEIGHT = 1e-14
 """Classes with a smaller share are left out."""
 
@@ -241,6 +245,76 @@ class Ellipticity(Value):
         )
 
     @classmethod
+    def from_curvatures(cls, curvatures: ArrayLike, *, R: float) -> Ellipticity:
+        r"""The classes that stand for summits counted on a surface.
+
+        .. math:: \lambda = \frac{\kappa_1}{\kappa_2}, \qquad
+                  R_g = \frac{1}{\sqrt{\kappa_1\kappa_2}}, \qquad
+                  \sqrt{R_F(\lambda_i)\rho_i} = \big\langle\sqrt{R_F(\lambda)R_g/R}\big\rangle_i
+
+        Summits go by λ into 8 classes of equal number, and each of these by R_g into 8. A class
+        has the mean of ln λ, and the R_g that gives the mean elastic load of its summits.
+
+        Parameters
+        ----------
+        curvatures : array_like (N, 2)
+            Principal curvatures κ of each summit [1/m], as in `Summits.principal`.
+        R : float
+            R of the roughness that gets these classes [m].
+
+        Returns
+        -------
+        Ellipticity
+            At most 64 classes. The elastic load of the population is that of the summits, to
+            rounding; the elastic area to 1e-2 for a few hundred summits of a random surface.
+
+        Raises
+        ------
+        InvalidValue
+            No summits, or more than a tenth of them without two positive curvatures. Fewer are
+            left out: points above their neighbours on a ridge that runs askew.
+
+        Notes
+        -----
+        Shape and height are taken as independent, although high summits are a little rounder.
+        Second differences see curvatures at 8 points a wave 5 % too small.
+
+        Examples
+        --------
+        >>> some = Ellipticity.from_curvatures([[4e5, 1e5], [4e5, 1e5]], R=5e-6)
+        >>> [round(number, 12) for number in some.classes[0]]
+        [4.0, 1.0, 1.0]
+        """
+        from .laws.asperity.elliptic import elliptic_hertz
+
+        if why := problem_with(FACES["R_first"], R):
+            raise InvalidValue(f"R = {R!r} {why}")
+        given = np.sort(np.atleast_2d(np.asarray(curvatures, dtype=float)), axis=1)[:, ::-1]
+        if given.size == 0 or given.shape[1] != 2:
+            raise InvalidValue(
+                f"curvatures of shape {np.shape(curvatures)} must be (N, 2), two for each summit"
+            )
+        tips = given[np.all(np.isfinite(given) & (given > 0), axis=1)]
+        lost = 1 - len(tips) / len(given)
+        if lost > MOST_SADDLES:
+            raise InvalidValue(
+                f"{100 * lost:.0f} % of {len(given)} summits lack two positive curvatures; the "
+                "surface is not resolved at its summits: take a longer cut-off, or a map"
+            )
+        ratio, radius = tips[:, 0] / tips[:, 1], 1 / np.sqrt(tips[:, 0] * tips[:, 1]) / R
+        root_load = np.array([elliptic_hertz(float(each)).root_R_F for each in ratio])
+        root_load *= np.sqrt(radius)
+        classes = []
+        for alike in np.array_split(np.argsort(ratio, kind="stable"), BINS):
+            inner = alike[np.argsort(radius[alike], kind="stable")]
+            for part in (part for part in np.array_split(inner, BINS) if len(part)):
+                mean = max(float(np.exp(np.log(ratio[part]).mean())), 1.0)
+                rho = (root_load[part].mean() / elliptic_hertz(mean).root_R_F) ** 2
+                classes.append((mean, float(rho), float(len(part))))
+        ratios, radii, weights = zip(*_merged(classes), strict=True)
+        return cls(ratios=ratios, radii=radii, weights=weights)
+
+    @classmethod
     def combined(
         cls,
         *,
@@ -375,6 +449,17 @@ def combined_tips(
 
 
 # -------------------------------------------------------------------------- rules
+def _merged(classes: list[tuple[float, float, float]]) -> list[tuple[float, float, float]]:
+    """Neighbouring classes of one shape as one."""
+    out = [classes[0]]
+    for ratio, radius, weight in classes[1:]:
+        if np.allclose((ratio, radius), out[-1][:2], rtol=1e-9, atol=0):
+            out[-1] = (*out[-1][:2], out[-1][2] + weight)
+        else:
+            out.append((ratio, radius, weight))
+    return out
+
+
 def _fine(ratio: Distribution) -> tuple[Array, Array]:
     """Ratios and shares of a rule that leaves no error in a density: (N,), (N,)."""
     ratios, shares = [], []

@@ -174,6 +174,9 @@ class Summits:
         Heights above the mean plane [m].
     curvatures : array (N,)
         Mean curvature −½∇²h at each [1/m].
+    principal : array (N, 2)
+        Larger and smaller principal curvature 1/R″ and 1/R′ at each [1/m], of a map; NaN on a
+        profile.
     density : float
         Summits per area [1/m²], or peaks per length [1/m].
     dim : int
@@ -191,6 +194,7 @@ class Summits:
 
     heights: Array = field(repr=False)
     curvatures: Array = field(repr=False)
+    principal: Array = field(repr=False)
     density: float
     dim: int
     cutoff: float
@@ -294,7 +298,12 @@ def count_summits(h: Array, spacing: tuple[float, ...], periodic: bool, cutoff: 
     if min(h.shape) < 3:
         nothing = np.empty(0)
         return Summits(
-            heights=nothing, curvatures=nothing, density=math.nan, dim=h.ndim, cutoff=cutoff
+            heights=nothing,
+            curvatures=nothing,
+            principal=np.empty((0, 2)),
+            density=math.nan,
+            dim=h.ndim,
+            cutoff=cutoff,
         )
     inner = (slice(1, -1),) * h.ndim
     middle = h[inner]
@@ -311,10 +320,24 @@ def count_summits(h: Array, spacing: tuple[float, ...], periodic: bool, cutoff: 
     return Summits(
         heights=middle[highest],
         curvatures=curvature[highest],
+        principal=_principal(h, spacing, highest),
         density=float(highest.sum() / area) if area else math.nan,
         dim=h.ndim,
         cutoff=cutoff,
     )
+
+
+def _principal(h: Array, spacing: tuple[float, ...], where: NDArray[np.bool_]) -> Array:
+    """Larger and smaller curvature (N, 2) at chosen inner points, by second differences."""
+    if h.ndim == 1:
+        return np.full((int(where.sum()), 2), np.nan)
+    dx, dy = spacing
+    x, y = (i + 1 for i in np.nonzero(where))
+    xx = -(h[x + 1, y] - 2 * h[x, y] + h[x - 1, y]) / dx**2
+    yy = -(h[x, y + 1] - 2 * h[x, y] + h[x, y - 1]) / dy**2
+    corners = h[x + 1, y + 1] - h[x + 1, y - 1] - h[x - 1, y + 1] + h[x - 1, y - 1]
+    mean, half = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), corners / (4 * dx * dy))
+    return np.stack([mean + half, mean - half], axis=1)
 
 
 def skewness_and_kurtosis(h: Array) -> Array:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from .ellipticity import Ellipticity
 from .errors import InvalidValue
 from .heights import Heights
 from .instruments import MOST_POINTS, is_number, read
@@ -341,7 +342,11 @@ class Topography:
         return float(self._state(self.cutoff)[4][1])
 
     def roughness(
-        self, *, cutoff: float | None = None, heights: Heights | str | None = None
+        self,
+        *,
+        cutoff: float | None = None,
+        heights: Heights | str | None = None,
+        ellipticity: Ellipticity | str | None = None,
     ) -> Roughness:
         """The rough surface of a contact, against a smooth one.
 
@@ -353,6 +358,9 @@ class Topography:
             Distribution of asperity heights, Gaussian by default, with σ, R, η and α by moments.
             With "measured", heights, density, mean curvature and σ_s are those of the summits
             counted; α is then the one that gives their σ_s.
+        ellipticity : Ellipticity or "measured", optional
+            Shapes of the tips, for laws of elliptic tips; round by default. With "measured",
+            those of the summits counted, by `Ellipticity.from_curvatures`.
 
         Returns
         -------
@@ -371,6 +379,17 @@ class Topography:
         True
         """
         moments = self.moments_at(cutoff)
+        if isinstance(ellipticity, str):
+            if ellipticity != "measured":
+                raise InvalidValue(
+                    f'ellipticity = {ellipticity!r} must be "measured" or an Ellipticity'
+                )
+            rough = self.roughness(cutoff=cutoff, heights=heights)
+            tips = Ellipticity.from_curvatures(self.summits_at(cutoff).principal, R=rough.R)
+            return rough.replace(ellipticity=tips)
+        if ellipticity is not None:
+            rough = self.roughness(cutoff=cutoff, heights=heights)
+            return rough.replace(ellipticity=ellipticity)
         if heights != "measured":
             if isinstance(heights, str):
                 raise InvalidValue(f'heights = {heights!r} must be "measured" or a distribution')

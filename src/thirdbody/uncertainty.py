@@ -419,7 +419,8 @@ class Shares:
     def __init__(self, contact: Contact, vary: Arrays, count: int):
         self.contact, self.vary, self.count = contact, vary, count
         first, last = (self._solve(F_star=np.full(count, F)) for F in WINDOW)
-        rough = contact.with_arrays(vary).roughness if vary else contact.roughness
+        own = {name: values for name, values in vary.items() if name.startswith("roughness.")}
+        rough = contact.with_arrays(own).roughness if own else contact.roughness
         # a load that no contact carries is replaced by the deepest one that the model knows
         deepest = rough.y_s - (first["h"] - first["d"]) + DEEPEST * rough.sigma_s
         self.top = np.asarray(first["d"], float)

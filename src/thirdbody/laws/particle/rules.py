@@ -30,31 +30,24 @@ if TYPE_CHECKING:
 
 __all__ = ["InverseLaw", "SqueezeRule", "squeeze_rule"]
 
-NODES = 16
-"""of a panel"""
-RATIO = 2.0
+NODES, NODES_ALIKE = 16, 14
+"""of a panel, and where both sides are of one material: 4e-13 and 4e-14 of every sum"""
+RATIO = 2.8
 """Largest ratio of the roots of the indentations at the ends of a panel."""
-SEAT_WIDTHS = 1.25
+SEAT_WIDTHS = 2.0
 """Widest panel in widths of the seat."""
 
 
-class _Function:
-    """A piecewise Chebyshev function of one column, evaluated by the compiled engine."""
+def _table(function: PiecewiseChebyshev) -> Array:
+    """Middle and half width of each panel, and below them the coefficients of each column."""
+    columns = function.coefficients.transpose(0, 2, 1)
+    head = np.zeros((len(columns), 1, columns.shape[2]))
+    head[:, 0, 0], head[:, 0, 1] = function.middle, function.half
+    return np.ascontiguousarray(np.concatenate([head, columns], axis=1))
 
-    def __init__(self, function: PiecewiseChebyshev):
-        from ...kernels import LOAD, PANEL, TERMS
 
-        self.series = np.zeros((len(function.half), PANEL + 1, TERMS))
-        self.series[:, LOAD] = function.coefficients[:, :, 0]
-        self.series[:, PANEL, 0] = function.edges[:-1]
-        self.series[:, PANEL, 1] = function.half
-
-    def __call__(self, x: Array) -> Array:
-        from ...kernels import evaluate
-
-        out = np.empty_like(x)
-        evaluate(self.series, x, out)
-        return out
+def _no_table() -> Array:
+    return np.zeros((0, 2, 18))
 
 
 class InverseLaw:
@@ -73,24 +66,31 @@ class InverseLaw:
         self.first, self.last = points[0], points[-1]
         self.elastic = not law.breakpoints
         ends = np.array([self.first, self.last])
-        self.forces = law.reduced("force", ends)
-        self.pressures = self.forces / law.reduced("area", ends)
+        self.forces, self.areas = (law.reduced(name, ends) for name in ("force", "area"))
+        self.pressures = self.forces / self.areas
         self.bends = np.zeros(0)
         """y at the ends of the panels that resolve y of f."""
         self._check(np.array(points))
+        self.tables = (_no_table(), _no_table(), _no_table())
+        """Load and area of √y, ln y of the load, y of the distance from the last pressure."""
         if self.first < self.last:
             log_y = PiecewiseChebyshev(
                 lambda f: np.log(self._solve("force", np.exp(f)))[:, None],
                 np.log(law.reduced("force", np.array(points))),
             )
             self.bends = np.exp(log_y(log_y.edges[1:-1])[:, 0])
-            self._force = _Function(log_y)
             # near the last breakpoint the pressure may approach its limit like a square
             rise = np.sqrt(self.pressures[1] - self._pressure_at(np.array(points)))[::-1]
-            self._rise = _Function(
-                PiecewiseChebyshev(
-                    lambda r: self._solve("pressure", self.pressures[1] - r * r)[:, None], rise
-                )
+            y_of_rise = PiecewiseChebyshev(
+                lambda r: self._solve("pressure", self.pressures[1] - r * r)[:, None], rise
+            )
+            forward = PiecewiseChebyshev(
+                lambda v: np.stack([law.reduced(name, v * v) for name in ("force", "area")], -1),
+                np.sqrt(points),
+            )
+            self.tables = (_table(forward), _table(log_y), _table(y_of_rise))
+            self._y_of_area = PiecewiseChebyshev(
+                lambda a: self._solve("area", a)[:, None], law.reduced("area", np.array(points))
             )
 
     def _pressure_at(self, y: Array) -> Array:
@@ -107,8 +107,11 @@ class InverseLaw:
                 good &= bool(np.isclose(below, above, rtol=1e-9))
             rising = self._pressure_at(np.linspace(self.first, self.last, 400))
             good &= self.first == self.last or bool(np.all(np.diff(rising) > 0))
-            beyond = self._pressure_at(self.last * np.array([2.0, 10.0, 1e4]))
+            ends = self.last * np.array([2.0, 10.0, 1e4])
+            beyond = self._pressure_at(ends)
             good &= np.allclose(beyond, self.pressures[1], rtol=1e-12)
+            linear = ends / self.last * self.areas[1]
+            good &= np.allclose(law.reduced("area", ends), linear, rtol=1e-12)
         if not good:
             raise TypeError(f"{law.name} is not a law whose load tells its indentation")
 
@@ -116,45 +119,31 @@ class InverseLaw:
         from scipy.optimize.elementwise import find_root
 
         def excess(y: Array, value: Array) -> Array:
-            found = self.law.reduced("force", y) if quantity == "force" else self._pressure_at(y)
-            return found - value
+            pressure = quantity == "pressure"
+            return (self._pressure_at(y) if pressure else self.law.reduced(quantity, y)) - value
 
         ends = np.full_like(value, self.first), np.full_like(value, self.last)
         tolerances = {"xatol": 0.0, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
         root = find_root(excess, ends, args=(value,), tolerances=tolerances)
         return np.clip(root.x, self.first, self.last)
 
-    def of_force(self, f: Array) -> Array:
-        """y at which the law carries f."""
+    def numbers(self, plateau: bool) -> Array:
+        """The ends of the middle branch, as the compiled code reads them."""
+        ends = self.first, self.last, *self.forces, *self.areas
+        return np.array([*ends, self.elastic, plateau], dtype=float)
+
+    def of_area(self, a: Array) -> Array:
+        """y at which the contact area is a."""
         if self.elastic:
-            return self.first * (f / self.forces[0]) ** (2 / 3)
-        y = f * (self.last / self.forces[1])
-        below = f <= self.forces[0]
-        y[below] = self.first * (f[below] / self.forces[0]) ** (2 / 3)
-        between = ~below & (f < self.forces[1])
+            return self.first * (a / self.areas[0])
+        y = np.where(
+            a <= self.areas[0],
+            self.first * (a / self.areas[0]),
+            self.last * (a / self.areas[1]),
+        )
+        between = (a > self.areas[0]) & (a < self.areas[1])
         if np.any(between):
-            y[between] = np.exp(self._force(np.log(f[between])))
-        return y
-
-    def of_pressure(self, p: Array) -> Array:
-        """y ≤ the last breakpoint at which the mean pressure is p."""
-        y = self.first * (p / self.pressures[0]) ** 2
-        y[p >= self.pressures[1]] = self.last
-        between = (p > self.pressures[0]) & (p < self.pressures[1])
-        if np.any(between):
-            y[between] = self._rise(np.sqrt(self.pressures[1] - p[between]))
-        return y
-
-    def on(self, side: Side, f: Array) -> Array:
-        """y at which a side of a particle carries f times its unit, below its limit."""
-        y = self.of_force(f)
-        over = y > side.cap
-        if np.any(over):
-            if not side.plateau:
-                return np.minimum(y, side.cap)
-            full = np.broadcast_to(side.full, f.shape)[over]
-            cap = np.broadcast_to(side.cap, f.shape)[over]
-            y[over] = np.maximum(self.of_pressure(f[over] / full), cap)
+            y[between] = self._y_of_area(a[between])[:, 0]
         return y
 
 
@@ -214,56 +203,75 @@ def squeeze_rule(
     split_areas : bool
         Split also where the two contact areas change order.
     """
+    from .squeeze_kernel import AREA_STRONGER, AREA_WEAKER, Y_STRONGER, carrying, fill, share
+
     inverse = inverse_law(law)
-    one, two = (Side(law, E, H, 0.0, tip_radius) for E, H in (first, second))
+    one, two = (_Sides(inverse, E, H, tip_radius) for E, H in (first, second))
     weaker = one.limit <= two.limit
     A, B = Side.chosen(weaker, one, two), Side.chosen(weaker, two, one)
+    equal = np.all((A.delta_1 == B.delta_1) & (A.unit == B.unit), axis=1)
+    laid = (inverse.numbers(A.plateau), inverse.tables, _numbers(A), _numbers(B), equal)
 
-    def both(y: Array) -> tuple[Array, Array]:
-        """Load over A.unit, and y on the stronger side, at y on the weaker."""
-        f = A.reduced_force(y)
-        return f, inverse.on(B, np.minimum(A.unit / B.unit * f, B.limit / B.unit))
-
-    def squeeze(y: Array, yB: Array) -> Array:
-        return A.delta_1 * y + B.delta_1 * yB
+    def shared(y: Array) -> Array:
+        out = np.empty((*y.shape, 4))
+        share(*laid, y, out)
+        return out
 
     def more_area(y: Array) -> tuple[Array, Array]:
         """Contact areas of the weaker and the stronger side, over the same unit."""
-        return A.delta_1 * A.reduced_area(y), B.delta_1 * B.reduced_area(both(y)[1])
+        both = shared(y)
+        return A.delta_1 * both[..., AREA_WEAKER], B.delta_1 * both[..., AREA_STRONGER]
 
     top = A.kinks[:, -1:]
     kinks = A.kinks
-    if not np.all((A.delta_1 == B.delta_1) & (A.unit == B.unit)):
+    if not np.all(equal):
         # where the stronger side changes its formula, or its inverse bends sharply
         bends = np.broadcast_to(inverse.bends, (len(kinks), len(inverse.bends)))
         points = np.concatenate([B.kinks, np.minimum(bends, B.kinks[:, -1:])], axis=1)
-        met = np.minimum(B.unit / A.unit * B.reduced_force(points), A.limit / A.unit)
-        kinks = np.concatenate([kinks, np.minimum(inverse.on(A, met), top)], axis=1)
+        met = np.empty_like(points)
+        carrying(*laid[:3], B.unit / A.unit * B.reduced_force(points), met)
+        kinks = np.concatenate([kinks, np.minimum(met, top)], axis=1)
         if split_areas:
             crossings = _crossings(np.sort(kinks, axis=1), more_area)
             kinks = np.concatenate([kinks, np.minimum(crossings, top)], axis=1)
     kinks = np.sort(kinks, axis=1)
     edges = np.concatenate([np.zeros_like(top), kinks], axis=1)
-    edges = _panels(np.sqrt(edges), squeeze(edges, both(edges)[1]) / widths)
-    low, high = edges[:, :-1, None], edges[:, 1:, None]
-    v = 0.5 * (low + high) + 0.5 * (high - low) * gauss_legendre(NODES)[0]
-    y = np.concatenate([(v * v).reshape(len(v), -1), top], axis=1)
-    f, yB = both(y)
-    eps, last = np.split(squeeze(y, yB), [-1], axis=1)
-    unit = tip_radius * math.pi
-    q = A.unit * f
-    aA, aB = unit * A.delta_1 * A.reduced_area(y), unit * B.delta_1 * B.reduced_area(yB)
-    a1, a2 = np.where(weaker, aA, aB), np.where(weaker, aB, aA)
-    regime = one.regime(np.where(weaker, y, yB) * one.delta_1)
-    columns = np.empty((*y.shape, len(COLUMNS)))
-    columns[..., 0] = q
-    for i in range(len(REGIMES)):
-        columns[..., 1 + i] = np.where(regime == i, a1, 0.0)
-    columns[..., 4], columns[..., 5] = a2, np.maximum(a1, a2)
-    columns[..., 6] = tip_radius * math.pi / 2
-    weights = (eps.reshape(len(eps), -1, NODES) @ _derivative(NODES).T).reshape(eps.shape)
-    weighted = weights[..., None] * columns[:, :-1]
-    return SqueezeRule(1 - eps[:, ::-1], weighted[:, ::-1], 1 - last[:, 0], columns[:, -1])
+    eps = A.delta_1 * edges + B.delta_1 * shared(edges)[..., Y_STRONGER]
+    edges = _panels(np.sqrt(edges), eps / widths)
+    per = NODES_ALIKE if np.all(equal) else NODES
+    count, n = len(edges), (edges.shape[1] - 1) * per
+    gaps, columns = np.empty((count, n)), np.empty((len(COLUMNS), count, n))
+    bottom, floor = np.empty(count), np.empty((count, len(COLUMNS)))
+    order = np.array([REGIMES.index(branch.regime) for branch in A.law.branches])
+    fill(
+        *laid,
+        ~weaker[:, 0],
+        np.array(A.law.breakpoints, dtype=float),
+        order,
+        edges,
+        gauss_legendre(per)[0],
+        np.ascontiguousarray(_derivative(per).T),
+        tip_radius,
+        *(gaps, columns, bottom, floor),
+    )
+    return SqueezeRule(gaps, columns.transpose(1, 2, 0), bottom, floor)
+
+
+class _Sides(Side):
+    """Sides of many materials, whose great circle the law's own inverse tells."""
+
+    def __init__(self, inverse: InverseLaw, E_star: Array, H: Array, R: float):
+        self.inverse = inverse
+        super().__init__(inverse.law, E_star, H, 0.0, R)
+
+    def _cap(self) -> Array:
+        return self.inverse.of_area(np.asarray(self.full, dtype=float))
+
+
+def _numbers(side: Side) -> Array:
+    """One row a material, as the compiled code reads them."""
+    columns = (side.delta_1, side.unit, side.full, side.cap, side.limit)
+    return np.concatenate(np.broadcast_arrays(*columns), axis=1)
 
 
 def _panels(edges: Array, reach: Array) -> Array:

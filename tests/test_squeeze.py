@@ -1,0 +1,94 @@
+"""Compiled nodes over the squeeze, against the contacts they are made of."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+from thirdbody.laws.asperity import ZMC, Hermite
+from thirdbody.laws.particle.rules import inverse_law, squeeze_rule
+from thirdbody.laws.particle.series import COLUMNS, Side, SqueezedParticle
+
+pytest.importorskip("numba", reason="nodes are compiled")
+
+LAWS = [Hermite().bound(R=0.5, E_star=1.0, H=0.1, nu=0.3), ZMC().bound(R=0.5, E_star=1, H=0.1)]
+BODIES = {  # E* and H [Pa] of the first and second contact
+    "alike": ((6e10, 5e9), (6e10, 5e9)),
+    "near": ((6e10, 5e9), (5.5e10, 4.5e9)),
+    "turned": ((5.5e10, 4.5e9), (6e10, 5e9)),
+    "far": ((6e10, 5e9), (1.5e9, 0.1e9)),
+}
+laws = pytest.mark.parametrize("law", LAWS, ids=lambda law: law.name)
+
+
+def ruled(law, bodies, width=0.1):
+    sides = [(np.array([[E]]), np.array([[H]])) for E, H in bodies]
+    return squeeze_rule(law, *sides, tip_radius=0.5, widths=np.array([[width]]), split_areas=True)
+
+
+@laws
+@pytest.mark.parametrize("name", BODIES)
+def test_nodes_integrate_what_one_particle_carries(law, name):
+    """Sums over the nodes, against adaptive quadrature of two contacts balanced by bisection."""
+    bodies = BODIES[name]
+    one, two = (Side(law, E, H, 0.0) for E, H in bodies)
+    rule = ruled(law, bodies)
+    assert np.all(np.diff(rule.gaps) > 0)
+    end = 1 - float(rule.bottom[0])
+    kinks = SqueezedParticle(law, *((E, H, 0.0) for E, H in bodies)).kinks
+
+    def parts(eps):
+        def excess(t):
+            return float((one.force(np.array([t * eps])) - two.force(np.array([eps - t * eps])))[0])
+
+        t = 0.5 if bodies[0] == bodies[1] else brentq(excess, 0.0, 1.0, xtol=1e-15, rtol=9e-16)
+        delta = np.array([t * eps])
+        a1, a2 = float(one.area(delta)[0]), float(two.area(eps - delta)[0])
+        return float(one.force(delta)[0]), a1, a2, int(one.regime(delta)[0])
+
+    def seat(eps):
+        return math.exp(-0.5 * ((eps - 0.5 * end) / 0.1) ** 2)
+
+    marks = [0.0, *(float(k) for k in kinks if 0 < k < end), end]
+    for column, of in {
+        "force": lambda p: p[0],
+        "second": lambda p: p[2],
+        "footprint": lambda p: max(p[1], p[2]),
+        "plastic": lambda p: p[1] * (p[3] == 2),
+    }.items():
+        exact = sum(
+            quad(lambda e, of=of: of(parts(e)) * seat(e), a, b, epsrel=1e-11, epsabs=0, limit=200)[
+                0
+            ]
+            for a, b in zip(marks[:-1], marks[1:], strict=True)
+            if b - a > 1e-12 * end
+        )
+        weighted = rule.weighted[0, :, COLUMNS.index(column)]
+        found = np.sum(weighted * np.exp(-0.5 * ((1 - rule.gaps[0] - 0.5 * end) / 0.1) ** 2))
+        assert found == pytest.approx(exact, rel=1e-9, abs=1e-14 * bodies[0][1])
+
+
+@laws
+def test_materials_side_by_side_are_each_their_own(law):
+    rng = np.random.default_rng(0)
+    E, H = rng.uniform(4e10, 7e10, (6, 2)), rng.uniform(4e9, 6e9, (6, 2))
+    E[1], H[1] = E[1, 0], H[1, 0]  # one with equal sides among others
+    sides = [(E[:, [i]], H[:, [i]]) for i in (0, 1)]
+    widths = np.full((6, 1), 0.1)
+    together = squeeze_rule(law, *sides, tip_radius=0.5, widths=widths, split_areas=True)
+    for m in range(6):
+        alone = ruled(law, [(E[m, i], H[m, i]) for i in (0, 1)])
+        seats = [np.exp(-(((rule.gaps - 0.9) / 0.1) ** 2))[..., None] for rule in (together, alone)]
+        found = (together.weighted * seats[0])[m].sum(axis=0)
+        np.testing.assert_allclose(found, (alone.weighted * seats[1])[0].sum(axis=0), rtol=1e-11)
+        np.testing.assert_allclose(together.floor[m], alone.floor[0], rtol=1e-12)
+
+
+@laws
+def test_the_great_circle_is_reached_where_its_area_is(law):
+    inverse = inverse_law(law)
+    ends = inverse.areas * np.array([0.1, 10.0])
+    a = np.geomspace(*ends, 50)
+    np.testing.assert_allclose(law.reduced("area", inverse.of_area(a)), a, rtol=1e-13)
