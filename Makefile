@@ -2,6 +2,7 @@
 #
 #   make demo     solve an example, redraw the figures of the paper, say where they are
 #   make test     all tests
+#   make docs     the book, into docs/_build/html; it needs no network to be read
 #   make bench    speed, into benchmarks/results.md
 #   make format   tidy the code
 #   make clean    remove what these commands made
@@ -19,10 +20,10 @@ export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 export MPLBACKEND ?= Agg
 
-.PHONY: help demo test bench format clean
+.PHONY: help demo test docs bench format clean
 
 help:
-	@sed -n '3,9s/^# \{0,1\}//p' Makefile
+	@sed -n '3,10s/^# \{0,1\}//p' Makefile
 
 $(RUN)/python:
 	$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(v < (3, 11) and f"thirdbody needs Python 3.11 or newer; {sys.executable} is {v.major}.{v.minor}. Try make PYTHON=python3.12 ...")'
@@ -37,6 +38,10 @@ $(VENV)/installed-test: pyproject.toml | $(RUN)/python
 	$(RUN)/python -m pip install --quiet --editable '.[test]'
 	@touch $@ $(VENV)/installed
 
+$(VENV)/installed-docs: pyproject.toml | $(RUN)/python
+	$(RUN)/python -m pip install --quiet --editable '.[docs]'
+	@touch $@ $(VENV)/installed
+
 demo: $(VENV)/installed
 	$(RUN)/thirdbody solve examples/dusty_ball_screw.toml
 	$(RUN)/thirdbody reproduce horng2022 --out $(OUT)
@@ -46,6 +51,10 @@ demo: $(VENV)/installed
 
 test: $(VENV)/installed-test
 	$(RUN)/python -m pytest -q -n $(WORKERS) --dist worksteal --durations 10
+
+docs: $(VENV)/installed-docs
+	$(RUN)/python -m sphinx -W -q -b html docs docs/_build/html
+	@echo "Open $(abspath docs/_build/html)/index.html in a browser."
 
 bench: $(VENV)/installed-test
 	$(RUN)/python benchmarks/run.py
@@ -57,4 +66,5 @@ format: $(VENV)/installed-test
 
 clean:
 	rm -rf $(VENV) $(OUT) build dist src/*.egg-info .ruff_cache .mypy_cache .hypothesis
+	rm -rf docs/_build docs/gallery docs/api
 	find src tests -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .asperities import AsperitySum, GaussianSum, gaussian_rule, scales
+from .asperities import AsperitySum, GaussianRule, GaussianSum, gaussian_rule, scales
 from .contact import Contact, Interface, together
 from .distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
 from .heights import GaussianHeights
@@ -168,7 +168,7 @@ class _Batch:
         self, which: Index, target: Array | None, h: Array | None = None
     ) -> tuple[Array, Index, Index, dict[str, Array]]:
         """Separations h [σ_s], evaluations, fates and columns of states of interfaces ``which``."""
-        from .kernels import FIELDS, solve_states
+        from .kernels import FIELDS, SCRATCH, solve_states
 
         announce()
         count = len(which)
@@ -185,7 +185,7 @@ class _Batch:
         def part(start: int) -> None:
             here = slice(start, start + AT_ONCE)
             solve_states(
-                *(self.kinds, self.values, self.series, self.rules, scan),
+                *(self.kinds, self.values, self.series, self.rules, np.empty(SCRATCH), scan),
                 *(which[here], target[here], h[here], given),
                 *(evaluations[here], fate[here], rows[here]),
             )
@@ -208,7 +208,7 @@ class _Batch:
 
     def _scan(self, target: Array) -> Array:
         """ln F and its slope over the separations of these loads, for close first guesses."""
-        from .kernels import scan_loads
+        from .kernels import SCRATCH, scan_loads
 
         ends = np.array([target.max(), target.min()])
         h, _, fate, _ = self.solve(np.zeros(2, np.int64), ends)
@@ -216,7 +216,7 @@ class _Batch:
         scan[:, 0] = np.linspace(h[0], h[1], SCAN)
         if fate.any() or h[0] >= h[1]:
             return scan[:0]
-        scan_loads(0, self.kinds, self.values, self.series, self.rules, scan)
+        scan_loads(*(0, self.kinds, self.values, self.series, self.rules, np.empty(SCRATCH), scan))
         return scan if np.all(np.diff(scan[:, 1]) < 0) else scan[:0]
 
 
@@ -257,7 +257,7 @@ class Interfaces(_Batch):
             kind, load = k.GAUSSIAN, table.coefficients[:, :, [0, 4, 5]]
         else:
             kind, load = k.DENSITY, table.with_derivatives[:, :, 0, :]
-        self.kinds[m, k.KIND : k.PARTS] = kind, *self._panels.add(reduced, table, load, 4)
+        self.kinds[m, k.KIND : k.FEW] = kind, *self._panels.add(reduced, table, load, 4)
         self.values[m, : k.COVERAGE] = (
             *(reduced.w, asperities.sigma_s, asperities.centre),
             *(*asperities.units[:2], asperities.highest),
@@ -360,7 +360,9 @@ class States(_Batch):
         for octave in np.unique(octaves):
             rule = gaussian_rule(law, int(octave))
             ends = self._rules.add((law, octave), rule.y, rule.columns)
-            self.kinds[octaves == octave, k.BEGIN : k.END + 1] = ends
+            few = _few_asperities(law, int(octave))
+            few_ends = self._rules.add((few, octave), few.y, few.columns)
+            self.kinds[octaves == octave, k.BEGIN : k.PARTS] = *ends, *few_ends
         self.kinds[:, k.KIND] = k.BY_NODES
         for column, values in (
             *((k.W, w), (k.SIGMA_S, rough.sigma_s), (k.CENTRE, datum * rough.sigma)),
@@ -385,7 +387,8 @@ class States(_Batch):
         coverage = np.zeros(len(self.kinds))
         for p, part in enumerate(parts(contact, varied, arrays)):
             at = k.PARTS + p * k.PART_KINDS
-            self.kinds[:, at : at + k.PART_KINDS] = part.pop("kinds")
+            kinds = part.pop("kinds")
+            self.kinds[:, at : at + kinds.shape[1]] = kinds
             coverage += part.pop("coverage")
             at = k.VALUES + p * k.PART_VALUES
             self.values[:, at + k.OFFSET] = law.seat_offset(varied.roughness)
@@ -425,8 +428,9 @@ class States(_Batch):
                 kinds[:, 3:5] = self._rules.add("one", np.ones(1), np.ones((1, 1)))
                 octaves = np.broadcast_to(np.frexp(width)[1] - 1, len(kinds))
                 for octave in np.unique(octaves):
-                    ends = self._rules.add((average, octave), *_seat_rule(average, int(octave)))
-                    kinds[octaves == octave, 1:3] = ends
+                    for i, rule in ((1, _seat_rule), (5, _few_on_seats)):
+                        ends = self._rules.add((rule, average, octave), *rule(average, int(octave)))
+                        kinds[octaves == octave, i : i + 2] = ends
             else:
                 # without small gaps the second function is not asked for
                 for i, function in enumerate((average.upper, average.lower or average.upper)):
@@ -486,7 +490,7 @@ class States(_Batch):
             factor = changed.areal_density * share * size[:, 0] ** 2
             kinds = np.empty((count, k.PART_KINDS), np.int64)
             kinds[:, 0] = k.ROUGH_NODES
-            kinds[:, 1:3] = self._rules.add_each(rule.gaps, rule.weighted)
+            kinds[:, 1:3] = kinds[:, 5:7] = self._rules.add_each(rule.gaps, rule.weighted)
             kinds[:, 3:5] = self._rules.add_each(x, (weight * x**3)[..., None])
             deepest = np.minimum(x[..., 0] * rule.bottom, x[..., -1] * rule.bottom)
             yield {
@@ -527,6 +531,15 @@ def fineness(arrays: Mapping[str, Array]) -> Array:
     return np.broadcast_to(sizes / rough, max(map(len, arrays.values())))
 
 
+class _FewNodes(GaussianRule):
+    """Nodes enough to come close to a root."""
+
+    NODES, WIDTH = 6, 2.5
+
+
+_few_asperities = lru_cache(maxsize=256)(_FewNodes)
+
+
 @lru_cache(maxsize=128)
 def _seat_rule(average: SizeAverage, octave: int) -> tuple[Array, Array]:
     """Gaps and weighted columns for seats of 2^octave to 2^(octave + 1) in the size."""
@@ -534,6 +547,15 @@ def _seat_rule(average: SizeAverage, octave: int) -> tuple[Array, Array]:
         raise TypeError("the seat is too smooth for shared nodes")
     gaps, weight, values = average.nodes(1.25 * 2.0**octave)
     return gaps, weight[:, None] * values
+
+
+@lru_cache(maxsize=128)
+def _few_on_seats(average: SizeAverage, octave: int) -> tuple[Array, Array]:
+    """As `_seat_rule`, with nodes enough to come close to a root."""
+    depth = subdivide(np.array([0.0, average.top - average.bottom]), width=0.75 * 2.0**octave)
+    u, weight = panel_rule(np.sqrt(depth), 6)
+    gaps = average.top - u[::-1] ** 2
+    return gaps, (2 * u * weight)[::-1, None] * average(gaps)
 
 
 def _sizes(

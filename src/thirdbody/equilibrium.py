@@ -33,6 +33,7 @@ DEEPEST = -3.0
 CHUNK = 16_384
 """States solved together: their arrays stay in the processor's cache."""
 P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
+MODES = np.array(["", S_S, HYBRID, P_S])
 EPS_1, EPS_2 = 0.02, 0.05
 """Default shares that separate the contact modes: read-off resolution, and the paper's 95 %."""
 
@@ -130,8 +131,10 @@ def columns_of(contact: Contact) -> tuple[str, ...]:
 
 def _mode(particle_share: ArrayLike, eps_1: float, eps_2: float) -> Any:
     share = np.asarray(particle_share)
-    out = np.where(share >= 1 - eps_1, P_S, np.where(1 - share >= 1 - eps_2, S_S, HYBRID))
-    out = np.where(np.isnan(share), "", out)
+    # codes first: choosing among strings is slow
+    sliding = np.where(1 - share >= 1 - eps_2, 1, 2)
+    code = np.where(share >= 1 - eps_1, 3, sliding)
+    out = MODES[np.where(np.isnan(share), 0, code)]
     return out if out.ndim else str(out)
 
 
@@ -490,17 +493,19 @@ def _state(
     raw: dict[str, Array] | None = None,
 ) -> Equilibrium:
     """Every column at given separations, where ``raw`` does not bring them."""
-    known = np.flatnonzero(np.isfinite(d))
+    solved = np.isfinite(d)
     if raw is None:
-        raw = bound.fields(d[known])
-    full = {name: np.full(len(d), np.nan) for name in raw}
-    for name, values in raw.items():
-        full[name][known] = values
+        raw = bound.fields(d[solved])
+    full = dict(raw)
+    if not solved.all():
+        full = {name: np.full(len(d), np.nan) for name in raw}
+        for name, values in raw.items():
+            full[name][solved] = values
     rough = contact.roughness
     columns = as_columns(
         full, d, bound.mean_plane, rough.sigma, contact.E_ss, target=target, F_star=F_star
     )
-    columns |= {"status": status.astype(str), "iterations": iterations}
+    columns |= {"status": _words(status), "iterations": iterations}
     shares = _population_shares(contact, bound, d, columns, scalar)
     outputs, more = evaluate(contact, bound, columns) if contact.outputs else ({}, [])
     if scalar:
@@ -510,6 +515,12 @@ def _state(
     return Equilibrium(
         contact=contact, warnings=notes, populations=shares, outputs=outputs, **columns
     )
+
+
+def _words(status: NDArray[Any]) -> NDArray[np.str_]:
+    """The sentences as an array of strings, which is slow to ask of objects."""
+    ok = status == "ok"
+    return np.full(len(status), "ok") if ok.all() else status.astype(str)
 
 
 def _population_shares(

@@ -8,29 +8,38 @@ the separation h of the asperities in σ_s, counted from their mean height.
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
-from numba.extending import intrinsic
+from numba import extending, types
+from numba import njit as _njit
 
 __all__ = ["FIELDS", "evaluate", "scan_loads", "solve_states"]
+
+njit: Any = _njit
+intrinsic: Any = extending.intrinsic
+"""Untyped: what they make is called with other arguments than it is written with."""
 
 SUM = {"nnan", "ninf", "nsz", "arcp", "contract", "reassoc"}
 """Sums may be reordered into vectors; inputs are finite."""
 EXACT = {"nnan", "ninf", "nsz", "contract"}
 """Where the order of operations carries the meaning."""
 
+INNER = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+"""Options of functions that only the kernels call."""
+exact, sums = njit(fastmath=EXACT, **INNER), njit(fastmath=SUM, **INNER)
+
 FIELDS = ("F_ss", "e", "ep", "p", "F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow")
 """Columns of a solved state: asperities without shadow, then particles."""
 
 # An interface is a row of integers and a row of floats: asperities first, then its parts.
-SHADOW, KIND, BEGIN, END, PARTS = range(5)
+SHADOW, KIND, BEGIN, END, FEW, PARTS = *range(5), 6
 """Column of the particles that is the shadow (−1: the coverage); kind of sum over asperities, its
-panels or nodes from BEGIN to END; where the parts begin, each PART_KINDS long: kind, begin, end,
-then begin and end of a plane's series for small gaps, or of the sizes over a rough seat."""
-PART_KINDS = 5
+panels or nodes from BEGIN to END, at FEW the ends of the few nodes that come close to a root; where
+the parts begin, each PART_KINDS long: kind, begin, end, then begin and end of a plane's series for
+small gaps, or of the sizes over a rough seat, and of the few nodes there."""
+PART_KINDS = 7
 W, SIGMA_S, CENTRE, FORCE, AREA, HIGHEST, COVERAGE, VALUES = range(8)
 """ω_1/σ_s, σ_s and the mean height [m], units of load [Pa] and area, highest separation [σ_s],
 coverage; where the parts begin, each PART_VALUES long, lengths in the size of the part:"""
@@ -46,7 +55,7 @@ BY_NODES, GAUSSIAN, DENSITY = range(3)
 ABSENT, PLANE, ROUGH, ROUGH_NODES = -1, 0, 1, 2
 """Particles: none, by series on a plane, by a series or over nodes on a rough seat."""
 
-TERMS, LOAD, EVERY, PANEL = 18, 0, 6, 13
+TERMS, LOAD, EVERY, PANEL, ROWS = 18, 0, 6, 13, 14
 """A panel of a Chebyshev series: rows of TERMS coefficients, six for the balance and seven for
 the columns, and a last row with its left edge and half width."""
 AT = 7
@@ -55,6 +64,8 @@ for a rule of sizes the weight in the first."""
 
 SEAT_REACH = 9.0
 """Standard deviations of the seat above a gap that count; twice as many count below it."""
+YES, NO = np.bool_(True), np.bool_(False)
+"""Typed, so that one compiled function serves both."""
 OK, TOO_MUCH, TOO_LITTLE = range(3)
 """What became of a state."""
 LOWEST, START, MOST = -3.0, 1.0, 100
@@ -63,6 +74,10 @@ ROUNDING = 1e-16
 """Error [σ_s] that a third-order step may leave behind."""
 RESIDUAL = 2e-13
 """Imbalance of the load above which a solved state is polished."""
+CLOSE = 0.02
+"""Step [σ_s] after which few nodes are left for all."""
+SCRATCH = 24
+"""Floats that a state needs to work in."""
 
 
 @intrinsic
@@ -83,6 +98,26 @@ def _float(typingctx: Any, n: Any) -> Any:
         return builder.bitcast(args[0], ir.DoubleType())
 
     return types.float64(types.int64), codegen
+
+
+@intrinsic
+def _pointer(typingctx: Any, array: Any) -> Any:
+    """To the first number of a contiguous array, which the caller keeps alive."""
+
+    def codegen(context, builder, signature, args):
+        return context.make_array(signature.args[0])(context, builder, args[0]).data
+
+    return types.CPointer(array.dtype)(array), codegen
+
+
+@intrinsic
+def _from(typingctx: Any, pointer: Any, n: Any) -> Any:
+    """The pointer n numbers further."""
+
+    def codegen(context, builder, signature, args):
+        return builder.gep(args[0], [args[1]])
+
+    return pointer(pointer, types.intp), codegen
 
 
 LOG2E = 1.4426950408889634
@@ -115,28 +150,44 @@ def exp(x):
     p = p * r + 0.5
     p = p * r + 1.0
     p = p * r + 1.0
-    return p * _float((_bits(z) << 52) + 4607182418800017408)  # type: ignore[call-arg]
+    return p * _float((_bits(z) << 52) + 4607182418800017408)
+
+
+class State(NamedTuple):
+    """What describes one state to the kernels, by pointers: passing arrays costs more than sums."""
+
+    kinds: Any
+    """row of integers of its interface"""
+    values: Any
+    """row of floats of its interface"""
+    parts: Any
+    """number of parts of the particles"""
+    series: Any
+    rules: Any
+    nodes: Any
+    """length of a row of the rules"""
+    work: Any
+    """SCRATCH floats to work in"""
 
 
 # ---------------------------------------------------------------- series and rules
-@njit(fastmath=EXACT)
+@exact
 def _panel(series, begin, end, x):
     """The panel of series[begin:end] that holds x."""
-    low, high = begin, end - 1
-    while low < high:
-        middle = (low + high + 1) // 2
-        if series[middle, PANEL, 0] <= x:
-            low = middle
-        else:
-            high = middle - 1
+    low, count = begin, end - begin
+    while count > 1:  # as many steps for any x, without a branch to guess wrong
+        half = count >> 1
+        low += half if series[((low + half) * ROWS + PANEL) * TERMS] <= x else 0
+        count -= half
     return low
 
 
-@njit(fastmath=SUM)
+@sums
 def _series(series, begin, end, x, row, count, out):
     """Rows of a Chebyshev series at x, from ``row`` on, into ``out``."""
-    p = _panel(series, begin, end, x)
-    s = min(max((x - series[p, PANEL, 0]) / series[p, PANEL, 1] - 1.0, -1.0), 1.0)
+    p = _panel(series, begin, end, x) * ROWS
+    edge = _from(series, (p + PANEL) * TERMS)
+    s = min(max((x - edge[0]) / edge[1] - 1.0, -1.0), 1.0)
     # T_2k = 2T_k² − 1 and T_2k+1 = 2T_k T_k+1 − s: a short chain of dependent steps
     z = 2 * s
     t2 = z * s - 1
@@ -149,36 +200,36 @@ def _series(series, begin, end, x, row, count, out):
     t14, t15 = 2 * t7 * t7 - 1, 2 * t7 * t8 - s
     t16, t17 = 2 * t8 * t8 - 1, 2 * t8 * t9 - s
     for k in range(count):
-        c = series[p, row + k]
+        c = _from(series, (p + row + k) * TERMS)
         low = c[0] + c[1] * s + c[2] * t2 + c[3] * t3 + c[4] * t4 + c[5] * t5
         middle = c[6] * t6 + c[7] * t7 + c[8] * t8 + c[9] * t9 + c[10] * t10 + c[11] * t11
         high = c[12] * t12 + c[13] * t13 + c[14] * t14 + c[15] * t15 + c[16] * t16 + c[17] * t17
         out[k] = low + middle + high
 
 
-@njit(fastmath=EXACT)
-def _below(rules, low, high, x):
-    """The first node of low:high that is not below x."""
-    while low < high:
-        middle = (low + high) // 2
-        if rules[AT, middle] < x:
-            low = middle + 1
-        else:
-            high = middle
-    return low
+@exact
+def _below(at, low, high, x):
+    """The first of the abscissae low:high that is not below x."""
+    if low == high or not at[low] < x:
+        return low
+    count = high - low
+    while count > 1:
+        half = count >> 1
+        low += half if at[low + half] < x else 0
+        count -= half
+    return low + 1
 
 
 # ---------------------------------------------------------------- asperities
-@njit(fastmath=SUM)
-def _asperity_nodes(rules, begin, end, w, h, fields, out):
+@sums
+def _asperity_nodes(rules, nodes, begin, end, w, h, every, out):
     """Σ c exp(−hwy − w²y²/2) with the moments 1, wy, w²y² of the load, or of every column."""
     a, b = -h * w, -0.5 * w * w
     s0 = s1 = s2 = s3 = 0.0
-    # slices, because their indices are never negative
-    at, c0 = rules[AT, begin:end], rules[0, begin:end]
-    if fields:
-        c1, c2, c3 = rules[1, begin:end], rules[2, begin:end], rules[3, begin:end]
-        for j in range(len(at)):
+    at, c0 = _from(rules, AT * nodes + begin), _from(rules, begin)
+    if every:
+        c1, c2, c3 = _from(c0, nodes), _from(c0, 2 * nodes), _from(c0, 3 * nodes)
+        for j in range(end - begin):
             y = at[j]
             e = exp((a + b * y) * y)
             s0 += e * c0[j]
@@ -186,7 +237,7 @@ def _asperity_nodes(rules, begin, end, w, h, fields, out):
             s2 += e * c2[j]
             s3 += e * c3[j]
     else:
-        for j in range(len(at)):
+        for j in range(end - begin):
             y = at[j]
             e = exp((a + b * y) * y) * c0[j]
             s0 += e
@@ -197,48 +248,53 @@ def _asperity_nodes(rules, begin, end, w, h, fields, out):
     out[0], out[1], out[2], out[3] = s0 * w, s1 * w, s2 * w, s3 * w
 
 
-@njit(fastmath=EXACT)
-def _asperities(m, kinds, values, series, rules, h, fields, out):
-    """Load [Pa] with two derivatives in h, or with ``fields`` load and areas by regime."""
-    kind, begin, end = kinds[m, KIND], kinds[m, BEGIN], kinds[m, END]
-    if h > values[m, HIGHEST]:
+@exact
+def _asperities(state, h, every, few, out):
+    """Load [Pa] with two derivatives in h, or ``every`` column: load and areas by regime."""
+    kinds, values = state.kinds, state.values
+    kind, begin, end = kinds[KIND], kinds[BEGIN], kinds[END]
+    if h > values[HIGHEST]:
         for k in range(4):
             out[k] = 0.0
         return
     if kind == BY_NODES:
-        w = values[m, W]
+        if few:
+            begin, end = kinds[FEW], kinds[FEW + 1]
+        w = values[W]
         # beyond, the exponent has dropped by 36
-        end = _below(rules, begin, end, (math.sqrt(h * h + 72.0) - h) / w)
-        _asperity_nodes(rules, begin, end, w, h, fields, out)
+        reach = (math.sqrt(h * h + 72.0) - h) / w
+        end = _below(_from(state.rules, AT * state.nodes), begin, end, reach)
+        _asperity_nodes(state.rules, state.nodes, begin, end, w, h, every, out)
     else:
-        _series(series, begin, end, h, EVERY if fields else LOAD, 4 if fields else 3, out)
-    factor = values[m, FORCE]
+        row, count = (EVERY, 4) if every else (LOAD, 3)
+        _series(state.series, begin, end, h, row, count, out)
+    factor = values[FORCE]
     if kind != DENSITY:
         factor *= exp(-0.5 * h * h)
-        if not fields:
+        if not every:
             m0, m1, m2 = out[0], out[1], out[2]
             out[1], out[2] = -(h * m0 + m1), (h * h - 1) * m0 + 2 * h * m1 + m2
     out[0] *= factor
-    if fields:
-        factor *= values[m, AREA] / values[m, FORCE]
+    if every:
+        factor *= values[AREA] / values[FORCE]
     for k in range(1, 4):
         out[k] *= factor
-        if fields:
+        if every:
             out[k] = max(out[k], 0.0)  # rounding of the other regimes
 
 
 # ---------------------------------------------------------------- particles
-@njit(fastmath=SUM)
-def _seat_nodes(rules, begin, end, gap, width, size, shadow, fields, out):
+@sums
+def _seat_nodes(rules, nodes, begin, end, gap, width, size, shadow, every, out):
     """Σ c exp(−z²/2) over local gaps: load and shadow with two derivatives, or every column."""
     inverse = 1 / width
     norm = inverse / math.sqrt(2 * math.pi)
-    at, c0 = rules[AT, begin:end], rules[0, begin:end]
-    if fields:
-        c1, c2, c3 = rules[1, begin:end], rules[2, begin:end], rules[3, begin:end]
-        c4, c5, c6 = rules[4, begin:end], rules[5, begin:end], rules[6, begin:end]
+    at, c0 = _from(rules, AT * nodes + begin), _from(rules, begin)
+    if every:
+        c1, c2, c3 = _from(c0, nodes), _from(c0, 2 * nodes), _from(c0, 3 * nodes)
+        c4, c5, c6 = _from(c0, 4 * nodes), _from(c0, 5 * nodes), _from(c0, 6 * nodes)
         a = b = c = d = e = f = g = 0.0
-        for i in range(len(at)):
+        for i in range(end - begin):
             z = (gap - size * at[i]) * inverse
             density = exp(-0.5 * z * z)
             a += density * c0[i]
@@ -251,9 +307,9 @@ def _seat_nodes(rules, begin, end, gap, width, size, shadow, fields, out):
         out[0], out[1], out[2], out[3] = norm * a, norm * b, norm * c, norm * d
         out[4], out[5], out[6] = norm * e, norm * f, norm * g
         return
-    c1 = rules[shadow, begin:end]
+    c1 = _from(c0, shadow * nodes)
     s0 = s1 = s2 = t0 = t1 = t2 = 0.0
-    for i in range(len(at)):
+    for i in range(end - begin):
         z = (gap - size * at[i]) * inverse
         density = exp(-0.5 * z * z)
         load, area = density * c0[i], density * c1[i]
@@ -267,29 +323,33 @@ def _seat_nodes(rules, begin, end, gap, width, size, shadow, fields, out):
     out[3], out[4], out[5] = norm * t0, -norm * inverse * t1, norm * inverse * inverse * (t2 - t0)
 
 
-@njit(fastmath=EXACT)
-def _rough_nodes(kinds, values, m, i, v, rules, gap, shadow, fields, out, each):
+@exact
+def _rough_nodes(state, kinds, part, gap, shadow, every, few, out, each):
     """Particles on a rough seat by the sum over sizes and over local gaps in their size."""
-    width = values[m, v + WIDTH]
+    rules, nodes = state.rules, state.nodes
+    at = _from(rules, AT * nodes)
+    width = part[WIDTH]
     for k in range(7):
         out[k] = 0.0
-    for n in range(kinds[m, i + 3], kinds[m, i + 4]):
-        size, weight = rules[AT, n], rules[0, n]
-        begin, end = kinds[m, i + 1], kinds[m, i + 2]
+    low, high = kinds[1], kinds[2]
+    if few:
+        low, high = kinds[5], kinds[6]
+    for n in range(kinds[3], kinds[4]):
+        size, weight = at[n], rules[n]
         # far above the largest particles the many below them carry the load
-        begin = _below(rules, begin, end, (gap - 2 * SEAT_REACH * width) / size)
-        end = _below(rules, begin, end, (gap + SEAT_REACH * width) / size)
-        _seat_nodes(rules, begin, end, gap, width, size, shadow, fields, each)
-        z = (size * values[m, v + BOTTOM] - gap) / width
+        begin = _below(at, low, high, (gap - 2 * SEAT_REACH * width) / size)
+        end = _below(at, begin, high, (gap + SEAT_REACH * width) / size)
+        _seat_nodes(rules, nodes, begin, end, gap, width, size, shadow, every, each)
+        z = (size * part[BOTTOM] - gap) / width
         if z > -2 * SEAT_REACH:
             share = 0.5 * math.erfc(-z / math.sqrt(2)) / size
             density = math.exp(-0.5 * z * z) / (width * math.sqrt(2 * math.pi) * size)
-            if fields:
+            if every:
                 for k in range(7):
-                    each[k] += share * values[m, v + FLOOR + k]
+                    each[k] += share * part[FLOOR + k]
             else:
                 for j in range(0, 6, 3):
-                    floor = values[m, v + FLOOR + (shadow if j else 0)]
+                    floor = part[FLOOR + (shadow if j else 0)]
                     each[j] += floor * share
                     each[j + 1] -= floor * density
                     each[j + 2] -= floor * density * z / width
@@ -297,7 +357,7 @@ def _rough_nodes(kinds, values, m, i, v, rules, gap, shadow, fields, out, each):
             out[k] += weight * each[k]
 
 
-@njit(fastmath=EXACT)
+@exact
 def _power(u, n):
     """u to a small whole number."""
     out = 1.0
@@ -306,17 +366,17 @@ def _power(u, n):
     return out
 
 
-@njit(fastmath=EXACT)
-def _rise(values, m, v, u, shadow, fields, out):
+@exact
+def _rise(part, u, shadow, every, out):
     """From series in u = √(top − gap) without their leading power to columns and derivatives."""
-    if fields:
+    if every:
         for k in range(7):
-            out[k] *= _power(u, values[m, v + POWERS + k])
+            out[k] *= _power(u, part[POWERS + k])
         return
     inverse = 1 / u
     for j in range(0, 6, 3):
         value, first, second = out[j], out[j + 1] * u, out[j + 2] * u * u
-        n = values[m, v + POWERS + (shadow if j else 0)]
+        n = part[POWERS + (shadow if j else 0)]
         lead = _power(u, n)
         du = first + n * value
         out[j] = lead * value
@@ -325,41 +385,43 @@ def _rise(values, m, v, u, shadow, fields, out):
         out[j + 2] = 0.25 * lead * inverse**4 * (ddu - du)
 
 
-@njit(fastmath=EXACT)
-def _particles(m, kinds, values, series, rules, d, fields, total, out, each):
-    """Load [Pa] and shadow with two derivatives in d, or with ``fields`` the seven columns."""
-    shadow = max(kinds[m, SHADOW], 0)
+@exact
+def _particles(state, d, every, few, total, out, each):
+    """Load [Pa] and shadow with two derivatives in d, or ``every`` one of the seven columns."""
+    shadow = max(state.kinds[SHADOW], 0)
     for k in range(7):
         total[k] = 0.0
-    for p in range((kinds.shape[1] - PARTS) // PART_KINDS):
-        i, v = PARTS + PART_KINDS * p, VALUES + PART_VALUES * p
-        kind, begin, end = kinds[m, i], kinds[m, i + 1], kinds[m, i + 2]
+    for p in range(state.parts):
+        kinds = _from(state.kinds, PARTS + PART_KINDS * p)
+        part = _from(state.values, VALUES + PART_VALUES * p)
+        kind, begin, end = kinds[0], kinds[1], kinds[2]
         if kind == ABSENT:
             continue
-        size = values[m, v + SIZE]
-        gap = (d + values[m, v + OFFSET]) / size
-        if gap >= values[m, v + REACH]:
+        size = part[SIZE]
+        gap = (d + part[OFFSET]) / size
+        if gap >= part[REACH]:
             continue
-        if gap < values[m, v + LEAST]:
+        if gap < part[LEAST]:
             for k in range(7):
-                out[k] = values[m, v + FLOOR + k] if fields else 0.0
-            if not fields:
-                out[0], out[3] = values[m, v + FLOOR], values[m, v + FLOOR + shadow]
+                out[k] = part[FLOOR + k] if every else 0.0
+            if not every:
+                out[0], out[3] = part[FLOOR], part[FLOOR + shadow]
         elif kind == ROUGH_NODES:
-            _rough_nodes(kinds, values, m, i, v, rules, gap, shadow, fields, out, each)
+            _rough_nodes(state, kinds, part, gap, shadow, every, few, out, each)
         else:
             x, rise = gap, False
             if kind == PLANE:
-                rise = gap >= values[m, v + JOIN]
+                rise = gap >= part[JOIN]
                 if rise:
-                    x = math.sqrt(values[m, v + TOP] - gap)
+                    x = math.sqrt(part[TOP] - gap)
                 else:
-                    begin, end = kinds[m, i + 3], kinds[m, i + 4]
-            _series(series, begin, end, x, EVERY if fields else LOAD, 7 if fields else 6, out)
+                    begin, end = kinds[3], kinds[4]
+            row, count = (EVERY, 7) if every else (LOAD, 6)
+            _series(state.series, begin, end, x, row, count, out)
             if rise:
-                _rise(values, m, v, x, shadow, fields, out)
-        factor = values[m, v + FACTOR]
-        if fields:
+                _rise(part, x, shadow, every, out)
+        factor = part[FACTOR]
+        if every:
             for k in range(7):
                 total[k] += factor * out[k]
         else:
@@ -367,21 +429,22 @@ def _particles(m, kinds, values, series, rules, d, fields, total, out, each):
                 total[k] += factor * out[k]
                 total[3 + k] += factor * out[3 + k]
                 factor /= size
-    if kinds[m, SHADOW] < 0 and not fields:
-        total[3], total[4], total[5] = values[m, COVERAGE], 0.0, 0.0
+    if state.kinds[SHADOW] < 0 and not every:
+        total[3], total[4], total[5] = state.values[COVERAGE], 0.0, 0.0
 
 
 # ---------------------------------------------------------------- the balance
-@njit(fastmath=EXACT)
-def _load(m, kinds, values, series, rules, h, total, out, each):
-    """Total load [Pa] with its first and second derivative in h."""
-    _asperities(m, kinds, values, series, rules, h, False, out)
+@exact
+def _load(state, h, few):
+    """Total load [Pa] with its first and second derivative in h, by all nodes or by few."""
+    total, out, each = state.work, _from(state.work, 8), _from(state.work, 16)
+    _asperities(state, h, NO, few, out)
     f, f1, f2 = out[0], out[1], out[2]
-    if kinds.shape[1] == PARTS:
+    if state.parts == 0:
         return f, f1, f2
-    sigma_s = values[m, SIGMA_S]
-    d = values[m, CENTRE] + sigma_s * h
-    _particles(m, kinds, values, series, rules, d, False, total, out, each)
+    sigma_s = state.values[SIGMA_S]
+    d = state.values[CENTRE] + sigma_s * h
+    _particles(state, d, NO, few, total, out, each)
     bare, s1, s2 = 1 - total[3], sigma_s * total[4], sigma_s**2 * total[5]
     return (
         bare * f + total[0],
@@ -390,30 +453,30 @@ def _load(m, kinds, values, series, rules, h, total, out, each):
     )
 
 
-@njit(fastmath=EXACT)
-def _highest(m, kinds, values):
+@exact
+def _highest(state):
     """Separation [σ_s] above which nothing is carried."""
-    high = values[m, HIGHEST]
-    for p in range((kinds.shape[1] - PARTS) // PART_KINDS):
-        if kinds[m, PARTS + PART_KINDS * p] != ABSENT:
-            v = VALUES + PART_VALUES * p
-            reach = values[m, v + REACH] * values[m, v + SIZE] - values[m, v + OFFSET]
-            high = max(high, (reach - values[m, CENTRE]) / values[m, SIGMA_S])
+    high = state.values[HIGHEST]
+    for p in range(state.parts):
+        if state.kinds[PARTS + PART_KINDS * p] != ABSENT:
+            part = _from(state.values, VALUES + PART_VALUES * p)
+            reach = part[REACH] * part[SIZE] - part[OFFSET]
+            high = max(high, (reach - state.values[CENTRE]) / state.values[SIGMA_S])
     return high
 
 
-@njit(fastmath=EXACT)
+@exact
 def _guess(scan, log_target):
     """h by inverse cubic interpolation in a scan of ln F and its slope, falling with h."""
-    low, high = 0, len(scan) - 1
-    if not scan[high, 1] < log_target < scan[low, 1]:
+    count = len(scan) - 1
+    if not scan[count, 1] < log_target < scan[0, 1]:
         return START
-    while high - low > 1:
-        middle = (low + high) // 2
-        if scan[middle, 1] >= log_target:
-            low = middle
-        else:
-            high = middle
+    low = 0
+    while count > 1:
+        half = count >> 1
+        low += half if scan[low + half, 1] >= log_target else 0
+        count -= half
+    high = low + 1
     rise = scan[high, 1] - scan[low, 1]
     s = (log_target - scan[low, 1]) / rise
     a, b = scan[low, 0], scan[high, 0]
@@ -423,23 +486,26 @@ def _guess(scan, log_target):
     return h if a <= h <= b else a + s * (b - a)
 
 
-@njit(fastmath=EXACT)
-def _root(m, kinds, values, series, rules, target, h, total, out, each):
-    """Separation h from a first guess, number of evaluations and fate of one state.
+@exact
+def _root(state, target, h):
+    """Separation h from a first guess, evaluations by all nodes, and fate of one state.
 
     Euler's third-order step on ln F_t(h) = ln F, exact where ln F_t is a parabola as it is in a
-    Gaussian tail, inside a bracket.
+    Gaussian tail, inside a bracket. Where there are few nodes beside all, they come first.
     """
-    low, top = LOWEST, _highest(m, kinds, values)
-    high = top
+    top = _highest(state)
+    low, high = LOWEST, top
     h = min(max(h, low), high)
-    last = high - low
+    few = state.kinds[FEW] < state.kinds[FEW + 1]
+    last, bend, count = high - low, 1.0, 0
     for n in range(1, MOST + 1):
-        F, F1, F2 = _load(m, kinds, values, series, rules, h, total, out, each)
+        F, F1, F2 = _load(state, h, few)
+        if not few:
+            count += 1
         if F >= target:
             low = h
-        elif h == LOWEST:
-            return h, n, TOO_MUCH
+        elif h == LOWEST and not few:
+            return h, count, TOO_MUCH
         else:
             high = h
         step = 0.5 * (low + high) - h
@@ -456,73 +522,95 @@ def _root(m, kinds, values, series, rules, target, h, total, out, each):
                 step, bisected = trial, False
         size = abs(step)
         h += step
-        # errors follow e' = Ke³ with K = size/last³, so this step leaves size⁴/last³
-        small = not bisected and size < 1e-3 and size**4 <= ROUNDING * last**3
-        if h != LOWEST and (small or size <= 1e-15 * max(1.0, abs(h))):
-            return h, n, TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
+        # errors follow e' = Ke³
+        if last < 1:
+            bend = size / last**3
+        if few:
+            if h == LOWEST or size < CLOSE or n > 20:
+                few = NO
+                low, high = LOWEST, top
+                last = 1.0
+                continue
+        else:
+            # so this step leaves K size³
+            small = not bisected and size < 1e-3 and bend * size**3 <= ROUNDING
+            if h != LOWEST and (small or size <= 1e-15 * max(1.0, abs(h))):
+                return h, count, TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
         last = size
     return h, MOST, OK
 
 
-@njit(fastmath=EXACT)
-def _columns(m, kinds, values, series, rules, h, total, out, each, row):
+@exact
+def _columns(state, h, row):
     """The columns `FIELDS` at a separation."""
-    _asperities(m, kinds, values, series, rules, h, True, out)
+    total, out, each = state.work, _from(state.work, 8), _from(state.work, 16)
+    _asperities(state, h, YES, NO, out)
     for k in range(4):
         row[k] = out[k]
     for k in range(4, 10):
         row[k] = 0.0
-    if kinds.shape[1] > PARTS:
-        d = values[m, CENTRE] + values[m, SIGMA_S] * h
-        _particles(m, kinds, values, series, rules, d, True, total, out, each)
+    if state.parts > 0:
+        d = state.values[CENTRE] + state.values[SIGMA_S] * h
+        _particles(state, d, YES, NO, total, out, each)
         for k in range(5):
             row[4 + k] = total[k]
-        shadow = kinds[m, SHADOW]
-        row[9] = values[m, COVERAGE] if shadow < 0 else total[shadow]
+        shadow = state.kinds[SHADOW]
+        row[9] = state.values[COVERAGE] if shadow < 0 else total[shadow]
 
 
-@njit(nogil=True, cache=True)
+@njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
 def evaluate(series, x, out):
     """The first row of a Chebyshev series at every x, into ``out``."""
-    row = np.empty(1)
     for i in range(len(x)):
-        _series(series, 0, len(series), x[i], LOAD, 1, row)
-        out[i] = row[0]
+        _series(_pointer(series), 0, len(series), x[i], LOAD, 1, _from(_pointer(out), i))
 
 
-@njit(nogil=True, cache=True)
-def scan_loads(m, kinds, values, series, rules, scan):
+@exact
+def _state(m, kinds, values, series, rules, work):
+    """State of interface m."""
+    return State(
+        _from(_pointer(kinds), m * kinds.shape[1]),
+        _from(_pointer(values), m * values.shape[1]),
+        (kinds.shape[1] - PARTS) // PART_KINDS,
+        _pointer(series),
+        _pointer(rules),
+        rules.shape[1],
+        _pointer(work),
+    )
+
+
+@njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
+def scan_loads(m, kinds, values, series, rules, work, scan):
     """Fill a scan (K, 3) with ln F and its slope at the separations in its first column."""
-    total, out, each = np.empty(8), np.empty(8), np.empty(8)
+    state = _state(m, kinds, values, series, rules, work)
     for i in range(len(scan)):
-        F, F1, _ = _load(m, kinds, values, series, rules, scan[i, 0], total, out, each)
+        F, F1, _ = _load(state, scan[i, 0], NO)
         scan[i, 1], scan[i, 2] = math.log(F), F1 / F
 
 
-@njit(nogil=True, cache=True)
-def solve_states(kinds, values, series, rules, scan, which, target, h, given, count, fate, rows):
+@njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
+def solve_states(
+    kinds, values, series, rules, work, scan, which, target, h, given, count, fate, rows
+):
     """Solve states i of interfaces which[i] for the loads target[i] [Pa].
 
     Fills ``h``, the evaluations ``count``, the ``fate`` and the columns ``rows`` (N, 10). With
     ``given``, h is taken as it is; the states of one interface may share a scan.
     """
-    total, out, each = np.empty(8), np.empty(8), np.empty(8)
     for i in range(len(which)):
-        m = which[i]
+        state = _state(which[i], kinds, values, series, rules, work)
+        row = _from(_pointer(rows), i * len(FIELDS))
         if given:
             count[i], fate[i] = 1, OK
         else:
             guess = _guess(scan, math.log(target[i])) if len(scan) else START
-            h[i], count[i], fate[i] = _root(
-                m, kinds, values, series, rules, target[i], guess, total, out, each
-            )
-        _columns(m, kinds, values, series, rules, h[i], total, out, each, rows[i])
+            h[i], count[i], fate[i] = _root(state, target[i], guess)
         # where ln F is not smooth, a third-order step leaves more behind than it seems
-        for _ in range(3):
-            F = (1 - rows[i, 9]) * rows[i, 0] + rows[i, 4]
-            if given or fate[i] != OK or abs(F / target[i] - 1) < RESIDUAL:
+        for again in range(4):
+            _columns(state, h[i], row)
+            F = (1 - row[9]) * row[0] + row[4]
+            if given or again == 3 or fate[i] != OK or abs(F / target[i] - 1) < RESIDUAL:
                 break
-            F, F1, _ = _load(m, kinds, values, series, rules, h[i], total, out, each)
+            F, F1, _ = _load(state, h[i], NO)
             count[i] += 1
             h[i] -= (F - target[i]) / F1
-            _columns(m, kinds, values, series, rules, h[i], total, out, each, rows[i])

@@ -124,6 +124,12 @@ def _taken(arrays: Arrays, which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
 
 def _joined(count: int, parts: list[tuple[NDArray[np.intp], Columns]]) -> Columns:
     """Columns of all states from those of some."""
+    if len(parts) == 1 and np.array_equal(parts[0][0], np.arange(count)):
+        whole = parts[0][1]
+        return {
+            name: whole[name].astype(object) if whole[name].dtype.kind == "U" else whole[name]
+            for name in COLUMNS
+        }
     out: Columns = {}
     for which, columns in parts:
         for name, column in columns.items():
@@ -154,10 +160,9 @@ def _with_outputs(
 
 def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
     """Every column: by nodes that states share where they can, the others one by one."""
-    groups = _groups(arrays, len(loads))
     numeric = all(values.dtype.kind in "iuf" for values in arrays.values())
-    if not (numeric and engine.available() and groups.max() + 1 >= FEWEST):
-        return _by_groups(contact, arrays, groups, load, loads)
+    if not (numeric and engine.available() and _differ(arrays, len(loads))):
+        return _by_groups(contact, arrays, _groups(arrays, len(loads)), load, loads)
     numbers = {name: values.astype(float) for name, values in arrays.items()}
     try:
         return _by_nodes(contact, numbers, load, loads)
@@ -175,7 +180,8 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
             odd[:] = True
     if len(rest := np.flatnonzero(odd)):
         some = _taken(arrays, rest)
-        parts.append((rest, _by_groups(contact, some, groups[rest], load, loads[rest])))
+        groups = _groups(some, len(rest))
+        parts.append((rest, _by_groups(contact, some, groups, load, loads[rest])))
     return _joined(len(loads), parts)
 
 
@@ -204,8 +210,11 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
     first = part(0)  # refused, or compiled, once
     with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
         parts = [first, *pool.map(part, starts[1:])]
+    out = {name: np.concatenate([part[name] for part in parts]) for name in COLUMNS}
+    if not own:
+        return out
     back = np.argsort(order)
-    return {name: np.concatenate([part[name] for part in parts])[back] for name in COLUMNS}
+    return {name: column[back] for name, column in out.items()}
 
 
 def _by_groups(
@@ -225,6 +234,15 @@ def _by_groups(
             result = solve(state, **{load: loads[which]})  # type: ignore[arg-type]
         parts.append((which, result.columns()))
     return _joined(len(loads), parts)
+
+
+def _differ(arrays: Arrays, count: int) -> bool:
+    """Whether there are FEWEST different states; mostly the first of them tell."""
+    first = _taken(arrays, np.arange(min(count, 50 * FEWEST)))
+    return any(
+        _groups(some, n).max() + 1 >= FEWEST
+        for some, n in ((first, min(count, 50 * FEWEST)), (arrays, count))
+    )
 
 
 def _groups(arrays: Arrays, count: int) -> NDArray[np.intp]:

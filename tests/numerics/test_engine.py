@@ -398,6 +398,21 @@ def test_order_and_company_change_no_bit(seat):
     same({k: v[alone] for k, v in whole.items()}, few)
 
 
+@pytest.mark.parametrize("seat", ["plane", "rough", "two-body"])
+def test_few_nodes_come_close(seat):
+    """After them one evaluation by all nodes mostly ends at the root."""
+    contact = default() if seat == "two-body" else default(seat)
+    if seat == "two-body":
+        contact = contact.replace(particles=None)
+    loads = 10.0 ** np.random.default_rng(6).uniform(-10, -3, 500)
+    with compiled_engine():
+        got = tb.solve_states(
+            contact, F_star=loads, vary={"roughness.sigma": 1e-7 * ratios(3, 500)}
+        )
+    assert np.mean(got["iterations"]) < 1.5
+    assert np.max(got["residual"]) < 1e-11
+
+
 def test_company_of_states_with_materials_of_their_own():
     """Their nodes follow what the company needs: equal to rounding, and for any threads."""
     vary, loads = materials_of_their_own(1_500), np.geomspace(1e-9, 1e-4, 1_500)

@@ -1,0 +1,45 @@
+"""
+One particle between two surfaces
+=================================
+
+A sphere is squeezed between two flats, which it dents with one force. Small squeezes are elastic,
+large ones plastic, and the contact stops growing at the great circle of the particle.
+"""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+import thirdbody as tb
+
+steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+x = 300e-9  # m
+contact = tb.Contact(
+    surfaces=tb.MaterialPair(steel, steel),
+    roughness=tb.Roughness(sigma=1e-9, R=2.8e-6),  # nearly smooth: the gap is d
+    particles=tb.Particles(material=silica, diameter=tb.Monodisperse(mean=x), areal_density=1e11),
+    particle_law=tb.particle.Series(seat="plane"),
+)
+squeeze = np.geomspace(1e-4, 0.9, 200) * x
+state = tb.solve(contact, d=x - squeeze)
+force = np.asarray(state.F_sa_star) * contact.E_ss / 1e11  # N, one particle
+
+E_sa = tb.MaterialPair(steel, silica).E_star
+elastic = 4 / 3 * E_sa * np.sqrt(x / 2) * (squeeze / 2) ** 1.5
+plastic = np.pi / 2 * steel.H * x * squeeze
+embedded = np.pi / 4 * steel.H * x**2
+
+figure = Figure(figsize=(5.2, 3.6), layout="constrained")
+ax = figure.add_subplot()
+ax.loglog(squeeze / x, force * 1e6, linewidth=2.5, label="Series")
+ax.loglog(squeeze / x, elastic * 1e6, "--", label="elastic limit")
+ax.loglog(squeeze / x, plastic * 1e6, ":", label="fully plastic limit")
+ax.axhline(embedded * 1e6, color="0.5", linewidth=1, label="embedded")
+ax.set(xlabel="squeeze δ over diameter [1]", ylabel="load of one particle [µN]")
+ax.set_ylim(1e-4, 2e3)
+ax.legend(frameon=False)
+
+# %%
+# At the smallest squeeze the particle is elastic, at the largest embedded.
+print(f"{force[0] / elastic[0]:.6f} of the elastic, {force[-1] / embedded:.6f} of the embedded")
+assert abs(force[0] / elastic[0] - 1) < 1e-6
+assert abs(force[-1] / embedded - 1) < 1e-6
