@@ -15,7 +15,17 @@ from .vocabulary import in_words, near
 if TYPE_CHECKING:
     from .reader import Reader
 
-__all__ = ["count", "number", "numbers", "refused", "switch", "text", "word", "words"]
+__all__ = [
+    "count",
+    "number",
+    "numbers",
+    "refused",
+    "switch",
+    "text",
+    "word",
+    "word_or_number",
+    "words",
+]
 
 MOST_POINTS = 1_000_000
 
@@ -98,6 +108,19 @@ def words(path: str, options: Iterable[str] | None) -> Callable[[Any], list[str]
         if not all(isinstance(item, str) for item in values):
             raise InvalidValue(f"{path} = {say(value)} must be a list of names in quotes")
         return values
+
+    return read
+
+
+def word_or_number(path: str) -> Callable[[Any], str | float]:
+    """A word or a pure number; which ones, the object it is for knows."""
+
+    def read(value: Any) -> str | float:
+        if isinstance(value, str) or (
+            isinstance(value, (int, float)) and not isinstance(value, bool)
+        ):
+            return value
+        raise InvalidValue(f"{path} = {say(value)} must be a word in quotes or a number")
 
     return read
 

@@ -15,7 +15,7 @@ from ..materials import MaterialLibrary, materials
 from ..units import say
 from .fields import UNITS_OF_LISTS, about_of, filled_in, needed_fields
 from .mistakes import Known, retold
-from .one_value import number, numbers, switch, text, word
+from .one_value import number, numbers, switch, text, word, word_or_number
 from .vocabulary import near
 
 __all__ = ["Key", "Reader", "Table", "get", "plain"]
@@ -51,9 +51,8 @@ class Table:
         What a user is told when it is missing.
     required : callable, optional
         Whether it must stand, from the whole file.
-    role : {"contact", "study", "output"}
-        An argument of `Contact`; of use to the study itself; or what the file asks of an output
-        that follows from the solved contact, kept in ``Study.outputs``.
+    role : {"contact", "study"}
+        An argument of `Contact`, or of use to the study itself.
     """
 
     name: str
@@ -128,6 +127,8 @@ class Reader:
                 read = plain(switch(where))
             elif declared == "str":
                 read = plain(text(where))
+            elif declared == "str | float":
+                read = plain(word_or_number(where))
             else:
                 continue
             out[item.name] = Key(read, item.name in needed_fields(kind), about)

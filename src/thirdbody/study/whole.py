@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -45,8 +45,6 @@ class Study:
         The states of the table [sweep].
     uncertainty : Uncertainty, optional
         What the table [uncertainty] says of the inputs.
-    outputs : mapping, optional
-        What the tables of outputs that follow from the solved contact ask for, by their names.
     """
 
     title: str
@@ -56,7 +54,6 @@ class Study:
     notes: tuple[str, ...] = ()
     sweep: Plan | None = None
     uncertainty: Uncertainty | None = None
-    outputs: Mapping[str, Any] = field(default_factory=dict)
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -152,5 +149,4 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         notes=tuple(dict.fromkeys(reader.notes)),
         sweep=states,
         uncertainty=own.get("uncertainty"),
-        outputs=of("output"),
     )
