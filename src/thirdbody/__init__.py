@@ -47,7 +47,8 @@ from .uncertainty import Propagation, Uncertain, critical_loads, propagate
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from . import fractal, interaction, plot, reference, rough_body, synthetic, waviness
+    from . import films, fractal, interaction, plot, reference, rough_body, synthetic, waviness
+    from .lubrication import mixed_film, stribeck
 
 __all__ = [
     "Assessment",
@@ -91,9 +92,11 @@ __all__ = [
     "cite",
     "compare",
     "critical_loads",
+    "films",
     "fractal",
     "interaction",
     "materials",
+    "mixed_film",
     "outputs",
     "particle",
     "plot",
@@ -105,6 +108,7 @@ __all__ = [
     "sensitivity",
     "solve",
     "solve_states",
+    "stribeck",
     "surfaces",
     "sweep",
     "synthetic",
@@ -115,13 +119,16 @@ __all__ = [
 
 # imported when first used, to keep the start quick
 _LATER = frozenset(
-    {"fractal", "interaction", "plot", "reference", "rough_body", "synthetic", "waviness"}
+    {"films", "fractal", "interaction", "plot", "reference", "rough_body", "synthetic", "waviness"}
 )
+_HOME = {"mixed_film": "lubrication", "stribeck": "lubrication"}
 
 
 def __getattr__(name: str) -> Any:
-    if name in _LATER:
-        from importlib import import_module
+    from importlib import import_module
 
+    if name in _LATER:
         return import_module(f".{name}", __name__)
+    if name in _HOME:
+        return getattr(import_module(f".{_HOME[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

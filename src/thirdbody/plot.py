@@ -991,9 +991,9 @@ BODIES = {
 
 
 def _output_label(of: str) -> str:
-    from .uncertainty import OUTPUTS
+    from .uncertainty import about_result
 
-    about = OUTPUTS[of]
+    about = about_result(of)
     meaning = about["meaning"]
     return OUTPUT_LABELS.get(of, f"{meaning[:1].upper() + meaning[1:]} [{about['unit']}]")
 

@@ -23,7 +23,7 @@ import numpy as np
 from .citations import cite
 from .contact import Contact, interface
 from .designs import sobol
-from .equilibrium import COLUMNS, DEEPEST, EPS_1, EPS_2, given_load
+from .equilibrium import COLUMNS, DEEPEST, EPS_1, EPS_2, about, given_load
 from .errors import InvalidValue
 from .sensitivities import NUMBERS, _declared, _input, inputs
 from .sensitivities import Input as Moved
@@ -75,7 +75,9 @@ OUTPUTS: dict[str, dict[str, str]] = {
     "F/F_cr1": {"symbol": "F/F_cr1", "unit": "1", "meaning": "load over the first critical load"},
     "F/F_cr2": {"symbol": "F/F_cr2", "unit": "1", "meaning": "load over the second critical load"},
 }
-"""Symbol, unit and meaning of everything that gets a band."""
+"""Symbol, unit and meaning of everything that gets a band, beside the outputs of the contact."""
+MOST_OUTPUTS = 512
+"""Samples of outputs: each is a contact of its own, with spots of its own."""
 KINDS = {
     "uniform": ("low", "high"),
     "log-uniform": ("low", "high"),
@@ -273,7 +275,7 @@ class Drawn(NamedTuple):
         return [math.nan if isinstance(m, str) else m.values[0] for m in self.moved]
 
 
-def _drawn(contact: Contact, inputs: Mapping[str, Any], load: str, loads: ArrayLike) -> Drawn:
+def drawn_inputs(contact: Contact, inputs: Mapping[str, Any], load: str, loads: ArrayLike) -> Drawn:
     """The uncertain inputs, every mistake in them told."""
     moved: list[Moved | str] = []
     known: list[Uncertain] = []
@@ -637,11 +639,11 @@ class Propagation:
         for name, band in self.bands.items():
             if name == self.load and not one:
                 continue  # a coordinate
-            about = OUTPUTS[name]
+            told = about_result(name)
             of = (*dims, "quantile") if np.ndim(band) > 1 else ("quantile",)
-            words = {"units": about["unit"], "symbol": about["symbol"]}
-            data[name] = (of, band, words | {"long_name": f"quantiles of the {about['meaning']}"})
-            said = {"long_name": f"standard error of the quantiles of the {about['meaning']}"}
+            words = {"units": told["unit"], "symbol": told["symbol"]}
+            data[name] = (of, band, words | {"long_name": f"quantiles of the {told['meaning']}"})
+            said = {"long_name": f"standard error of the quantiles of the {told['meaning']}"}
             data[f"{name}_error"] = (of, self.error[name], words | said)
         for name, table in (("probability", self.mode_probability), ("error", self.mode_error)):
             values = np.stack([np.asarray(table[mode]) for mode in MODES], axis=-1)
@@ -801,7 +803,7 @@ class Propagation:
 
     def _problem(self) -> Drawn:
         one = np.asarray(self.loads).flat[0]
-        return _drawn(self.contact, self.inputs, self.load, one)
+        return drawn_inputs(self.contact, self.inputs, self.load, one)
 
 
 def _plain(value: Any) -> Any:
@@ -900,7 +902,7 @@ def propagate(
     """
     load, _, one = given_load(contact, pressure, F_star, d)
     loads = np.atleast_1d(np.asarray({"pressure": pressure, "F_star": F_star, "d": d}[load], float))
-    drawn = _drawn(contact, inputs, load, loads[0] if one else loads)
+    drawn = drawn_inputs(contact, inputs, load, loads[0] if one else loads)
     names = _outputs(outputs, contact)
     probabilities = tuple(float(q) for q in quantiles)
     problems = [f"quantiles: {q:g} must be between 0 and 1" for q in probabilities if not 0 < q < 1]
@@ -933,6 +935,11 @@ def propagate(
             statuses[name] = dict(zip(map(str, words), shares, strict=True))
         nominal_critical = {n: v[0] for n, v in critical_loads(contact, {}, 1).items()}
 
+    of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
+    bare = contact.replace(outputs=())
+    plain = {name: v for name, v in vary.items() if not name.startswith("outputs.")}
+    some_outputs = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)]
+
     bands: dict[str, list[Array]] = {name: [] for name in names}
     errors: dict[str, list[Array]] = {name: [] for name in names}
     nominal: dict[str, list[float]] = {name: [] for name in names}
@@ -941,8 +948,12 @@ def propagate(
     solved: list[float] = []
     fixed = {name for name in names if name in CRITICAL}
     for number, value in enumerate(loads):
-        state = _columns(contact, load, value, vary, len(u))
-        middle = _columns(contact, load, value, {}, 1)
+        state = _columns(bare, load, value, plain, len(u))
+        middle = _columns(contact if of_outputs else bare, load, value, {}, 1)
+        if of_outputs:
+            some = {n: v[some_outputs.ravel()] for n, v in vary.items()}
+            told = _columns(contact, load, value, some, some_outputs.size)
+            state |= {name: told[name] for name in of_outputs}
         for name in names:
             if name in fixed and number:
                 continue
@@ -983,17 +994,23 @@ def propagate(
     )
 
 
+def about_result(name: str) -> dict[str, str]:
+    """Symbol, unit and meaning of what has a band."""
+    return OUTPUTS[name] if name in OUTPUTS else about(name)
+
+
 def _outputs(asked: Sequence[str] | None, contact: Contact) -> list[str]:
     """The outputs, each once, that the contact has."""
     about_loads = (*CRITICAL, *MARGINS)
     without = contact.two_body or not interface(contact).monotone
+    known = [*OUTPUTS, *(name for each in contact.outputs for name in each.columns)]
     if asked is None:
-        return [name for name in OUTPUTS if not (without and name in about_loads)]
+        return [name for name in known if not (without and name in about_loads)]
     names = list(dict.fromkeys(asked))
     problems = [
-        f"{name!r} has no band; it must be one of {', '.join(OUTPUTS)}"
+        f"{name!r} has no band; it must be one of {', '.join(known)}"
         for name in names
-        if name not in OUTPUTS
+        if name not in known
     ]
     if not names:
         problems.append("outputs is empty; name a column of Equilibrium or a critical load")

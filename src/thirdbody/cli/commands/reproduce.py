@@ -10,11 +10,10 @@ from typing import Annotated, Any
 import typer
 
 from ...errors import InvalidValue
+from ...studies import PAPERS
 from ..options import not_a_folder
 
 __all__ = ["command"]
-
-PAPERS = ("horng2022", "ghaednia2013", "ghaednia2014")
 
 
 def command(
