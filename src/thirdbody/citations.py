@@ -9,7 +9,7 @@ __all__ = ["cite"]
 
 
 def cite(contact: Contact) -> str:
-    """The works behind a contact, one a line: its laws, its materials.
+    """The works behind a contact, one a line: its laws, outputs and materials.
 
     Examples
     --------
@@ -28,5 +28,6 @@ def cite(contact: Contact) -> str:
         inner = getattr(law, "law", None)
         laws += [inner] if inner is not None else []
         sources.append(particles.material.source)
+    laws += contact.outputs
     lines = [law.citation + (f", doi:{law.doi}" if law.doi else "") for law in laws]
     return "\n".join(dict.fromkeys(lines + [text for text in sources if text]))

@@ -12,8 +12,8 @@ state only by how many of them there are, q is evaluated once for all states.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from .heights import Heights
     from .laws.base import AbstractAsperityLaw
+    from .materials import Material
     from .particles import Particles
 
     Array = NDArray[np.float64]
@@ -48,6 +49,8 @@ class Spots:
     share: Array | None
     number: Array
     load: Array
+    kept: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
+    """What outputs found for these spots, for each other."""
 
     def total(self, q: Array | float) -> Array:
         """Σ n q per nominal area: (N,) for q that broadcasts with (M, n)."""
@@ -143,6 +146,8 @@ class ParticleSpots(Spots):
         Indentation of first yield over the diameter.
     hardness : two floats
         Of the softer body of each contact [Pa].
+    material : Material
+        Of the particles.
     population : Particles
     """
 
@@ -153,6 +158,7 @@ class ParticleSpots(Spots):
     regimes: tuple[NDArray[np.intp], NDArray[np.intp]]
     yields: tuple[float, float]
     hardness: tuple[float, float]
+    material: Material | None = None
     population: Particles | None = None
 
     def of_size(self, scale: float, density: float) -> ParticleSpots:

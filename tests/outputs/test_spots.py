@@ -39,7 +39,7 @@ def spots(case, state):
 
 
 def close(found, expected, scale):
-    assert np.max(np.abs(found - expected) / scale) < 1e-10
+    assert np.max(np.abs(found - expected) / scale) < 1e-9
 
 
 @pytest.mark.parametrize("sizes", SIZES)

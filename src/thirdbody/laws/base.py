@@ -26,7 +26,7 @@ from ..values import Value
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from ..materials import MaterialPair
+    from ..materials import Material, MaterialPair
     from ..particles import Particles
     from ..spots import ParticleSpots
     from ..surfaces import Roughness
@@ -276,6 +276,10 @@ class AbstractParticleLaw(Law):
     ) -> ParticleResponse:
         """The particles' answer as a function of d."""
 
+    def probe(self, eps: Array, *, surfaces: MaterialPair, particle: Material) -> ParticleSpots:
+        """Particles of unit size squeezed by ε, one a row (N, 1): what one particle does."""
+        raise InvalidValue(NO_SPOTS)
+
     def warnings(
         self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
     ) -> list[str]:
@@ -300,10 +304,6 @@ class ParticleResponse(ABC):
     @abstractmethod
     def fields(self, d: Array) -> dict[str, Array]:
         """F_sa [Pa], A_e, A_ep, A_p on surface 1, A_sa2 on surface 2, and the shadow ς."""
-
-    def probe(self, eps: Array) -> ParticleSpots:
-        """Particles of unit size squeezed by ε, one a row: (N, 1)."""
-        raise InvalidValue(NO_SPOTS)
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
         """Every loaded particle at d (N,), in groups.

@@ -15,6 +15,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -26,7 +27,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..contact import Contact, Interface
-    from ..materials import Material
+    from ..laws.base import AbstractParticleLaw
+    from ..materials import Material, MaterialPair
     from ..spots import AsperitySpots, ParticleSpots
 
     Array = NDArray[np.float64]
@@ -140,14 +142,32 @@ def spots_of(
     asperities = [spots.thinned(1 - shadow) for spots in bound.asperities.spots(d)]
     particles = []
     for each, response in zip(contact.populations, bound.populations, strict=True):
-        splits = {float(eps) for output in contact.outputs for eps in output.splits(response.probe)}
+        law = contact.law_of(each)
+        splits = {
+            eps
+            for output in contact.outputs
+            for eps in _splits(output, law, contact.surfaces, each.material)
+        }
         found = response.spots(d, sorted(splits))
-        particles += [replace(spots, population=each) for spots in found]
+        particles += [replace(spots, material=each.material, population=each) for spots in found]
     return asperities, particles
 
 
+@lru_cache(maxsize=256)
+def _splits(
+    output: AbstractOutput, law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+) -> tuple[float, ...]:
+    """Where q of an output jumps or bends, for particles of one material."""
+
+    def probe(eps: Array) -> ParticleSpots:
+        found = law.probe(eps, surfaces=surfaces, particle=particle)
+        return replace(found, material=particle)
+
+    return tuple(float(eps) for eps in output.splits(probe))
+
+
 def evaluate(
-    contact: Contact, bound: Interface, columns: Mapping[str, Array]
+    contact: Contact, bound: Interface, columns: Mapping[str, Array], crowd: Array | None = None
 ) -> tuple[dict[str, Array], list[str]]:
     """Every column of the outputs of a contact, NaN for unsolved states, and the warnings.
 
@@ -158,6 +178,8 @@ def evaluate(
         Of an equal contact.
     columns : mapping
         d, h, pressure, A_t and shadow of the states: arrays (N,).
+    crowd : array (N,), optional
+        How many particles each state has for one of the contact.
     """
     names = [name for output in contact.outputs for name in output.columns]
     values = {name: np.full(len(columns["d"]), np.nan) for name in names}
@@ -166,8 +188,10 @@ def evaluate(
     for start in range(0, len(known), AT_ONCE):
         part = known[start : start + AT_ONCE]
         here = {name: columns[name][part] for name in ("d", "h", "pressure", "A_t")}
-        spots = spots_of(contact, bound, here["d"], columns["shadow"][part])
-        state = Solved(contact, **here, asperities=spots[0], particles=spots[1])
+        asperities, particles = spots_of(contact, bound, here["d"], columns["shadow"][part])
+        if crowd is not None:
+            particles = [spots.thinned(crowd[part]) for spots in particles]
+        state = Solved(contact, **here, asperities=asperities, particles=particles)
         for output in contact.outputs:
             found = output.of(state)
             for name, value in found.items():

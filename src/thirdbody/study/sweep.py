@@ -10,6 +10,7 @@ import numpy as np
 from ..contact import Contact
 from ..equilibrium import COLUMNS
 from ..errors import InvalidValue
+from ..outputs import REGISTRY
 from ..sweep import DESIGNS, Plan, make_plan
 from ..units import say
 from .amounts import amounts, is_span
@@ -26,12 +27,13 @@ def sweep(reader: Reader, path: str, data: Any) -> Any:
     """What is varied, how, and what is kept of it."""
     designs = ("grid", "zip", *DESIGNS)
     sampled = get(data, "design") not in (None, "grid", "zip")
+    known = [*COLUMNS, *(name for kind in REGISTRY.values() for name in kind.columns)]
     keys = {
         "design": Key(plain(word(f"{path}.design", designs)), False, ""),
         "samples": Key(plain(count(f"{path}.samples", most=2**48)), sampled, "a number"),
         "seed": Key(plain(count(f"{path}.seed", least=0, most=2**63)), False, ""),
         "chunk": Key(plain(count(f"{path}.chunk", most=10**9)), False, ""),
-        "columns": Key(plain(words(f"{path}.columns", COLUMNS)), False, "columns to keep"),
+        "columns": Key(plain(words(f"{path}.columns", known)), False, "columns to keep"),
         "vary": Key(_variables(reader, f"{path}.vary", get(data, "vary"), sampled), False, ""),
         "reduce": Key(_reductions(reader, f"{path}.reduce", get(data, "reduce")), False, ""),
     }

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from . import (
+    design,
     ellipticity,
     heights,
     laws,
@@ -42,6 +43,7 @@ TABLES: tuple[Table, ...] = (
     load.TABLE,
     sweep.TABLE,
     uncertainty.TABLE,
+    design.TABLE,
 )
 
 FIELDS: dict[str, tuple[FieldReader, str]] = {

@@ -45,6 +45,8 @@ class Study:
         The states of the table [sweep].
     uncertainty : Uncertainty, optional
         What the table [uncertainty] says of the inputs.
+    design : dict, optional
+        What the table [design] asks: arguments of `thirdbody.design`.
     """
 
     title: str
@@ -54,6 +56,7 @@ class Study:
     notes: tuple[str, ...] = ()
     sweep: Plan | None = None
     uncertainty: Uncertainty | None = None
+    design: dict[str, Any] | None = None
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -149,4 +152,5 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         notes=tuple(dict.fromkeys(reader.notes)),
         sweep=states,
         uncertainty=own.get("uncertainty"),
+        design=own.get("design"),
     )

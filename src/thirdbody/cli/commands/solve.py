@@ -17,7 +17,7 @@ from ..streams import warn, write_csv
 
 __all__ = ["command", "summary"]
 
-MOST_ROWS = 20
+MOST_ROWS, MOST_LOADS = 20, 3
 
 Columns = dict[str, Callable[[int], str]]
 """Heads of columns, and the cell of a state."""
@@ -56,10 +56,10 @@ def command(
 
 def _columns(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, str]]:
     """Columns of the states, then those of each of several populations, and their units."""
-    from ...equilibrium import COLUMNS
+    from ...equilibrium import about
 
     columns = dict(result["states"])
-    units = {name: COLUMNS[name]["unit"] for name in columns}
+    units = {name: about(name)["unit"] for name in columns}
     for part in result["populations"]:
         mine = {f"{part['name']}: {key}": part[key] for key in part if key != "name"}
         columns |= mine
@@ -97,6 +97,8 @@ def _show(result: dict[str, Any]) -> None:
     if result["populations"]:
         console.print("Of the whole load and of the whole real area:")
         console.print(_some_states(loads | _population_columns(result["populations"]), total))
+    if result["inputs"]["outputs"]:
+        console.print(_output_table(states))
     if total > MOST_ROWS:
         console.print(f"{MOST_ROWS} of {total} states shown; --csv FILE writes all\n")
     for status in dict.fromkeys(states["status"]):
@@ -128,6 +130,23 @@ def _population_columns(populations: list[dict[str, Any]]) -> Columns:
         out[f"{part['name']}: load"] = share(part, "load_share")
         out[f"{part['name']}: area"] = share(part, "area_share")
     return out
+
+
+def _output_table(states: dict[str, Any]) -> Any:
+    """A row for each number of an output, at a few of the loads."""
+    from ...equilibrium import COLUMNS, about
+
+    total = len(states["status"])
+    count = min(total, MOST_LOADS)
+    which = [round(k * (total - 1) / max(count - 1, 1)) for k in range(count)]
+    table = table_of(("", *(as_pressure(states["pressure"][i]) for i in which), "unit", "meaning"))
+    for name in states:
+        if name not in COLUMNS:
+            told = about(name)
+            unit = "" if told["unit"] == "1" else told["unit"]
+            cells = (as_number(states[name][i]) for i in which)
+            table.add_row(name, *cells, unit, told["meaning"])
+    return table
 
 
 def _transition_table(critical: dict[str, Any], E_ss: float) -> Any:

@@ -386,7 +386,7 @@ class SizeAverage:
         return out
 
     def of_sizes(
-        self, gap: Array, rise: Array, splits: Sequence[float] = ()
+        self, gap: Array, rise: Array, splits: Sequence[float] = (), nodes: int = 16
     ) -> tuple[Array, Array, Array]:
         """Diameters, squeezes and weights φ_a(x) dx of sums over sizes: (N, n) for (N, 1)."""
         particle, sizes = self.particle, self.sizes
@@ -400,7 +400,7 @@ class SizeAverage:
         of_regimes = gap * np.divide(eps, 1 - eps, out=np.zeros_like(eps), where=eps != 1)
         deltas = np.concatenate([of_sizes, of_regimes], axis=1)
         deltas = np.clip(deltas, np.maximum(of_sizes[:, :1], 0.0), rise)
-        root, weight = panel_rule(np.sort(np.sqrt(deltas), axis=1), 16)
+        root, weight = panel_rule(np.sort(np.sqrt(deltas), axis=1), nodes)
         delta = root * root
         diameter = np.clip(gap + delta, low, high)
         return diameter, delta, sizes.pdf(diameter) * 2 * root * weight
@@ -453,7 +453,7 @@ class SizeAverage:
         weights (M,), values (M, 7).
         """
         lower = None if self.lower is None else self.lower.edges
-        gaps, rise, weights = self._gaps(self.upper.edges, lower, width)
+        gaps, rise, weights = self._gaps(self.upper.edges, lower, width, SEAT_NODES)
         values = np.empty((len(gaps), len(COLUMNS)))
         upper = gaps >= self.join
         u = np.sqrt(rise[upper])
@@ -463,44 +463,50 @@ class SizeAverage:
         return gaps, weights, values
 
     def gaps(self, width: float, splits: Sequence[float] = ()) -> tuple[Array, Array, Array]:
-        """As `nodes` without the tables: gaps, x_max − gap, weights (M,); relative error 1e-10.
+        """As `nodes` without the tables: gaps, x_max − gap, weights (M,); relative error 1e-9.
 
         ``splits`` are more values of ε at which sums over gaps have a kink.
         """
-        more = np.array([x * (1 - eps) for x in self.sizes.kinks for eps in splits])
+        # without a gap particles of every size are squeezed by ε = 1: up to their middles
+        more = np.array([0.0, *(x * (1 - eps) for x in self.sizes.kinks for eps in splits)])
         more = more[(more > self.bottom) & (more < self.top)]
         upper = np.sqrt(self.top - more[more > self.join])
         lower = None
         if len(self.gaps_below):
             lower = _distinct(np.sort([*self.gaps_below, *more[more < self.join]]))
-        return self._gaps(_distinct(np.sort([*self.rises, *upper])), lower, width)
+        upper = _distinct(np.sort([*self.rises, *upper]))
+        return self._gaps(upper, lower, SPOT_WIDTHS * width, SPOT_NODES)
 
-    def _gaps(self, upper: Array, lower: Array | None, width: float) -> tuple[Array, Array, Array]:
+    def _gaps(
+        self, upper: Array, lower: Array | None, width: float, nodes: tuple[int, int]
+    ) -> tuple[Array, Array, Array]:
         """Nodes on panels between edges in u and, below the join, in the gap."""
-        u, weight = _seat_rule(_cut(upper**2, width) ** 0.5, width, np.square)
+        u, weight = _seat_rule(_cut(upper**2, width) ** 0.5, width, np.square, nodes)
         rise, weights = u * u, 2 * u * weight
         if lower is not None:
-            g, weight = _seat_rule(_cut(lower, width), width, np.asarray)
+            g, weight = _seat_rule(_cut(lower, width), width, np.asarray, nodes)
             rise = np.concatenate([rise, self.top - g[::-1]])
             weights = np.concatenate([weights, weight[::-1]])
         return self.top - rise[::-1], rise[::-1], weights[::-1]
 
     def spots(self, gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         """Every particle squeezed in gaps (N,) under which they rest on a plane."""
-        x, delta, weight = self.of_sizes(gap[:, None], self.top - gap[:, None], splits)
+        rows = gap[:, None], self.top - gap[:, None]
+        x, delta, weight = self.of_sizes(*rows, splits, SIZE_NODES)
         return self.particle.spots(x, np.maximum(delta, 0.0), share=None, number=weight)
 
 
-def _seat_rule(edges: Array, width: float, gap: Callable[[Array], Array]) -> tuple[Array, Array]:
+def _seat_rule(
+    edges: Array, width: float, gap: Callable[[Array], Array], nodes: tuple[int, int]
+) -> tuple[Array, Array]:
     """Gauss rule over panels, of fewer nodes where the seat is wide against a panel."""
     narrow = np.abs(np.diff(gap(edges))) < 0.25 * width
     ends = [0, *(np.flatnonzero(np.diff(narrow)) + 1), len(narrow)]
     rules = [
-        panel_rule(edges[a : b + 1], FEW_SEAT_NODES if narrow[a] else SEAT_NODES)
-        for a, b in itertools.pairwise(ends)
+        panel_rule(edges[a : b + 1], nodes[int(narrow[a])]) for a, b in itertools.pairwise(ends)
     ]
-    nodes, weights = zip(*rules, strict=True)
-    return np.concatenate(nodes), np.concatenate(weights)
+    places, weights = zip(*rules, strict=True)
+    return np.concatenate(places), np.concatenate(weights)
 
 
 def _distinct(edges: Array) -> Array:
@@ -677,6 +683,11 @@ class Series(AbstractParticleLaw):
             "regime": np.where(eps > 0, names, "none").reshape(shape),
         }
 
+    def probe(self, eps: Array, *, surfaces: MaterialPair, particle: Material) -> ParticleSpots:
+        law = squeezed_particle(self.law, *contact_sides(surfaces, particle), self.tip_radius)
+        one = np.ones((len(eps), 1))
+        return law.spots(one, eps[:, None], share=None, number=one)
+
     def response(
         self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
     ) -> ParticleResponse:
@@ -789,12 +800,15 @@ class SeatAverage:
         gaps, rise, weights = gaps[near], rise[near], weights[near]
         if lowest < average.bottom:
             # loads no longer change there, but depths do
-            edges = _cut(np.array([lowest, average.bottom]), self.width)
-            below, weight = panel_rule(edges, SEAT_NODES)
+            edges = np.array(
+                sorted({lowest, min(max(lowest, 0.0), average.bottom), average.bottom})
+            )
+            edges = _cut(edges, SPOT_WIDTHS * self.width)
+            below, weight = panel_rule(edges, SPOT_NODES[0])
             gaps = np.concatenate([below, gaps])
             rise = np.concatenate([average.top - below, rise])
             weights = np.concatenate([weight, weights])
-        x, delta, weight = average.of_sizes(gaps[:, None], rise[:, None], splits)
+        x, delta, weight = average.of_sizes(gaps[:, None], rise[:, None], splits, SIZE_NODES)
         z = (mean_gap[:, None] - gaps) / self.width
         return self.particle.spots(
             x,
@@ -847,7 +861,10 @@ DEEPEST_SQUEEZE = 1e3
 """Squeeze over diameter at which a particle must be fully plastic for the law to have a meaning."""
 NORMAL_REACH = 9.0
 """Standard deviations of the seat beyond which nothing is counted."""
-SEAT_NODES, FEW_SEAT_NODES = 14, 10
+SEAT_NODES = (14, 10)
+"""Nodes of a panel in the gap as wide as the seat, and of a much narrower one."""
+SPOT_NODES, SPOT_WIDTHS, SIZE_NODES = (14, 12), 2.0, 10
+"""The same for spots, whose sums need 1e-9 of the load; width of their panels; nodes of sizes."""
 WIDEST = 1e5
 
 
@@ -883,14 +900,6 @@ class SeatedParticles(ParticleResponse):
             "A_sa2": total[:, 4],
             "shadow": self._shadow(total[:, self._shadow_column][:, None])[:, 0],
         }
-
-    def probe(self, eps: Array) -> ParticleSpots:
-        average = self.parts[0].average
-        particle = (
-            average.average.particle if isinstance(average, SeatAverage) else average.particle
-        )
-        one = np.ones((len(eps), 1))
-        return particle.spots(one, eps[:, None], share=None, number=one)
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
         return [part.spots(d, splits) for part in self.parts]

@@ -1,0 +1,46 @@
+"""``thirdbody outputs``: what a contact may tell besides load, area and mode."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated
+
+import typer
+
+from ..options import AsJson
+from ..show import table_of, terminal
+
+__all__ = ["command"]
+
+
+def command(
+    as_json: AsJson = False,
+    as_page: Annotated[
+        bool, typer.Option("--markdown", help="Print the page of outputs, docs/outputs.md.")
+    ] = False,
+) -> None:
+    """The outputs of a contact: friction, temperature, conductance, wear ..., with their keys."""
+    from ...outputs.catalogue import entries, page
+
+    if as_json and as_page:
+        raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")
+    if as_page:
+        print(page(), end="")
+        return
+    if as_json:
+        print(json.dumps(entries(), indent=1, allow_nan=False))
+        return
+    console = terminal()
+    for entry in entries():
+        console.print(f"[outputs.{entry['name']}]  {entry['title']} ({entry['provenance']})")
+        if entry["options"]:
+            table = table_of(("key", "unit", "default", "meaning"))
+            for option in entry["options"]:
+                default = "required" if option["required"] else option["default"]
+                shown = "-" if default is None else str(default)
+                table.add_row(option["key"], option["unit"], shown, option["meaning"])
+            console.print(table)
+        table = table_of(("column", "unit", "meaning"))
+        for name, column in entry["columns"].items():
+            table.add_row(name, column["unit"], column["meaning"])
+        console.print(table)
