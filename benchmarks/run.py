@@ -34,8 +34,8 @@ HERE = Path(__file__).parent
 LOW, HIGH = 1e-8, 3e-4
 """Loads F* [1]: from particles alone to a real area of 3 %."""
 DIRECT = {"plane": (1.2e6, 2.4e6), "rough": (3e5, None), "two-body": (None, None)}
-TABLES, OTHERS, ERROR, FIRST, LATER = 3e6, 2e5, 1e-10, 5.0, 1.0
-"""Targets: states a second on one and two threads, relative error, seconds."""
+TABLES, OTHERS, ERROR, FIRST, LATER, OUTPUTS = 3e6, 2e5, 1e-10, 5.0, 1.0, 3.0
+"""Targets: states a second on one and two threads, relative error, seconds, a ratio of times."""
 
 
 @dataclass
@@ -386,6 +386,7 @@ COLUMNS = ("states", "a CPU second", "a second", "x naive", "target", "")
 
 def main() -> int:
     import floor
+    import outputs
 
     warnings.simplefilter("ignore", tb.RangeWarning)
     page = Page()
@@ -418,6 +419,12 @@ def main() -> int:
         page.rates(each, slow)
         slowest = min(slowest, each.rate)
     page.text(f"Slowest: {slowest:,.0f} states a second, {verdict(slowest, OTHERS)}.")
+
+    page.title("Outputs: 200 loads of one contact on the rough seat, over the bare solve")
+    page.head("outputs", "ms more", "x a new contact", "target", "x one with tables")
+    for cost in outputs.costs():
+        met = verdict(cost.new, OUTPUTS, more=False) if cost.what == "all of them" else ""
+        page.row(cost.what, f"{cost.milliseconds:.1f}", f"{cost.new:.2f}", met, f"{cost.known:.1f}")
 
     page.title("Waiting and memory")
     page.head("what", "", "target")

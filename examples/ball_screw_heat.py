@@ -34,7 +34,7 @@ def dust(median):
 
 def solved(contact, speed):
     """Outputs at a nominal pressure of 100 MPa."""
-    heat = tb.outputs.FlashTemperature(v=speed, area=1e-6)
+    heat = tb.outputs.FlashTemperature(v=speed, A_n=1e-6)
     return tb.solve(contact.replace(outputs=(friction, heat)), pressure=100e6).outputs
 
 

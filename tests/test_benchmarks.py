@@ -70,3 +70,13 @@ def test_no_state_is_quicker_than_its_exponentials(run):
     shares = [int(row.note.split("%")[0]) for row in rows]
     assert len(shares) == 6
     assert all(1 < share < 100 for share in shares)
+
+
+def test_outputs_cost_about_a_solve(run, monkeypatch):
+    monkeypatch.syspath_prepend(str(FOLDER))
+    import outputs
+
+    *_, every = outputs.costs()
+    assert every.what == "all of them"
+    # 1.7 on a quiet machine
+    assert every.new < 8

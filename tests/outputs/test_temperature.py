@@ -19,7 +19,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 
 
 def contact(*, size=300e-9, density=0.0, first=STEEL, second=STEEL, dust=SILICA, **given):
-    heat = FlashTemperature(**(dict(v=1.0, area=1e-6) | given))
+    heat = FlashTemperature(**(dict(v=1.0, A_n=1e-6) | given))
     particles = None
     if density:
         diameter = tb.TruncatedGaussian(mean=size, std=0.2 * size)
@@ -83,7 +83,7 @@ def test_explicit_asperities(quantiles):
 def test_explicit_particles(second_H):
     """Sizes and seats drawn at random, and every formula written out again."""
     second = STEEL.replace(H=second_H)
-    case = contact(density=1e10, second=second, area=1e-8)
+    case = contact(density=1e10, second=second, A_n=1e-8)
     state = tb.solve(case, pressure=5e6)
     rng = np.random.default_rng(2)
     count = 300_000
@@ -224,7 +224,7 @@ def test_change_of_units():
         body.replace(thermal_conductivity=L * body.thermal_conductivity) for body in (STEEL, SILICA)
     )
     case = contact(size=300e-9 * L, density=1e10 / L**2, first=metal, second=metal, dust=dust,
-                   area=1e-6 * L**2)  # fmt: skip
+                   A_n=1e-6 * L**2)  # fmt: skip
     case = case.replace(roughness=tb.Roughness(sigma=100e-9 * L, R=2.8e-6 * L))
     two = tb.solve(case, pressure=5e6).outputs
     for name in FlashTemperature.columns:
@@ -273,7 +273,7 @@ def test_kinds_are_ordered():
         (dict(dust=tb.materials["SiO2"], density=1e10), "needs thermal_conductivity of the part"),
         (dict(h_1=10.0), "give both"),
         (dict(h_1=0.0, h_2=0.0), "no way out"),
-        (dict(area=0.0), "1 mm² is 1e-6"),
+        (dict(A_n=0.0), "1 mm² is 1e-6"),
     ],
 )
 def test_mistakes(given, said):
@@ -283,4 +283,4 @@ def test_mistakes(given, said):
 
 def test_needs_friction():
     with pytest.raises(tb.InvalidValue, match=r"needs outputs\.friction"):
-        contact().replace(outputs=(FlashTemperature(v=1.0, area=1e-6),))
+        contact().replace(outputs=(FlashTemperature(v=1.0, A_n=1e-6),))

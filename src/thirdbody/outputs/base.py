@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 __all__ = ["AbstractOutput", "Column", "Solved"]
 
-AT_ONCE = 2048
+AT_ONCE = 4096
 """States whose spots are laid out together."""
 
 

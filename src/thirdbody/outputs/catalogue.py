@@ -28,7 +28,7 @@ def entries() -> list[dict[str, Any]]:
     Examples
     --------
     >>> entries()[0]["name"]
-    'conductance'
+    'counts'
     """
     return [_entry(kind) for _, kind in sorted(AbstractOutput.registry.items())]
 

@@ -68,7 +68,7 @@ class FlashTemperature(AbstractOutput):
     ----------
     v : float
         Sliding speed [m/s].
-    area : float
+    A_n : float
         Nominal area A_n of which the peak is the hottest contact [m²]: the temperature that the
         hottest one of A_n exceeds in half of all cases, :math:`A_n N(>T)=\ln 2`.
     T_1, T_2 : float, optional
@@ -118,14 +118,14 @@ class FlashTemperature(AbstractOutput):
     ...     thermal_conductivity=50, density=7850, specific_heat=480)
     >>> contact = tb.Contact(
     ...     surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
-    ...     outputs=(tb.outputs.Friction(tau_ss=580e6), FlashTemperature(v=1.0, area=1e-6)))
+    ...     outputs=(tb.outputs.Friction(tau_ss=580e6), FlashTemperature(v=1.0, A_n=1e-6)))
     >>> state = tb.solve(contact, pressure=5e6)
     >>> f"{state.outputs['dT_ss_load']:.2f} K, hottest {state.outputs['dT_ss_peak']:.2f} K"
     '2.77 K, hottest 6.31 K'
     """
 
     v: float = quantity("v", "m/s", "sliding speed", ge=0)
-    area: float = quantity(
+    A_n: float = quantity(
         "A_n", "m^2", "nominal area of which the peak is", gt=0, hint="1 mm² is 1e-6"
     )
     T_1: float = quantity("T_1", "K", "bulk temperature of body 1", default=0.0)
@@ -288,7 +288,7 @@ class FlashTemperature(AbstractOutput):
             out[f"dT_{group}_{name}"] = counted.inverse((1 - share) * total[self.quantiles])
         if self.quantiles != "number":
             counted = _Counted.of(spots, T, WEIGHTS["number"], states)
-        out[f"dT_{group}_peak"] = counted.inverse(np.full(states, math.log(2) / self.area))
+        out[f"dT_{group}_peak"] = counted.inverse(np.full(states, math.log(2) / self.A_n))
         return out
 
     def _sorted(self, state: Solved) -> bool:
@@ -300,7 +300,7 @@ class FlashTemperature(AbstractOutput):
         """Peak and, by number, quantiles of asperities of one shape."""
         (spots,) = state.asperities
         touching = np.maximum(spots.deeper(np.zeros(())), 0.0)
-        counts = {"peak": np.full_like(state.d, math.log(2) / self.area)}
+        counts = {"peak": np.full_like(state.d, math.log(2) / self.A_n)}
         if self.quantiles == "number":
             counts |= {name: (1 - share) * touching for name, share in QUANTILES.items()}
         omega = np.stack([spots.deepest(count) for count in counts.values()], axis=1)
