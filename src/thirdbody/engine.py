@@ -382,7 +382,7 @@ class States(_Batch):
         if any(name.startswith("particle_law.law") for name in arrays):
             raise TypeError("the law varies")
         self.kinds[:, k.SHADOW] = COLUMNS.index(law.shadow) if law.shadow in COLUMNS else -1
-        own = law.seat == "rough" and own_particles(arrays)
+        own = law.seat == "rough" and own_particles(contact, arrays)
         parts = self._squeezed if own else self._averaged
         coverage = np.zeros(len(self.kinds))
         for p, part in enumerate(parts(contact, varied, arrays)):
@@ -416,7 +416,10 @@ class States(_Batch):
         sides = contact_sides(contact.surfaces, particles.material)
         shadow = self.kinds[0, k.SHADOW]
         rough = law.seat == "rough"
-        for share, ratio, sizes in _one_shape(particles.diameter, arrays):
+        ratio = size_factor(particles.diameter, arrays)
+        if ratio is None:
+            raise TypeError("the shape of the size distribution varies")
+        for share, sizes in particles.diameter.components:
             scale, shape = sizes.standardised()
             average = size_average(law.law, *sides, shape, law.tip_radius)
             size = scale * ratio
@@ -512,16 +515,12 @@ def bare(contact: Contact, arrays: Mapping[str, Array]) -> bool:
     return contact.two_body and "particles.areal_density" not in arrays
 
 
-def own_particles(arrays: Mapping[str, Array]) -> bool:
+def own_particles(contact: Contact, arrays: Mapping[str, Array]) -> bool:
     """Whether the material or the shape of the particles varies from state to state."""
-    varies = [name for name, values in arrays.items() if np.ptp(values) > 0]
-    shapes = [name for name in varies if name.startswith("particles.diameter.")]
-    if any(name.startswith(MATERIALS) for name in varies):
+    if any(name.startswith(MATERIALS) and np.ptp(v) > 0 for name, v in arrays.items()):
         return True
-    if len(shapes) == 2:  # in proportion, the shape is one
-        one, two = (arrays[name] / arrays[name].flat[0] for name in shapes)
-        return not np.allclose(one, two, rtol=1e-14, atol=0)
-    return bool(shapes)
+    particles = contact.particles
+    return isinstance(particles, Particles) and size_factor(particles.diameter, arrays) is None
 
 
 def fineness(arrays: Mapping[str, Array]) -> Array:
@@ -562,12 +561,12 @@ def _sizes(
     base: Distribution, varied: Distribution, arrays: Mapping[str, Array], count: int
 ) -> Iterator[tuple[float, Array, Callable[[float], tuple[Array, Array]]]]:
     """Weight, size (N, 1) [m], and a rule over the sizes in its unit for a width to resolve."""
-    if not any(name.startswith("particles.diameter.") for name in arrays):
+    factor = size_factor(base, arrays)
+    if factor is not None:
         for weight, part in base.components:
             scale, shape = part.standardised()
-            yield weight, np.full((count, 1), scale), partial(_shape_rule, shape)
-    elif isinstance(varied, Monodisperse):
-        yield 1.0, np.asarray(varied.mean)[:, None], lambda _: (np.ones((1, 1)), np.ones((1, 1)))
+            size = np.broadcast_to(scale * factor, count)[:, None]
+            yield weight, size, partial(_shape_rule, shape)
     elif isinstance(varied, TruncatedGaussian):
         size = np.broadcast_to(varied.mean, count)[:, None]
         std = np.broadcast_to(varied.std, count)[:, None] / size
@@ -600,31 +599,21 @@ MOST_WIDTHS = 2_000.0
 """Widths of the seat over which nodes are laid."""
 
 
-def _one_shape(
-    sizes: Distribution, arrays: Mapping[str, Array]
-) -> list[tuple[float, Array | float, Distribution]]:
-    """Weight, factor on every length (N,) and distribution of each component.
-
-    Raises
-    ------
-    TypeError
-        The shape of the distribution varies.
-    """
+def size_factor(sizes: Distribution, arrays: Mapping[str, Array]) -> Array | float | None:
+    """Factor on every length of the sizes (N,), or None where their shape varies."""
     prefix = "particles.diameter."
-    changed = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
+    given = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
+    changed = {name: v for name, v in given.items() if np.any(v != getattr(sizes, name, np.nan))}
     if not changed:
-        return [(weight, 1.0, part) for weight, part in sizes.components]
-    quantities = {
-        item.name: item.metadata["quantity"]
-        for item in dataclasses.fields(sizes)  # type: ignore[arg-type]
-        if "quantity" in item.metadata
-    }
-    lengths = {name for name, about in quantities.items() if about["unit"] == "m"}
-    ratios = [changed[name] / getattr(sizes, name) for name in lengths if name in changed]
-    alike = all(np.allclose(r, ratios[0], rtol=1e-14, atol=0) for r in ratios)
-    if set(changed) != lengths or not alike:
-        raise TypeError("the shape of the size distribution varies")
-    return [(1.0, ratios[0], sizes)]
+        return 1.0
+    fields = dataclasses.fields(sizes)  # type: ignore[arg-type]
+    about = {item.name: item.metadata.get("quantity", {}) for item in fields}
+    lengths = {name for name in about if about[name].get("unit") == "m"}
+    if set(changed) != lengths:
+        return None
+    first, *others = (changed[name] / getattr(sizes, name) for name in sorted(lengths))
+    alike = all(np.allclose(each, first, rtol=1e-14, atol=0) for each in others)
+    return first if alike else None
 
 
 def _common_law(

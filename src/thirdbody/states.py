@@ -95,7 +95,8 @@ def solve_states(
     )
 
 
-ABSENT = ("particles.diameter.mean", "particles.areal_density")
+DENSITY = "particles.areal_density"
+ABSENT = ("particles.diameter.mean", DENSITY)
 """Inputs that are zero where there are no particles."""
 DEMANDING = ("asperity_law.", "particle_law.law.", "particles.diameter.", *engine.MATERIALS)
 """Inputs that change the contact of one asperity or particle, which nodes may share."""
@@ -147,12 +148,15 @@ def _with_outputs(
     inputs = {name: v for name, v in arrays.items() if not name.startswith("outputs.")}
     given: dict[str, Any] = {load: loads}
     out = solve_states(contact.replace(outputs=()), vary=inputs or None, **given)
-    # states of one contact share their spots; those of one surface share its tables
-    groups = _groups(arrays, len(loads))
+    # states of one contact share their spots; those of one surface share its tables, and those
+    # that differ in the number of particles alone share the spots of one particle
+    count = arrays.get(DENSITY, np.ones(len(loads)))
+    groups = _groups({**arrays, DENSITY: count == 0}, len(loads))
     order = np.argsort(groups, kind="stable")
     for which in np.split(order, np.flatnonzero(np.diff(groups[order])) + 1):
         own = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
-        values, _ = evaluate(own, interface(own), _taken(out, which))
+        crowd = count[which] / (count[which[0]] or 1.0)
+        values, _ = evaluate(own, interface(own), _taken(out, which), crowd)
         for name, column in values.items():
             out.setdefault(name, np.full(len(loads), np.nan))[which] = column
     return out
@@ -195,7 +199,7 @@ def _own(contact: Contact, name: str) -> Any:
 
 def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
     """Every column by the compiled engine; TypeError where it does not know these inputs."""
-    own = not engine.bare(contact, arrays) and engine.own_particles(arrays)
+    own = not engine.bare(contact, arrays) and engine.own_particles(contact, arrays)
     # states that need as many nodes side by side
     order = np.argsort(engine.fineness(arrays), kind="stable") if own else np.arange(len(loads))
     at_once = FEW if own else AT_ONCE

@@ -571,3 +571,31 @@ def test_lengths_and_shapes():
         tb.solve_states(default(), F_star=np.ones(3), vary={"roughness.sigma": 1e-7 * np.ones(4)})
     with pytest.raises(tb.InvalidValue, match="dimensions"):
         tb.solve_states(default(), F_star=1e-6, vary={"roughness.sigma": 1e-7 * np.ones((2, 2))})
+
+
+@pytest.mark.parametrize(
+    ("sizes", "name"),
+    [
+        (tb.LogNormal(median=150e-9, gsd=1.5), "median"),
+        (tb.Weibull(scale=300e-9, shape=4.0), "scale"),
+    ],
+)
+@pytest.mark.parametrize("material", [False, True])
+def test_one_length_alone_changes_no_shape(sizes, name, material):
+    from thirdbody import engine
+
+    steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=tb.Particles(material=silica, areal_density=1e10, diameter=sizes),
+    )
+    vary = {f"particles.diameter.{name}": getattr(sizes, name) * np.linspace(0.7, 1.4, 30)}
+    assert not engine.own_particles(case, vary)
+    if material:
+        vary["particles.material.E"] = np.linspace(6e10, 8e10, 30)
+    states = tb.solve_states(case, F_star=1e-5, vary=vary)
+    for i in (0, 13, 29):
+        alone = tb.solve(case.replace(**{k: v[i] for k, v in vary.items()}), F_star=1e-5)
+        assert states["d"][i] == pytest.approx(alone.d, rel=1e-11)
+        assert states["F_sa_star"][i] == pytest.approx(alone.F_sa_star, rel=1e-9)
