@@ -15,7 +15,6 @@ from scipy import integrate, special
 
 import thirdbody as tb
 from thirdbody import bearing_life, films, heat, ploughing
-from thirdbody.contamination import dent_of
 from thirdbody.contact import interface
 from thirdbody.design import equal_share_size
 from thirdbody.lubrication import mean_gap, mixed_film
