@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import base64
-import html
-import io
 import math
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -26,9 +24,9 @@ from .uncertainty import (
     Propagation,
     Uncertain,
     _columns,
-    _drawn,
     _plain,
     _swing,
+    drawn_inputs,
     library_ranges,
     propagate,
 )
@@ -369,43 +367,26 @@ class Assessment:
     # ------------------------------------------------------------------ HTML
     def html(self) -> str:
         """The page as one file: figures inside, nothing loaded, the same bytes every time."""
-        body = [f"<h1>{html.escape(self.title or 'Assessment')}</h1>"]
-        figures = iter(self._figures())
-        for section in self.sections():
-            body.append(f"<section><h2>{html.escape(section.title)}</h2>")
-            if section.rows:
-                # a table too wide for a small screen scrolls by itself
-                kinds = [' class="words"' if text in WORDS else "" for text in section.head]
-                rows = [
-                    "".join(
-                        f"<{tag}{kind}>{html.escape(text)}</{tag}>"
-                        for text, kind in zip(row, kinds, strict=True)
-                    )
-                    for tag, row in (("th", section.head), *(("td", row) for row in section.rows))
-                ]
-                body.append(f"<div><table><thead><tr>{rows[0]}</tr></thead><tbody>")
-                body += [f"<tr>{row}</tr>" for row in rows[1:]]
-                body.append("</tbody></table></div>")
-            body += [f"<p>{html.escape(sentence)}</p>" for sentence in section.sentences]
-            if section.title in ("State", "Inputs that matter"):
-                words, picture = next(figures)
-                body.append(
-                    f'<figure><img alt="{html.escape(words)}" src="data:image/svg+xml;base64,'
-                    f'{picture}"><figcaption>{html.escape(words)}</figcaption></figure>'
-                )
-            body.append("</section>")
-        title = html.escape(self.title or "Assessment")
-        return (
-            '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f"<title>{title}</title>\n<style>{STYLE}</style></head>\n<body>\n"
-            + "\n".join(body)
-            + "\n</body></html>\n"
-        )
+        from .html import document, figure, section, text_table, words
 
-    def _figures(self) -> list[tuple[str, str]]:
+        title = self.title or "Assessment"
+        body = [f"<h1>{escape(title)}</h1>"]
+        figures = iter(self.figures())
+        for part in self.sections():
+            lines = [text_table(part.head, part.rows, WORDS)] if part.rows else []
+            lines += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
+            if part.title in ("State", "Inputs that matter"):
+                caption, picture = next(figures)
+                lines.append(figure(picture, caption))
+            body.append(section(part.title, lines))
+        return document(title, body)
+
+    def figures(self) -> list[tuple[str, bytes]]:
         """Captions and pictures of the bands over the load, and of the inputs."""
+        from matplotlib.figure import Figure
+
         from . import plot
+        from .html import svg_of
 
         found = self.propagation
         of = "A_t" if found.contact.two_body else "particle_load_share"
@@ -424,12 +405,12 @@ class Assessment:
             )
             ax = plot.bands(curve, of, mark=value)
             words = f"Bands of the {OUTPUTS[of]['meaning']} over the load; the operating load is "
-            out.append((words + "marked.", _picture(ax.figure)))
+            out.append((words + "marked.", svg_of(ax.figure)))
         else:
-            out.append(("Only the load is uncertain.", _picture(None)))
+            out.append(("Only the load is uncertain.", svg_of(Figure(figsize=(1, 1)))))
         ax = plot.tornado(found, self.decisive, values=self.tornado[self.decisive])
         words = f"{self.decisive} with one input at each end of its 5 % to 95 % range."
-        return [*out, (words, _picture(ax.figure))]
+        return [*out, (words, svg_of(ax.figure))]
 
 
 NO_CRITICAL = (
@@ -442,36 +423,6 @@ NO_CRITICAL = (
 
 WORDS = ("where", "result")
 """Columns of words, which may break."""
-
-STYLE = """
-:root{color-scheme:light dark;--ink:#111;--paper:#fff;--soft:#444;--line:#ddd;--rule:#999}
-@media screen and (prefers-color-scheme:dark){
-:root{--ink:#e6e6e6;--paper:#16181b;--soft:#b4b4b4;--line:#3a3d41;--rule:#777}}
-body{font:15px/1.45 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:60rem;
-margin:2rem auto;padding:0 1rem;overflow-wrap:anywhere}
-h1{font-size:1.5rem}h2{font-size:1.05rem;border-bottom:1px solid var(--rule);margin:1.4rem 0 .5rem}
-div{overflow-x:auto}table{border-collapse:collapse;width:100%;font-size:.86rem}
-th,td{padding:.2rem .5rem;border-bottom:1px solid var(--line);text-align:right;vertical-align:top;
-white-space:nowrap}
-th{vertical-align:bottom}th:first-child,td:first-child,.words{text-align:left}
-.words,th{white-space:normal;overflow-wrap:normal;min-width:3.2rem}td.words{min-width:11rem}
-p{margin:.4rem 0}figure{margin:.8rem 0;text-align:center}
-img{max-width:100%;width:32rem;box-sizing:border-box;background:#fff;border-radius:.3rem}
-figcaption{font-size:.82rem;color:var(--soft)}
-@media print{body{margin:0;max-width:none;font-size:10pt}section,figure,tr{break-inside:avoid}
-div{overflow:visible}th,td{white-space:normal}img{width:11cm}@page{size:A4;margin:15mm}}
-"""
-
-
-def _picture(figure: Any) -> str:
-    """A figure as SVG in base64, the same bytes every time."""
-    from matplotlib import rc_context
-    from matplotlib.figure import Figure
-
-    out = io.BytesIO()
-    with rc_context({"svg.hashsalt": "thirdbody", "svg.fonttype": "path"}):
-        (figure or Figure(figsize=(1, 1))).savefig(out, format="svg", metadata={"Date": None})
-    return base64.b64encode(out.getvalue()).decode("ascii")
 
 
 def _law_of(found: Propagation) -> str:
@@ -725,7 +676,7 @@ def _changes(found: Propagation, mode: str) -> tuple[Change, ...]:
     for label, known in found.inputs.items():
         if label == found.load:
             continue
-        drawn = _drawn(found.contact, {label: known}, found.load, load)
+        drawn = drawn_inputs(found.contact, {label: known}, found.load, load)
         for side in (-1, 1):
             step = _departure(found, drawn, _path(found.contact, drawn, known, side), mode)
             step = step and _departure(found, drawn, np.linspace(step[0], step[1], FINE), mode)

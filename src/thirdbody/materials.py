@@ -87,6 +87,14 @@ class Material(Value):
         return self.E / (1 - self.nu**2)
 
 
+BULK = frozenset(
+    item.name
+    for item in dataclasses.fields(Material)
+    if "quantity" in item.metadata and not item.compare
+)
+"""Quantities of a body that decide how it conducts, not how it carries load."""
+
+
 def reduced_modulus(first: Material, second: Material) -> float:
     r"""Hertz's contact modulus :math:`1/E^* = (1-\nu_1^2)/E_1 + (1-\nu_2^2)/E_2` [Pa]."""
     return 1 / (1 / first.plane_strain_modulus + 1 / second.plane_strain_modulus)

@@ -25,7 +25,7 @@ from .contact import Contact, interface
 from .equilibrium import COLUMNS, EPS_1, EPS_2, Equilibrium, given_load, solve
 from .errors import InvalidValue
 from .outputs.base import AbstractOutput
-from .states import solve_states, varied
+from .states import carries, solve_states, varied
 from .surfaces import ETA_R_SIGMA
 from .transitions import transitions
 from .values import Value
@@ -143,6 +143,8 @@ def inputs(contact: Contact) -> dict[str, float]:
     ``outputs.friction.tau_ss``.
     """
     out = dict(_numbers(contact, ""))
+    if not contact.outputs:
+        out = {name: v for name, v in out.items() if carries(name)}
     rough = contact.roughness
     if rough.eta is None and rough.eta_R_sigma is None:
         out["roughness.eta_R_sigma"] = ETA_R_SIGMA
@@ -154,7 +156,7 @@ def inputs(contact: Contact) -> dict[str, float]:
 def _numbers(value: Value, prefix: str) -> Iterator[tuple[str, float]]:
     for item in dataclasses.fields(value):  # type: ignore[arg-type]
         part = getattr(value, item.name)
-        if "quantity" in item.metadata and item.compare and part is not None:
+        if "quantity" in item.metadata and part is not None:
             yield prefix + item.name, part
         elif isinstance(part, Value):
             yield from _numbers(part, f"{prefix}{item.name}.")

@@ -14,6 +14,7 @@ from . import engine
 from .contact import Contact, interface
 from .equilibrium import COLUMNS, given_load, solve
 from .errors import InvalidValue, RangeWarning
+from .materials import BULK
 from .outputs.base import evaluate
 
 __all__ = ["solve_states", "varied"]
@@ -141,11 +142,16 @@ def _joined(count: int, parts: list[tuple[NDArray[np.intp], Columns]]) -> Column
     return {name: out[name] for name in COLUMNS}
 
 
+def carries(name: str) -> bool:
+    """Whether an input decides how the contact carries load, not only what outputs say."""
+    return not name.startswith("outputs.") and name.rpartition(".")[2] not in BULK
+
+
 def _with_outputs(
     contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]
 ) -> Columns:
     """Every column of the states, then the outputs of each contact among them."""
-    inputs = {name: v for name, v in arrays.items() if not name.startswith("outputs.")}
+    inputs = {name: v for name, v in arrays.items() if carries(name)}
     given: dict[str, Any] = {load: loads}
     out = solve_states(contact.replace(outputs=()), vary=inputs or None, **given)
     # states of one contact share their spots; those of one surface share its tables, and those

@@ -27,7 +27,7 @@ from .equilibrium import COLUMNS, DEEPEST, EPS_1, EPS_2, about, given_load
 from .errors import InvalidValue
 from .sensitivities import NUMBERS, _declared, _input, inputs
 from .sensitivities import Input as Moved
-from .states import FEWEST, solve_states
+from .states import FEWEST, carries, solve_states
 from .values import problem_with
 
 if TYPE_CHECKING:
@@ -937,7 +937,7 @@ def propagate(
 
     of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
     bare = contact.replace(outputs=())
-    plain = {name: v for name, v in vary.items() if not name.startswith("outputs.")}
+    plain = {name: v for name, v in vary.items() if carries(name)}
     some_outputs = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)]
 
     bands: dict[str, list[Array]] = {name: [] for name in names}

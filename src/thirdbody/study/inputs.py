@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from .. import asperity, particle
-from ..materials import Material
+from ..materials import BULK, Material
+from ..outputs import REGISTRY as OUTPUTS
 from ..particles import Particles
 from ..surfaces import Roughness
 from .fields import filled_in, idle
@@ -57,6 +58,7 @@ def inputs_of(whole: dict[str, Any]) -> list[Input]:
         without_effect = {
             name: f"has no part in the contact ({what}), so nothing would change with it"
             for name, what in idle(kind).items()
+            if not (kind is Material and get(whole, "outputs") and name in BULK)
         }
         without_effect |= dict.fromkeys(
             filled_in(kind), "follows from the contact, whatever is given for it"
@@ -87,4 +89,7 @@ def _kinds(whole: dict[str, Any]) -> list[tuple[str, type]]:
     if any(get(table, "law") is None for table in tables.values()):
         common = class_of(whole.get("particle_law", "series"), particle.REGISTRY)
         found.append(("particle_law", common))
+    asked = whole.get("outputs")
+    if isinstance(asked, dict):
+        found += [(f"outputs.{name}", OUTPUTS.get(name)) for name in asked]
     return [(path, kind) for path, kind in found if kind is not None]

@@ -1,0 +1,35 @@
+"""``thirdbody report``: a study as one page to hand on."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..options import Settings, StudyFile, read_study
+from ..streams import warn
+
+__all__ = ["command"]
+
+
+def command(
+    study: StudyFile,
+    out: Annotated[
+        Path, typer.Option("--out", metavar="FILE", help="The page, one HTML file.")
+    ] = Path("report.html"),
+    settings: Settings = None,
+) -> None:
+    """A report to hand on: answer, figures, tables, error bars and sources, in one file."""
+    from ...files import write_text
+    from ...report import report
+
+    asked = read_study(study, settings)
+    text = study.read_text(encoding="utf-8-sig")
+    given = "".join(f"# --set {setting}\n" for setting in settings or ())
+    found = report(asked, file=f"{text.rstrip()}\n\n{given}".rstrip() + "\n")
+    for sentence in found.result["warnings"][len(asked.notes) :]:
+        warn(sentence)
+    write_text(out, found.html())
+    print(f"written: {out}", file=sys.stderr)
