@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
-from thirdbody.design import Limit, Objective, design, equal_share_size, front, hypervolume
+from thirdbody.design import Limit, Objective, Suspension, design, equal_share_size
+from thirdbody.design_front import front, hypervolume
 from thirdbody.designs import Span
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
@@ -134,6 +135,12 @@ def test_window_is_a_share_and_wider_limits_never_hurt():
     assert found[-1] == pytest.approx(free.objectives[window.label])
 
 
+def scattered(objective, **asked):
+    """The objective at the first twelve points."""
+    found = design(contact(), objective=objective, **asked)
+    return found.points[objective.label].values[:12]
+
+
 def test_scatter():
     objective = Objective(of="A_t", over_scatter="worst")
     some = dict(over={SIZE: (5e-8, 5e-7)}, F_star=[1e-5], points=12)
@@ -142,26 +149,21 @@ def test_scatter():
         contact(), objective=objective, scatter={"roughness.sigma": nothing}, samples=4, **some
     )
     nominal = design(contact(), objective=objective, **some)
-    assert still.objectives["A_t"] == pytest.approx(nominal.objectives["A_t"], rel=1e-9)
+    (found,), (same,) = still.objectives.values(), nominal.objectives.values()
+    assert found == pytest.approx(same, rel=1e-9)
     wide = {"roughness.sigma": (60e-9, 160e-9), SIZE: tb.Uncertain.lognormal(300e-9, 1.2)}
     costs = {
-        how: design(
-            contact(),
-            objective=Objective(of="A_t", over_scatter=how),
-            scatter=wide,
-            samples=8,
-            **some,
-        )
-        .points["A_t"]
-        .values[:12]
+        how: scattered(Objective(of="A_t", over_scatter=how), scatter=wide, samples=8, **some)
         for how in ("mean", "worst", "tail", "robust", "nominal")
     }
     assert np.all(costs["worst"] >= costs["tail"] - 1e-15)
     assert np.all(costs["tail"] >= costs["mean"])
     assert np.all(costs["robust"] >= costs["mean"])
     # samples of one seed are common to all points, and of another they are others
-    again = design(contact(), objective=objective, scatter=wide, samples=8, **some)
-    np.testing.assert_array_equal(again.points["A_t"].values[:12], costs["worst"])
+    again = scattered(objective, scatter=wide, samples=8, **some)
+    np.testing.assert_array_equal(again, costs["worst"])
+    other = scattered(objective, scatter=wide, samples=8, seed=1, **some)
+    assert np.all(other != costs["worst"])
 
 
 def test_infeasible_points_are_kept_with_their_reason():
@@ -259,3 +261,93 @@ def test_mistakes(changes, said):
         design(contact(), **{**asked, **changes})
     with pytest.raises(tb.InvalidValue, match="neither most nor least"):
         Limit(of="A_t")
+
+
+def test_load_on_buried_particles():
+    """Against particles drawn at random: sizes, seats, and how deep each sits in either surface."""
+    from thirdbody.design_search import buried
+
+    soft = STEEL.replace(H=2.5e9)
+    dust = tb.Particles(
+        material=SILICA,
+        areal_density=1e12,
+        diameter=tb.TruncatedGaussian(mean=100e-9, std=10e-9),
+    )
+    case = contact().replace(particles=dust, surfaces=tb.MaterialPair(STEEL, soft))
+    state = tb.solve(case, pressure=5e7)
+    rng = np.random.default_rng(5)
+    x = rng.normal(100e-9, 10e-9, 2_000_000)
+    x = x[np.abs(x - 100e-9) < 30e-9]
+    eps = 1 - (state.h - 100e-9 * rng.standard_normal(len(x))) / x
+    x, eps = x[eps > 0], eps[eps > 0]
+    one = case.law_of(dust).probe(eps, surfaces=case.surfaces, particle=SILICA)
+    load = x**2 * one.load[:, 0]
+    deep = np.maximum(*one.depths)[:, 0] > one.radius[:, 0]
+    share = load[deep].sum() / load.sum()
+    error = np.sqrt(np.sum((load * (deep - share)) ** 2)) / load.sum()
+    found = buried(case, np.atleast_1d(state.d))[0]
+    assert 0.2 < share < 0.8
+    assert abs(found - share) < 4 * error
+    # a share of the whole load: few deep particles do no harm
+    best = design(
+        case,
+        over={"particles.areal_density": (1e8, 1e13)},
+        objective=Objective(of="A_t"),
+        pressure=[5e7],
+        points=9,
+    )
+    points = best.points
+    told = np.array(["deeper than their radius" in text for text in points["reason"].values])
+    assert told.any()
+    assert not told.all()
+    assert points["particles.areal_density"].values[~told].min() == pytest.approx(1e8)
+
+
+def test_a_limit_on_what_has_no_value_is_broken():
+    limit = Limit(of="A_t", most=1.0)
+    metric = np.array([[[0.5, 0.5]], [[0.5, np.nan]], [[0.5, 2.0]]])
+    np.testing.assert_array_equal(limit.excess(metric), [-0.5, np.inf, 1.0])
+    assert Limit(of="A_t", least=0.0).excess(metric[:1])[0] == -0.5
+
+
+def test_number_follows_from_the_fluid():
+    """Volume of particles per area is concentration times gap, whatever their size."""
+    fluid = Suspension(gap=1e-6, concentration=2e-3, by="volume")
+    best = design(
+        contact(),
+        over={SIZE: (5e-8, 5e-7)},
+        objective=Objective(of="A_t"),
+        pressure=[5e6],
+        suspension=fluid,
+        points=8,
+    )
+    dust = best.contact.particles
+    volume = dust.areal_density * np.pi / 6 * dust.diameter.moment(3)
+    assert volume == pytest.approx(2e-3 * 1e-6, rel=1e-12)
+    for mistake, said in (
+        ({"suspension": None, "over": {"particles.concentration": (1e-3, 2e-3)}}, "needs suspens"),
+        ({"over": {"particles.areal_density": (1e9, 1e10)}}, "follows from the suspension"),
+        ({"suspension": Suspension(gap=1e-6, by="volume")}, "concentration is missing"),
+        ({"suspension": Suspension(gap=1e-6, concentration=1e-3)}, "needs the density"),
+    ):
+        asked = {"over": {SIZE: (5e-8, 5e-7)}, "suspension": fluid, "pressure": [5e6]}
+        with pytest.raises(tb.InvalidValue, match=said):
+            design(contact(), objective=Objective(of="A_t"), **{**asked, **mistake})
+
+
+def test_particles_that_differ_in_number_share_their_spots():
+    """Outputs of states of many densities at once, and of each alone."""
+    case = contact(outputs=tb.outputs.Friction(tau_ss=580e6, tau_sa=200e6))
+    density, p = np.array([0, 1e8, 1e10, 5e10, 0, 1e8]), np.array([1e6, 1e6, 5e6, 5e6, 2e6, 4e6])
+    states = tb.solve_states(case, pressure=p, vary={"particles.areal_density": density})
+    for i in range(len(p)):
+        one = tb.solve(case.replace(**{"particles.areal_density": density[i]}), pressure=p[i])
+        for name in ("mu", "mu_sa", "mu_ss", "rolling_share"):
+            assert states[name][i] == pytest.approx(one.outputs[name], rel=1e-11, nan_ok=True)
+
+
+def test_the_function_keeps_its_name():
+    import importlib
+
+    importlib.import_module("thirdbody.design")
+    assert tb.design is design

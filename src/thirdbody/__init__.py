@@ -11,6 +11,7 @@ from .assess import Assessment, assess
 from .citations import cite
 from .compare import compare
 from .contact import Contact
+from .design import Limit, Objective, Suspension, design, equal_share_size
 from .distributions import (
     Distribution,
     Histogram,
@@ -64,6 +65,7 @@ __all__ = [
     "HistogramHeights",
     "InvalidValue",
     "JohnsonHeights",
+    "Limit",
     "LogNormal",
     "Material",
     "MaterialPair",
@@ -71,6 +73,7 @@ __all__ = [
     "Monodisperse",
     "NoEquilibrium",
     "NoTransition",
+    "Objective",
     "Particles",
     "PowerLaw",
     "Propagation",
@@ -78,6 +81,7 @@ __all__ = [
     "Roughness",
     "Sensitivity",
     "SpectralMoments",
+    "Suspension",
     "ThirdBodyError",
     "Topography",
     "Transitions",
@@ -92,6 +96,8 @@ __all__ = [
     "cite",
     "compare",
     "critical_loads",
+    "design",
+    "equal_share_size",
     "films",
     "fractal",
     "interaction",

@@ -26,6 +26,7 @@ from .uncertainty import (
     _columns,
     _plain,
     _swing,
+    about_result,
     drawn_inputs,
     library_ranges,
     propagate,
@@ -236,14 +237,15 @@ class Assessment:
     def _state(self) -> Section:
         found = self.propagation
         rows = []
-        for name in (name for name in SHOWN if name in found.bands):
+        outputs = [name for each in found.contact.outputs for name in each.columns]
+        for name in (name for name in (*SHOWN, *outputs) if name in found.bands):
             if found.contact.two_body and name.startswith("particle"):
                 continue
             low, middle, high = self._band(name)
             each = (found.nominal[name], low, middle, high)
             where = [found.probabilities.index(q) for q in BAND]
             error = _error(float(np.max(found.error[name][where])), name)
-            rows.append((OUTPUTS[name]["meaning"], *(_amount(x, name) for x in each), error))
+            rows.append((about_result(name)["meaning"], *(_amount(x, name) for x in each), error))
         head = ("result", "nominal", "5 %", "50 %", "95 %", "error of the bands")
         lost = 1 - found.solved
         told = (f"{_percent(lost, 0.0)} of the samples have no equilibrium.",) if lost else ()
@@ -448,8 +450,8 @@ def _value(value: float, unit: str) -> str:
 def _amount(value: float, name: str) -> str:
     if name in CRITICAL:
         return _load(value)
-    unit = OUTPUTS[name]["unit"]
-    return _percent(value, 0.0) if unit == "1" else _value(value, unit)
+    unit = about_result(name)["unit"]
+    return _percent(value, 0.0) if unit == "1" and name in OUTPUTS else _value(value, unit)
 
 
 def _load(value: float) -> str:
@@ -470,6 +472,8 @@ def _percent(value: float, error: float) -> str:
 def _error(error: float, name: str) -> str:
     if not math.isfinite(error):
         return "-"
+    if name not in OUTPUTS:
+        return f"{error:.1g}"
     return f"{100 * error:.1g} %" if OUTPUTS[name]["unit"] == "1" else f"{error:.1g} m"
 
 

@@ -10,47 +10,53 @@ and over samples of what scatters; limits bound metrics at every load.
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import cleanliness
 from .contact import Contact
-from .designs import Span, latin, sobol
+from .design_front import front, hypervolume
+from .design_search import AMOUNT, DENSITY, GRID, SAMPLES, STARTS, STEPS, Point, Task, Variable
+from .design_turning import equal_share_size
+from .designs import Span, latin
 from .equilibrium import about, columns_of, given_load
-from .errors import InvalidValue
+from .errors import InvalidValue, ThirdBodyError
 from .materials import Material
-from .sensitivities import Input, inputs, sensitivity
+from .particles import Particles
+from .progress import reporting
 from .sensitivities import _input as moved_input
-from .states import solve_states
-from .uncertainty import Drawn
-from .uncertainty import _drawn as drawn
+from .sensitivities import sensitivity
+from .uncertainty import drawn_inputs
 from .values import Value, choice, quantity
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Best", "Limit", "Objective", "design", "equal_share_size", "front", "hypervolume"]
+__all__ = ["Best", "Limit", "Objective", "Suspension", "design", "equal_share_size"]
 
 Array = NDArray[np.float64]
-Points = list[dict[str, Any]]
 
 METRICS = {
-    "plastic_share": {"symbol": "A_p/A_t", "unit": "1", "meaning": "plastic part of the real area"}
+    "plastic_share": {"symbol": "A_p/A_t", "unit": "1", "meaning": "plastic part of the real area"},
+    "buried_share": {
+        "symbol": "w_b",
+        "unit": "1",
+        "meaning": "share of the load on particles deeper than their radius",
+    },
 }
-"""What can be asked beside the columns of the states."""
-GRID, CASES, SAMPLES = 64, 32, 256
-"""Points along one variable, load cases of a range, and points of several variables."""
-AT_ONCE = 200_000
-"""States solved together."""
-MOST_AREA, MOST_COVERED = 0.2, 0.3
-"""Real area and projected particle area above which the model is not meant."""
+"""What is known beside the columns of the states; the first may be asked for."""
+NOT_SMOOTH = {"mode", "status", "residual", "iterations"}
+CASES = 32
+"""Load cases of a range."""
 LOSS = 0.05
 """Of the objective, inside the tolerance band."""
+AT_END = 1e-3
+"""Part of a range that counts as its end."""
 
 
 # -------------------------------------------------------------------------- what is asked
@@ -104,7 +110,10 @@ class Objective(Value):
 
     @property
     def label(self) -> str:
-        return f"{self.of}:window" if self.aim == "window" else self.of
+        """What results call it."""
+        how = [self.aim if self.aim == "window" else "worst" if self.over_loads == "worst" else ""]
+        how.append("" if self.over_scatter in ("mean", "nominal") else self.over_scatter)
+        return ":".join([self.of, *filter(None, how)])
 
     def cost(self, metric: Array, weights: Array) -> Array:
         """What is to be small: (P,) for metrics (P, S, J), sample 0 nominal."""
@@ -156,12 +165,15 @@ class Limit(Value):
         return []
 
     def excess(self, metric: Array) -> Array:
-        """By how much the limit is broken, over its size; ≤ 0 where it holds: (P,)."""
+        """By how much the limit is broken, over its size; ≤ 0 where it holds: (P,).
+
+        A metric without a value breaks it.
+        """
         over = np.full(metric.shape[:2], -np.inf)
         for bound, sign in ((self.most, 1.0), (self.least, -1.0)):
             if bound is not None:
-                worst = np.max(sign * (metric - bound), axis=-1)
-                over = np.maximum(over, worst / max(abs(bound), 1e-300))
+                worst = np.max(sign * (metric - bound), axis=-1) / (abs(bound) or 1.0)
+                over = np.maximum(over, np.where(np.isnan(worst), np.inf, worst))
         nominal, samples = over[:, 0], np.sort(over[:, 1:], axis=1)
         if not samples.shape[1]:
             return nominal
@@ -171,6 +183,62 @@ class Limit(Value):
         most = "" if self.most is None else f" <= {self.most:g}"
         least = "" if self.least is None else f"{self.least:g} <= "
         return f"{least}{self.of}{most}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Suspension(Value):
+    r"""The fluid that brings the particles: their number follows from size and concentration.
+
+    .. math:: \eta_a = n\,h_{gap}, \qquad n = \frac{\phi}{\langle\pi x^3/6\rangle}
+
+    Parameters
+    ----------
+    gap : float
+        h_gap, the film thickness or trapping gap that closes [m].
+    concentration : float, optional
+        Needed where it is not searched.
+    by : {"mass", "volume", "number", "mass per volume"}, optional
+        What the concentration is: w [1], φ [1], n [1/m³] or c [kg/m³].
+    particle_density, oil_density : float, optional
+        ρ_p, by default that of the material; ρ_f [kg/m³].
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> dust = tb.Particles(material=tb.materials["quartz"], areal_density=0.0,
+    ...                     diameter=tb.LogNormal(median=300e-9, gsd=1.5))
+    >>> f"{Suspension(gap=1e-6, concentration=1e-3).areal_density(dust):.4g}"
+    '1.109e+10'
+    """
+
+    gap: float = quantity("h_gap", "m", "height of the fluid whose particles are trapped", gt=0)
+    concentration: float | None = quantity(
+        "c", "1", "how much of the fluid is particles", default=None, gt=0
+    )
+    by: str = choice(
+        "what the concentration is", "mass", "volume", "number", "mass per volume", default="mass"
+    )
+    particle_density: float | None = quantity(
+        "ρ_p", "kg/m^3", "density of the particles", default=None, gt=0
+    )
+    oil_density: float = quantity(
+        "ρ_f", "kg/m^3", "density of the fluid", default=cleanliness.OIL_DENSITY, gt=0
+    )
+
+    def areal_density(self, particles: Particles, concentration: float | None = None) -> float:
+        """Particles per nominal area [1/m²], of these sizes and this material."""
+        amount = self.concentration if concentration is None else concentration
+        if amount is None:
+            raise InvalidValue("Suspension.concentration is missing, and it is not searched")
+        found = cleanliness.Concentration(float(amount), self.by)
+        density = self.particle_density or particles.material.density
+        n = cleanliness.particles_in(
+            found,
+            particles.diameter,
+            particle_density=density,
+            oil_density=self.oil_density,
+        )
+        return n * self.gap
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -201,7 +269,8 @@ class Best:
     at_bound : tuple of str
         Variables whose best value is an end of their range: the optimum may lie beyond.
     slopes : dict
-        d m/d ln y of every column asked for, per variable, at the load in the middle.
+        d m/d ln y of every metric asked for, per variable, at the load in the middle; at a
+        constant concentration where there is a `Suspension`.
     hypervolume : float or None
         Of the front against the worst feasible value of each objective; None for one objective.
     """
@@ -264,6 +333,8 @@ def design(
     samples: int = 16,
     points: int | None = None,
     seed: int = 0,
+    suspension: Suspension | None = None,
+    progress: bool | Callable[[int], None] = False,
 ) -> Best:
     r"""The best inputs of a contact over a range of loads, under limits and scatter.
 
@@ -276,12 +347,14 @@ def design(
     over : mapping
         What may be chosen: dotted names of numbers with their range (low, high) in SI, several
         names joined by "+" that move by one factor ("particles.diameter.mean+"
-        "particles.diameter.std" keeps the relative width); or a name of a material with a list
-        of `Material`.
+        "particles.diameter.std" keeps the relative width); "particles.concentration" with a
+        ``suspension``; or a name of a material with a list of `Material`.
     objective : Objective or several
         Several give the front of points that no other beats in all of them.
     limits : sequence of Limit, optional
-        Besides, always: every load has a state, A_t < 0.2, and particles cover less than 0.3.
+        Besides, always: every load has a state, A_t < 0.2, particles cover less than 0.3 of the
+        area, and those that sit deeper than their radius, where the laws of a contact end, carry
+        less than 0.05 of the load.
     F_star, pressure : array, or Span
         Load cases; a `Span` stands for 32 of them, evenly in the logarithm. One of the two.
     weights : array, optional
@@ -292,8 +365,13 @@ def design(
     samples : int, optional
         Of the scatter: one Latin hypercube for all points, so that they can be compared.
     points : int, optional
-        Tried before the search goes local: 64 for one number, 256 for several.
+        Tried before the search goes local: 64 for one number, 384 for several.
     seed : int, optional
+    suspension : Suspension, optional
+        What brings the particles. Their number then follows from size and concentration; without
+        it the number per area stays as it is when the size changes.
+    progress : bool or callable, optional
+        True shows a bar; a callable gets the number of points tried.
 
     Returns
     -------
@@ -307,16 +385,17 @@ def design(
     Notes
     -----
     One number and one objective: a grid, then Brent's bounded search between the neighbours of
-    the best point (`scipy.optimize.minimize_scalar`), to 1e-4 of the range. Several numbers: the
-    corners of the ranges and a Sobol design, then `scipy.optimize.differential_evolution` with a
-    part of it as the first generation. Several objectives: the design alone. Islands of feasible
-    points that hold less than one part in ``points`` of the ranges can be missed. A point that
-    breaks a limit ranks behind all that do not, by how much it breaks it.
+    the best point (`scipy.optimize.minimize_scalar`). Several numbers: the corners of the ranges
+    and a Sobol design, or sizes with sixteen amounts each, then COBYQA (`scipy.optimize.minimize`)
+    from the three best places that lie apart, with the limits as constraints. Several objectives:
+    the design alone. Islands of feasible points that hold less than one part in ``points`` of the
+    ranges can be missed. A point that breaks a limit ranks behind all that do not, by how much it
+    breaks it.
 
     References
     ----------
-    Storn, Price 1997, J. Global Optim. 11, 341, doi:10.1023/A:1008202821328; Brent 1973,
-    Algorithms for Minimization without Derivatives, ch. 5.
+    Brent 1973, Algorithms for Minimization without Derivatives, ch. 5; Ragonneau and Zhang 2025,
+    COBYQA, in `scipy.optimize.minimize`.
 
     Examples
     --------
@@ -334,349 +413,188 @@ def design(
     True
     """
     objectives = [objective] if isinstance(objective, Objective) else list(objective)
-    task = _task(
-        contact, over, objectives, list(limits), F_star, pressure, weights, scatter, samples, seed
+    task = asked(
+        contact,
+        over=over,
+        objectives=objectives,
+        limits=list(limits),
+        F_star=F_star,
+        pressure=pressure,
+        weights=weights,
+        scatter=scatter,
+        samples=samples,
+        seed=seed,
+        suspension=suspension,
     )
-    for materials in task.choices():
-        task.explore(materials, points)
-        if len(objectives) == 1 and task.spans:
-            task.refine(materials)
-    return task.answer()
+    local = len(objectives) == 1 and bool(task.variables)
+    with reporting("design", _expected(task, points, local), 0, progress) as task.report:
+        for materials in task.choices():
+            task.explore(materials, points)
+            if local:
+                task.refine(materials)
+        return _answer(task)
 
 
-class _Task:
-    """Everything that is asked, and every point tried so far."""
+def _expected(task: Task, points: int | None, local: bool) -> int:
+    """Points that will be tried, or a few less."""
+    width = len(task.variables)
+    if not width:
+        return len(task.choices())
+    one = points or (GRID if width == 1 else SAMPLES)
+    more = (25 if width == 1 else STARTS * STEPS) if local else 0
+    return len(task.choices()) * (one + more)
 
-    def __init__(
-        self,
-        contact: Contact,
-        spans: dict[str, tuple[Input, float, float]],
-        materials: dict[str, list[Material]],
-        objectives: list[Objective],
-        limits: list[Limit],
-        load: str,
-        loads: Array,
-        weights: Array,
-        scatter: tuple[Drawn, Array] | None,
-        seed: int,
+
+# -------------------------------------------------------------------------- the answer
+def _answer(task: Task) -> Best:
+    import xarray
+
+    rows, best = task.tried, task.best()
+    made = task.made(best.numbers, best.materials)
+    ok = np.array([not point.reason for point in rows])
+    costs = np.array([list(point.costs.values()) for point in rows])
+    on_front = np.zeros(len(rows), bool)
+    on_front[np.flatnonzero(ok)] = front(costs[ok])
+    volume = None
+    if len(task.objectives) > 1 and ok.any():
+        volume = hypervolume(costs[ok], costs[ok].max(axis=0))
+    signs = {each.label: each.sign for each in task.objectives}
+    columns: dict[str, Any] = {
+        name: ("point", [point.numbers[name] for point in rows]) for name in task.variables
+    }
+    columns |= {
+        name: ("point", [point.materials[name].name for point in rows]) for name in task.materials
+    }
+    columns |= {
+        each.label: ("point", each.sign * costs[:, i], {"long_name": each.aim})
+        for i, each in enumerate(task.objectives)
+    }
+    columns |= {
+        "feasible": ("point", ok),
+        "front": ("point", on_front),
+        "reason": ("point", [point.reason for point in rows]),
+    }
+    ends = {name: each.place(best.numbers[name]) for name, each in task.variables.items()}
+    at_bound = tuple(name for name, u in ends.items() if min(u, 1 - u) < AT_END)
+    notes = [f"the best {name} is an end of its range" for name in at_bound]
+    if task.scatter is None and any(
+        each.over_scatter not in ("mean", "nominal") for each in task.objectives
     ):
-        self.contact, self.spans, self.materials = contact, spans, materials
-        self.objectives, self.limits = objectives, limits
-        self.load, self.loads, self.weights = load, loads, weights
-        self.scatter, self.seed = scatter, seed
-        self.columns = list(dict.fromkeys([*(o.of for o in objectives), *(g.of for g in limits)]))
-        self.tried: Points = []
-        outputs = {name for each in contact.outputs for name in each.columns}
-        if not outputs & set(self.columns):
-            self.contact = contact.replace(outputs=())
+        notes.append("nothing scatters: over_scatter has no meaning")
+    return Best(
+        values={**best.numbers, **best.materials},
+        contact=made,
+        objectives={label: signs[label] * cost for label, cost in best.costs.items()},
+        feasible=not best.reason,
+        reason=best.reason,
+        states=_states(task, best),
+        points=xarray.Dataset(columns),
+        active=best.active,
+        tolerance=_tolerance(task, best),
+        at_bound=at_bound,
+        slopes=_slopes(task, best, made),
+        hypervolume=volume,
+        warnings=tuple(notes),
+    )
 
-    # ------------------------------------------------------------------ coordinates
-    def choices(self) -> list[dict[str, Material]]:
-        """Every combination of materials."""
-        names, lists = list(self.materials), list(self.materials.values())
-        return [dict(zip(names, pick, strict=True)) for pick in itertools.product(*lists)]
 
-    def at(self, u: Array) -> list[dict[str, float]]:
-        """Values of the variables at points of the unit cube (P, k): positive ranges by ratio."""
-        rows = []
-        for row in np.clip(u, 0.0, 1.0):
-            values = {}
-            for part, (name, (_, low, high)) in zip(row, self.spans.items(), strict=True):
-                span = Span(low, high, "log" if low > 0 else "linear")
-                values[name] = float(np.clip(span.at(part), low, high))
-            rows.append(values)
-        return rows
+def _states(task: Task, best: Point) -> xarray.Dataset:
+    """Metrics against the load, nominal."""
+    import xarray
 
-    # ------------------------------------------------------------------ one batch of points
-    def evaluate(
-        self, numbers: Sequence[dict[str, float]], materials: dict[str, Material]
-    ) -> Array:
-        """Costs (P,) of points for ranking by the first objective; everything is kept."""
-        rows = []
-        fit = max(1, AT_ONCE // ((1 + self._samples) * len(self.loads)))
-        for start in range(0, len(numbers), fit):
-            rows += self._batch(numbers[start : start + fit], materials)
-        self.tried += rows
-        return np.array([_rank(row) for row in rows])
+    found = task.metrics([best.numbers], best.materials, samples=False)
+    columns: dict[str, Any] = {}
+    for name in (*found.keys() - {"coverage", "buried_share"}, "buried_share"):
+        told = METRICS.get(name) or about(name)
+        attrs = {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
+        columns[name] = (task.load, found[name].reshape(-1), attrs)
+    return xarray.Dataset(columns, coords={task.load: task.loads})
 
-    @property
-    def _samples(self) -> int:
-        return 0 if self.scatter is None else len(self.scatter[1])
 
-    def _batch(self, numbers: Sequence[dict[str, float]], materials: dict[str, Material]) -> Points:
-        metric = self.metrics(numbers, materials)
-        P = len(numbers)
-        costs = {each.label: each.cost(metric[each.of], self.weights) for each in self.objectives}
-        broken = [(str(limit), limit.excess(metric[limit.of])) for limit in self.limits]
-        broken += [
-            ("A_t < 0.2", Limit(of="A_t", most=MOST_AREA).excess(metric["A_t"])),
-            ("coverage < 0.3", self._coverage(numbers, materials) / MOST_COVERED - 1),
-        ]
-        unsolved = np.asarray(np.isnan(metric["A_t"]).any(axis=(1, 2)))
-        rows = []
-        for i in range(P):
-            values = {label: float(cost[i]) for label, cost in costs.items()}
-            reasons = [
-                f"{what} is broken by {100 * excess[i]:.3g} %"
-                for what, excess in broken
-                if excess[i] > 0
-            ]
-            if unsolved[i]:
-                reasons = ["a load has no equilibrium"]
-            elif any(math.isnan(cost) for cost in values.values()):
-                reasons = ["an objective has no value there"]
-            worst = max((float(excess[i]) for _, excess in broken), default=-1.0)
-            close = [what for what, excess in broken if -0.01 < excess[i] <= 0]
-            rows.append(
-                {
-                    "numbers": numbers[i],
-                    "materials": materials,
-                    "costs": values,
-                    "excess": math.inf if reasons and worst <= 0 else worst,
-                    "reason": "; ".join(reasons),
-                    "active": tuple(close),
-                }
-            )
-        return rows
+def _tolerance(task: Task, best: Point) -> dict[str, tuple[float, float]]:
+    """Where the first objective loses less than `LOSS`, variable by variable."""
+    label = task.objectives[0].label
+    value = best.costs[label]
+    out = {}
+    for name, each in task.variables.items():
+        own = best.numbers[name]
+        grid = np.unique(np.append(each.span.at(np.linspace(0, 1, GRID + 1)), own))
+        rows = task.judged([{**best.numbers, name: float(x)} for x in grid], best.materials)
+        lost = np.array([point.costs[label] for point in rows]) - value
+        good = (lost <= LOSS * abs(value)) & np.array([not point.reason for point in rows])
+        place = int(np.searchsorted(grid, own))
+        bad = np.flatnonzero(~good)
+        first = bad[bad < place].max(initial=-1) + 1
+        last = bad[bad > place].min(initial=len(grid)) - 1
+        out[name] = (float(grid[first]), float(grid[last]))
+    return out
 
-    def metrics(
-        self, numbers: Sequence[dict[str, float]], materials: dict[str, Material]
-    ) -> dict[str, Array]:
-        """Every metric (P, 1 + samples, loads), sample 0 nominal."""
-        P, S, J = len(numbers), 1 + self._samples, len(self.loads)
-        contact = self.contact.replace(**materials) if materials else self.contact
-        vary: dict[str, Array] = {}
-        for name, (moved, _, _) in self.spans.items():
-            values = np.array([point[name] for point in numbers])
-            for each, column in moved.at((values - moved.values[0]) / moved.scales[0]).items():
-                vary[each] = np.broadcast_to(column[:, None], (P, S))
-        if self.scatter is not None:
-            drawn_inputs, u = self.scatter
-            nominal = inputs(contact)
-            for name, sample in drawn_inputs.points(u).items():
-                own = np.broadcast_to(np.append(nominal[name], sample), (P, S))
-                searched = vary.get(name)
-                # about each value of a variable by the factors about its nominal one
-                vary[name] = own if searched is None else searched * own / nominal[name]
-        flat = {name: np.repeat(values.ravel(), J) for name, values in vary.items()}
-        given: dict[str, Any] = {self.load: np.tile(self.loads, P * S)}
-        states = solve_states(contact, vary=flat or None, **given)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            states["plastic_share"] = states["A_p"] / states["A_t"]
-        asked = dict.fromkeys((*self.columns, "A_t", "h"))
-        return {name: np.asarray(states[name], float).reshape(P, S, J) for name in asked}
 
-    def _coverage(
-        self, numbers: Sequence[dict[str, float]], materials: dict[str, Material]
-    ) -> Array:
-        found = []
-        for point in numbers:
-            try:
-                made = self.made(point, materials)
-            except InvalidValue:
-                found.append(math.inf)
-            else:
-                found.append(sum(each.coverage for each in made.populations))
-        return np.array(found)
-
-    def made(self, numbers: Mapping[str, float], materials: dict[str, Material]) -> Contact:
-        """The contact of a point."""
-        changes: dict[str, Any] = dict(materials)
-        for name, value in numbers.items():
-            moved = self.spans[name][0]
-            changes |= {
-                each: float(v)
-                for each, v in moved.at((value - moved.values[0]) / moved.scales[0]).items()
-            }
-        return self.contact.replace(**changes)
-
-    # ------------------------------------------------------------------ search
-    def explore(self, materials: dict[str, Material], points: int | None) -> None:
-        """Points all over the ranges."""
-        width = len(self.spans)
-        if not width:
-            self.evaluate([{}], materials)
-        elif width == 1:
-            self.evaluate(self.at(np.linspace(0, 1, points or GRID)[:, None]), materials)
-        else:
-            count = points or SAMPLES
-            # what falls or rises everywhere is best in a corner
-            corners = np.array(list(itertools.product((0.0, 1.0), repeat=min(width, 6))))
-            corners = np.pad(corners, ((0, 0), (0, width - corners.shape[1])), constant_values=0.5)
-            inside = sobol(count, width, self.seed, 0, count)
-            self.evaluate(self.at(np.concatenate([corners, inside])), materials)
-
-    def refine(self, materials: dict[str, Material]) -> None:
-        """A local search about the best point found with these materials."""
-        from scipy.optimize import differential_evolution, minimize_scalar
-
-        rows = [row for row in self.tried if row["materials"] == materials]
-        order = np.argsort([_rank(row) for row in rows], kind="stable")
-        u = np.array([self._where(rows[i]["numbers"]) for i in order])
-        if len(self.spans) == 1:
-            every = np.sort(u[:, 0])
-            place = int(np.searchsorted(every, u[0, 0]))
-            low, high = every[max(place - 1, 0)], every[min(place + 1, len(every) - 1)]
-            minimize_scalar(
-                lambda t: float(self.evaluate(self.at(np.array([[t]])), materials)[0]),
-                bounds=(low, high),
-                method="bounded",
-                options={"xatol": 1e-4 * (high - low)},
-            )
-            return
-        differential_evolution(
-            lambda x: self.evaluate(self.at(np.atleast_2d(x.T)), materials),
-            [(0.0, 1.0)] * len(self.spans),
-            init=u[:: max(1, len(u) // (16 * len(self.spans)))],
-            maxiter=40,
-            tol=1e-4,
-            rng=np.random.default_rng(self.seed),
-            vectorized=True,
-            updating="deferred",
-            polish=False,
-        )
-
-    def _where(self, numbers: Mapping[str, float]) -> list[float]:
-        """Coordinates of a point in the unit cube."""
-        out = []
-        for name, (_, low, high) in self.spans.items():
-            value = numbers[name]
-            if low > 0:
-                out.append(math.log(value / low) / math.log(high / low))
-            else:
-                out.append((value - low) / (high - low))
-        return out
-
-    # ------------------------------------------------------------------ the answer
-    def answer(self) -> Best:
-        import xarray
-
-        rows = self.tried
-        best = self._best()
-        numbers, materials = best["numbers"], best["materials"]
-        made = self.made(numbers, materials)
-        ok = np.array([not row["reason"] for row in rows])
-        costs = np.array([list(row["costs"].values()) for row in rows])
-        on_front = np.zeros(len(rows), bool)
-        on_front[np.flatnonzero(ok)] = front(costs[ok])
-        volume = None
-        if len(self.objectives) > 1 and ok.any():
-            volume = hypervolume(costs[ok], costs[ok].max(axis=0))
-        signs = {each.label: each.sign for each in self.objectives}
-        labels = list(signs)
-        columns: dict[str, Any] = {
-            name: ("point", [row["numbers"][name] for row in rows]) for name in self.spans
+def _slopes(task: Task, best: Point, made: Contact) -> dict[str, dict[str, float]]:
+    """d m/d ln y at the load in the middle, by the exact sensitivities."""
+    known = set(columns_of(made)) - NOT_SMOOTH
+    wanted = [name for name in task.columns if name in known]
+    if "plastic_share" in task.columns:
+        wanted = list(dict.fromkeys([*wanted, "A_p", "A_t"]))
+    labels = [name for name, each in task.variables.items() if each.moved is not None]
+    if task.suspension is not None:
+        labels.append(DENSITY)
+    if not (wanted and labels):
+        return {}
+    middle: dict[str, Any] = {task.load: float(np.sort(task.loads)[len(task.loads) // 2])}
+    try:
+        found = sensitivity(made, of=wanted, to=labels, **middle)
+    except ThirdBodyError:
+        return {}
+    slopes = {
+        column: {name: found.derivative[column][name] * found.inputs[name] for name in labels}
+        for column in wanted
+    }
+    if "plastic_share" in task.columns:
+        A_p, A_t = found.value["A_p"], found.value["A_t"]
+        slopes["plastic_share"] = {
+            name: (slopes["A_p"][name] - A_p / A_t * slopes["A_t"][name]) / A_t for name in labels
         }
-        columns |= {
-            name: ("point", [row["materials"][name].name for row in rows])
-            for name in self.materials
-        }
-        columns |= {
-            label: ("point", signs[label] * costs[:, i], {"long_name": self.objectives[i].aim})
-            for i, label in enumerate(labels)
-        }
-        columns |= {
-            "feasible": ("point", ok),
-            "front": ("point", on_front),
-            "reason": ("point", [row["reason"] for row in rows]),
-        }
-        at_bound = tuple(
-            name
-            for name, (_, low, high) in self.spans.items()
-            if min(abs(numbers[name] - low), abs(numbers[name] - high)) < 1e-3 * (high - low)
-        )
-        notes = [f"the best {name} is an end of its range" for name in at_bound]
-        if self.scatter is None and self.objectives[0].over_scatter != "mean":
-            notes.append("nothing scatters: over_scatter has no meaning")
-        return Best(
-            values={**numbers, **materials},
-            contact=made,
-            objectives={label: signs[label] * cost for label, cost in best["costs"].items()},
-            feasible=not best["reason"],
-            reason=best["reason"],
-            states=self._states(numbers, materials),
-            points=xarray.Dataset(columns),
-            active=best["active"],
-            tolerance=self._tolerance(best),
-            at_bound=at_bound,
-            slopes=self._slopes(made),
-            hypervolume=volume,
-            warnings=tuple(notes),
-        )
-
-    def _best(self) -> dict[str, Any]:
-        """The point that ranks first; of several that are as good, one in their middle."""
-        ranks = np.array([_rank(row) for row in self.tried])
-        alike = np.flatnonzero(ranks <= ranks.min() + 1e-12 * abs(ranks.min()))
-        materials = self.tried[alike[0]]["materials"]
-        ties = [i for i in alike if self.tried[i]["materials"] == materials]
-        u = np.array([self._where(self.tried[i]["numbers"]) for i in ties])
-        middle = np.median(u, axis=0)
-        return self.tried[ties[int(np.argmin(np.sum((u - middle) ** 2, axis=1)))]]
-
-    def _states(self, numbers: dict[str, float], materials: dict[str, Material]) -> xarray.Dataset:
-        """Metrics against the load, nominal."""
-        import xarray
-
-        nominal, self.scatter = self.scatter, None
-        try:
-            found = self.metrics([numbers], materials)
-        finally:
-            self.scatter = nominal
-        columns: dict[str, Any] = {}
-        for name, values in found.items():
-            told = METRICS.get(name) or about(name)
-            attrs = {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
-            columns[name] = (self.load, values[0, 0], attrs)
-        return xarray.Dataset(columns, coords={self.load: self.loads})
-
-    def _tolerance(self, best: dict[str, Any]) -> dict[str, tuple[float, float]]:
-        """Where the first objective loses less than `LOSS`, variable by variable."""
-        label = self.objectives[0].label
-        value = best["costs"][label]
-        out = {}
-        for name, (_, low, high) in self.spans.items():
-            span = Span(low, high, "log" if low > 0 else "linear")
-            grid = np.unique(np.append(span.at(np.linspace(0, 1, GRID + 1)), best["numbers"][name]))
-            line = [{**best["numbers"], name: float(x)} for x in grid]
-            rows = self._batch(line, best["materials"])
-            lost = np.array([row["costs"][label] for row in rows]) - value
-            good = (lost <= LOSS * abs(value)) & np.array([not row["reason"] for row in rows])
-            place = int(np.searchsorted(grid, best["numbers"][name]))
-            bad = np.flatnonzero(~good)
-            first = bad[bad < place].max(initial=-1) + 1
-            last = bad[bad > place].min(initial=len(grid)) - 1
-            out[name] = (float(grid[first]), float(grid[max(last, first)]))
-        return out
-
-    def _slopes(self, made: Contact) -> dict[str, dict[str, float]]:
-        """d m/d ln y at the load in the middle, by the exact sensitivities."""
-        known = set(columns_of(self.contact))
-        asked = [name for name in self.columns if name in known and name not in NOT_SMOOTH]
-        if not (asked and self.spans):
-            return {}
-        middle = {self.load: float(np.sort(self.loads)[len(self.loads) // 2])}
-        found = sensitivity(made, of=asked, to=list(self.spans), **middle)
-        return {
-            column: {
-                name: found.derivative[column][name] * found.inputs[name] for name in self.spans
-            }
-            for column in asked
-        }
+    if task.suspension is not None:
+        per_density = {column: own.pop(DENSITY) for column, own in slopes.items()}
+        for name in task.variables:
+            crowding = _crowding(task, best, name)
+            for column, own in slopes.items():
+                own[name] = own.get(name, 0.0) + crowding * per_density[column]
+    return {column: slopes[column] for column in task.columns if column in slopes}
 
 
-NOT_SMOOTH = {"mode", "status", "residual", "iterations"}
+def _crowding(task: Task, best: Point, name: str) -> float:
+    """d ln η_a/d ln y of the particles that a fluid brings."""
+    step = 1e-5
+    high, low = (
+        task.made({**best.numbers, name: best.numbers[name] * math.exp(t)}, best.materials)
+        for t in (step, -step)
+    )
+    ratio = high.populations[0].areal_density / low.populations[0].areal_density
+    return math.log(ratio) / (2 * step)
 
 
-def _rank(row: dict[str, Any]) -> float:
-    """What the search makes small: the first cost, and behind every feasible point the others."""
-    if row["reason"]:
-        return 1e30 * (1 + min(row["excess"], 1e6))
-    return next(iter(row["costs"].values()))
+# -------------------------------------------------------------------------- what is asked, checked
+def _load_cases(
+    contact: Contact, F_star: Any, pressure: Any, weights: ArrayLike | None
+) -> tuple[str, Array, Array]:
+    """Which load, its values, and their weights."""
+    cases = {
+        name: np.geomspace(v.low, v.high, CASES) if isinstance(v, Span) else v
+        for name, v in (("F_star", F_star), ("pressure", pressure))
+    }
+    load, _, _ = given_load(contact, cases["pressure"], cases["F_star"], None)
+    loads = np.atleast_1d(np.asarray(cases[load], float))
+    share = np.ones(len(loads)) if weights is None else np.asarray(weights, float)
+    if share.shape != loads.shape or not (np.all(share >= 0) and share.sum() > 0):
+        raise InvalidValue(f"weights must be {len(loads)} numbers >= 0, one a load")
+    return load, loads, share / share.sum()
 
 
-def _task(
+def asked(
     contact: Contact,
+    *,
     over: Mapping[str, Any],
     objectives: list[Objective],
     limits: list[Limit],
@@ -686,34 +604,25 @@ def _task(
     scatter: Mapping[str, Any] | None,
     samples: int,
     seed: int,
-) -> _Task:
-    """What is asked, every mistake in it told."""
+    suspension: Suspension | None,
+) -> Task:
+    """What `design` is to do, every mistake in it told."""
     problems: list[str] = []
-    given = {"F_star": F_star, "pressure": pressure}
-    cases = {
-        name: np.geomspace(v.low, v.high, CASES) if isinstance(v, Span) else v
-        for name, v in given.items()
-    }
-    load, loads = "F_star", np.ones(1)
+    load, loads, share = "F_star", np.ones(1), np.ones(1)
     try:
-        load, _, _ = given_load(contact, cases["pressure"], cases["F_star"], None)
-        loads = np.atleast_1d(np.asarray(cases[load], float))
+        load, loads, share = _load_cases(contact, F_star, pressure, weights)
     except InvalidValue as error:
         problems += error.problems
-    share = np.ones(len(loads)) if weights is None else np.asarray(weights, float)
-    if share.shape != loads.shape or not (np.all(share >= 0) and share.sum() > 0):
-        problems.append(f"weights must be {len(loads)} numbers >= 0, one a load")
-        share = np.ones(len(loads))
-    spans: dict[str, tuple[Input, float, float]] = {}
+    variables: dict[str, Variable] = {}
     materials: dict[str, list[Material]] = {}
     for name, allowed in over.items():
         try:
             if _is_materials(allowed):
                 if not isinstance(contact.part(name), Material):
-                    problems.append(f"over[{name!r}] lists materials, but {name} is not one")
+                    raise InvalidValue(f"over[{name!r}] lists materials, but {name} is not one")
                 materials[name] = list(allowed)
             else:
-                spans[name] = _span(contact, name, allowed)
+                variables[name] = _variable(contact, name, allowed)
         except InvalidValue as error:
             problems += [text.replace("to = ", "over: ") for text in error.problems]
     if not over:
@@ -722,159 +631,98 @@ def _task(
         )
     if not objectives:
         problems.append("objective is empty; say what should be small or large")
-    asked: list[Objective | Limit] = [*objectives, *limits]
-    known = {*columns_of(contact), *METRICS} - {"mode", "status"}
+    known = {*columns_of(contact), "plastic_share"} - NOT_SMOOTH
+    both: list[Objective | Limit] = [*objectives, *limits]
     problems += [
         f"{type(each).__name__} of {each.of!r}: no such number; the states of this contact have "
-        f"{', '.join(sorted(known - set(NOT_SMOOTH)))}"
-        for each in asked
+        f"{', '.join(sorted(known))}"
+        for each in both
         if each.of not in known
     ]
     if len({each.label for each in objectives}) < len(objectives):
         problems.append("two objectives are the same")
-    u = None
+    moving = {name for label in (*over, *(scatter or {})) for name in label.split("+")}
+    problems += _suspension_problems(contact, suspension, moving, variables, materials)
+    drawn = None
     if scatter and not problems:
         try:
-            moved = drawn(contact, scatter, load, loads)
-            u = moved, latin(samples, len(moved.known), seed, 0, samples)
+            moved = drawn_inputs(contact, scatter, load, loads)
+            drawn = moved, latin(samples, len(moved.known), seed, 0, samples)
         except InvalidValue as error:
             problems += [text.replace("inputs[", "scatter[") for text in error.problems]
     if problems:
         raise InvalidValue(*problems)
-    return _Task(
-        contact, spans, materials, objectives, limits, load, loads, share / share.sum(), u, seed
+    return Task(
+        contact=contact,
+        variables=variables,
+        materials=materials,
+        objectives=objectives,
+        limits=limits,
+        load=load,
+        loads=loads,
+        weights=share,
+        scatter=drawn,
+        suspension=suspension,
+        seed=seed,
     )
+
+
+def _suspension_problems(
+    contact: Contact,
+    suspension: Suspension | None,
+    moving: set[str],
+    variables: Mapping[str, Variable],
+    materials: Mapping[str, list[Material]],
+) -> list[str]:
+    """What does not fit the fluid that brings the particles."""
+    if suspension is None:
+        if AMOUNT in moving:
+            return [f"over[{AMOUNT!r}] needs suspension=Suspension(gap=...), which says of what"]
+        return []
+    if len(contact.populations) != 1:
+        return ["suspension needs exactly one population of particles"]
+    out = []
+    if DENSITY in moving:
+        out.append(f"{DENSITY} follows from the suspension: vary {AMOUNT} instead")
+    if AMOUNT not in variables and suspension.concentration is None:
+        out.append(f"Suspension.concentration is missing, and over has no {AMOUNT!r}")
+    if suspension.by not in ("mass", "mass per volume"):
+        return out
+    listed = materials.get("particles.material", [])
+    if listed and suspension.particle_density is not None:
+        out.append(
+            "Suspension.particle_density cannot hold for several materials; give each its own, "
+            "material.replace(density=...)"
+        )
+    every = listed or [contact.populations[0].material]
+    out += [
+        f"a concentration by mass needs the density of {each.name or 'the particles'} [kg/m^3]; "
+        "give it with the material, or for one material as Suspension.particle_density"
+        for each in every
+        if each.density is None and suspension.particle_density is None
+    ]
+    return out
 
 
 def _is_materials(allowed: Any) -> bool:
     return isinstance(allowed, (list, tuple)) and any(isinstance(v, Material) for v in allowed)
 
 
-def _span(contact: Contact, name: str, allowed: Any) -> tuple[Input, float, float]:
+def _variable(contact: Contact, name: str, allowed: Any) -> Variable:
     try:
         low, high = (float(end) for end in allowed)
     except (TypeError, ValueError):
         raise InvalidValue(f"over[{name!r}] = {allowed!r} must be (low, high)") from None
     if not low < high:
         raise InvalidValue(f"over[{name!r}]: low = {low:g} must be below high = {high:g}")
-    moved = moved_input(contact, name)
+    if name == AMOUNT:
+        if low <= 0:
+            raise InvalidValue(f"over[{name!r}]: low = {low:g} must be > 0")
+        return Variable(name, low, high, None)
+    found = Variable(name, low, high, moved_input(contact, name))
     for end in (low, high):
-        contact.replace(
-            **{k: float(v) for k, v in moved.at((end - moved.values[0]) / moved.scales[0]).items()}
-        )
-    return moved, low, high
-
-
-# -------------------------------------------------------------------------- fronts
-def front(costs: Array) -> NDArray[np.bool_]:
-    """Which points no other beats: nowhere worse, somewhere better (N,) for costs (N, K).
-
-    Examples
-    --------
-    >>> front(np.array([[1.0, 3.0], [2.0, 2.0], [3.0, 3.0]])).tolist()
-    [True, True, False]
-    """
-    out = np.ones(len(costs), bool)
-    for i, own in enumerate(costs):
-        no_worse = np.all(costs <= own, axis=1)
-        better = np.any(costs < own, axis=1)
-        out[i] = not np.any(no_worse & better)
-    return out
-
-
-def hypervolume(costs: Array, reference: Array) -> float:
-    """Volume of the costs that some point beats, up to a reference: larger is better.
-
-    By slices along the last objective, exact.
-
-    Examples
-    --------
-    >>> hypervolume(np.array([[1.0, 2.0], [2.0, 1.0]]), np.array([3.0, 3.0]))
-    3.0
-    """
-    inside = costs[np.all(costs < reference, axis=1)]
-    if not len(inside):
-        return 0.0
-    if costs.shape[1] == 1:
-        return float(reference[0] - inside.min())
-    inside = inside[np.argsort(inside[:, -1])]
-    tops = np.append(inside[1:, -1], reference[-1])
-    return sum(
-        float(top - own) * hypervolume(inside[: i + 1, :-1], reference[:-1])
-        for i, (own, top) in enumerate(zip(inside[:, -1], tops, strict=True))
-        if top > own
-    )
-
-
-# -------------------------------------------------------------------------- turning point
-def equal_share_size(
-    contact: Contact,
-    *,
-    F_star: float | None = None,
-    pressure: float | None = None,
-    low: float = 0.05,
-    high: float = 20.0,
-    share: float = 0.5,
-) -> float:
-    r"""Mean particle size over σ at which particles carry a given share of the load.
-
-    .. math:: s(x_a; F) = \tfrac12
-
-    The size of equal shares at one load: definition B of the turning point, seen from the size.
-    It moves with load, density and tip radius; no single x_a/σ stands for it.
-
-    Parameters
-    ----------
-    contact : Contact
-        With one population; its size distribution is scaled as a whole.
-    F_star, pressure : float
-        The load, as in `solve`.
-    low, high : float, optional
-        Range of x_a/σ searched.
-    share : float, optional
-        Load share of the particles.
-
-    Returns
-    -------
-    float
-        x_a/σ of the smallest such size; NaN where there is none in the range.
-
-    Examples
-    --------
-    >>> import thirdbody as tb
-    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
-    >>> contact = tb.Contact(
-    ...     surfaces=tb.MaterialPair(steel, steel),
-    ...     roughness=tb.Roughness(sigma=100e-9, R=3.5e-6),
-    ...     particles=tb.Particles(material=silica, areal_density=1e11,
-    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=30e-9)))
-    >>> round(equal_share_size(contact, pressure=5e6), 3)
-    2.346
-    """
-    from scipy.optimize import brentq
-
-    from .equilibrium import solve
-
-    if len(contact.populations) != 1:
-        raise InvalidValue("equal_share_size needs exactly one population of particles")
-    (dust,) = contact.populations
-    unit = contact.roughness.sigma / dust.diameter.mean_diameter
-    bare = contact.replace(outputs=())
-
-    def excess(log_ratio: float) -> float:
-        sizes = dust.diameter.scaled(math.exp(log_ratio) * unit)
-        try:
-            made = bare.replace(particles=dust.replace(diameter=sizes))
-        except InvalidValue:  # jammed: particles that cover the area carry everything
-            return 1 - share
-        state = solve(made, F_star=F_star, pressure=pressure)
-        return float(state.particle_load_share) - share
-
-    grid = np.linspace(math.log(low), math.log(high), 49)
-    before = excess(float(grid[0]))
-    for start, end in itertools.pairwise(grid):
-        after = excess(float(end))
-        if before < 0 <= after:
-            return math.exp(brentq(excess, start, end, xtol=1e-12))
-        before = after
-    return math.nan
+        # of itself each end must be allowed; that particles jam depends on the others
+        changes = {k: float(v) for k, v in found.changes(end).items()}
+        sparse = {DENSITY: 0.0} if name.startswith("particles.diameter.") else {}
+        contact.replace(**(sparse | changes))
+    return found

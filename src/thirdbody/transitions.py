@@ -128,6 +128,7 @@ def transitions(
         two_body = TurningPoint(none, none, none)
         return Transitions(Critical(None, "never p-s"), Critical(0.0, "always s-s"), two_body)
 
+    contact = contact.replace(outputs=())
     scan = LoadScan(interface(contact))
     carried = np.exp([scan.log_F[0], scan.log_F.max()]) / contact.E_ss
     low, high = max(low, 1.0001 * carried[0]), min(high, 0.9999 * carried[1])

@@ -392,6 +392,7 @@ def critical_loads(
     >>> bool(np.all(np.diff(loads) < 0)), str(status[0])
     (True, 'found')
     """
+    contact, vary = _bare(contact, vary)
     if contact.two_body:
         raise InvalidValue("a contact without particles has no critical loads")
     if not interface(contact).monotone:
@@ -936,8 +937,6 @@ def propagate(
         nominal_critical = {n: v[0] for n, v in critical_loads(contact, {}, 1).items()}
 
     of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
-    bare = contact.replace(outputs=())
-    plain = {name: v for name, v in vary.items() if carries(name)}
     some_outputs = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)]
 
     bands: dict[str, list[Array]] = {name: [] for name in names}
@@ -948,11 +947,11 @@ def propagate(
     solved: list[float] = []
     fixed = {name for name in names if name in CRITICAL}
     for number, value in enumerate(loads):
-        state = _columns(bare, load, value, plain, len(u))
-        middle = _columns(contact if of_outputs else bare, load, value, {}, 1)
+        state = _columns(contact, load, value, vary, len(u))
+        middle = _columns(contact, load, value, {}, 1, outputs=bool(of_outputs))
         if of_outputs:
             some = {n: v[some_outputs.ravel()] for n, v in vary.items()}
-            told = _columns(contact, load, value, some, some_outputs.size)
+            told = _columns(contact, load, value, some, some_outputs.size, outputs=True)
             state |= {name: told[name] for name in of_outputs}
         for name in names:
             if name in fixed and number:
@@ -1036,11 +1035,21 @@ def _points(each: int, width: int, seed: int, replicates: int) -> Array:
     return np.concatenate([sobol(each, width, one, 0, each) for one in seeds])
 
 
-def _columns(contact: Contact, load: str, value: float, vary: Arrays, count: int) -> Arrays:
-    """States at one load; the load itself may be among what varies."""
-    vary = dict(vary)
+def _columns(
+    contact: Contact, load: str, value: float, vary: Arrays, count: int, *, outputs: bool = False
+) -> Arrays:
+    """States at one load, bare unless outputs are asked; the load may be among what varies."""
+    if outputs:
+        vary = dict(vary)
+    else:
+        contact, vary = _bare(contact, vary)
     loads = vary.pop(load, np.full(count, value))
     return solve_states(contact, **{load: loads}, vary=vary or None)
+
+
+def _bare(contact: Contact, vary: Mapping[str, Any]) -> tuple[Contact, dict[str, Any]]:
+    """The contact without outputs, and of what varies that which decides how it carries load."""
+    return contact.replace(outputs=()), {name: v for name, v in vary.items() if carries(name)}
 
 
 def _evaluated(
@@ -1051,7 +1060,8 @@ def _evaluated(
     if any(name in CRITICAL or name in MARGINS for name in names):
         rest = {n: v for n, v in vary.items() if n != load}
         critical = {name: v[0] for name, v in critical_loads(contact, rest, count).items()}
-    state = _columns(contact, load, value, vary, count)
+    asked = any(name in each.columns for each in contact.outputs for name in names)
+    state = _columns(contact, load, value, vary, count, outputs=asked)
     return {name: _output(name, state, critical, np.arange(count)) for name in names}
 
 

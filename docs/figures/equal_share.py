@@ -1,0 +1,57 @@
+"""Draw equal_share.png of the page on design and print its table."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+import thirdbody as tb
+
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+LOADS = {1e6: "1 MPa", 5e6: "5 MPa", 5e7: "50 MPa"}
+NUMBERS = np.geomspace(1e-5, 1.0, 26)  # η_a σ²
+SURFACES = {(100e-9, 3.5e-6): "-", (1e-6, 3.5e-6): "--", (100e-9, 50e-6): ":"}
+
+
+def ratio(number, pressure, sigma=100e-9, R=3.5e-6):
+    """x_a/σ of equal shares with so many particles on an area σ²."""
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(STEEL, STEEL),
+        roughness=tb.Roughness(sigma=sigma, R=R),
+        particles=tb.Particles(
+            material=SILICA,
+            areal_density=number / sigma**2,
+            diameter=tb.TruncatedGaussian(mean=0.3 * sigma, std=0.03 * sigma),
+        ),
+    )
+    return tb.equal_share_size(contact, pressure=pressure)
+
+
+if __name__ == "__main__":
+    figure = Figure(figsize=(6.0, 4.0), layout="constrained")
+    ax = figure.add_subplot()
+    for i, (pressure, label) in enumerate(LOADS.items()):
+        for (sigma, R), style in SURFACES.items():
+            curve = [ratio(n, pressure, sigma, R) for n in NUMBERS]
+            name = label if style == "-" else None
+            ax.loglog(NUMBERS, curve, style, color=f"C{i}", lw=1.2, label=name)
+    for low, high, said in ((0.5, 0.7, "0.5 to 0.7 (2022)"), (0.8, 1.3, "0.8 to 1.3 (2024)")):
+        ax.axhspan(low, high, color="0.88", zorder=0)
+        ax.text(1.3e-5, np.sqrt(low * high), said, va="center", fontsize="small")
+    ax.fill_between(NUMBERS, np.sqrt(4 * 0.3 / np.pi / NUMBERS), 30, color="0.75", alpha=0.5)
+    ax.text(0.07, 9, "particles cover\nmore than 0.3", ha="center", fontsize="small")
+    ax.set(
+        xlabel="particles on an area σ²: η_a σ²",
+        ylabel="x_a/σ at which shares are equal",
+        xlim=(NUMBERS[0], NUMBERS[-1]),
+        ylim=(0.4, 20),
+        yticks=[0.5, 1, 2, 5, 10, 20],
+    )
+    ax.yaxis.set_major_formatter("{x:g}")
+    ax.yaxis.set_minor_formatter("")
+    ax.legend(frameon=False, loc="upper center")
+    figure.savefig(Path(__file__).with_suffix(".png"), dpi=150)
+    for number in (1e-4, 1e-3, 1e-2, 1e-1, 0.5, 1.0):
+        row = [ratio(number, p) for p in LOADS]
+        covered = np.pi / 4 * number * row[1] ** 2
+        print(f"| {number:g} | " + " | ".join(f"{x:.2f}" for x in row) + f" | {covered:.2g} |")
