@@ -29,10 +29,14 @@ NOTEBOOKS = sorted((DOCS / "tutorials").glob("*.ipynb"))
 FENCE = re.compile(r"^```(\{?[\w-]*\}?).*?\n(.*?)^```$", re.S | re.M)
 # made by the build, so that no file of theirs is in the checkout
 MADE = ("gallery/", "api/")
-# public names whose part of the book, "Outputs", is not written yet
-COMING = {"films", "mixed_film", "outputs", "stribeck"}
 # run by tests of their own, with the files or the time that they need
-ELSEWHERE = {"add-a-law.md", "choose-a-seat.md", "theory.md", "reproduction.md"}
+ELSEWHERE = {
+    "add-a-law.md",
+    "add-an-output.md",
+    "choose-a-seat.md",
+    "theory.md",
+    "reproduction.md",
+}
 
 
 def said(code, names):
@@ -58,8 +62,10 @@ def matches(shown, printed):
 def test_code_of_the_page_runs(page, tmp_path, monkeypatch):
     """Python blocks run in order in one namespace; a plain block after one is its output."""
     if page.name in ELSEWHERE:
-        pytest.skip("has a test of its own in tests/test_packaging.py or shows files to write")
+        pytest.skip("has a test of its own or shows files to write")
     monkeypatch.chdir(tmp_path)
+    # what pages call a study of one's own
+    shutil.copy(ROOT / "examples" / "dusty_ball_screw.toml", tmp_path / "study.toml")
     names = {"tb": tb}
     printed = None
     for language, code in FENCE.findall(page.read_text("utf-8")):
@@ -128,8 +134,7 @@ def test_the_reference_lists_every_public_name():
             assert hasattr(importlib.import_module(module), name), f"{module}.{name}"
             listed.add((module, name))
     modules = {name for name in tb.__all__ if type(getattr(tb, name)).__name__ == "module"}
-    modules -= COMING
-    for name in set(tb.__all__) - modules - COMING:
+    for name in set(tb.__all__) - modules:
         assert ("thirdbody", name) in listed, name
     for module in modules:
         assert any(where == f"thirdbody.{module}" for where, _ in listed), module
@@ -137,6 +142,9 @@ def test_the_reference_lists_every_public_name():
         assert ("thirdbody.asperity", law.__name__) in listed
     for law in tb.particle.REGISTRY.values():
         assert ("thirdbody.particle", law.__name__) in listed
+    for output in tb.outputs.REGISTRY.values():
+        if output.__module__.startswith("thirdbody."):
+            assert ("thirdbody.outputs", output.__name__) in listed
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: file.stem)
@@ -338,6 +346,19 @@ def test_numbers_of_the_validation_page(measure):
 def test_agreement_with_explicit_particles(diameter, stated):
     assert "| 2, 6, 10 % |" in (DOCS / "validation.md").read_text("utf-8")
     assert explicit(diameter) <= stated / 100
+
+
+def test_validation_of_outputs_states_what_the_tests_ask():
+    """Each row of "What the contact does" names a test, and the tolerance stands in it."""
+    page = (DOCS / "validation.md").read_text("utf-8")
+    part = page.split("## What the contact does")[1].split("\n## ")[0]
+    rows = re.findall(r"^\| .* \| ([\d.e-]+) \| `(test_\w+\.py)` \| `(\w+)` \|$", part, re.M)
+    assert len(rows) == len(re.findall(r"^\| (?!quantity)", part, re.M)) > 20
+    for asked, file, name in rows:
+        source = (ROOT / "tests" / "outputs" / file).read_text("utf-8")
+        (body,) = re.findall(rf"^def {name}\(.*?(?=^def |^@|^# ---|\Z)", source, re.S | re.M)
+        numbers = re.findall(r"(?<![\w.])\d+(?:\.\d+)?(?:e-?\d+)?", body)
+        assert float(asked) in [float(number) for number in numbers], f"{name}: {asked}"
 
 
 # ---------------------------------------------------------------- the built book

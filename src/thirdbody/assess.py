@@ -15,7 +15,7 @@ from .citations import cite
 from .contact import Contact
 from .equilibrium import given_load, solve
 from .errors import InvalidValue, NoEquilibrium, RangeWarning
-from .sensitivities import _declared, sensitivity
+from .sensitivities import declared, sensitivity
 from .sensitivities import inputs as all_inputs
 from .uncertainty import (
     CRITICAL,
@@ -23,13 +23,13 @@ from .uncertainty import (
     Drawn,
     Propagation,
     Uncertain,
-    _columns,
-    _plain,
-    _swing,
     about_result,
+    columns_at,
     drawn_inputs,
     library_ranges,
+    plain,
     propagate,
+    swing,
 )
 from .values import problem_with
 
@@ -143,7 +143,7 @@ class Assessment:
             "version": __version__,
             "contact": found.contact.to_dict(),
             "mode": self.mode,
-            **_plain(
+            **plain(
                 {
                     "propagation": found.to_dict(),
                     "decisive": self.decisive,
@@ -165,7 +165,7 @@ class Assessment:
         found = self.propagation
         likely = max(found.mode_probability, key=lambda mode: found.mode_probability[mode])
         parts = [
-            f"{mode} {_percent(share, found.mode_error[mode])}"
+            f"{mode} {percent(share, found.mode_error[mode])}"
             for mode, share in found.mode_probability.items()
             if share > 0
         ]
@@ -189,7 +189,7 @@ class Assessment:
     def _load(self) -> str:
         found = self.propagation
         pressure = found.nominal["pressure"]
-        return f"{_value(pressure, 'Pa')} (F* = {found.nominal['F_star']:.4g})"
+        return f"{value_of(pressure, 'Pa')} (F* = {found.nominal['F_star']:.4g})"
 
     def _band(self, name: str) -> tuple[float, ...]:
         where = [self.propagation.probabilities.index(q) for q in BAND]
@@ -209,10 +209,10 @@ class Assessment:
                 (
                     name,
                     _load(nominal),
-                    _value(nominal * E, "Pa") if 0 < nominal < math.inf else "-",
+                    value_of(nominal * E, "Pa") if 0 < nominal < math.inf else "-",
                     _load(low),
                     _load(high),
-                    _percent(exists, 0.0),
+                    percent(exists, 0.0),
                     ABOVE[name],
                 )
             )
@@ -248,7 +248,7 @@ class Assessment:
             rows.append((about_result(name)["meaning"], *(_amount(x, name) for x in each), error))
         head = ("result", "nominal", "5 %", "50 %", "95 %", "error of the bands")
         lost = 1 - found.solved
-        told = (f"{_percent(lost, 0.0)} of the samples have no equilibrium.",) if lost else ()
+        told = (f"{percent(lost, 0.0)} of the samples have no equilibrium.",) if lost else ()
         return Section("State", head, tuple(rows), told)
 
     def _inputs(self) -> Section:
@@ -262,23 +262,23 @@ class Assessment:
             rows.append(
                 (
                     label,
-                    _value(value, unit),
-                    *(_value(known.at(end), unit) for end in (0.05, 0.95)),
+                    value_of(value, unit),
+                    *(value_of(known.at(end), unit) for end in (0.05, 0.95)),
                     *(_amount(end, self.decisive) for end in (low, high)),
-                    "< 0.1 %" if part < 1e-3 else _percent(part, 0.0),
+                    "< 0.1 %" if part < 1e-3 else percent(part, 0.0),
                     "-" if math.isnan(slope) else "0" if abs(slope) < 1e-4 else f"{slope:.3g}",
                 )
             )
         strongest = list(self.matter)[:3]
         sentences = [
-            f"Of the inputs, {_listed(strongest)} matter{'s' if len(strongest) == 1 else ''} most "
+            f"Of the inputs, {listed(strongest)} matter{'s' if len(strongest) == 1 else ''} most "
             f"to {self._decisive()}."
         ]
         first = self.matter[strongest[0]] if strongest else math.nan
         if math.isfinite(first):
             sentences.append(
                 f"A better value of {strongest[0]} pays most: it alone makes about "
-                f"{_percent(first, 0.0)} of the spread of {self.decisive}"
+                f"{percent(first, 0.0)} of the spread of {self.decisive}"
                 + (" (of its logarithm)." if self.decisive in CRITICAL else ".")
             )
         head = (
@@ -302,7 +302,7 @@ class Assessment:
             if 0 < critical < math.inf and self.mode in modes:
                 word = "fall" if critical < F else "rise"
                 other = modes[0] if critical < F else modes[1]
-                load = _value(critical * found.contact.E_ss, "Pa")
+                load = value_of(critical * found.contact.E_ss, "Pa")
                 out.append(
                     f"The load would have to {word} to {load} ({critical / F:.3g} times "
                     f"the operating load) for {other}."
@@ -312,16 +312,16 @@ class Assessment:
             word = "falling" if change.value < value else "rising"
             where = "outside its range"
             if change.beyond >= RARE:
-                where = f"it is there or beyond in {_percent(change.beyond, 0.0)} of cases"
+                where = f"it is there or beyond in {percent(change.beyond, 0.0)} of cases"
             out.append(
-                f"{change.input} {word} from {_value(value, unit)} to "
-                f"{_value(change.value, unit)} makes it {change.mode}: {where}."
+                f"{change.input} {word} from {value_of(value, unit)} to "
+                f"{value_of(change.value, unit)} makes it {change.mode}: {where}."
             )
         changed = {change.input for change in self.changes}
         still = [label for label in found.inputs if label not in changed and label != found.load]
         if still:
             out.append(
-                f"{_listed(still)}: no change of mode within a factor of {FAR:g}, the other "
+                f"{listed(still)}: no change of mode within a factor of {FAR:g}, the other "
                 "inputs as they are."
             )
         return tuple(out)
@@ -432,7 +432,7 @@ def _law_of(found: Propagation) -> str:
 
 
 # -------------------------------------------------------------------------- numbers in words
-def _value(value: float, unit: str) -> str:
+def value_of(value: float, unit: str) -> str:
     """A number with a readable unit: 3e-7 m is "300 nm"."""
     if not math.isfinite(value):
         return "-"
@@ -451,7 +451,7 @@ def _amount(value: float, name: str) -> str:
     if name in CRITICAL:
         return _load(value)
     unit = about_result(name)["unit"]
-    return _percent(value, 0.0) if unit == "1" and name in OUTPUTS else _value(value, unit)
+    return percent(value, 0.0) if unit == "1" and name in OUTPUTS else value_of(value, unit)
 
 
 def _load(value: float) -> str:
@@ -462,7 +462,7 @@ def _load(value: float) -> str:
     return f"{value:.3g}"
 
 
-def _percent(value: float, error: float) -> str:
+def percent(value: float, error: float) -> str:
     if not math.isfinite(value):
         return "-"
     text = f"{100 * value:.3g} %" if value < 0.9995 or value == 1 else f"{100 * value:.5g} %"
@@ -477,13 +477,13 @@ def _error(error: float, name: str) -> str:
     return f"{100 * error:.1g} %" if OUTPUTS[name]["unit"] == "1" else f"{error:.1g} m"
 
 
-def _listed(names: Sequence[str]) -> str:
+def listed(names: Sequence[str]) -> str:
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def _unit(contact: Contact, label: str) -> str:
     units = {"pressure": "Pa", "F_star": "1", "d": "m"}
-    return units.get(label) or _declared(contact, label.split("+")[0])["unit"]
+    return units.get(label) or declared(contact, label.split("+")[0])["unit"]
 
 
 def _nominal(found: Propagation, label: str) -> float:
@@ -576,7 +576,7 @@ def assess(
         if not TINY < one_input.cdf(_nominal(found, label)) < 1 - TINY:
             unit = _unit(contact, label)
             notes.append(
-                f"The value {_value(_nominal(found, label), unit)} of {label} lies outside what "
+                f"The value {value_of(_nominal(found, label), unit)} of {label} lies outside what "
                 "its range says; nominal results and bands do not belong together."
             )
     decisive = _decisive(found)
@@ -649,7 +649,7 @@ def _parts(ends: Mapping[str, tuple[float, float]], *, logarithm: bool) -> dict[
         if logarithm:
             with np.errstate(divide="ignore"):
                 low, high = (float(np.log(x)) for x in (low, high))
-        ways[label] = _swing(low, high) if not math.isnan(low + high) else 0.0
+        ways[label] = swing(low, high) if not math.isnan(low + high) else 0.0
     total = sum(way**2 for way in ways.values())
     order = sorted(ways, key=lambda label: -ways[label])
     if not 0 < total < math.inf:
@@ -710,7 +710,7 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int) -> Array:
     def fits(value: float) -> bool:
         each = moved.at((value - moved.values[0]) / moved.scales[0])
         return all(
-            problem_with(_declared(contact, name), float(v)) is None for name, v in each.items()
+            problem_with(declared(contact, name), float(v)) is None for name, v in each.items()
         )
 
     good = [fits(float(value)) for value in values]
@@ -724,7 +724,7 @@ def _departure(
     if len(values) < 2:
         return None
     load = float(found.loads)
-    states = _columns(found.contact, found.load, load, drawn.at([values]), len(values))
+    states = columns_at(found.contact, found.load, load, drawn.at([values]), len(values))
     modes = [str(word) for word in states["mode"]]
     step = next((i for i, other in enumerate(modes) if other != mode), 0)
     if step == 0 or modes[step] == "":

@@ -192,8 +192,19 @@ class Dent(NamedTuple):
 def dent_of(spots: ParticleSpots, side: int, particle: Material) -> Dent:
     """The dents of particles in surface 1 (side 0) or 2 (side 1).
 
-    Only a particle that is harder than the surface dents it; otherwise it is deformed itself.
-    No dent is deeper than the particle is thick.
+    Depth and diameter [m] and volume [m³] of each spot, as arrays (M, n). Only a particle that is
+    harder than the surface dents it; otherwise it is deformed itself. No dent is deeper than the
+    particle is thick.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
+    ...                                  material=silica, film=0.5e-6, entry=1.0)
+    >>> depth = dent_of(oil.single(2e-6), 0, silica).depth[0, 0]
+    >>> f"{depth * 1e6:.2f} µm"
+    '0.52 µm'
     """
     depth = np.minimum(spots.depths[side], spots.x)
     first = spots.yields[side] * spots.x

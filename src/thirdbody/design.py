@@ -29,7 +29,7 @@ from .errors import InvalidValue, ThirdBodyError
 from .materials import Material
 from .particles import Particles
 from .progress import reporting
-from .sensitivities import _input as moved_input
+from .sensitivities import input_of as moved_input
 from .sensitivities import sensitivity
 from .uncertainty import drawn_inputs
 from .values import Value, choice, quantity

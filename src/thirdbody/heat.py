@@ -72,7 +72,13 @@ _SPHERE_END = {
 
 # ------------------------------------------------------------------ one half-space
 def peclet(a: Number, *, v: float, D: float) -> Number:
-    """Péclet number Pe = v a/(2D) [1] of a source of radius a [m] at v [m/s], D = k/ρc [m²/s]."""
+    """Péclet number Pe = v a/(2D) [1] of a source of radius a [m] at v [m/s], D = k/ρc [m²/s].
+
+    Examples
+    --------
+    >>> round(peclet(1e-6, v=10.0, D=5e-6), 12)
+    1.0
+    """
     return v * a / (2 * D)
 
 

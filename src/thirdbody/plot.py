@@ -1014,10 +1014,10 @@ def _input_label(label: str) -> str:
 
 
 def _unit_of(data: Propagation, label: str) -> str:
-    from .sensitivities import _declared
+    from .sensitivities import declared
 
     loads = {"pressure": "Pa", "F_star": "1", "d": "m"}
-    return loads.get(label) or _declared(data.contact, label.split("+")[0].strip())["unit"]
+    return loads.get(label) or declared(data.contact, label.split("+")[0].strip())["unit"]
 
 
 # ------------------------------------------------------------------ a measured surface

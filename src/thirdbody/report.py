@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from .assess import ABOVE, Assessment, _listed, _percent, _value, assess
+from .assess import ABOVE, Assessment, assess, listed, percent, value_of
 from .contact import Contact
 from .equilibrium import Equilibrium, about, solve
 from .errors import NoEquilibrium, RangeWarning, ThirdBodyError
@@ -21,7 +21,7 @@ from .html import breaking, document, figure, section, svg_of, symbols, table, t
 from .laws.base import Law
 from .materials import NUMBERS, Material, materials
 from .outputs.base import AbstractOutput, bodies_of
-from .sensitivities import Sensitivity, _declared, sensitivity
+from .sensitivities import Sensitivity, declared, sensitivity
 from .sensitivities import inputs as numbers_of
 from .study import Study, run_study
 from .transitions import Critical, Transitions, TurningPoint
@@ -179,9 +179,9 @@ class Report:
         if self.contact.two_body:
             return "the asperities carry the whole load, there being no particles"
         mode = MODES[states["mode"][i]]
-        share = percent(states["particle_load_share"][i])
+        share = share_of(states["particle_load_share"][i])
         parts = [
-            f"{part['name']} {percent(part['load_share'][i])}"
+            f"{part['name']} {share_of(part['load_share'][i])}"
             for part in self.result["populations"]
         ]
         each = f" ({', '.join(parts)})" if parts else ""
@@ -189,7 +189,7 @@ class Report:
 
     def _gap(self, i: int) -> tuple[str, str]:
         states = self.result["states"]
-        return shown(states["h"][i], "m"), percent(states["A_t"][i])
+        return shown(states["h"][i], "m"), share_of(states["A_t"][i])
 
     def _closeness(self, i: int) -> str:
         states = self.result["states"]
@@ -198,7 +198,7 @@ class Report:
             return f"The mean planes of the surfaces are {gap} apart"
         plastic = states["A_p"][i] / states["A_t"][i]
         return (
-            f"The surfaces touch on {area} of the nominal area, {percent(plastic)} of which is "
+            f"The surfaces touch on {area} of the nominal area, {share_of(plastic)} of which is "
             f"plastic, and their mean planes are {gap} apart "
             f"({states['h'][i] / self.contact.roughness.sigma:.3g} times the roughness)"
         )
@@ -221,7 +221,7 @@ class Report:
             odds = self.assessment.propagation.mode_probability
             likely = max(odds, key=lambda mode: odds[mode])
             band = f"; with the inputs as uncertain as stated, the mode is {likely} in "
-            band += f"{percent(odds[likely])} of cases"
+            band += f"{share_of(odds[likely])} of cases"
         return (
             f"The load is a factor {ratio:.3g} {side} {name} = {number(found[name])} "
             f"({shown(found[name] * self.contact.E_ss, 'Pa')}), where {WHERE[name]}{band}."
@@ -242,7 +242,7 @@ class Report:
             if len(path) > 1
             else f"The mode is {path[0]} at all these loads"
         )
-        return f"{modes_met}; critical loads are {_listed(found)}." if found else f"{modes_met}."
+        return f"{modes_met}; critical loads are {listed(found)}." if found else f"{modes_met}."
 
     def _first_input(self) -> str:
         if self.slopes is None:
@@ -386,7 +386,7 @@ class Report:
         rows = [
             [
                 shown(states["pressure"][i], "Pa"),
-                *(percent(part[f"{of}_share"][i]) for part in parts for of in ("load", "area")),
+                *(share_of(part[f"{of}_share"][i]) for part in parts for of in ("load", "area")),
             ]
             for i in _some(total, MOST_ROWS)
         ]
@@ -438,7 +438,7 @@ class Report:
             return [
                 "<p>There are none: the study has no table [uncertainty] that says something of "
                 "this contact, and the materials library states no ranges for "
-                f"{escape(_listed(list(dict.fromkeys(names))))}. Every input counts as exactly "
+                f"{escape(listed(list(dict.fromkeys(names))))}. Every input counts as exactly "
                 "known.</p>"
             ]
         whence = (
@@ -467,12 +467,12 @@ class Report:
         for label in order[:10]:
             value = self.slopes.inputs[label]
             unit = {"F_star": "1", "pressure": "Pa", "d": "m"}.get(label)
-            unit = unit or _declared(self.contact, label.split("+")[0])["unit"]
+            unit = unit or declared(self.contact, label.split("+")[0])["unit"]
             each = (float(self.slopes.elasticity[name][label]) for name in (of, *others))
             slopes = (f"{slope:+.3f}" if math.isfinite(slope) else "-" for slope in each)
             rows.append([label, shown(float(value), unit), *slopes])
         sentence = (
-            f"At {self._load(self.at)}, {_listed(order[:MATTER])} matter most to the "
+            f"At {self._load(self.at)}, {listed(order[:MATTER])} matter most to the "
             f"{about(of)['meaning']}. The numbers tell by how many per cent a result changes when "
             "an input grows by one per cent, all others held, however well the input is known."
         )
@@ -574,7 +574,7 @@ def shown(value: float | None, unit: str) -> str:
     if value is None or not math.isfinite(value):
         return "-"
     if unit in ("m", "Pa") and (value == 0 or 1e-11 < abs(value) < 1e13):
-        return _value(value, unit)
+        return value_of(value, unit)
     return f"{value:.4g}" + (f" {unit}" if unit != "1" else "")
 
 
@@ -587,8 +587,8 @@ def number(value: float) -> str:
     return shown(value, "1")
 
 
-def percent(value: float | None) -> str:
-    return "-" if value is None else _percent(value, 0.0)
+def share_of(value: float | None) -> str:
+    return "-" if value is None else percent(value, 0.0)
 
 
 def column_value(name: str, value: Any) -> str:
@@ -596,7 +596,7 @@ def column_value(name: str, value: Any) -> str:
     if isinstance(value, str) or value is None:
         return value or "-"
     if name.endswith("_share"):
-        return percent(value)
+        return share_of(value)
     return shown(value, about(name)["unit"])
 
 
@@ -667,9 +667,9 @@ def rows_of(contact: Contact) -> list[Row]:
     rough = contact.roughness
     if rough.eta is None and rough.eta_R_sigma is None:
         name = "roughness.eta_R_sigma"
-        declared = _declared(contact, name)
+        told = declared(contact, name)
         value = number(numbers_of(contact)[name])
-        row = Row(name, declared["symbol"], value, declared["meaning"], True)
+        row = Row(name, told["symbol"], value, told["meaning"], True)
         place = next(i for i, each in enumerate(rows) if each.name == "roughness.alpha")
         rows.insert(place + 1, row)
     return rows

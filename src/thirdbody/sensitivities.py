@@ -189,7 +189,7 @@ def _default_inputs(contact: Contact) -> list[str]:
 def _moves(contact: Contact, label: str) -> bool:
     """Whether an input may change: not so the height of a seat that has none."""
     try:
-        _room(contact, _input(contact, label), STEPS[0])
+        _room(contact, input_of(contact, label), STEPS[0])
     except InvalidValue:
         return False
     return True
@@ -208,7 +208,7 @@ class Input(NamedTuple):
         return {name: value + scale * t for name, value, scale in parts}
 
 
-def _input(contact: Contact, label: str) -> Input:
+def input_of(contact: Contact, label: str) -> Input:
     """The input of a dotted name, or of several joined by "+"."""
     names = tuple(name.strip() for name in label.split("+"))
     known = inputs(contact)
@@ -228,7 +228,7 @@ def _input(contact: Contact, label: str) -> Input:
 
 def _scale(contact: Contact, name: str, value: float) -> float:
     """By how much an input changes when it changes a lot."""
-    about = _declared(contact, name)
+    about = declared(contact, name)
     if value > 0 and 0 in (about["gt"], about["ge"]):
         return value
     usual = {"1": 1.0, "m": contact.roughness.sigma}.get(about["unit"], 0.0)
@@ -237,7 +237,7 @@ def _scale(contact: Contact, name: str, value: float) -> float:
     return scale
 
 
-def _declared(contact: Contact, name: str) -> dict[str, Any]:
+def declared(contact: Contact, name: str) -> dict[str, Any]:
     """Symbol, unit and range of an input."""
     path, _, last = name.rpartition(".")
     owner = contact.part(path)
@@ -605,7 +605,7 @@ def sensitivity(
     for name in labels:
         if name in loads and name != load:
             raise InvalidValue(f"to = {name!r} needs {name} as the given load")
-    moved = [_input(contact, name) for name in dict.fromkeys(labels) if name != load]
+    moved = [input_of(contact, name) for name in dict.fromkeys(labels) if name != load]
 
     value: dict[str, Array] = {}
     entries: dict[str, dict[str, Entry]] = {}

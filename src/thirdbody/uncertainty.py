@@ -25,7 +25,7 @@ from .contact import Contact, interface
 from .designs import sobol
 from .equilibrium import COLUMNS, DEEPEST, EPS_1, EPS_2, about, given_load
 from .errors import InvalidValue
-from .sensitivities import NUMBERS, _declared, _input, inputs
+from .sensitivities import NUMBERS, declared, input_of, inputs
 from .sensitivities import Input as Moved
 from .states import FEWEST, carries, solve_states
 from .values import problem_with
@@ -290,7 +290,7 @@ def drawn_inputs(contact: Contact, inputs: Mapping[str, Any], load: str, loads: 
         try:
             each: Moved | str = label
             if label not in ("pressure", "F_star", "d"):
-                each = _input(contact, label)
+                each = input_of(contact, label)
             elif label != load:
                 problems.append(f"{where}: the given load is {load}; only that can be uncertain")
                 continue
@@ -327,7 +327,7 @@ def _beyond(contact: Contact, moved: Moved | str, known: Uncertain) -> list[str]
             why = None if moved == "d" or end > 0 else "must be > 0"
         else:
             values = moved.at((end - moved.values[0]) / moved.scales[0])
-            found = (problem_with(_declared(contact, n), float(v)) for n, v in values.items())
+            found = (problem_with(declared(contact, n), float(v)) for n, v in values.items())
             why = next(filter(None, found), None)
         if why:
             cause = "; a lognormal stays positive" if known.kind == "normal" else ""
@@ -624,7 +624,7 @@ class Propagation:
         out = {item.name: getattr(self, item.name) for item in dataclasses.fields(self)}
         del out["contact"]
         out["inputs"] = {name: known.to_dict() for name, known in self.inputs.items()}
-        return _plain(out)
+        return plain(out)
 
     def to_dataset(self) -> xarray.Dataset:
         """Bands and errors as labelled data, with units, version and citations."""
@@ -714,7 +714,7 @@ class Propagation:
             for name in names
         }
         first = out[names[0]]
-        order = sorted(first, key=lambda label: -_swing(*first[label]))
+        order = sorted(first, key=lambda label: -swing(*first[label]))
         return {name: {label: table[label] for label in order} for name, table in out.items()}
 
     def sobol_indices(
@@ -807,17 +807,17 @@ class Propagation:
         return drawn_inputs(self.contact, self.inputs, self.load, one)
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
     if isinstance(value, dict):
-        return {name: _plain(part) for name, part in value.items()}
+        return {name: plain(part) for name, part in value.items()}
     if isinstance(value, (np.ndarray, np.generic)):
-        return _plain(value.tolist())
+        return plain(value.tolist())
     if isinstance(value, (list, tuple)):
-        return [_plain(part) for part in value]
+        return [plain(part) for part in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _swing(low: float, high: float) -> float:
+def swing(low: float, high: float) -> float:
     """How far an output goes from end to end; beyond everything where one end is not finite."""
     swing = abs(high - low)
     return swing if math.isfinite(swing) else (0.0 if low == high else math.inf)
@@ -947,11 +947,11 @@ def propagate(
     solved: list[float] = []
     fixed = {name for name in names if name in CRITICAL}
     for number, value in enumerate(loads):
-        state = _columns(contact, load, value, vary, len(u))
-        middle = _columns(contact, load, value, {}, 1, outputs=bool(of_outputs))
+        state = columns_at(contact, load, value, vary, len(u))
+        middle = columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs))
         if of_outputs:
             some = {n: v[some_outputs.ravel()] for n, v in vary.items()}
-            told = _columns(contact, load, value, some, some_outputs.size, outputs=True)
+            told = columns_at(contact, load, value, some, some_outputs.size, outputs=True)
             state |= {name: told[name] for name in of_outputs}
         for name in names:
             if name in fixed and number:
@@ -1035,7 +1035,7 @@ def _points(each: int, width: int, seed: int, replicates: int) -> Array:
     return np.concatenate([sobol(each, width, one, 0, each) for one in seeds])
 
 
-def _columns(
+def columns_at(
     contact: Contact, load: str, value: float, vary: Arrays, count: int, *, outputs: bool = False
 ) -> Arrays:
     """States at one load, bare unless outputs are asked; the load may be among what varies."""
@@ -1061,7 +1061,7 @@ def _evaluated(
         rest = {n: v for n, v in vary.items() if n != load}
         critical = {name: v[0] for name, v in critical_loads(contact, rest, count).items()}
     asked = any(name in each.columns for each in contact.outputs for name in names)
-    state = _columns(contact, load, value, vary, count, outputs=asked)
+    state = columns_at(contact, load, value, vary, count, outputs=asked)
     return {name: _output(name, state, critical, np.arange(count)) for name in names}
 
 

@@ -221,6 +221,12 @@ def problems_of(outputs: Sequence[Any], contact: Contact) -> list[str]:
     return out
 
 
+def every_column() -> dict[str, Column]:
+    """Every column of every output by name."""
+    kinds: list[Any] = list(AbstractOutput.registry.values())
+    return {name: told for kind in kinds for name, told in kind.columns.items()}
+
+
 def column(name: str) -> Column:
     """Symbol, unit and meaning of an output's column.
 
@@ -229,7 +235,6 @@ def column(name: str) -> Column:
     InvalidValue
         No output has this column.
     """
-    for kind in AbstractOutput.registry.values():
-        if name in kind.columns:  # type: ignore[attr-defined]
-            return kind.columns[name]  # type: ignore[attr-defined]
-    raise InvalidValue(f"no output has a column {name!r}")
+    if (told := every_column().get(name)) is None:
+        raise InvalidValue(f"no output has a column {name!r}")
+    return told

@@ -22,7 +22,7 @@ from .inputs import inputs_of
 from .one_value import count, number, numbers, switch, word
 from .reader import Key, Reader, Table, get, plain
 from .surfaces import material
-from .uncertainty import _named
+from .uncertainty import named
 from .vocabulary import LOADS, near
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ def _chosen(reader: Reader, where: str, label: str, entry: Any) -> tuple[str, An
             raise InvalidValue(f"{where} must be by {own.by}, like particles.concentration")
         return label, tuple(each.amount for each in ends)
     inputs = inputs_of(reader.whole)
-    found = [_named(where, name, inputs, reader.whole) for name in label.split("+")]
+    found = [named(where, name, inputs, reader.whole) for name in label.split("+")]
     ends_of = {end: number(reader, f"{where}.{end}", found[0][1]) for end in ("low", "high")}
     return "+".join(name for name, _ in found), tuple(read(entry[e]) for e, read in ends_of.items())
 

@@ -10,7 +10,7 @@ import numpy as np
 from ..contact import Contact
 from ..equilibrium import COLUMNS
 from ..errors import InvalidValue
-from ..outputs import REGISTRY
+from ..outputs.base import every_column
 from ..sweep import DESIGNS, Plan, make_plan
 from ..units import say
 from .amounts import amounts, is_span
@@ -27,7 +27,7 @@ def sweep(reader: Reader, path: str, data: Any) -> Any:
     """What is varied, how, and what is kept of it."""
     designs = ("grid", "zip", *DESIGNS)
     sampled = get(data, "design") not in (None, "grid", "zip")
-    known = [*COLUMNS, *(name for kind in REGISTRY.values() for name in kind.columns)]
+    known = [*COLUMNS, *every_column()]
     keys = {
         "design": Key(plain(word(f"{path}.design", designs)), False, ""),
         "samples": Key(plain(count(f"{path}.samples", most=2**48)), sampled, "a number"),

@@ -31,7 +31,7 @@ def uncertainty(reader: Reader, path: str, data: Any) -> Any:
             where = f"{path}.inputs.{say(label)}"
             try:
                 names, about = zip(
-                    *(_named(where, name, inputs, reader.whole) for name in label.split("+")),
+                    *(named(where, name, inputs, reader.whole) for name in label.split("+")),
                     strict=True,
                 )
                 out["+".join(names)] = _uncertain(reader, where, about[0], entry)
@@ -54,7 +54,7 @@ def uncertainty(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, keys, lambda values: Uncertainty(**values))
 
 
-def _named(
+def named(
     where: str, name: str, inputs: list[Input], whole: dict[str, Any]
 ) -> tuple[str, dict[str, Any]]:
     """Dotted name of the field and what it is, for an input as the file calls it."""
