@@ -64,7 +64,10 @@ ax.contour(x * 1e9, c * 100, mu, levels=[clean], colors="w", linestyles="--")
 limit = study.design["limits"][0].most
 ax.contourf(x * 1e9, c * 100, plastic, levels=[limit, 1], colors="none", hatches=["///"])
 ax.axhline(0.7, color="r", lw=1)
-ax.annotate("at most 0.7 %", (53, 0.7), xytext=(0, 3), textcoords="offset points", color="r")
+ax.annotate(
+    "at most 0.7 %", (53, 0.7), xytext=(0, 3), textcoords="offset points", color="r",
+    bbox={"fc": "w", "ec": "none", "pad": 1},
+)  # fmt: skip
 ax.plot(size * 1e9, weight * 100, "r*", ms=13)
 ax.set(
     xscale="log",

@@ -7,6 +7,8 @@ the ground surfaces are 0.1 µm rough. Grains larger than the film are pressed i
 those that leave dents deeper than the roughness are the ones a filter or wiper must keep out.
 """
 
+import sys
+
 import numpy as np
 from matplotlib.figure import Figure
 from scipy.optimize import brentq
@@ -77,7 +79,8 @@ two.set(
     xlim=(0.08, 15),
     ylim=(10, 1e7),
 )
-figure.savefig("ball_screw_dents.png", dpi=150)
+told = sys.argv[1:] if __name__ == "__main__" else []
+figure.savefig(told[0] if told else "ball_screw_dents.png", dpi=150)
 
 # %%
 # What to do about it.

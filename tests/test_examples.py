@@ -1,0 +1,86 @@
+"""The worked examples run as a stranger runs them, and end in a sentence to act on."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from matplotlib.image import imread
+
+ROOT = Path(__file__).parent.parent
+EXAMPLES = ROOT / "examples"
+# each with the answer that its last sentence gives
+ANSWERS = {
+    "ball_screw_heat": r"keep out grains above 0\.\d+ µm",
+    "ball_screw_dents": r"keep the dust out with wipers",
+    "electrical_contact": r"press with [\d.]+ N instead of [\d.]+ N",
+    "stribeck": r"filter the oil, or run [\d.]+ times as fast",
+}
+SLOW = {"additive": r"Order silica of \d+ nm and put in all of [\d.]+% by weight"}
+EVERY = [
+    *ANSWERS.items(),
+    *(pytest.param(*item, marks=pytest.mark.slow) for item in SLOW.items()),
+]
+
+
+def run(name, folder, *arguments):
+    command = [sys.executable, "-W", "error", str(EXAMPLES / f"{name}.py"), *arguments]
+    done = subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, check=False, encoding="utf-8"
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    return done.stdout.strip()
+
+
+@pytest.mark.parametrize(("name", "answer"), EVERY)
+def test_example_as_a_stranger(name, answer, tmp_path):
+    """In a folder of one's own, where the figure is told to go; nothing else is left behind."""
+    said = run(name, tmp_path, "told.png")
+    assert [file.name for file in tmp_path.iterdir()] == ["told.png"]
+    picture = imread(tmp_path / "told.png")
+    assert min(picture.shape[:2]) > 300
+    assert picture[..., :3].std() > 0.05  # something is drawn
+    last = said.splitlines()[-1]
+    assert re.search(answer, last), last
+    assert last.endswith(".")
+
+
+def test_figure_goes_to_the_folder_when_nothing_is_told(tmp_path):
+    run("electrical_contact", tmp_path)
+    assert [file.name for file in tmp_path.iterdir()] == ["electrical_contact.png"]
+
+
+def test_readme_says_what_the_contact_does(capsys):
+    """The snippet under "What the contact does" prints the block below it."""
+    text = (ROOT / "README.md").read_text("utf-8")
+    first = re.search(r"^```python\n(.*?)^```$", text, re.S | re.M)[1]
+    part = text.split("## What the contact does\n")[1].split("\n## ")[0]
+    code, shown = re.search(r"^```python\n(.*?)^```\n\n```\n(.*?)^```$", part, re.S | re.M).groups()
+    names = {}
+    exec(first, names)
+    capsys.readouterr()
+    exec(code, names)
+    assert capsys.readouterr().out == shown
+
+
+def test_readme_lists_every_command():
+    from thirdbody.cli import app
+
+    found = {(info.name or info.callback.__name__) for info in app.registered_commands}
+    text = (ROOT / "README.md").read_text("utf-8")
+    part = text.split("## Commands\n")[1].split("\n## ")[0]
+    listed = set(re.findall(r"`(\w+)(?: [\w.]+)?`", part.split("|---|---|")[1]))
+    assert found == listed
+
+
+def test_every_example_is_here_and_in_the_book():
+    scripts = {file.stem for file in EXAMPLES.glob("*.py")}
+    assert scripts == {*ANSWERS, *SLOW}
+    pages = [*(ROOT / "docs").glob("*.md"), ROOT / "README.md"]
+    text = "\n".join(page.read_text("utf-8") for page in pages)
+    for name in scripts:
+        assert f"examples/{name}.py" in text, name
+    readme = (ROOT / "README.md").read_text("utf-8")
+    for name in scripts:
+        assert f"examples/{name}.py" in readme, f"{name} is not in README"
