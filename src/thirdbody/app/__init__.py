@@ -1,0 +1,1 @@
+"""The page in the browser: ``thirdbody app``. Needs the extra ``thirdbody[app]``."""

@@ -1,0 +1,244 @@
+"""The cross-section to scale, as SVG: rough profile, flat, and the particles between them.
+
+What is drawn is one draw from the model. The profile is a sum of waves with the moments of the
+roughness: over many draws its RMS height is σ, its curvature gives R, its bandwidth is α. The
+particles in a slab of stated depth lie on their seats; those larger than the gap above their seat
+are loaded.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import thirdbody as tb
+
+from ..plot import OKABE_ITO
+
+__all__ = ["Section", "section", "to_svg"]
+
+Array = NDArray[np.float64]
+WAVES = 96
+POINTS = 900
+DRAWN = 12
+"""Particles drawn, about; the depth of the slab follows from it."""
+COLOURS = tuple(OKABE_ITO[name] for name in ("orange", "sky", "purple", "green"))
+
+
+@dataclass(frozen=True)
+class Grain:
+    """One particle of the drawing, in metres."""
+
+    population: int
+    diameter: float
+    place: float
+    seat: float
+    gap: float
+
+    @property
+    def loaded(self) -> bool:
+        return self.diameter > self.gap
+
+
+@dataclass(frozen=True)
+class Section:
+    """What the drawing shows, in metres: heights count from the mean surface plane."""
+
+    x: Array
+    z: Array
+    h: float
+    d: float
+    grains: tuple[Grain, ...]
+    depth: float
+    """of the slab whose particles are drawn [m]; 0 without particles"""
+    names: tuple[str, ...]
+    soft: tuple[bool, ...]
+    """Populations that are softer than both surfaces: they give way."""
+
+    @property
+    def width(self) -> float:
+        return float(self.x[-1] - self.x[0])
+
+
+@lru_cache(maxsize=32)
+def profile(sigma: float, R: float, alpha: float, width: float, seed: int) -> tuple[Array, Array]:
+    """A Gaussian profile with RMS height σ, tip radius R and bandwidth α."""
+    m0, m4 = sigma**2, (3 * math.sqrt(math.pi) / (8 * R)) ** 2
+    m2 = math.sqrt(m0 * m4 / alpha)
+    from scipy.stats import gamma
+
+    # squared wave numbers spread so that <k²> = m2/m0 and <k⁴> = α <k²>²
+    shape = 1 / (alpha - 1)
+    part = (np.arange(WAVES) + 0.5) / WAVES
+    k2 = gamma.ppf(part, shape, scale=m2 / m0 / shape)
+    k2 *= (m2 / m0) / k2.mean()
+    rng = np.random.default_rng(seed)
+    phases = rng.uniform(0, 2 * math.pi, WAVES)
+    x = np.linspace(0, width, POINTS)
+    waves = np.cos(np.outer(x, np.sqrt(k2)) + phases)
+    return x, sigma * math.sqrt(2 / WAVES) * waves.sum(axis=1)
+
+
+def section(contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0) -> Section:
+    """One draw from the model at a solved state."""
+    rough = contact.roughness
+    h, d = float(np.ravel(state.h)[0]), float(np.ravel(state.d)[0])
+    dusts = contact.populations
+    largest = max((float(dust.diameter.ppf(0.999)) for dust in dusts), default=0.0)
+    tall = 3 * rough.sigma + max(4 * rough.sigma, largest)
+    width = float(f"{8.5 * tall:.2g}")
+    x, z = profile(rough.sigma, rough.R, rough.alpha, width, seed)
+    density = sum(dust.areal_density for dust in dusts)
+    depth = DRAWN / (density * width) if density else 0.0
+    rng = np.random.default_rng(seed + 1)
+    grains = []
+    for number, dust in enumerate(dusts):
+        expected = dust.areal_density * width * depth
+        count = max(round(expected), 1)
+        sizes = dust.diameter.ppf((rng.permutation(count) + rng.uniform(size=count)) / count)
+        places = width * (np.arange(count) + rng.uniform(0.15, 0.85, count)) / count
+        for diameter, place in zip(np.ravel(sizes), places, strict=True):
+            place, seat = _seat(contact, dust, float(place), x, z, rng)
+            # particles of the slab lie before or behind the cut where they would leave the picture
+            grains.append(Grain(number, float(diameter), place, seat, h - seat))
+    pair = contact.surfaces
+    hardness = min(pair.first.H, pair.second.H)
+    return Section(
+        x=x,
+        z=z,
+        h=h,
+        d=d,
+        grains=tuple(grains),
+        depth=depth,
+        names=tuple(
+            dust.name or dust.material.name or f"particles {i + 1}" for i, dust in enumerate(dusts)
+        ),
+        soft=tuple(dust.material.H < hardness for dust in dusts),
+    )
+
+
+def _seat(
+    contact: tb.Contact, dust: tb.Particles, place: float, x: Array, z: Array, rng: Any
+) -> tuple[float, float]:
+    """Place and seat height of one particle, by the seat of its law."""
+    law: Any = contact.law_of(dust)
+    rough = contact.roughness
+    kind = getattr(law, "seat", "plane")
+    if kind == "rough":
+        mean, spread = law.zeta_mean, law.zeta_std
+        if (mean, spread) != (0.0, 1.0):
+            wanted = rough.sigma * rng.normal(mean, spread)
+            near = np.abs(z - wanted) / rough.sigma + np.abs(x - place) / np.ptp(x)
+            place = float(x[int(np.argmin(near))])
+        return place, float(np.interp(place, x, z))
+    if kind == "offset":
+        return place, rough.y_s + law.h_0
+    return place, rough.y_s if kind == "plane" and hasattr(law, "seat") else 0.0
+
+
+# ---------------------------------------------------------------------- drawing
+def to_svg(drawn: Section, *, title: str = "Cross-section") -> str:
+    """The drawing; one scale for both axes. Colours of paper and ink are those of the page."""
+    top = max(drawn.h, float(drawn.z.max()), *(g.seat + g.diameter for g in drawn.grains), 0.0)
+    low, high = float(min(drawn.z.min(), 0.0)), top
+    low, high = low - 0.12 * (high - low), high + 0.12 * (high - low)
+    scale = 1000 / drawn.width
+    W, H = 1000.0, scale * (high - low)
+
+    def X(x: float) -> float:
+        return scale * x
+
+    def Y(z: float) -> float:
+        return H - scale * (z - low)
+
+    def line(x: Array, z: Array) -> str:
+        return " ".join(f"{X(a):.1f},{Y(b):.1f}" for a, b in zip(x, z, strict=True))
+
+    flat = Y(drawn.h)
+    body = f"0,{H:.1f} {line(drawn.x, np.minimum(drawn.z, drawn.h))} {W:.0f},{H:.1f}"
+    out = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-112 -4 {W + 112:.0f} {H + 52:.1f}" '
+        'role="img" class="section" font-family="sans-serif" font-size="15">',
+        f"<title>{title}</title>",
+        "<style>.ink{fill:currentColor}.edge{stroke:currentColor;fill:none}"
+        f".spot{{stroke:{OKABE_ITO['vermilion']};stroke-width:5;stroke-linecap:round}}</style>",
+        f'<polygon class="body rough" points="{body}" fill="#8a8f98" fill-opacity="0.55"/>',
+        f'<rect class="body flat" x="0" y="0" width="{W:.0f}" height="{max(flat, 0):.1f}" '
+        'fill="#8a8f98" fill-opacity="0.35"/>',
+    ]
+    out += [_grain(drawn, grain, X, Y, scale) for grain in drawn.grains]
+    out.append(
+        f'<polyline class="edge" points="{line(drawn.x, np.minimum(drawn.z, drawn.h))}" '
+        'stroke-width="1.6"/>'
+    )
+    out.append(
+        f'<line class="edge" x1="0" x2="{W:.0f}" y1="{flat:.1f}" y2="{flat:.1f}" '
+        'stroke-width="1.6"/>'
+    )
+    for start, end in _runs(drawn.z >= drawn.h):
+        a, b = X(drawn.x[start]), X(drawn.x[end])
+        out.append(
+            f'<line class="spot asperity" x1="{a:.1f}" x2="{b:.1f}" y1="{flat:.1f}" '
+            f'y2="{flat:.1f}"/>'
+        )
+    out += _measures(drawn, X, Y, H, scale)
+    return "".join(out) + "</svg>"
+
+
+def _grain(drawn: Section, grain: Grain, X: Any, Y: Any, scale: float) -> str:
+    """One particle: round while free, sunk into both surfaces or flattened under load."""
+    radius = 0.5 * grain.diameter
+    middle = grain.seat + radius
+    rx = ry = radius
+    if grain.loaded:
+        middle = grain.seat + 0.5 * grain.gap
+        if drawn.soft[grain.population]:
+            ry = max(0.5 * grain.gap, 0.1 * radius)
+            rx = min(radius * math.sqrt(radius / ry), 2.5 * radius)
+    colour = COLOURS[grain.population % len(COLOURS)]
+    kind = "loaded" if grain.loaded else "free"
+    stroke = (
+        f'stroke="{OKABE_ITO["vermilion"]}" stroke-width="3"'
+        if grain.loaded
+        else 'stroke="currentColor" stroke-width="1.2" stroke-dasharray="4 3"'
+    )
+    return (
+        f'<ellipse class="grain {kind}" cx="{X(grain.place):.1f}" cy="{Y(middle):.1f}" '
+        f'rx="{scale * rx:.1f}" ry="{scale * ry:.1f}" fill="{colour}" '
+        f'fill-opacity="{0.95 if grain.loaded else 0.45}" {stroke}/>'
+    )
+
+
+def _measures(drawn: Section, X: Any, Y: Any, H: float, scale: float) -> list[str]:
+    """The mean plane, the separation, and a bar for scale."""
+    length = _round_length(drawn.width / 6)
+    bar = f"{length * 1e9:.0f} nm" if length < 1e-6 else f"{length * 1e6:g} µm"
+    x, mean, flat = -16.0, Y(0.0), Y(drawn.h)
+    y = H + 30
+    return [
+        f'<line class="edge" x1="-16" x2="1000" y1="{mean:.1f}" y2="{mean:.1f}" '
+        'stroke-dasharray="2 6" stroke-opacity="0.7"/>',
+        f'<line class="edge" x1="{x}" x2="{x}" y1="{mean:.1f}" y2="{flat:.1f}" stroke-width="2"/>',
+        f'<path class="ink" d="M{x - 5} {flat + 9:.1f}L{x} {flat:.1f}L{x + 5} {flat + 9:.1f}z'
+        f'M{x - 5} {mean - 9:.1f}L{x} {mean:.1f}L{x + 5} {mean - 9:.1f}z"/>',
+        f'<text class="ink" x="{x - 12}" y="{0.5 * (mean + flat) + 5:.1f}" text-anchor="end">'
+        f"{drawn.h * 1e9:.4g} nm</text>",
+        f'<line class="edge" x1="0" x2="{scale * length:.1f}" y1="{y}" y2="{y}" stroke-width="4"/>',
+        f'<text class="ink" x="{10 + scale * length:.1f}" y="{y + 5}">{bar}, both axes</text>',
+    ]
+
+
+def _round_length(about: float) -> float:
+    size = 10 ** math.floor(math.log10(about))
+    return next(step * size for step in (5, 2, 1) if step * size <= about * 1.0001)
+
+
+def _runs(inside: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First and last index of every run of True."""
+    steps = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]])))
+    return [(int(a), int(b) - 1) for a, b in zip(steps[::2], steps[1::2], strict=True)]

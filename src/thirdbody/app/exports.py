@@ -1,0 +1,51 @@
+"""What can be taken away: the files that the command line writes, and figures for a paper."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from typing import Any
+
+from .. import plot
+from ..equilibrium import about
+from ..study import Study, run_study
+from .state import Answer
+
+__all__ = ["FIGURES", "figure_of", "to_csv", "to_json"]
+
+FIGURES = ("area", "shares", "regimes", "separation", "modes")
+"""Functions of `thirdbody.plot` that draw the curves."""
+
+
+def to_json(study: Study) -> str:
+    """What ``thirdbody solve STUDY.toml --json`` prints."""
+    return json.dumps(run_study(study), indent=1, allow_nan=False) + "\n"
+
+
+def to_csv(study: Study) -> str:
+    """What ``thirdbody solve STUDY.toml --csv FILE`` writes."""
+    result = run_study(study)
+    columns: dict[str, list[Any]] = dict(result["states"])
+    units = {name: about(name)["unit"] for name in columns}
+    for part in result["populations"]:
+        mine = {f"{part['name']}: {key}": part[key] for key in part if key != "name"}
+        columns |= mine
+        units |= dict.fromkeys(mine, "1")
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(f"{name} [{units[name]}]" if units[name] else name for name in columns)
+    writer.writerows(zip(*columns.values(), strict=True))
+    return text.getvalue()
+
+
+def figure_of(answer: Answer, name: str, suffix: str) -> bytes:
+    """One figure of the curves, "png" or "svg"."""
+    import matplotlib as mpl
+
+    drawn = getattr(plot, name)(answer.curves).figure
+    out = io.BytesIO()
+    with mpl.rc_context({"svg.hashsalt": "thirdbody"}):
+        more: dict[str, Any] = {"metadata": {"Date": None}} if suffix == "svg" else {"dpi": 200}
+        drawn.savefig(out, format=suffix, bbox_inches="tight", **more)
+    return out.getvalue()

@@ -1,0 +1,222 @@
+"""What can be set: the fields of every table, as the classes and registries declare them."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import thirdbody as tb
+
+from .. import cleanliness
+from ..errors import InvalidValue
+from ..sizes import FITS, WEIGHTINGS
+from ..study import DISTRIBUTIONS, HEIGHTS, LOADS, filled_in
+from ..study.concentration import AMOUNT
+from ..study.counted import COUNTED
+from ..study.toml import value_of
+from ..units import quantity_to_si
+from ..values import allowed_range
+from .text import written
+
+__all__ = [
+    "COUNTED_FIELDS",
+    "VARIANTS",
+    "Field",
+    "engineering",
+    "fields_of",
+    "number_of",
+    "options_of",
+    "shown",
+    "value_from",
+]
+
+PREFIXES = {
+    "m": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9},
+    "Pa": {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "Pa": 1.0},
+    "1/m^2": {"/ m^2": 1.0},
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Field:
+    """One entry of a table, and how a page lets it be set.
+
+    Parameters
+    ----------
+    name : str
+        The key.
+    kind : {"number", "word", "switch", "text"}
+        Text that is not said otherwise is TOML.
+    label : str
+        The key with its symbol and unit.
+    about : str
+        What it is and what is allowed.
+    options : tuple of str
+        Of a word.
+    quantity : dict, optional
+        What `thirdbody.values.quantity` says of a number.
+    default : object
+        What counts when it is left out; None where it must stand or there is none.
+    """
+
+    name: str
+    kind: str
+    label: str
+    about: str
+    options: tuple[str, ...] = ()
+    quantity: dict[str, Any] | None = None
+    default: Any = None
+
+
+NESTED = {"Material", "Heights", "AbstractAsperityLaw", "Value | None"}
+"""Types of fields that have widgets of their own."""
+
+
+def fields_of(kind: type) -> list[Field]:
+    """The fields of a value class that a study file can set with one entry."""
+    out = []
+    for item in dataclasses.fields(kind):
+        declared = str(getattr(item.type, "__name__", item.type))
+        if item.name in filled_in(kind) or declared in NESTED or declared == "Distribution":
+            continue
+        default = None if item.default is dataclasses.MISSING else item.default
+        needed = item.default is dataclasses.MISSING and (
+            item.default_factory is dataclasses.MISSING
+        )
+        if about := item.metadata.get("quantity"):
+            out.append(number_field(item.name, about, default, needed))
+        elif about := item.metadata.get("choice"):
+            words = tuple(about["options"])
+            out.append(
+                Field(
+                    name=item.name,
+                    kind="word",
+                    label=item.name,
+                    about=about["meaning"],
+                    options=words,
+                    default=default,
+                )
+            )
+        elif declared == "bool":
+            out.append(
+                Field(name=item.name, kind="switch", label=item.name, about="", default=default)
+            )
+        else:
+            text = "text" if declared == "str" else "as in a study file, e.g. [1, 2, 5]"
+            kind_ = "string" if declared == "str" else "text"
+            out.append(
+                Field(name=item.name, kind=kind_, label=item.name, about=text, default=default)
+            )
+    return out
+
+
+def number_field(
+    name: str, about: dict[str, Any], default: Any = None, needed: bool = True
+) -> Field:
+    """The field of a quantity."""
+    symbol = f" {about['symbol']}" if about["symbol"] != name else ""
+    unit = f" [{about['unit']}]" if about["unit"] != "1" else ""
+    allowed = allowed_range(about).removeprefix("must be ")
+    said = f"{about['meaning']}; {allowed}"
+    if default is not None:
+        said += f"; {shown(default)} when left out"
+    elif not needed:
+        said += "; may be left out"
+    return Field(
+        name=name,
+        kind="number",
+        label=f"{name}{symbol}{unit}",
+        about=said,
+        quantity=about,
+        default=default,
+    )
+
+
+COUNTED_FIELDS: dict[str, tuple[Field, ...]] = {
+    kind: tuple(
+        Field(
+            name=name,
+            kind="word",
+            label=name,
+            about={
+                "level": "which end of the range of each number of the code",
+                "limit": "which end of the limits of the dust",
+                "weighting": "what the histogram weighs",
+                "fit": "a distribution fitted to it",
+            }[name],
+            options=tuple(
+                {
+                    "level": cleanliness.LEVELS,
+                    "limit": cleanliness.LIMITS,
+                    "weighting": WEIGHTINGS,
+                    "fit": FITS,
+                }[name]
+            ),
+        )
+        if name in ("level", "limit", "weighting", "fit")
+        else number_field(name, AMOUNT[name], needed=False)
+        for name in names
+    )
+    for kind, names in COUNTED.items()
+}
+"""Options beside a code, a test dust or a measured histogram."""
+
+VARIANTS = {
+    "distribution": DISTRIBUTIONS,
+    "heights": HEIGHTS,
+    "asperity": tb.asperity.REGISTRY,
+    "particle": tb.particle.REGISTRY,
+    "outputs": tb.outputs.REGISTRY,
+    "load": LOADS,
+}
+"""Registries from which a word is chosen."""
+
+
+def options_of(kind: Any) -> dict[str, str]:
+    """The words of a registry and how a menu shows them."""
+    return {
+        name: f"{name}: {title}" if (title := getattr(each, "title", "")) else name
+        for name, each in kind.items()
+    }
+
+
+# ---------------------------------------------------------------------- text and values
+def shown(value: Any) -> str:
+    """A value of a study as a field shows it: strings without quotes, the rest as in TOML."""
+    if value is None:
+        return ""
+    if isinstance(value, list) and not any(isinstance(x, dict) for x in value):
+        return ", ".join(map(shown, value))
+    return value if isinstance(value, str) else written(value)
+
+
+def value_from(text: str) -> Any:
+    """What a user wrote: numbers as numbers, tables and lists as in TOML, text as text."""
+    text = text.strip()
+    if not text:
+        return None
+    if "," in text and text[0] not in '[{"':
+        return [value_of(part) for part in text.split(",") if part.strip()]
+    return value_of(text)
+
+
+def number_of(value: Any, about: dict[str, Any]) -> float:
+    """The number in SI that an entry stands for; NaN where it stands for none."""
+    try:
+        return quantity_to_si(value, about)
+    except InvalidValue:
+        return math.nan
+
+
+def engineering(value: float, unit: str, digits: int = 4) -> str | float:
+    """A number as an engineer writes it: "316 nm", "5 MPa"; a pure number stays one."""
+    if unit not in PREFIXES:
+        rounded = float(f"{value:.{digits}g}")
+        return rounded if unit == "1" else f"{rounded:g} {unit}"
+    name, size = next(
+        ((n, s) for n, s in PREFIXES[unit].items() if abs(value) >= 0.9995 * s),
+        list(PREFIXES[unit].items())[-1],
+    )
+    return f"{value / size:.{digits}g} {name}"

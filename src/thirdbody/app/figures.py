@@ -1,0 +1,176 @@
+"""Figures for Plotly as plain data: one look, the colours of `thirdbody.plot`, light and dark."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..plot import MODE_COLOURS, OKABE_ITO, REGIMES
+
+__all__ = [
+    "CONFIG",
+    "DASHES",
+    "GREY",
+    "INKS",
+    "MODE_FILLS",
+    "REGIME_FILLS",
+    "empty",
+    "figure",
+    "line",
+    "listed",
+    "log_title",
+    "mark",
+    "mode_bands",
+]
+
+INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
+DASHES = ["solid", "dash", "dashdot", "dot", "longdash", "longdashdot"]
+GREY = "#7f7f7f"
+CONFIG = {
+    "displaylogo": False,
+    "responsive": False,
+    "modeBarButtonsToRemove": ["select2d", "lasso2d"],
+}
+
+
+def _rgb(colour: Any) -> str:
+    return "rgb(" + ",".join(str(round(255 * part)) for part in colour) + ")"
+
+
+MODE_FILLS = {name: _rgb(colour) for name, colour in MODE_COLOURS.items()}
+REGIME_FILLS = {name: (label, colour) for name, (label, colour) in REGIMES.items()}
+
+
+def figure(
+    data: list[dict[str, Any]],
+    *,
+    x: str,
+    y: str,
+    title: str = "",
+    xlog: bool = True,
+    ylog: bool = False,
+    height: int = 360,
+    **layout: Any,
+) -> dict[str, Any]:
+    """Traces with axes; text and grid take their colours from the page."""
+    axis = {"gridcolor": "rgba(127,127,127,0.25)", "zeroline": False, "automargin": True}
+    return {
+        "data": data,
+        "layout": {
+            "title": {"text": title, "font": {"size": 15}, "x": 0.02, "xanchor": "left"},
+            "xaxis": axis
+            | {
+                "title": {"text": x, "font": {"size": 13}},
+                "type": "log" if xlog else "linear",
+                "exponentformat": "power" if xlog else "e",
+            },
+            "yaxis": axis
+            | {
+                "title": {"text": y, "font": {"size": 13}},
+                "type": "log" if ylog else "linear",
+                "exponentformat": "power" if ylog else "e",
+            },
+            "margin": {"l": 60, "r": 16, "t": 44, "b": 84},
+            "height": height,
+            "paper_bgcolor": "rgba(0,0,0,0)",
+            "plot_bgcolor": "rgba(0,0,0,0)",
+            "font": {"color": GREY, "size": 12},
+            "legend": {
+                "orientation": "h",
+                "yref": "container",
+                "y": 0.0,
+                "yanchor": "bottom",
+                "x": 0,
+            },
+            "hovermode": "x unified",
+            "showlegend": True,
+            "shapes": [],
+            "annotations": [],
+        }
+        | layout,
+        "config": CONFIG,
+    }
+
+
+def empty(height: int) -> dict[str, Any]:
+    """A place for a figure."""
+    return {"data": [], "layout": {"height": height}, "config": CONFIG}
+
+
+def listed(values: Any) -> list[float | None]:
+    """Numbers for JSON, None where there is none."""
+    array = np.atleast_1d(np.asarray(values, dtype=float))
+    return [x if np.isfinite(x) else None for x in array.tolist()]
+
+
+def line(x: Any, y: Any, name: str, number: int = 0, **more: Any) -> dict[str, Any]:
+    """One curve, told apart by colour and dash."""
+    style = {"color": INKS[number % 6], "dash": DASHES[(number + number // 6) % 6], "width": 2.2}
+    return {
+        "type": "scatter",
+        "mode": "lines",
+        "x": listed(x),
+        "y": listed(y),
+        "name": name,
+        "line": style | more.pop("line", {}),
+    } | more
+
+
+def mark(x: float, text: str, *, number: int = 0, dash: str = "dot") -> tuple[dict, dict]:
+    """A vertical line with a word above it: a shape and an annotation."""
+    shape = {
+        "type": "line",
+        "xref": "x",
+        "yref": "paper",
+        "x0": x,
+        "x1": x,
+        "y0": 0,
+        "y1": 1,
+        "line": {"color": GREY, "width": 1.6, "dash": dash},
+    }
+    note = {
+        "x": x,
+        "y": 1.0,
+        "xref": "x",
+        "yref": "paper",
+        "text": text,
+        "showarrow": False,
+        "yanchor": "bottom",
+        "yshift": 1 + 13 * (number % 2),
+        "font": {"size": 11},
+    }
+    return shape, note
+
+
+def log_title(note: dict[str, Any]) -> dict[str, Any]:
+    """Annotations count in powers of ten on a logarithmic axis, other than shapes."""
+    return note | {"x": float(np.log10(note["x"]))}
+
+
+def mode_bands(x: Any, modes: Any) -> list[dict[str, Any]]:
+    """Rectangles behind the curves, one for each run of a mode."""
+    x, modes = np.asarray(x, float), np.asarray(modes)
+    out: list[dict[str, Any]] = []
+    starts = np.flatnonzero(np.concatenate([[True], modes[1:] != modes[:-1]]))
+    ends = [*starts[1:], len(x)]
+    for a, b in zip(starts, ends, strict=True):
+        if str(modes[a]) not in MODE_FILLS:
+            continue
+        last = x[b] if b < len(x) else x[-1]
+        out.append(
+            {
+                "type": "rect",
+                "xref": "x",
+                "yref": "paper",
+                "x0": float(x[a]),
+                "x1": float(last),
+                "y0": 0,
+                "y1": 1,
+                "fillcolor": MODE_FILLS[str(modes[a])],
+                "opacity": 0.32,
+                "line": {"width": 0},
+                "layer": "below",
+            }
+        )
+    return out

@@ -1,0 +1,116 @@
+"""Long work: in a process of its own, with progress, stopped by a kill."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import os
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from ..errors import InvalidValue
+
+__all__ = ["Job", "Stopped"]
+
+LONGEST_LINE = 64 * 2**20
+"""Bytes of an answer."""
+
+
+class Stopped(Exception):
+    """The job was cancelled."""
+
+
+class Job:
+    """One task of `worker`, which can be cancelled.
+
+    Parameters
+    ----------
+    task : str
+        A key of `worker.TASKS`.
+    report : callable, optional
+        Called with the part that is done, 0 to 1.
+    seconds : float
+        After so long it is killed.
+    """
+
+    def __init__(
+        self, task: str, report: Callable[[float], None] | None = None, seconds: float = 300.0
+    ) -> None:
+        self.task, self.report, self.seconds = task, report, seconds
+        self.process: asyncio.subprocess.Process | None = None
+        self.stopped = False
+
+    async def run(self, **asked: Any) -> dict[str, Any]:
+        """The result of the task.
+
+        Raises
+        ------
+        InvalidValue
+            What is wrong with the request, or that it took too long.
+        Stopped
+            It was cancelled.
+        """
+        # nothing of the page's surroundings is of use to a parser of files
+        kept = ("PATH", "PYTHONPATH", "HOME", "TMPDIR", "LANG", "SYSTEMROOT", "NUMBA_CACHE_DIR")
+        surroundings = {name: os.environ[name] for name in kept if name in os.environ}
+        surroundings |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+        self.process = await asyncio.create_subprocess_exec(
+            sys.executable,
+            "-m",
+            "thirdbody.app.worker",
+            stdin=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.PIPE,
+            stderr=asyncio.subprocess.DEVNULL,
+            env=surroundings,
+            limit=LONGEST_LINE,
+        )
+        try:
+            return await asyncio.wait_for(self._talk({"task": self.task} | asked), self.seconds)
+        except TimeoutError:
+            raise InvalidValue(
+                f"{self.task}: stopped after {self.seconds:g} s; ask for less"
+            ) from None
+        finally:
+            await self._end()
+
+    async def _talk(self, asked: dict[str, Any]) -> dict[str, Any]:
+        assert self.process is not None
+        stdin, stdout = self.process.stdin, self.process.stdout
+        assert stdin is not None
+        assert stdout is not None
+        with contextlib.suppress(ConnectionError):
+            stdin.write(json.dumps(asked).encode())
+            await stdin.drain()
+            stdin.close()
+        try:
+            while line := await stdout.readline():
+                said = json.loads(line)
+                if "done" in said and self.report is not None:
+                    self.report(float(said["done"]))
+                elif "problems" in said:
+                    raise InvalidValue(*map(str, said["problems"]))
+                elif "result" in said:
+                    return said["result"]
+        except ValueError as error:
+            if isinstance(error, InvalidValue):
+                raise
+            raise InvalidValue(f"{self.task}: the answer cannot be read") from None
+        if self.stopped:
+            raise Stopped
+        raise InvalidValue(f"{self.task}: it needed more memory or time than the page allows")
+
+    def cancel(self) -> None:
+        """Stop at once."""
+        self.stopped = True
+        if self.process is not None and self.process.returncode is None:
+            with contextlib.suppress(ProcessLookupError):
+                self.process.kill()
+
+    async def _end(self) -> None:
+        if self.process is not None and self.process.returncode is None:
+            with contextlib.suppress(ProcessLookupError):
+                self.process.kill()
+        if self.process is not None:
+            await self.process.wait()

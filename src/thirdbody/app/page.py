@@ -1,0 +1,274 @@
+"""The page: fields at the side, sliders on top, a tab for every question."""
+
+from __future__ import annotations
+
+import asyncio
+import shutil
+import tempfile
+import time
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from fastapi import Request
+from nicegui import background_tasks, ui
+
+from ..errors import InvalidValue, ThirdBodyError
+from .examples import EXAMPLES, example
+from .fields import Field
+from .inputs import Inputs
+from .sliders import Sliders
+from .state import State, files_of
+from .tabs import TABS
+from .text import from_link
+
+__all__ = ["Start", "page"]
+
+LOOK = """
+:root { --hint: #5f6672; --problem: #b3261e; }
+.body--dark { --hint: #a9b0bb; --problem: #ff8a80; }
+body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
+.hint { color: var(--hint); font-size: 0.83rem; line-height: 1.3; }
+.problem { color: var(--problem); font-size: 0.85rem; font-weight: 600; }
+.subhead { font-weight: 600; margin-top: 0.4rem; }
+.facts { gap: 0.5rem 1.6rem; }
+.fact .value { font-size: 1.05rem; font-weight: 600; }
+.figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
+@media (min-width: 1100px) { .figures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
+.figures > * { min-width: 0; }
+.sliders { gap: 0.4rem 1.6rem; }
+.slider { flex: 1 1 150px; min-width: 140px; padding: 0 8px; }
+.scroll-x { overflow-x: auto; }
+.section { display: block; width: 100%; min-width: 640px; height: auto; }
+.q-uploader { width: 260px; }
+.q-uploader__list, .q-uploader__subtitle { display: none; }
+.scroll-x .q-table { min-width: 620px; }
+.narrow { max-width: 34rem; }
+.code textarea { font-family: ui-monospace, monospace; font-size: 0.8rem; line-height: 1.35; }
+.js-plotly-plot .main-svg text { fill: currentColor !important; }
+.js-plotly-plot .main-svg { background: transparent !important; }
+.js-plotly-plot .hoverlayer text { fill: #222 !important; }
+.q-field__messages { line-height: 1.2; }
+.q-field--with-bottom { padding-bottom: 0; }
+.q-field--with-bottom .q-field__bottom { position: static; transform: none; padding: 3px 0 6px; }
+:focus-visible { outline: 2px solid #0072B2; outline-offset: 2px; }
+"""
+
+
+RESIZE = """
+<script type="module">
+const sized = new ResizeObserver(async (entries) => {
+  const { Plotly } = await import("nicegui-plotly");
+  for (const { target } of entries)
+    if (target.offsetParent && target._fullLayout) Plotly.Plots.resize(target).catch(() => {});
+});
+new MutationObserver(() => {
+  for (const plot of document.querySelectorAll(".js-plotly-plot:not([data-sized])")) {
+    plot.dataset.sized = "";
+    sized.observe(plot);
+  }
+}).observe(document.body, { childList: true, subtree: true });
+</script>
+"""
+"""Figures follow the width of their place; one that is out of sight has none."""
+
+
+class Start:
+    """What a page opens with.
+
+    Parameters
+    ----------
+    study : dict, optional
+        A parsed study file; the first of the examples when left out.
+    folder : Path, optional
+        Where the files lie that it names.
+    """
+
+    def __init__(self, study: dict[str, Any] | None = None, folder: Path | None = None) -> None:
+        self.study = example() if study is None else study
+        self.folder = folder
+
+    def state(self, request: Request) -> tuple[State, str]:
+        """The state of a new page: that of the link, or the start; and what to tell."""
+        own = Path(tempfile.mkdtemp(prefix="thirdbody-"))
+        query = request.query_params
+        if "study" in query:
+            try:
+                at = float(query["at"]) if "at" in query else None
+                return State(from_link(query["study"]), own, at), ""
+            except (InvalidValue, ValueError) as error:
+                return State(example(), own), f"{error}; here is the example instead"
+        if self.folder is not None:
+            for name in files_of(self.study):
+                beside = self.folder / name
+                if beside.is_file():
+                    shutil.copyfile(beside, own / Path(name).name)
+        return State(_plain_names(self.study), own), ""
+
+
+def _plain_names(study: Any) -> Any:
+    """The study with files by their last names, as they lie in the folder of the page."""
+    if isinstance(study, dict):
+        out = {}
+        for key, value in study.items():
+            if key in ("topography", "sizes", "materials") and isinstance(value, (str, list)):
+                one = isinstance(value, str)
+                names = [
+                    Path(v).name if isinstance(v, str) else v for v in ([value] if one else value)
+                ]
+                out[key] = names[0] if one else names
+            else:
+                out[key] = _plain_names(value)
+        return out
+    return [_plain_names(item) for item in study] if isinstance(study, list) else study
+
+
+class Soon:
+    """Calls a function once for many requests that come together."""
+
+    def __init__(self, call: Callable[[], None]) -> None:
+        self.call, self.waiting = call, False
+        self.client = ui.context.client
+
+    def __call__(self) -> None:
+        if not self.waiting:
+            self.waiting = True
+            background_tasks.create(self._later())
+
+    async def _later(self) -> None:
+        await asyncio.sleep(0.005)
+        self.waiting = False
+        if not self.client._deleted:
+            with self.client:
+                self.call()
+
+
+def page(start: Start, request: Request) -> None:
+    """Put everything on the page of one visitor."""
+    state, told = start.state(request)
+    client = ui.context.client
+    client.on_delete(lambda: shutil.rmtree(state.folder, ignore_errors=True))
+    ui.add_css(LOOK)
+    ui.add_body_html(RESIZE)
+    ui.colors(primary="#0072B2", accent="#D55E00", positive="#009E73", negative="#b3261e")
+    dark = ui.dark_mode(value=None)
+
+    def again() -> None:
+        panel.refresh()
+
+    inputs = Inputs(state, again)
+    draws: dict[str, Callable[[], None]] = {}
+    opened_sections = {"Load", "Particles"}
+    drawer: Any
+
+    def folded(name: str, is_open: bool) -> None:
+        (opened_sections.add if is_open else opened_sections.discard)(name)
+
+    with ui.header(elevated=False).classes("items-center q-py-xs gap-2 no-wrap"):
+        menu = ui.button(icon="tune", on_click=lambda: drawer.toggle())
+        menu.props('flat dense color=white aria-label="inputs"')
+        ui.label("thirdbody").classes("text-lg font-bold")
+        ui.space()
+        names = ui.select(
+            list(EXAMPLES), label="open an example", on_change=lambda e: opened(e.value)
+        )
+        names.props('dense dark options-dense standout data-path="example"').classes("w-56")
+        shade = ui.button(icon="contrast", on_click=lambda: turn())
+        shade.props('flat dense color=white aria-label="light or dark"')
+
+    with ui.left_drawer(value=None, bordered=True).props(
+        "width=340 breakpoint=900 aria-label=inputs"
+    ) as drawer:
+
+        @ui.refreshable
+        def panel() -> None:
+            inputs.shown.clear()
+            with ui.column().classes("w-full gap-1"):
+                inputs.rest = ui.column().classes("w-full")
+                title = Field(name="title", kind="string", label="title", about="a line of text")
+                inputs.field((), title)
+                sections: dict[str, Callable[[], None]] = {
+                    "Load": inputs.load,
+                    "Particles": inputs.particles,
+                    "Roughness": inputs.roughness,
+                    "Surfaces": inputs.surfaces,
+                    "Asperity law": inputs.asperity_law,
+                }
+                for name, build in sections.items():
+                    fold = ui.expansion(name, value=name in opened_sections).classes("w-full")
+                    fold.on_value_change(lambda e, n=name: folded(n, e.value))
+                    with fold, ui.column().classes("w-full gap-2"):
+                        build()
+                ui.label(
+                    "Outputs and error bars have tabs of their own; everything else that a study "
+                    "file can say can be written under Take away."
+                ).classes("hint")
+            inputs.tell()
+
+        panel()
+
+    with ui.column().classes("w-full max-w-[1500px] mx-auto gap-2"):
+        banner = ui.label(told).classes("problem").props('role=alert data-said="page"')
+        sliders = Sliders(state)
+        with (
+            ui.tabs()
+            .props("dense no-caps align=left outside-arrows mobile-arrows")
+            .classes("w-full") as tabs
+        ):
+            for name in TABS:
+                ui.tab(name, label=import_module(f".tabs.{name}", __package__).TITLE)
+        with ui.tab_panels(tabs, value=TABS[0], animated=False).classes("w-full bg-transparent"):
+            places = {}
+            for name in TABS:
+                with ui.tab_panel(name).classes("q-px-none"):
+                    places[name] = ui.column().classes("w-full gap-3")
+        notes = ui.column().classes("w-full gap-1")
+        clock = ui.label().classes("hint").props('data-fact="time"')
+
+    def refresh() -> None:
+        """Show the study as it is now: fields, sliders, the tab in sight."""
+        inputs.tell()
+        sliders.tell()
+        name = str(tabs.value or TABS[0])
+        wrong = ""
+        if state.problems and state.answer is not None:
+            wrong = (
+                f"The study has {len(state.problems)} mistake(s), told beside the fields; "
+                "shown is the last study without one."
+            )
+        if state.answer is None:
+            banner.set_text("; ".join(state.problems))
+            return
+        try:
+            if name not in draws:
+                with places[name]:
+                    draws[name] = import_module(f".tabs.{name}", __package__).build(state, again)
+            draws[name]()
+        except ThirdBodyError as error:
+            wrong = str(error)
+        banner.set_text(wrong or told)
+        notes.clear()
+        with notes:
+            for text in state.answer.notes[:6]:
+                ui.label(f"Note: {text}").classes("hint")
+        clock.set_text(f"answered in {1e3 * (time.perf_counter() - state.began):.0f} ms")
+
+    def opened(name: str | None) -> None:
+        if name:
+            state.wanted = None
+            state.replace(example(name))
+            again()
+
+    def turn() -> None:
+        dark.value = not dark.value if dark.value is not None else True
+
+    soon = Soon(refresh)
+    state.changed.append(soon)
+
+    def turned() -> None:
+        state.began = time.perf_counter()
+        soon()
+
+    tabs.on_value_change(turned)
+    refresh()

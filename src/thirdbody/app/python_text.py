@@ -1,0 +1,99 @@
+"""The lines of Python that give the numbers of the page."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+
+import thirdbody as tb
+
+from ..study import Study
+from ..values import Value
+
+__all__ = ["to_python"]
+
+
+def to_python(study: Study, at: float | None = None) -> str:
+    """A script that solves the study, with the same numbers to the last digit.
+
+    Parameters
+    ----------
+    study : Study
+    at : float, optional
+        The operating load, in the unit of the study's load: solved as ``point``.
+    """
+    contact = study.contact
+    load = "d" if study.load == "separation" else study.load
+    lines = ["import numpy as np", "", "import thirdbody as tb", ""]
+    lines += [f"contact = {_code(contact)}"]
+    lines += [f"curves = tb.solve(contact, {load}={_numbers(study.values)})"]
+    if at is not None:
+        lines += [f"point = tb.solve(contact, {load}={at!r})"]
+        lines += ["print(point.mode, point.d, point.A_t, point.particle_load_share)"]
+    return "\n".join(lines) + "\n"
+
+
+def _given(value: Any) -> list[tuple[str, Any]]:
+    """The fields of a value that differ from their defaults."""
+    out = []
+    for item in dataclasses.fields(value):
+        own = getattr(value, item.name)
+        default = item.default
+        if item.default_factory is not dataclasses.MISSING:
+            default = item.default_factory()
+        if type(own) is not type(default) or own != default:
+            out.append((item.name, own))
+    return out
+
+
+WIDTH = 88
+
+
+def _code(part: Any, indent: int = 0, used: int = 20) -> str:
+    """A value as it is written; what does not fit on a line is broken, field by field."""
+    if isinstance(part, tb.Material) and part.name in tb.materials:
+        known = tb.materials[part.name]
+        if known == part:
+            return f"tb.materials[{part.name!r}]"
+    if isinstance(part, Value):
+        given = [(f"{name}=", own) for name, own in _given(part)]
+        return _call(f"{_name(type(part))}(", given, ")", indent, used)
+    if isinstance(part, tuple):
+        return _call("(", [("", item) for item in part], ",)", indent, used)
+    return repr(part)
+
+
+def _call(start: str, parts: list[tuple[str, Any]], end: str, indent: int, used: int) -> str:
+    flat = start + ", ".join(label + _code(own, 0, -9999) for label, own in parts) + end
+    if used < 0 or indent + used + len(flat) <= WIDTH or not parts:
+        return flat
+    space = " " * (indent + 4)
+    rows = [f"{space}{label}{_code(own, indent + 4, len(label) + 1)}," for label, own in parts]
+    return "\n".join([start, *rows, " " * indent + end.lstrip(",")])
+
+
+def _name(kind: type) -> str:
+    """Where users find a class."""
+    for home, prefix in (
+        (tb, "tb"),
+        (tb.asperity, "tb.asperity"),
+        (tb.particle, "tb.particle"),
+        (tb.outputs, "tb.outputs"),
+    ):
+        if getattr(home, kind.__name__, None) is kind:
+            return f"{prefix}.{kind.__name__}"
+    return kind.__name__
+
+
+def _numbers(values: np.ndarray) -> str:
+    """Loads as short as they can be written without a change of a digit."""
+    first, last, count = float(values[0]), float(values[-1]), len(values)
+    if count > 2:
+        for make in ("geomspace", "linspace"):
+            if make == "geomspace" and first * last <= 0:
+                continue
+            if np.array_equal(getattr(np, make)(first, last, count), values):
+                return f"np.{make}({first!r}, {last!r}, {count})"
+    return f"np.array({values.tolist()!r})"

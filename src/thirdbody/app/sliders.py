@@ -1,0 +1,186 @@
+"""Sliders over the tabs: the load, and the numbers one wants to feel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from nicegui import ui
+
+import thirdbody as tb
+
+from ..cli.show import as_length, as_number, as_pressure
+from .fields import engineering, number_of
+from .inputs import Inputs
+from .sizing import size_of, with_size
+from .state import State
+
+__all__ = ["Sliders", "at_position", "position_of"]
+
+STEPS = 400
+REACH = 10.0
+"""A slider goes so many times up and down."""
+
+
+def at_position(loads: np.ndarray, part: float) -> float:
+    """The load at a part of the way along the loads of the study, four digits of it."""
+    first, last = float(loads[0]), float(loads[-1])
+    if part in (0.0, 1.0):
+        return last if part else first
+    if first > 0:
+        value = first * (last / first) ** part
+        return float(min(max(float(f"{value:.4g}"), first), last))
+    return first + (last - first) * part
+
+
+def position_of(loads: np.ndarray, at: float) -> float:
+    """The inverse of `at_position`."""
+    first, last = float(loads[0]), float(loads[-1])
+    if first > 0 and at > 0:
+        return math.log(at / first) / math.log(last / first)
+    return (at - first) / (last - first)
+
+
+@dataclass
+class Knob:
+    """One number of the study under a slider."""
+
+    label: str
+    place: str
+    read: Callable[[], float | None]
+    write: Callable[[float], None]
+    say: Callable[[float], str]
+
+
+class Sliders:
+    """The strip over the tabs."""
+
+    def __init__(self, state: State) -> None:
+        self.state = state
+        self.moving = False
+        """While a slider sets the study, no slider is set."""
+        with ui.row().classes("sliders w-full"):
+            with ui.column().classes("slider gap-0"):
+                self.load_label = ui.label("load").classes("hint")
+                self.load = ui.slider(min=0, max=STEPS, step=1, value=STEPS // 2)
+                self.load.props('aria-label="load" data-slider="load"')
+                self.load.on_value_change(self._load_moved)
+            self.knobs = [self._knob(knob) for knob in self._all()]
+
+    def _all(self) -> list[Knob]:
+        state = self.state
+
+        def rough(name: str) -> Callable[[], float | None]:
+            about = tb.Roughness.__dataclass_fields__[name].metadata["quantity"]
+
+            def read() -> float | None:
+                value = number_of(state.get("roughness", name), about)
+                return value if value > 0 else None
+
+            return read
+
+        def size() -> float | None:
+            if state.answer is None or state.answer.contact.two_body:
+                return None
+            place = Inputs.first_population(state)
+            known = state.get(*place, "distribution")
+            scalable = known not in (None, "mixture", "histogram", "power-law")
+            return size_of(state.answer.contact) if scalable else None
+
+        def density() -> float | None:
+            about = tb.Particles.__dataclass_fields__["areal_density"].metadata["quantity"]
+            value = number_of(state.get(*Inputs.first_population(state), "areal_density"), about)
+            return value if value > 0 else None
+
+        def put(*place: str | int, unit: str) -> Callable[[float], None]:
+            return lambda value: state.set(*place, engineering(value, unit, 3))
+
+        return [
+            Knob(
+                "σ",
+                "roughness.sigma",
+                rough("sigma"),
+                put("roughness", "sigma", unit="m"),
+                as_length,
+            ),
+            Knob("R", "roughness.R", rough("R"), put("roughness", "R", unit="m"), as_length),
+            Knob(
+                "mean size x_a",
+                "particles.size",
+                size,
+                lambda v: state.replace(with_size(state.study, float(f"{v:.3g}"))),
+                as_length,
+            ),
+            Knob(
+                "particles per area",
+                "particles.areal_density",
+                density,
+                lambda v: state.set(
+                    *Inputs.first_population(state), "areal_density", engineering(v, "1/m^2", 3)
+                ),
+                lambda v: f"{as_number(v)} 1/m²",
+            ),
+        ]
+
+    def _knob(self, knob: Knob) -> dict[str, Any]:
+        made: dict[str, Any] = {"knob": knob, "middle": None}
+        with ui.column().classes("slider gap-0") as box:
+            made["label"] = ui.label(knob.label).classes("hint")
+            made["slider"] = ui.slider(min=-STEPS // 2, max=STEPS // 2, step=1, value=0)
+            made["slider"].props(f'aria-label="{knob.label}" data-slider="{knob.place}"')
+        made["box"] = box
+
+        def moved(event: Any) -> None:
+            if self.moving or made["middle"] is None or event.value is None:
+                return
+            value = made["middle"] * REACH ** (2 * float(event.value) / STEPS)
+            now = knob.read()
+            if now is not None and abs(value / now - 1) < 2e-3:
+                return
+            made["own"] = True
+            knob.write(value)
+
+        made["slider"].on_value_change(moved)
+        return made
+
+    def _load_moved(self, event: Any) -> None:
+        answer = self.state.answer
+        if self.moving or answer is None or event.value is None:
+            return
+        self.state.go(at_position(answer.loads, float(event.value) / STEPS))
+
+    def tell(self) -> None:
+        """Show where the study is."""
+        answer = self.state.answer
+        if answer is None:
+            return
+        self.moving = True
+        try:
+            at = self.state.at
+            part = position_of(answer.loads, at)
+            self.load.set_value(round(STEPS * part))
+            names = {"F_star": "load F*", "pressure": "load p", "d": "separation d"}
+            said = {"F_star": as_number, "pressure": as_pressure, "d": as_length}[answer.load]
+            self.load_label.set_text(f"{names[answer.load]} = {said(at)}")
+            for made in self.knobs:
+                self._tell(made)
+        finally:
+            self.moving = False
+
+    def _tell(self, made: dict[str, Any]) -> None:
+        knob: Knob = made["knob"]
+        now = knob.read()
+        made["box"].set_visibility(now is not None)
+        if now is None:
+            made["middle"] = None
+            return
+        made["label"].set_text(f"{knob.label} = {knob.say(now)}")
+        middle = made["middle"]
+        if middle is None or not made.pop("own", False):
+            inside = middle is not None and 1 / REACH <= now / middle <= REACH
+            made["middle"] = middle if inside else now
+            where = round(STEPS / 2 * math.log(now / made["middle"]) / math.log(REACH))
+            made["slider"].set_value(where)

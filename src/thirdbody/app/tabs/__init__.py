@@ -1,0 +1,14 @@
+"""One file for each tab, with its title and a function ``build``; the order is that of the page."""
+
+TABS = (
+    "interface",
+    "curves",
+    "mode_map",
+    "compare",
+    "surface",
+    "dust",
+    "error_bars",
+    "outputs",
+    "design",
+    "take_away",
+)

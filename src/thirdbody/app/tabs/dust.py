@@ -1,0 +1,140 @@
+"""From dust to numbers: what a code, a test dust or a concentration says of the particles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from nicegui import events, ui
+
+import thirdbody as tb
+
+from ...cli.show import as_length, as_number, as_percent
+from ..figures import empty, figure, line
+from ..guard import LARGEST_UPLOAD
+from ..inputs import Inputs
+from ..state import State
+from ..uploads import keep
+
+__all__ = ["TITLE", "build", "dust_facts", "size_figure"]
+
+TITLE = "Dust"
+
+
+def dust_facts(dust: tb.Particles) -> list[tuple[str, str]]:
+    """One population in numbers."""
+    sizes = dust.diameter
+    low, middle, high = (float(sizes.ppf(q)) for q in (0.05, 0.5, 0.95))
+    each = sizes.moment(3) * np.pi / 6 * dust.areal_density
+    return [
+        ("particles per area", f"{as_number(dust.areal_density)} 1/m²"),
+        ("mean distance", as_length(dust.areal_density**-0.5)),
+        ("mean diameter", as_length(float(sizes.mean_diameter))),
+        ("5 %, 50 %, 95 % by number", ", ".join(map(as_length, (low, middle, high)))),
+        ("covered area", as_percent(dust.coverage)),
+        ("volume per area", f"{as_number(each)} m"),
+    ]
+
+
+def size_figure(contact: tb.Contact) -> dict[str, Any]:
+    """Sizes of every population, by number and by volume."""
+    traces = []
+    for number, dust in enumerate(contact.populations):
+        sizes = dust.diameter
+        low, high = float(sizes.ppf(1e-4)), float(sizes.ppf(1 - 1e-6))
+        if not low < high:
+            low, high = 0.9 * low, 1.1 * high
+        x = np.geomspace(max(low, 1e-3 * high), high, 240)
+        density = np.asarray(sizes.pdf(x)) * x
+        name = dust.name or dust.material.name or f"population {number + 1}"
+        for k, (values, how) in enumerate(((density, "number"), (density * x**3, "volume"))):
+            top = values.max() if np.isfinite(values).all() and values.max() > 0 else 1.0
+            traces.append(line(1e6 * x, values / top, f"{name}, by {how}", 2 * number + k))
+    return figure(traces, x="diameter [µm]", y="density per ln x, over its largest", title="Sizes")
+
+
+def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+    """Entries for the particles alone, and what they amount to."""
+    ui.label(
+        "Give the sizes and numbers of the particles as a cleanliness code (ISO 4406, NAS 1638, "
+        "AS4059), a test dust (ISO 12103-1), a file of the particle counter, or a distribution "
+        'with a concentration such as "0.1 wt%" and the gap that traps it.'
+    ).classes("hint")
+
+    def renewed() -> None:
+        entries.refresh()
+        again()
+
+    inputs = Inputs(state, renewed)
+
+    @ui.refreshable
+    def entries() -> None:
+        inputs.shown.clear()
+        with ui.column().classes("w-full gap-2 narrow"):
+            inputs.particles()
+            inputs.rest = ui.column().classes("w-full")
+
+    async def uploaded(event: events.UploadEventArguments) -> None:
+        name = await keep(state.folder, event)
+        upload.reset()
+        places = inputs.populations()
+        if not places:
+            ui.notify("Add particles first.")
+            return
+        place = places[0]
+        table = dict(state.get(*place) or {})
+        kept = {k: table[k] for k in ("material", "name", "law", "areal_density") if k in table}
+        kept.setdefault("areal_density", "1e9 / m^2")
+        inputs.change(*place, kept | {"sizes": name})
+
+    with ui.element("div").classes("figures w-full"):
+        with ui.column().classes("w-full"):
+            entries()
+            upload = ui.upload(
+                label="Sizes from a particle counter",
+                auto_upload=True,
+                max_file_size=LARGEST_UPLOAD,
+                max_files=1,
+                on_upload=uploaded,
+            ).props('flat bordered data-upload="sizes"')
+        with ui.column().classes("w-full"):
+            plot = ui.plotly(empty(360)).classes("w-full")
+            plot.props('data-figure="sizes"')
+            table = ui.column().classes("w-full")
+
+    seen: dict[str, Any] = {"particles": state.get("particles")}
+
+    def draw() -> None:
+        now = state.get("particles")
+        if _shape(now) != _shape(seen["particles"]):
+            seen["particles"] = now
+            entries.refresh()
+        seen["particles"] = now
+        inputs.tell()
+        answer = state.answer
+        assert answer is not None
+        plot.set_visibility(not answer.contact.two_body)
+        table.clear()
+        if answer.contact.two_body:
+            return
+        plot.update_figure(size_figure(answer.contact))
+        with table:
+            for dust in answer.contact.populations:
+                ui.label(dust.name or dust.material.name).classes("subhead")
+                with ui.row().classes("facts w-full"):
+                    for name, value in dust_facts(dust):
+                        with ui.column().classes("fact gap-0"):
+                            ui.label(name).classes("hint")
+                            ui.label(value).classes("value").props(f'data-fact="{name}"')
+
+    return draw
+
+
+def _shape(particles: Any) -> Any:
+    """Which entries there are: the keys and the words, without the numbers."""
+    if isinstance(particles, list):
+        return [_shape(each) for each in particles]
+    if not isinstance(particles, dict):
+        return particles is None
+    return sorted(particles), particles.get("distribution"), type(particles.get("material"))

@@ -1,0 +1,183 @@
+"""How sure the answer is: bands over the load, and what each input alone does."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from nicegui import ui
+
+from ...plot import OKABE_ITO
+from ...uncertainty import OUTPUTS
+from ..figures import GREY, empty, figure, line, listed, mark
+from ..inputs import Inputs
+from ..state import State
+from ..work import Work
+
+__all__ = ["TITLE", "band_figure", "build", "tornado_figure"]
+
+TITLE = "Error bars"
+LOADS = 21
+PLAIN = ("particle_load_share", "particle_area_share", "plastic_share", "A_t", "d", "h")
+
+
+def label_of(name: str) -> str:
+    """What an output is called."""
+    about = OUTPUTS[name]
+    unit = f" [{about['unit']}]" if about["unit"] not in ("1", "") else ""
+    return f"{about['meaning']}{unit}"
+
+
+def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
+    """Bands between outer and inner quantiles, the median, and the study's own numbers."""
+    band = np.array([[np.nan if v is None else v for v in row] for row in found["bands"]])
+    x = found["loads"]
+    q = found["probabilities"]
+    order = np.argsort(q)
+    traces: list[dict[str, Any]] = []
+    pairs = len(order) // 2
+    for k in range(pairs):
+        low, high = order[k], order[-1 - k]
+        plain = {"mode": "lines", "line": {"width": 0}, "type": "scatter", "x": listed(x)}
+        traces.append(plain | {"y": listed(band[:, low]), "showlegend": False, "hoverinfo": "skip"})
+        traces.append(
+            plain
+            | {
+                "y": listed(band[:, high]),
+                "fill": "tonexty",
+                "fillcolor": f"rgba(0,114,178,{0.22 + 0.2 * k})",
+                "name": f"{100 * (q[high] - q[low]):.3g} % of cases",
+            }
+        )
+    if len(order) % 2:
+        traces.append(line(x, band[:, order[pairs]], "median", 0))
+    nominal = [np.nan if v is None else v for v in found["nominal"]]
+    own = {"color": GREY, "dash": "dash"}
+    traces.append(line(x, nominal, "this study", 1, line=own))
+    positive = bool(np.nanmin(band) > 0) and not found["of"].endswith("_share")
+    name = {"F_star": "load F*", "pressure": "nominal pressure [Pa]"}.get(load, "separation d [m]")
+    made = figure(
+        traces,
+        x=name,
+        y=label_of(found["of"]),
+        title="Bands",
+        xlog=load != "d",
+        ylog=positive,
+        height=420,
+    )
+    shape, _ = mark(found["at"], "", dash="solid")
+    made["layout"]["shapes"] = [shape]
+    return made
+
+
+def tornado_figure(found: dict[str, Any]) -> dict[str, Any]:
+    """One bar an input, from its 5th to its 95th percentile; the strongest on top."""
+    middle = found["nominal_at"]
+    labels = list(found["tornado"])
+    traces = []
+    for side, (name, colour, pattern) in enumerate(
+        (
+            ("low end of the input", OKABE_ITO["blue"], ""),
+            ("high end of the input", OKABE_ITO["orange"], "/"),
+        )
+    ):
+        ends = [found["tornado"][label][side] for label in labels]
+        traces.append(
+            {
+                "type": "bar",
+                "orientation": "h",
+                "y": labels,
+                "x": [None if v is None or middle is None else v - middle for v in ends],
+                "base": middle,
+                "name": name,
+                "marker": {"color": colour, "pattern": {"shape": pattern}},
+                "customdata": [found["ends"][label][side] for label in labels],
+                "hovertemplate": "%{y} = %{customdata:.4g}<extra></extra>",
+            }
+        )
+    made = figure(
+        traces,
+        x=label_of(found["of"]),
+        y="",
+        title="One input at a time, at the operating load",
+        xlog=False,
+        height=200 + 44 * len(labels),
+        barmode="overlay",
+        hovermode="closest",
+    )
+    made["layout"]["yaxis"] |= {"autorange": "reversed", "type": "category"}
+    made["layout"]["margin"]["l"] = 130
+    return made
+
+
+def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+    """What is uncertain, a button, two figures."""
+    ui.label(
+        "Say what is known of the inputs. Without any entry the ranges of the materials library "
+        "count, where it states some."
+    ).classes("hint")
+
+    def renewed() -> None:
+        entries.refresh()
+
+    inputs = Inputs(state, renewed)
+
+    @ui.refreshable
+    def entries() -> None:
+        inputs.shown.clear()
+        with ui.column().classes("w-full gap-2"):
+            inputs.uncertain()
+            inputs.rest = ui.column().classes("w-full")
+            inputs.tell()
+
+    entries()
+    found: dict[str, Any] = {}
+    with ui.row().classes("w-full items-end gap-3"):
+        of = ui.select({name: label_of(name) for name in PLAIN}, value=PLAIN[0], label="result")
+        of.props("dense options-dense").classes("grow")
+        samples = ui.select([256, 1024, 4096, 16384], value=1024, label="samples").props("dense")
+
+    def ask() -> dict[str, Any] | None:
+        answer = state.answer
+        if answer is None:
+            return None
+        values = answer.loads
+        space = np.linspace if answer.load == "d" else np.geomspace
+        found["load"] = answer.load
+        return {
+            "study": state.study,
+            "folder": str(state.folder),
+            "load": answer.load,
+            "loads": space(values[0], values[-1], LOADS).tolist(),
+            "at": state.at,
+            "of": str(of.value),
+            "samples": int(samples.value or 1024),
+        }
+
+    def show(result: dict[str, Any]) -> None:
+        for name, made in (
+            ("bands", band_figure(result, found["load"])),
+            ("tornado", tornado_figure(result)),
+        ):
+            plots[name].update_figure(made)
+        low, middle, high = result["band_at"][0], result["nominal_at"], result["band_at"][-1]
+        said.set_text(
+            f"At the operating load: {middle:.4g}, in nine of ten cases between {low:.4g} and "
+            f"{high:.4g} ({result['samples']} samples)."
+            if None not in (low, middle, high)
+            else ""
+        )
+        box.set_visibility(True)
+
+    work = Work("error bars", "Draw error bars", ask, show)
+    said = ui.label().props('data-fact="error bars"')
+    box = ui.element("div").classes("figures w-full")
+    plots: dict[str, Any] = {}
+    with box:
+        for name in ("bands", "tornado"):
+            plots[name] = ui.plotly(empty(380)).classes("w-full")
+            plots[name].props(f'data-figure="{name}"')
+    box.set_visibility(False)
+    assert work is not None
+    return inputs.tell

@@ -1,0 +1,122 @@
+"""The interface in section, to scale, at the operating load."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import ui
+
+import thirdbody as tb
+
+from ...cli.show import as_length, as_number, as_percent, as_pressure
+from ..cross_section import section, to_svg
+from ..state import State
+
+__all__ = ["TITLE", "build", "facts"]
+
+TITLE = "Interface"
+
+
+def facts(state: State) -> list[tuple[str, str]]:
+    """The state under the operating load, in the words of the command line."""
+    point = state.point()
+    at = [
+        ("load", f"{as_pressure(_one(point.pressure))} (F* = {as_number(_one(point.F_star))})"),
+        ("separation h", as_length(_one(point.h))),
+        ("separation d", f"{as_length(_one(point.d))} ({as_number(_one(point.d_star))} σ)"),
+        ("real contact area", as_percent(_one(point.A_t))),
+    ]
+    if not point.contact.two_body:
+        at += [
+            ("mode", str(point.mode) or "no contact"),
+            ("particles carry", as_percent(_one(point.particle_load_share))),
+            ("of the real area", as_percent(_one(point.particle_area_share))),
+        ]
+        counted = tb.solve(
+            point.contact.replace(outputs=(tb.outputs.Counts(),)), d=_one(point.d)
+        ).outputs
+        every = sum(dust.areal_density for dust in point.contact.populations)
+        at.append(("particles loaded", as_percent(_one(counted["n_sa"]) / every)))
+    for part in point.populations:
+        at.append((f"{part.name} carries", as_percent(_one(part.load_share))))
+    return at
+
+
+def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+    """The drawing, what it shows, and another draw."""
+    seed = {"now": 0}
+    with ui.row().classes("w-full items-center justify-between"):
+        caption = ui.label().classes("hint grow")
+        ui.button("Another place", icon="casino", on_click=lambda: another()).props("flat dense")
+    picture = (
+        ui.html("", sanitize=False)
+        .classes("w-full scroll-x")
+        .props('data-figure="section" tabindex=0')
+    )
+    legend = ui.row().classes("w-full gap-4")
+    table = ui.row().classes("facts w-full")
+    status = ui.label().classes("problem")
+
+    def draw() -> None:
+        assert state.answer is not None
+        point = state.point()
+        bad = str(point.status) != "ok"
+        status.set_text(str(point.status) if bad else "")
+        status.set_visibility(bad)
+        if bad:
+            return
+        drawn = section(state.answer.contact, point, seed=seed["now"])
+        picture.set_content(to_svg(drawn, title="Cross-section of the interface, to scale"))
+        caption.set_text(_caption(drawn))
+        legend.clear()
+        with legend:
+            _legend(drawn)
+        table.clear()
+        with table:
+            for name, value in facts(state):
+                with ui.column().classes("fact gap-0"):
+                    ui.label(name).classes("hint")
+                    ui.label(value).classes("value").props(f'data-fact="{name}"')
+
+    def another() -> None:
+        seed["now"] += 1
+        draw()
+
+    return draw
+
+
+def _caption(drawn: Any) -> str:
+    said = (
+        "One draw from the model, to scale. Below the rough surface of both bodies together, "
+        "above the flat at the separation h from its mean plane (dotted). "
+    )
+    if not drawn.grains:
+        return said
+    loaded = sum(grain.loaded for grain in drawn.grains)
+    return said + (
+        f"Particles are those of a slab {as_length(drawn.depth)} deep: {loaded} of "
+        f"{len(drawn.grains)} are larger than the gap above their seat and carry load."
+    )
+
+
+def _legend(drawn: Any) -> None:
+    from ...plot import OKABE_ITO
+    from ..cross_section import COLOURS
+
+    for number, name in enumerate(drawn.names):
+        _swatch(f"background:{COLOURS[number % len(COLOURS)]}", name)
+    if drawn.names:
+        _swatch(f"border:3px solid {OKABE_ITO['vermilion']}", "loaded")
+        _swatch("border:1px dashed currentColor", "free")
+    _swatch(f"background:{OKABE_ITO['vermilion']};height:5px", "asperity contact")
+
+
+def _swatch(style: str, name: str) -> None:
+    with ui.row().classes("items-center gap-2 no-wrap"):
+        ui.element("div").style(f"width:18px;height:14px;border-radius:4px;{style}")
+        ui.label(name).classes("hint")
+
+
+def _one(value: Any) -> float:
+    return float(value)

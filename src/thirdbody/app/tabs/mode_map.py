@@ -1,0 +1,161 @@
+"""Contact mode over particle size and load; a click goes there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from nicegui import ui
+
+from ...plot import MODES
+from ..figures import MODE_FILLS, empty, figure
+from ..sizing import size_of, with_size
+from ..state import State
+from ..work import Work
+
+__all__ = ["TITLE", "build", "map_figure"]
+
+TITLE = "Map"
+RATIOS = np.geomspace(0.1, 10, 60)
+LOADS = np.geomspace(1e-7, 1e-3, 60)
+
+
+def map_figure(found: dict[str, Any], here: tuple[float, float] | None) -> dict[str, Any]:
+    """The map as plain data, and where the study is."""
+    colours = [MODE_FILLS[name] for name in MODES]
+    scale = []
+    for number, colour in enumerate(colours):
+        scale += [[number / 3, colour], [(number + 1) / 3, colour]]
+    index = [[None if v < 0 else v for v in row] for row in found["mode"]]
+    names = [[None if v < 0 else MODES[v] for v in row] for row in found["mode"]]
+    flipped = [list(column) for column in zip(*index, strict=True)]
+    traces: list[dict[str, Any]] = [
+        {
+            "type": "heatmap",
+            "x": found["sizes"],
+            "y": found["loads"],
+            "z": flipped,
+            "text": [list(column) for column in zip(*names, strict=True)],
+            "zmin": -0.5,
+            "zmax": 2.5,
+            "colorscale": scale,
+            "colorbar": {
+                "tickvals": [0, 1, 2],
+                "ticktext": list(MODES),
+                "thickness": 14,
+                "len": 0.6,
+            },
+            "hovertemplate": "x_a/σ = %{x:.3g}<br>F* = %{y:.3g}<br>%{text}<extra></extra>",
+        },
+        {
+            "type": "contour",
+            "x": found["sizes"],
+            "y": found["loads"],
+            "z": [list(column) for column in zip(*found["share"], strict=True)],
+            "contours": {"start": 0.5, "end": 0.5, "size": 1, "coloring": "none"},
+            "line": {"color": "#222222", "dash": "dash", "width": 2},
+            "showscale": False,
+            "hoverinfo": "skip",
+            "name": "equal loads on particles and asperities",
+            "showlegend": True,
+        },
+    ]
+    if here is not None:
+        traces.append(
+            {
+                "type": "scatter",
+                "mode": "markers",
+                "x": [here[0]],
+                "y": [here[1]],
+                "marker": {
+                    "size": 14,
+                    "color": "#ffffff",
+                    "line": {"color": "#000000", "width": 3},
+                    "symbol": "circle",
+                },
+                "name": "this study",
+                "hoverinfo": "skip",
+            }
+        )
+    made = figure(
+        traces,
+        x="particle size over roughness x<sub>a</sub>/σ",
+        y="load F*",
+        title="Contact mode; a click goes there",
+        ylog=True,
+        height=520,
+        hovermode="closest",
+    )
+    return made
+
+
+def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+    """The map of this study."""
+    ui.label(
+        "Sizes are scaled as a whole, everything else stays. Every point is a solved state."
+    ).classes("hint")
+    found: dict[str, Any] = {}
+
+    def ask() -> dict[str, Any] | None:
+        answer = state.answer
+        if answer is None or len(answer.contact.populations) != 1:
+            work.said.set_text("the map needs exactly one population of particles")
+            return None
+        found["contact"] = answer.contact
+        return {
+            "study": state.study,
+            "folder": str(state.folder),
+            "sizes": RATIOS.tolist(),
+            "loads": LOADS.tolist(),
+        }
+
+    def show(result: dict[str, Any]) -> None:
+        found["map"] = result
+        draw()
+
+    work = Work("map", "Draw the map", ask, show)
+    stale = ui.label().classes("hint")
+    plot = ui.plotly(empty(520)).classes("w-full")
+    plot.props('data-figure="map"')
+    plot.set_visibility(False)
+
+    def draw() -> None:
+        if "map" not in found or state.answer is None:
+            return
+        plot.set_visibility(True)
+        contact = state.answer.contact
+        here = None
+        if len(contact.populations) == 1:
+            ratio = size_of(contact) / contact.roughness.sigma
+            here = (ratio, float(state.point().F_star))
+        plot.update_figure(map_figure(found["map"], here))
+        other = not _same_map(found["contact"], contact)
+        stale.set_text("The study has changed since: draw the map again." if other else "")
+
+    def clicked(event: Any) -> None:
+        points = (event.args or {}).get("points") or []
+        if not points or state.answer is None:
+            return
+        contact = state.answer.contact
+        F_star = float(points[0]["y"])
+        size = float(points[0]["x"]) * contact.roughness.sigma
+        at = {"F_star": F_star, "pressure": F_star * contact.E_ss}.get(state.answer.load)
+        state.replace(with_size(state.study, size), at=at)
+
+    plot.on("plotly_click", clicked)
+    return draw
+
+
+def _same_map(one: Any, other: Any) -> bool:
+    """Whether two contacts have one map: sizes are scaled in it."""
+    if len(other.populations) != 1:
+        return False
+    (a,), (b,) = one.populations, other.populations
+    scaled = b.diameter.scaled(a.diameter.mean_diameter / b.diameter.mean_diameter)
+    near = abs(scaled.moment(2) / a.diameter.moment(2) - 1) < 1e-3
+    return (
+        near
+        and one.replace(particles=None) == other.replace(particles=None)
+        and (a.replace(diameter=b.diameter) == b)
+    )

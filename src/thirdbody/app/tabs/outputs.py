@@ -1,0 +1,123 @@
+"""What the contact does besides carrying load: every output of the library, over the load."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from nicegui import ui
+
+from ...cli.show import as_number
+from ...equilibrium import about
+from ..figures import figure, line, mark
+from ..inputs import Inputs
+from ..state import Answer, State
+
+__all__ = ["TITLE", "build", "output_figures"]
+
+TITLE = "Outputs"
+
+
+def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
+    """A figure for each output and unit of its columns."""
+    out: dict[str, dict[str, Any]] = {}
+    state = answer.curves
+    load = answer.load
+    x = answer.loads
+    names = {"F_star": "load F*", "pressure": "nominal pressure [Pa]", "d": "separation d [m]"}
+    for output in answer.contact.outputs:
+        units: dict[str, list[str]] = {}
+        for column, told in output.columns.items():
+            units.setdefault(told.unit, []).append(column)
+        for unit, columns in units.items():
+            traces = []
+            values = []
+            for number, column in enumerate(columns):
+                y = np.asarray(state.outputs[column], dtype=float)
+                values.append(y)
+                traces.append(line(x, y, column, number) | {"meta": about(column)["meaning"]})
+            every = np.concatenate(values)
+            every = every[np.isfinite(every) & (every != 0)]
+            wide = len(every) > 0 and every.min() > 0 and every.max() > 30 * every.min()
+            shape, _ = mark(at, "", dash="solid")
+            out[f"{output.name} [{unit}]"] = figure(
+                traces,
+                x=names[load],
+                y=f"[{unit}]",
+                title=f"{getattr(output, 'title', output.name)} [{unit}]",
+                xlog=load != "d",
+                ylog=bool(wide),
+                height=380,
+                shapes=[shape],
+            )
+    return out
+
+
+def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+    """Switches with their numbers, figures, and the values at the operating load."""
+
+    def renewed() -> None:
+        entries.refresh()
+        draw()
+
+    inputs = Inputs(state, renewed)
+
+    @ui.refreshable
+    def entries() -> None:
+        inputs.shown.clear()
+        with ui.column().classes("w-full gap-1 narrow"):
+            inputs.outputs()
+            inputs.rest = ui.column().classes("w-full")
+
+    with ui.element("div").classes("figures w-full"):
+        with ui.column().classes("w-full"):
+            entries()
+        table = ui.column().classes("w-full scroll-x")
+    grid = ui.element("div").classes("figures w-full")
+    plots: dict[str, Any] = {}
+
+    def draw() -> None:
+        inputs.tell()
+        answer = state.answer
+        assert answer is not None
+        made = output_figures(answer, state.at)
+        for name in set(plots) - set(made):
+            plots.pop(name).delete()
+        with grid:
+            for name, drawn in made.items():
+                if name not in plots:
+                    plots[name] = ui.plotly(drawn).classes("w-full")
+                    plots[name].props(f'data-figure="output {name}"')
+                else:
+                    plots[name].update_figure(drawn)
+        _table(state, table)
+
+    return draw
+
+
+def _table(state: State, place: Any) -> None:
+    place.clear()
+    point = state.point()
+    rows = [
+        {
+            "name": name,
+            "meaning": about(name)["meaning"],
+            "value": as_number(None if not np.isfinite(value) else float(value)),
+            "unit": about(name)["unit"],
+        }
+        for name, value in point.outputs.items()
+    ]
+    with place:
+        if not rows:
+            ui.label("Switch an output on.").classes("hint")
+            return
+        ui.label("At the operating load").classes("subhead")
+        ui.table(
+            columns=[
+                {"name": key, "label": key, "field": key, "align": "left"}
+                for key in ("name", "value", "unit", "meaning")
+            ],
+            rows=rows,
+            pagination=12,
+        ).props('dense flat wrap-cells data-figure="outputs"').classes("w-full")

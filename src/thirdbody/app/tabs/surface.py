@@ -1,0 +1,218 @@
+"""A measured surface: drop an instrument file, see what its asperities owe to the cut-off."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from nicegui import events, ui
+
+from ...cli.show import as_length, as_number
+from ...errors import InvalidValue
+from ...units import to_si
+from ..figures import empty, figure, line, mark
+from ..guard import LARGEST_UPLOAD
+from ..state import State
+from ..uploads import keep
+from ..work import Work
+
+__all__ = ["TITLE", "build", "options_from"]
+
+TITLE = "Surface"
+SECONDS = 60.0
+"""A file that takes longer to read is refused."""
+
+
+def options_from(texts: dict[str, str]) -> dict[str, Any]:
+    """What `from_topography` is told, from what was written.
+
+    Raises
+    ------
+    InvalidValue
+        A length that cannot be read.
+    """
+    out: dict[str, Any] = {}
+    problems: list[str] = []
+    for name in ("cutoff", "resolution"):
+        if texts.get(name):
+            try:
+                out[name] = to_si(texts[name], "m")
+            except InvalidValue as error:
+                problems += [f"{name} = {text}" for text in error.problems]
+    if texts.get("spacing"):
+        try:
+            out["spacing"] = [to_si(part, "m") for part in texts["spacing"].split(",")]
+        except InvalidValue as error:
+            problems += [f"spacing = {text}" for text in error.problems]
+    for name in ("detrend", "unit", "channel"):
+        if texts.get(name):
+            out[name] = texts[name]
+    if problems:
+        raise InvalidValue(*problems)
+    return out
+
+
+def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+    """An upload, options, pictures, and a button that takes the numbers over."""
+    now: dict[str, Any] = {"file": "example"}
+    texts: dict[str, Any] = {}
+    work: Work
+    source: Any
+    upload: Any
+    table: Any
+    notes: Any
+    box: Any
+    ui.label(
+        "Maps and profiles of instruments (x3p, sur, opd, al3d, npy, txt, ...), up to "
+        f"{LARGEST_UPLOAD // 2**20} MB. The file stays on this machine; it is read in a process "
+        f"of its own, which is stopped after {SECONDS:.0f} s."
+    ).classes("hint")
+
+    async def uploaded(event: events.UploadEventArguments) -> None:
+        name = await keep(state.folder, event)
+        now["file"] = str(state.folder / name)
+        source.set_text(f"file: {name}")
+        upload.reset()
+        await work.run()
+
+    with ui.row().classes("w-full items-center gap-4"):
+        upload = ui.upload(
+            label="Drop a file",
+            auto_upload=True,
+            max_file_size=LARGEST_UPLOAD,
+            max_files=1,
+            on_upload=uploaded,
+            on_rejected=lambda: work.said.set_text(
+                f"the file is larger than {LARGEST_UPLOAD // 2**20} MB, or not one file"
+            ),
+        )
+        upload.props('flat bordered data-upload="surface"')
+        source = ui.label("file: the example of the library").classes("hint")
+    with ui.row().classes("w-full gap-3"):
+        for name, hint in (
+            ("cutoff", "cut-off, e.g. 2 um; 0 as sampled"),
+            ("spacing", "of a file that tells none"),
+            ("unit", "of a file that tells none"),
+            ("channel", "of a file with several"),
+            ("resolution", "of the instrument"),
+        ):
+            entry = ui.input(name).props(f'dense hint="{hint}" data-path="surface.{name}"')
+            texts[name] = entry.classes("w-52")
+        forms = {"": "tilt", "none": "none", "curvature": "curvature"}
+        texts["detrend"] = ui.select(forms, value="", label="form removed").props("dense")
+
+    def ask() -> dict[str, Any] | None:
+        try:
+            options = options_from({name: str(w.value or "") for name, w in texts.items()})
+        except InvalidValue as error:
+            work.said.set_text("; ".join(error.problems))
+            return None
+        return {"file": now["file"], "options": options}
+
+    def show(result: dict[str, Any]) -> None:
+        now["result"] = result
+        plots["heights"].update_figure(height_figure(result))
+        for name in ("R", "eta", "rms_gradient"):
+            plots[name].update_figure(cutoff_figure(result, name))
+        used = result["used"]
+        words = {
+            "σ": as_length(used["sigma"]),
+            "R": as_length(used["R"]),
+            "η": f"{as_number(used['eta'])} 1/m²",
+            "α": as_number(used["alpha"]),
+            "σ_s": as_length(used["sigma_s"]),
+            "cut-off": as_length(used["cutoff"]) if used["cutoff"] else "as sampled",
+            "skewness": as_number(result["skewness"]),
+            "kurtosis": as_number(result["kurtosis"]),
+        }
+        table.clear()
+        with table:
+            for name, value in words.items():
+                with ui.column().classes("fact gap-0"):
+                    ui.label(name).classes("hint")
+                    ui.label(value).classes("value").props(f'data-fact="surface {name}"')
+        notes.clear()
+        with notes:
+            for text in result["warnings"]:
+                ui.label(text).classes("hint")
+        box.set_visibility(True)
+
+    work = Work("surface", "Read it", ask, show, seconds=SECONDS)
+    box = ui.column().classes("w-full")
+    with box:
+        table = ui.row().classes("facts w-full")
+        notes = ui.column().classes("w-full gap-1")
+        ui.button("Use these in the study", icon="input", on_click=lambda: take()).props(
+            'no-caps data-take="surface"'
+        )
+        plots: dict[str, Any] = {}
+        with ui.element("div").classes("figures w-full"):
+            for name in ("heights", "rms_gradient", "R", "eta"):
+                plots[name] = ui.plotly(empty(360)).classes("w-full")
+                plots[name].props(f'data-figure="surface-{name}"')
+    box.set_visibility(False)
+
+    def take() -> None:
+        used = now["result"]["used"]
+        numbers = {key: used[key] for key in ("sigma", "R", "alpha", "eta")}
+        state.set("roughness", numbers)
+        again()
+        ui.notify("The roughness of the study is that of this surface now.")
+
+    return lambda: None
+
+
+def height_figure(found: dict[str, Any]) -> dict[str, Any]:
+    """Heights as a map or a line."""
+    picture = found["picture"]
+    heights = np.array(picture["heights"], dtype=float) * 1e9
+    steps = [1e6 * step for step in picture["spacing"]]
+    if heights.ndim == 1:
+        x = steps[0] * np.arange(len(heights))
+        return figure(
+            [line(x, heights, "height")], x="x [µm]", y="height [nm]", title="Heights", xlog=False
+        )
+    rows = [[None if not np.isfinite(v) else round(v, 2) for v in row] for row in heights.T]
+    trace = {
+        "type": "heatmap",
+        "z": rows,
+        "x0": 0,
+        "dx": steps[0],
+        "y0": 0,
+        "dy": steps[1],
+        "colorscale": "Cividis",
+        "colorbar": {"title": {"text": "nm"}, "thickness": 12},
+    }
+    made = figure([trace], x="x [µm]", y="y [µm]", title="Heights, form removed", xlog=False)
+    made["layout"]["yaxis"]["scaleanchor"] = "x"
+    made["layout"]["showlegend"] = False
+    made["layout"]["height"] = 360
+    return made
+
+
+LABELS = {
+    "R": ("tip radius R [m]", ("R", "R_counted")),
+    "eta": ("asperities per area η [1/m²]", ("eta", "eta_counted")),
+    "rms_gradient": ("RMS gradient", ("rms_gradient",)),
+}
+
+
+def cutoff_figure(found: dict[str, Any], name: str) -> dict[str, Any]:
+    """One quantity against the cut-off, the cut-off used marked."""
+    label, columns = LABELS[name]
+    curve = found["curve"]
+    x = np.array([np.nan if v is None else v for v in curve["cutoff"]], dtype=float)
+    known = x > 0
+    traces = []
+    for number, column in enumerate(columns):
+        y = np.array([np.nan if v is None else v for v in curve[column]], dtype=float)
+        words = "counted" if column.endswith("_counted") else "from moments"
+        traces.append(
+            line(x[known] * 1e6, y[known], words, number, mode="lines+markers", marker={"size": 7})
+        )
+    made = figure(traces, x="cut-off [µm]", y=label, title=label.split(" [")[0], ylog=True)
+    if found["used"]["cutoff"]:
+        shape, _ = mark(1e6 * found["used"]["cutoff"], "")
+        made["layout"]["shapes"] = [shape]
+    return made

@@ -1,0 +1,134 @@
+"""A study as text: TOML to keep, and a link that reopens the page."""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+import re
+import tomllib
+import zlib
+from typing import Any
+
+from ..errors import InvalidValue
+
+__all__ = [
+    "LONGEST_LINK",
+    "LONGEST_STUDY",
+    "from_link",
+    "from_toml",
+    "to_link",
+    "to_toml",
+    "written",
+]
+
+LONGEST_STUDY = 200_000
+"""Characters of a study file that the page reads."""
+LONGEST_LINK = 16_000
+"""Characters of a link that the page reads."""
+
+
+def to_toml(study: dict[str, Any]) -> str:
+    """The study as a file: `tomllib.loads` gives it back.
+
+    >>> print(to_toml({"title": "t", "load": {"pressure": "5 MPa"}}), end="")
+    title = "t"
+    <BLANKLINE>
+    [load]
+    pressure = "5 MPa"
+    """
+    lines: list[str] = []
+    _table(study, (), lines)
+    return "\n".join(lines).lstrip("\n") + "\n"
+
+
+def _table(table: dict[str, Any], path: tuple[str, ...], lines: list[str]) -> None:
+    """Plain keys first, tables under their headings after them."""
+    inner: dict[str, Any] = {}
+    for key, value in table.items():
+        heads = isinstance(value, dict) and (len(path) < 1 or _deep(path, key))
+        several = isinstance(value, list) and value and all(isinstance(x, dict) for x in value)
+        if heads or (several and not path):
+            inner[key] = value
+        else:
+            lines.append(f"{_key(key)} = {written(value)}")
+    for key, value in inner.items():
+        name = ".".join(map(_key, (*path, key)))
+        for part in value if isinstance(value, list) else [value]:
+            lines += ["", f"[[{name}]]" if isinstance(value, list) else f"[{name}]"]
+            _table(part, (*path, key), lines)
+
+
+def _deep(path: tuple[str, ...], key: str) -> bool:
+    """Tables inside tables that are written under a heading of their own."""
+    return path == ("outputs",) or (*path, key) in (("uncertainty", "inputs"), ("sweep", "vary"))
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else written(key)
+
+
+def written(value: Any) -> str:
+    """One value as in TOML."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, float) and not math.isfinite(value):
+        return "nan" if math.isnan(value) else "inf" if value > 0 else "-inf"
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{_key(k)} = {written(v)}" for k, v in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(written, value)) + "]"
+    return repr(value)
+
+
+def from_toml(text: str) -> dict[str, Any]:
+    """The study that a text holds.
+
+    Raises
+    ------
+    InvalidValue
+        Text that is not TOML, or too long.
+    """
+    if len(text) > LONGEST_STUDY:
+        raise InvalidValue(f"a study of {len(text)} characters is longer than {LONGEST_STUDY}")
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InvalidValue(f"this is not a study file: {error}") from None
+    except RecursionError:
+        raise InvalidValue("this is nested too deeply to be a study file") from None
+
+
+def to_link(study: dict[str, Any], at: float | None = None) -> str:
+    """The query string that reopens a study at an operating load."""
+    packed = zlib.compress(to_toml(study).encode(), 9)
+    code = base64.urlsafe_b64encode(packed).decode().rstrip("=")
+    return f"study={code}" + ("" if at is None else f"&at={at!r}")
+
+
+def from_link(code: str) -> dict[str, Any]:
+    """The study of a link.
+
+    Raises
+    ------
+    InvalidValue
+        A link that is cut, changed or too long.
+
+    Examples
+    --------
+    >>> from_link(to_link({"title": "t"}).removeprefix("study="))
+    {'title': 't'}
+    """
+    broken = "the link holds no study; it may have been cut when it was copied"
+    if len(code) > LONGEST_LINK:
+        raise InvalidValue(f"the link is longer than {LONGEST_LINK} characters")
+    try:
+        packed = base64.urlsafe_b64decode(code + "=" * (-len(code) % 4))
+        text = zlib.decompressobj().decompress(packed, LONGEST_STUDY + 1).decode()
+    except (ValueError, zlib.error):
+        raise InvalidValue(broken) from None
+    if not text:
+        raise InvalidValue(broken)
+    return from_toml(text)

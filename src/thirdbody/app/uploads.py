@@ -1,0 +1,30 @@
+"""Files that are dropped on a page: kept in its own folder, under a harmless name, never run."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+__all__ = ["harmless", "keep"]
+
+
+def harmless(name: str) -> str:
+    """The last part of a name, of letters, digits, dot, dash and underscore.
+
+    >>> harmless("../../etc/pass wd.x3p")
+    'pass_wd.x3p'
+    >>> harmless("..")
+    'file'
+    """
+    last = re.split(r"[/\\]", name)[-1]
+    kept = re.sub(r"[^A-Za-z0-9._-]", "_", last).lstrip(".-")[-80:]
+    return kept or "file"
+
+
+async def keep(folder: Path, event: Any) -> str:
+    """Write an uploaded file into the folder of the page; its name there."""
+    name = harmless(event.file.name)
+    await event.file.save(folder / name)
+    (folder / name).chmod(0o600)
+    return name

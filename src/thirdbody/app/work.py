@@ -1,0 +1,87 @@
+"""A button that starts long work, a bar that shows how far it is, a button that stops it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import ui
+
+from ..errors import InvalidValue
+from .jobs import Job, Stopped
+
+__all__ = ["Work"]
+
+
+class Work:
+    """Widgets around one kind of `Job`.
+
+    Parameters
+    ----------
+    task : str
+        A key of `worker.TASKS`.
+    label : str
+        Of the button.
+    ask : callable
+        Gives what the task is to be told, or None where it cannot start.
+    show : callable
+        Shows the result.
+    """
+
+    def __init__(
+        self,
+        task: str,
+        label: str,
+        ask: Callable[[], dict[str, Any] | None],
+        show: Callable[[dict[str, Any]], None],
+        seconds: float = 300.0,
+    ) -> None:
+        self.task, self.ask, self.show, self.seconds = task, ask, show, seconds
+        self.job: Job | None = None
+        with ui.row().classes("w-full items-center gap-3"):
+            self.start = ui.button(label, icon="play_arrow", on_click=self.run)
+            self.start.props(f'no-caps data-work="{task}"')
+            self.bar = ui.linear_progress(value=0.0, show_value=False).classes("grow")
+            self.bar.props(f'aria-label="progress of {task}"')
+            self.stop = ui.button("Cancel", icon="stop", on_click=self.cancel).props("flat no-caps")
+            self.stop.props(f'data-cancel="{task}"')
+        self.said = ui.label().classes("problem").props(f'role=alert data-said="{task}"')
+        self._idle()
+
+    def _idle(self) -> None:
+        self.bar.set_visibility(False)
+        self.stop.set_visibility(False)
+        self.start.enable()
+
+    async def run(self) -> None:
+        """Start; a second start while it runs does nothing."""
+        if self.job is not None:
+            return
+        self.said.set_text("")
+        asked = self.ask()
+        if asked is None:
+            return
+        self.job = Job(self.task, self._report, self.seconds)
+        self.bar.set_value(0.02)
+        self.bar.set_visibility(True)
+        self.stop.set_visibility(True)
+        self.start.disable()
+        try:
+            result = await self.job.run(**asked)
+        except Stopped:
+            self.said.set_text("cancelled")
+        except InvalidValue as error:
+            self.said.set_text("; ".join(error.problems))
+        else:
+            self.show(result)
+        finally:
+            self.job = None
+            self._idle()
+
+    def _report(self, part: float) -> None:
+        self.bar.set_value(part)
+
+    def cancel(self) -> None:
+        """Stop what runs."""
+        if self.job is not None:
+            self.job.cancel()

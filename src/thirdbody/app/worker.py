@@ -1,0 +1,257 @@
+"""Long work in a process of its own: ``python -m thirdbody.app.worker``.
+
+One JSON object comes in on standard input; lines of JSON go out: {"done": 0.3} while it goes on,
+then {"result": ...} or {"problems": [...]}. Nothing but plain data passes either way, so a file
+that makes this process misbehave cannot reach the page.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+__all__ = ["TASKS", "compare", "design", "error_bars", "mode_map", "surface"]
+
+Report = Callable[[float], None]
+SECONDS = 300
+"""Processor time a task may take."""
+MEMORY = 6 * 2**30
+"""Bytes a task may use."""
+
+
+def main() -> None:
+    """Read one request, do it, tell."""
+    _limit()
+    warnings.simplefilter("ignore")
+    asked = json.loads(sys.stdin.read())
+    out = sys.stdout
+    sys.stdout = sys.stderr  # what a reader of instrument files prints is no answer
+
+    def tell(**line: Any) -> None:
+        out.write(json.dumps(line, allow_nan=False) + "\n")
+        out.flush()
+
+    from ..errors import ThirdBodyError
+
+    try:
+        task = TASKS[asked.pop("task")]
+        tell(result=_finite(task(report=lambda part: tell(done=part), **asked)))
+    except ThirdBodyError as error:
+        tell(problems=list(getattr(error, "problems", None) or [str(error)]))
+    except MemoryError:
+        tell(problems=["this needs more memory than the page allows"])
+    except Exception as error:  # readers of files raise whatever comes to their mind
+        tell(problems=[f"this failed: {type(error).__name__}: {error}"])
+
+
+def _limit() -> None:
+    """Bounds on memory and processor time, where the system has them."""
+    try:
+        import resource
+    except ImportError:
+        return
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def _finite(value: Any) -> Any:
+    """Plain data with None for numbers that are not finite."""
+    if isinstance(value, dict):
+        return {str(key): _finite(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray):
+        return _finite(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [_finite(item) for item in value]
+    if isinstance(value, np.generic):
+        return _finite(value.item())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _study(study: dict[str, Any], folder: str) -> Any:
+    from ..study import check
+
+    return check(study, folder=Path(folder))
+
+
+def _bare(contact: Any) -> Any:
+    return contact.replace(outputs=())
+
+
+# ---------------------------------------------------------------------- tasks
+def mode_map(
+    *, study: dict[str, Any], folder: str, sizes: list[float], loads: list[float], report: Report
+) -> dict[str, Any]:
+    """Contact mode over x_a/σ and F*: index into p-s, hybrid, s-s (−1: none) and load share."""
+    import thirdbody as tb
+
+    from ..errors import InvalidValue, ThirdBodyError
+
+    contact = _bare(_study(study, folder).contact)
+    (dust,) = contact.populations
+    mean = float(dust.diameter.mean_diameter)
+    names = ["p-s", "hybrid", "s-s"]
+    index, share = [], []
+    for number, size in enumerate(sizes):
+        row, part = [-1] * len(loads), [math.nan] * len(loads)
+        try:
+            sizes_there = dust.diameter.scaled(size * contact.roughness.sigma / mean)
+            made = contact.replace(particles=dust.replace(diameter=sizes_there))
+            state = tb.solve(made, F_star=np.array(loads))
+            row = [names.index(m) if m in names else -1 for m in np.asarray(state.mode).tolist()]
+            part = np.asarray(state.particle_load_share).tolist()
+        except (InvalidValue, ThirdBodyError):
+            pass  # jammed
+        index.append(row)
+        share.append(part)
+        report((number + 1) / len(sizes))
+    return {"sizes": sizes, "loads": loads, "mode": index, "share": share, "mean": mean}
+
+
+def compare(
+    *, study: dict[str, Any], folder: str, load: str, loads: list[float], report: Report
+) -> dict[str, Any]:
+    """The same interface under every asperity law."""
+    import thirdbody as tb
+
+    contact = _bare(_study(study, folder).contact)
+    report(0.05)
+    table = tb.compare(contact, **{load: np.array(loads)})
+    columns = {str(name): table[name].values for name in table.data_vars}
+    for name in ("F_star", "pressure", "note", "status"):
+        if name in table.coords:
+            columns[name] = table[name].values
+    return {
+        "laws": [str(law) for law in table.law.values],
+        "load": load,
+        "loads": loads,
+        "columns": columns,
+        "own": table.attrs["own_law"],
+    }
+
+
+def error_bars(
+    *,
+    study: dict[str, Any],
+    folder: str,
+    load: str,
+    loads: list[float],
+    at: float,
+    of: str,
+    samples: int,
+    report: Report,
+) -> dict[str, Any]:
+    """Bands of one output over the load, and its tornado at the operating load."""
+    import thirdbody as tb
+
+    from ..errors import InvalidValue
+    from ..uncertainty import library_ranges
+
+    asked = _study(study, folder)
+    known = asked.uncertainty
+    inputs = known.inputs if known is not None else library_ranges(asked.contact)
+    if not inputs:
+        raise InvalidValue("no input is uncertain yet; add one, and what is known of it")
+    seed = 0 if known is None else known.seed
+    rows, errors, nominal, modes = [], [], [], []
+    asking: dict[str, Any] = {"samples": samples, "seed": seed, "outputs": [of]}
+    for number, value in enumerate(loads):
+        found = tb.propagate(asked.contact, inputs, **(asking | {load: value}))
+        rows.append(found.bands[of])
+        errors.append(found.error[of])
+        nominal.append(found.nominal[of])
+        modes.append(found.mode_probability)
+        report(0.9 * (number + 1) / len(loads))
+    point = tb.propagate(asked.contact, inputs, **(asking | {load: at}))
+    return {
+        "of": of,
+        "loads": loads,
+        "probabilities": point.probabilities,
+        "bands": rows,
+        "errors": errors,
+        "nominal": nominal,
+        "modes": modes,
+        "samples": point.samples,
+        "at": at,
+        "band_at": point.bands[of],
+        "nominal_at": point.nominal[of],
+        "tornado": point.tornado(of)[of],
+        "ends": {label: [one.at(0.05), one.at(0.95)] for label, one in point.inputs.items()},
+    }
+
+
+def design(
+    *,
+    study: dict[str, Any],
+    folder: str,
+    over: dict[str, list[float]],
+    load: str,
+    loads: list[float],
+    objective: dict[str, Any],
+    limits: list[dict[str, Any]],
+    report: Report,
+) -> dict[str, Any]:
+    """The best inputs over a range of loads."""
+    from ..design import Limit, Objective
+    from ..design import design as search
+
+    contact = _study(study, folder).contact
+    report(0.05)
+    found = search(
+        contact,
+        over={name: (low, high) for name, (low, high) in over.items()},
+        objective=Objective(**objective),
+        limits=[Limit(**each) for each in limits],
+        **{load: np.array(loads)},  # type: ignore[arg-type]
+    )
+    return found.to_dict()
+
+
+def surface(*, file: str, options: dict[str, Any], report: Report) -> dict[str, Any]:
+    """A measured surface: heights for a picture, moments, and their course with the cut-off."""
+    from ..topography import from_topography
+
+    found = from_topography(file if file == "example" else Path(file), **options)
+    report(0.4)
+    out = found.to_dict()
+    report(0.9)
+    heights = found.heights
+    steps = tuple(max(1, math.ceil(n / 160)) for n in heights.shape)
+    small = heights[tuple(slice(None, None, step) for step in steps)]
+    used = found.moments
+    out["picture"] = {
+        "heights": small,
+        "spacing": [d * step for d, step in zip(found.spacing, steps, strict=True)],
+    }
+    out["used"] = {
+        "sigma": used.sigma,
+        "R": used.R,
+        "eta": used.eta,
+        "alpha": used.alpha,
+        "sigma_s": used.sigma_s,
+        "y_s": used.y_s,
+        "cutoff": found.cutoff,
+    }
+    out["warnings"] = list(found.warnings)
+    out["dim"] = found.dim
+    return out
+
+
+TASKS: dict[str, Callable[..., dict[str, Any]]] = {
+    "map": mode_map,
+    "compare": compare,
+    "error bars": error_bars,
+    "design": design,
+    "surface": surface,
+}
+
+
+if __name__ == "__main__":
+    main()
