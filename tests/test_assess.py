@@ -288,7 +288,8 @@ def test_bands_enclose_the_median():
         plot.bands(found, "A_t")
 
 
-def test_a_law_without_critical_loads_says_so_and_keeps_its_bands():
+def test_a_law_without_critical_loads_says_so_and_keeps_its_bands(monkeypatch):
+    monkeypatch.setattr(sys.modules["thirdbody.assess"], "LOADS_SHOWN", 4)
     dusty = DUSTY.replace(particle_law=tb.particle.Horng2022())
     answer = assess(dusty, {"roughness.sigma": (90e-9, 110e-9)}, pressure=5e6, samples=64)
     margins, state = answer.sections()[1:3]

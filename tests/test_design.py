@@ -136,14 +136,14 @@ def test_window_is_a_share_and_wider_limits_never_hurt():
 
 
 def scattered(objective, **asked):
-    """The objective at the first twelve points."""
+    """The objective at the first eight points."""
     found = design(contact(), objective=objective, **asked)
-    return found.points[objective.label].values[:12]
+    return found.points[objective.label].values[:8]
 
 
 def test_scatter():
     objective = Objective(of="A_t", over_scatter="worst")
-    some = dict(over={SIZE: (5e-8, 5e-7)}, F_star=[1e-5], points=12)
+    some = dict(over={SIZE: (5e-8, 5e-7)}, F_star=[1e-5], points=8)
     nothing = tb.Uncertain.uniform(100e-9 * (1 - 1e-12), 100e-9 * (1 + 1e-12))
     still = design(
         contact(), objective=objective, scatter={"roughness.sigma": nothing}, samples=4, **some

@@ -41,8 +41,8 @@ if __name__ == "__main__":
     ax.fill_between(NUMBERS, np.sqrt(4 * 0.3 / np.pi / NUMBERS), 30, color="0.75", alpha=0.5)
     ax.text(0.07, 9, "particles cover\nmore than 0.3", ha="center", fontsize="small")
     ax.set(
-        xlabel="particles on an area σ²: η_a σ²",
-        ylabel="x_a/σ at which shares are equal",
+        xlabel=r"particles on an area $\sigma^2$: $\eta_a\sigma^2$",
+        ylabel=r"$x_a/\sigma$ at which shares are equal",
         xlim=(NUMBERS[0], NUMBERS[-1]),
         ylim=(0.4, 20),
         yticks=[0.5, 1, 2, 5, 10, 20],

@@ -177,7 +177,7 @@ def test_every_tab_works(visit, gallery, width, scheme):
     page = visit(width, scheme, f"?{to_link(study, 1e-5)}")
     for name in TABS:
         tab(page, name)
-        if name in WORK:
+        if name in WORK and (width == 1280 or name in ("Map", "Surface")):
             page.locator(f'[data-work="{WORK[name]}"]').click()
             drawn(page, FIGURES[name])
         if name == "Curves":

@@ -17,7 +17,7 @@ from ..errors import InvalidValue
 from ..sweep import Plan
 from ..uncertainty import Uncertainty
 from .overrides import override
-from .reader import Key, Reader
+from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names
 from .tables import FIELDS, TABLES
 from .toml import read
@@ -110,12 +110,21 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
 def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
     data = with_nested_names(data)
+    try:
+        return _checked(data, folder, [t for t in TABLES if t.name in data or t.required(data)])
+    except InvalidValue:
+        # to say where a misplaced key belongs, every table must be known
+        return _checked(data, folder, TABLES)
+
+
+def _checked(data: dict[str, Any], folder: Path, tables: Iterable[Table]) -> Study:
+    """The study, when these are all the tables that it may hold."""
     reader = Reader(folder, data, FIELDS)
     keys = {
         table.name: Key(
             table.read(reader, table.name, data.get(table.name)), table.required(data), table.about
         )
-        for table in TABLES
+        for table in tables
     }
     model = reader.table("", keys, lambda values: _study(reader, values))
     try:
