@@ -1,5 +1,8 @@
 """What the exponentials of a state cost: no quadrature over these nodes can be quicker.
 
+Asperities are summed by series in the separation and in ω_1/σ_s, so they may beat this floor;
+particles on a rough seat are summed over nodes.
+
 python benchmarks/floor.py
 """
 
@@ -13,6 +16,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from thirdbody import engine, kernels
+from thirdbody.asperities import gaussian_rule
 
 Array = NDArray[np.float64]
 
@@ -39,16 +43,18 @@ def nanoseconds() -> float:
 
 
 def exponentials(states: engine.States, h: Array) -> Array:
-    """Exponentials of one evaluation of the load at separations h [σ_s]: (N,).
+    """Exponentials of one evaluation of the load by quadrature at separations h [σ_s]: (N,).
 
-    Nodes within reach, as `kernels` chooses them, and the factor exp(−h²/2).
+    Nodes within reach, where the exponent has not fallen by 36.
     """
     k, kinds, values = kernels, states.kinds, states.values
     nodes = states.rules[k.AT]
     count = np.ones(len(h))
     for m in range(len(h)):
-        below = (math.sqrt(h[m] * h[m] + 72.0) - h[m]) / values[m, k.W]
-        count[m] += np.searchsorted(nodes[kinds[m, k.BEGIN] : kinds[m, k.END]], below)
+        reach = (math.sqrt(h[m] * h[m] + 72.0) - h[m]) / states.w[m]
+        count[m] += np.searchsorted(
+            gaussian_rule(states.law, math.frexp(states.w[m])[1] - 1).y, reach
+        )
         d = values[m, k.CENTRE] + values[m, k.SIGMA_S] * h[m]
         for p in range((kinds.shape[1] - k.PARTS) // k.PART_KINDS):
             i, v = k.PARTS + p * k.PART_KINDS, k.VALUES + p * k.PART_VALUES

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from .heights import GaussianHeights, Heights
 from .laws.base import REGIMES, AbstractAsperityLaw
 from .materials import MaterialPair
-from .numerics import PiecewiseChebyshev, panel_rule, subdivide
+from .numerics import PiecewiseChebyshev, chebyshev_transform, panel_rule, subdivide
 from .spots import AsperitySpots
 from .surfaces import Roughness
 
@@ -127,6 +127,25 @@ class GaussianRule:
         self.weight = np.concatenate([2 * root * root_weight, weight]) / math.sqrt(2 * math.pi)
         self.columns = self.weight[:, None] * by_regime(law, self.y)
 
+    def sums(self, w: float, h: Array) -> Array:
+        """Columns, then the moments wy and w²y² of the load, at (N,) separations [σ_s]: (N, 6).
+
+        The common factor exp(−h²/2) is left out.
+        """
+        t = w * self.y
+        force = self.columns[:, :1]
+        columns = w * np.hstack([self.columns, force * t[:, None], force * t[:, None] ** 2])
+        out = np.empty((len(h), columns.shape[1]))
+        size = max(1, 200_000 // len(t))
+        for start in range(0, len(h), size):
+            part = slice(start, start + size)
+            e = np.multiply.outer(-h[part], t)
+            e -= 0.5 * t**2
+            np.maximum(e, -700.0, out=e)
+            np.exp(e, out=e)
+            out[part] = e @ columns
+        return out
+
 
 @lru_cache(maxsize=256)
 def gaussian_rule(law: AbstractAsperityLaw, octave: int) -> GaussianRule:
@@ -143,36 +162,21 @@ class GaussianSum(ReducedSum):
     """
 
     highest = 37.0
+    SPAN = np.array([-ReducedSum.DEEPEST, 0.0, 3.0, 8.0, 16.0, highest + 1])
+    KINDS = (*KINDS, 2, 3)
 
     def __init__(self, law: AbstractAsperityLaw, heights: Heights, w: float):
         super().__init__(law, heights, w)
-        self.rule = rule = gaussian_rule(law, math.frexp(w)[1] - 1)
-        self.t = w * rule.y
-        columns = w * rule.columns
-        force = columns[:, :1]
-        self.columns = np.hstack([columns, force * self.t[:, None], force * self.t[:, None] ** 2])
-        span = np.array([-self.DEEPEST, 0.0, 3.0, 8.0, 16.0, self.highest + 1])
-        self.table = PiecewiseChebyshev(self._sum, span, kinds=(*KINDS, 2, 3))
-
-    def _sum(self, h: Array) -> Array:
-        """Σ columns · exp(−ht − t²/2) for (N,) separations in σ_s: (N, 6)."""
-        out = np.empty((len(h), self.columns.shape[1]))
-        size = max(1, 200_000 // len(self.t))
-        for start in range(0, len(h), size):
-            part = slice(start, start + size)
-            e = np.multiply.outer(-h[part], self.t)
-            e -= 0.5 * self.t**2
-            np.maximum(e, -700.0, out=e)
-            np.exp(e, out=e)
-            out[part] = e @ self.columns
-        return out
+        self.rule = gaussian_rule(law, math.frexp(w)[1] - 1)
+        self.t = w * self.rule.y
+        self.table = PiecewiseChebyshev(partial(self.rule.sums, w), self.SPAN, kinds=self.KINDS)
 
     def _sums(self, h: Array) -> Array:
         """The sums, the common factor exp(−h²/2) left out: (N, 6)."""
         out = self.table(h)
         low, high = self.table.edges[[0, -1]]
         if np.any(beyond := (h < low) | (h > high)):
-            out[beyond] = self._sum(h[beyond])
+            out[beyond] = self.rule.sums(self.w, h[beyond])
         return out
 
     def load(self, h: Array) -> Array:
@@ -189,6 +193,58 @@ class GaussianSum(ReducedSum):
     def nodes(self, h: Array) -> tuple[Array, Array | None, Array]:
         share = np.exp(-0.5 * (h[:, None] + self.t) ** 2)
         return self.rule.y[:, None], share, self.w * self.rule.weight[:, None]
+
+
+class GaussianSums:
+    """Gaussian heights for every w of half an octave: Chebyshev series in h and in ln w.
+
+    Interfaces that differ in roughness or material then need no quadrature of their own. Relative
+    error 1e-13 of the load and of the whole area.
+
+    Parameters
+    ----------
+    law : AbstractAsperityLaw
+        Bound, the same for all.
+    step : int
+        Stands for 2^(step/2) ≤ w < 2^((step + 1)/2).
+
+    Attributes
+    ----------
+    table : PiecewiseChebyshev
+        In h, of the sums at TERMS values of w, one after another.
+    coefficients : array (panels, TERMS, terms in h, 6)
+        In ln w and h, of the columns of `GaussianRule.sums`.
+    """
+
+    TERMS = 16
+    """Terms in ln w: 1e-14 for every law of the library."""
+
+    def __init__(self, law: AbstractAsperityLaw, step: int):
+        x, transform = chebyshev_transform(self.TERMS)
+        rule = gaussian_rule(law, step // 2)
+        each = 2.0 ** ((step + 0.5 * (x + 1)) / 2)
+
+        def sums(h: Array) -> Array:
+            return np.concatenate([rule.sums(w, h) for w in each], axis=1)
+
+        kinds = GaussianSum.KINDS * self.TERMS
+        self.table = PiecewiseChebyshev(sums, GaussianSum.SPAN, kinds=kinds)
+        panels, terms, _ = self.table.coefficients.shape
+        apart = self.table.coefficients.reshape(panels, terms, self.TERMS, -1)
+        self.coefficients = np.einsum("ij,pkjc->pikc", transform, apart)
+
+    @staticmethod
+    def place(w: Array) -> tuple[NDArray[np.intp], Array]:
+        """Step of every w, and where it lies in the step, from −1 to 1."""
+        at = 2 * np.log2(w)
+        step = np.floor(at)
+        return step.astype(np.intp), 2 * (at - step) - 1
+
+
+@lru_cache(maxsize=128)
+def gaussian_sums(law: AbstractAsperityLaw, step: int) -> GaussianSums:
+    """The cached sums of a bound law for 2^(step/2) ≤ w < 2^((step + 1)/2)."""
+    return GaussianSums(law, step)
 
 
 class DensitySum(ReducedSum):

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .asperities import AsperitySum, GaussianRule, GaussianSum, gaussian_rule, scales
+from .asperities import AsperitySum, GaussianSum, GaussianSums, gaussian_sums, scales
 from .contact import Contact, Interface, together
 from .distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
 from .heights import GaussianHeights
@@ -49,6 +49,8 @@ SCANNED, SCAN = 2_000, 512
 """States of one interface for which a scan of its load pays, and the separations it takes."""
 AT_ONCE = 4_096
 """States handed to a thread at a time."""
+FEW_SIZES = 0.55
+"""Share of the sizes with which a sum comes close enough to a root."""
 
 
 def available() -> bool:
@@ -101,23 +103,45 @@ class _Panels:
     ) -> tuple[int, int]:
         """Begin and end of a function: what the balance needs of it, and its first columns."""
         if key not in self.known:
-            from .kernels import EVERY, LOAD, PANEL, TERMS
-
-            panels = np.zeros((len(function.half), PANEL + 1, TERMS))
-            panels[:, LOAD : LOAD + load.shape[2]] = load.transpose(0, 2, 1)
-            every = function.coefficients[:, :, :columns].transpose(0, 2, 1)
-            panels[:, EVERY : EVERY + columns] = every
-            panels[:, PANEL, 0], panels[:, PANEL, 1] = function.edges[:-1], function.half
-            self.known[key] = self.count, self.count + len(panels)
-            self.count += len(panels)
-            self.panels.append(panels)
+            self._append(key, _laid(function, load, function.coefficients[:, :, :columns]))
         return self.known[key]
+
+    def _append(self, key: Any, panels: Array) -> None:
+        self.known[key] = self.count, self.count + len(panels)
+        self.count += len(panels)
+        self.panels.append(panels)
+
+    def add_family(self, family: GaussianSums) -> tuple[int, int]:
+        """Begin and end of the sums over Gaussian heights for many w."""
+        if family not in self.known:
+            self._append(family, _family(family))
+        return self.known[family]
 
     def add_average(self, function: PiecewiseChebyshev, shadow: int) -> tuple[int, int]:
         """Begin and end of particle columns: load and shadow with two derivatives, all seven."""
         load = function.with_derivatives[:, :, [0, max(shadow, 0)], :]
         load = load.reshape(*load.shape[:2], -1)
         return self.add((id(function), shadow), function, load, len(COLUMNS))
+
+
+def _laid(function: PiecewiseChebyshev, load: Array, every: Array) -> Array:
+    """Panels (P, ..., terms, columns) in the kernel's layout, the middle axes one after another."""
+    from .kernels import EVERY, LOAD, PANEL, TERMS
+
+    panels = np.zeros((*load.shape[:-2], PANEL + 1, TERMS))
+    panels[..., LOAD : LOAD + load.shape[-1], :] = load.swapaxes(-1, -2)
+    panels[..., EVERY : EVERY + every.shape[-1], :] = every.swapaxes(-1, -2)
+    panels = panels.reshape(len(load), -1, PANEL + 1, TERMS)
+    panels[:, :, PANEL, 0] = function.edges[:-1, None]
+    panels[:, :, PANEL, 1] = function.half[:, None]
+    return panels.reshape(-1, PANEL + 1, TERMS)
+
+
+@lru_cache(maxsize=64)
+def _family(family: GaussianSums) -> Array:
+    """The sums over Gaussian heights for half an octave of w in the kernel's layout."""
+    every = family.coefficients
+    return _laid(family.table, every[..., [0, 4, 5]], every[..., :4])
 
 
 class _Rules:
@@ -162,6 +186,7 @@ class _Batch:
 
         no_panel, no_node = np.zeros((1, k.PANEL + 1, k.TERMS)), np.zeros((k.AT + 1, 0))
         self.series = np.concatenate([*self._panels.panels, no_panel])
+        self.edges = self.series[:, k.PANEL, 0].copy()
         self.rules = np.ascontiguousarray(np.concatenate([*self._rules.rules, no_node], axis=1))
 
     def solve(
@@ -185,7 +210,15 @@ class _Batch:
         def part(start: int) -> None:
             here = slice(start, start + AT_ONCE)
             solve_states(
-                *(self.kinds, self.values, self.series, self.rules, np.empty(SCRATCH), scan),
+                *(
+                    self.kinds,
+                    self.values,
+                    self.series,
+                    self.edges,
+                    self.rules,
+                    np.empty(SCRATCH),
+                    scan,
+                ),
                 *(which[here], target[here], h[here], given),
                 *(evaluations[here], fate[here], rows[here]),
             )
@@ -216,7 +249,18 @@ class _Batch:
         scan[:, 0] = np.linspace(h[0], h[1], SCAN)
         if fate.any() or h[0] >= h[1]:
             return scan[:0]
-        scan_loads(*(0, self.kinds, self.values, self.series, self.rules, np.empty(SCRATCH), scan))
+        scan_loads(
+            *(
+                0,
+                self.kinds,
+                self.values,
+                self.series,
+                self.edges,
+                self.rules,
+                np.empty(SCRATCH),
+                scan,
+            )
+        )
         return scan if np.all(np.diff(scan[:, 1]) < 0) else scan[:0]
 
 
@@ -257,9 +301,9 @@ class Interfaces(_Batch):
             kind, load = k.GAUSSIAN, table.coefficients[:, :, [0, 4, 5]]
         else:
             kind, load = k.DENSITY, table.with_derivatives[:, :, 0, :]
-        self.kinds[m, k.KIND : k.FEW] = kind, *self._panels.add(reduced, table, load, 4)
+        self.kinds[m, k.KIND : k.PARTS] = kind, *self._panels.add(reduced, table, load, 4)
         self.values[m, : k.COVERAGE] = (
-            *(reduced.w, asperities.sigma_s, asperities.centre),
+            *(0.0, asperities.sigma_s, asperities.centre),
             *(*asperities.units[:2], asperities.highest),
         )
 
@@ -356,20 +400,32 @@ class States(_Batch):
         if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity or pulls(law):
             raise TypeError("these asperities are not for shared nodes")
         w, units = scales(law, rough, surfaces)
-        octaves = np.broadcast_to(np.frexp(w)[1] - 1, len(self.kinds))
-        for octave in np.unique(octaves):
-            rule = gaussian_rule(law, int(octave))
-            ends = self._rules.add((law, octave), rule.y, rule.columns)
-            few = _few_asperities(law, int(octave))
-            few_ends = self._rules.add((few, octave), few.y, few.columns)
-            self.kinds[octaves == octave, k.BEGIN : k.PARTS] = *ends, *few_ends
-        self.kinds[:, k.KIND] = k.BY_NODES
-        for column, values in (
-            *((k.W, w), (k.SIGMA_S, rough.sigma_s), (k.CENTRE, datum * rough.sigma)),
-            *((k.FORCE, units[..., 0]), (k.AREA, units[..., 1])),
-            (k.HIGHEST, GaussianSum.highest),
-        ):
-            self.values[:, column] = values
+        self.law, self.w = law, np.broadcast_to(w, len(self.kinds))
+        step, across = GaussianSums.place(self.w)
+
+        def family(step: int) -> tuple[int, int]:
+            return self._panels.add_family(gaussian_sums(law, step))
+
+        self.kinds[:, k.BEGIN : k.PARTS] = _each(step, family)
+        self.kinds[:, k.KIND] = k.FAMILY
+        named = {"ACROSS": across, "SIGMA_S": rough.sigma_s, "CENTRE": datum * rough.sigma}
+        named |= {"FORCE": units[..., 0], "AREA": units[..., 1], "HIGHEST": GaussianSum.highest}
+        self._set_values(0, named)
+
+    def _set_values(self, at: int, named: Mapping[str, Any]) -> None:
+        """Columns from ``at`` on by the kernel's names: those alike for all states as one row."""
+        from . import kernels as k
+
+        columns = {getattr(k, name): np.asarray(values) for name, values in named.items()}
+        wide = (k.POWERS, k.FLOOR)
+        alike = {i: values for i, values in columns.items() if values.ndim == (i in wide)}
+        row = np.zeros(max(i + (len(COLUMNS) if i in wide else 1) for i in columns))
+        for i, values in alike.items():
+            row[i : i + values.size] = values
+        self.values[:, at : at + len(row)] = row
+        for i in columns.keys() - alike.keys():
+            values = columns[i] if i in wide else columns[i][:, None]
+            self.values[:, at + i : at + i + values.shape[1]] = values
 
     def _add_particles(
         self, contact: Contact, varied: Contact, arrays: Mapping[str, Array]
@@ -390,12 +446,8 @@ class States(_Batch):
             kinds = part.pop("kinds")
             self.kinds[:, at : at + kinds.shape[1]] = kinds
             coverage += part.pop("coverage")
-            at = k.VALUES + p * k.PART_VALUES
-            self.values[:, at + k.OFFSET] = law.seat_offset(varied.roughness)
-            self.values[:, at + k.POWERS : at + k.FLOOR] = part.pop("powers", 0.0)
-            self.values[:, at + k.FLOOR : at + k.PART_VALUES] = part.pop("floor")
-            for name, values in part.items():
-                self.values[:, at + getattr(k, name)] = values
+            part["OFFSET"] = law.seat_offset(varied.roughness)
+            self._set_values(k.VALUES + p * k.PART_VALUES, part)
         if np.any(coverage >= 1):
             raise TypeError("some particles are jammed")  # said better, one contact at a time
         if law.shadow == "covered":
@@ -429,11 +481,14 @@ class States(_Batch):
             kinds[:, 0] = k.ROUGH_NODES if rough else k.PLANE
             if rough:
                 kinds[:, 3:5] = self._rules.add("one", np.ones(1), np.ones((1, 1)))
-                octaves = np.broadcast_to(np.frexp(width)[1] - 1, len(kinds))
-                for octave in np.unique(octaves):
-                    for i, rule in ((1, _seat_rule), (5, _few_on_seats)):
-                        ends = self._rules.add((rule, average, octave), *rule(average, int(octave)))
-                        kinds[octaves == octave, i : i + 2] = ends
+                kinds[:, 7:9] = kinds[:, 3:5]
+                octave = np.broadcast_to(np.frexp(width)[1] - 1, len(kinds))
+                for i, rule in ((1, _seat_rule), (5, _few_on_seats)):
+
+                    def ends(octave: int, rule: Any = rule, average: Any = average) -> Any:
+                        return self._rules.add((rule, average, octave), *rule(average, octave))
+
+                    kinds[:, i : i + 2] = _each(octave, ends)
             else:
                 # without small gaps the second function is not asked for
                 for i, function in enumerate((average.upper, average.lower or average.upper)):
@@ -445,7 +500,7 @@ class States(_Batch):
                 "REACH": average.top + k.SEAT_REACH * width,
                 "LEAST": average.bottom - k.SEAT_REACH * width,
                 **{"TOP": average.top, "BOTTOM": average.bottom, "JOIN": average.join},
-                **{"powers": average.powers, "floor": average.floor},
+                **{"POWERS": average.powers, "FLOOR": average.floor},
             }
 
     def _squeezed(
@@ -495,6 +550,8 @@ class States(_Batch):
             kinds[:, 0] = k.ROUGH_NODES
             kinds[:, 1:3] = kinds[:, 5:7] = self._rules.add_each(rule.gaps, rule.weighted)
             kinds[:, 3:5] = self._rules.add_each(x, (weight * x**3)[..., None])
+            x_few, weight_few = sizes(float(width.min()), FEW_SIZES)
+            kinds[:, 7:9] = self._rules.add_each(x_few, (weight_few * x_few**3)[..., None])
             deepest = np.minimum(x[..., 0] * rule.bottom, x[..., -1] * rule.bottom)
             yield {
                 "kinds": kinds,
@@ -502,7 +559,7 @@ class States(_Batch):
                 **{"SIZE": size[:, 0], "FACTOR": factor, "WIDTH": width[:, 0]},
                 "REACH": x[..., -1] + k.SEAT_REACH * width[:, 0],
                 "LEAST": deepest - k.SEAT_REACH * width[:, 0],
-                **{"TOP": x[..., -1], "BOTTOM": rule.bottom, "floor": rule.floor},
+                **{"TOP": x[..., -1], "BOTTOM": rule.bottom, "FLOOR": rule.floor},
             }
 
 
@@ -530,13 +587,13 @@ def fineness(arrays: Mapping[str, Array]) -> Array:
     return np.broadcast_to(sizes / rough, max(map(len, arrays.values())))
 
 
-class _FewNodes(GaussianRule):
-    """Nodes enough to come close to a root."""
-
-    NODES, WIDTH = 6, 2.5
-
-
-_few_asperities = lru_cache(maxsize=256)(_FewNodes)
+def _each(number: Index, ends: Callable[[int], tuple[int, int]]) -> Index:
+    """Begin and end (N, 2) of what belongs to each number, asked for each number once."""
+    lowest = int(number.min())
+    table = np.zeros((int(number.max()) - lowest + 1, 2), np.int64)
+    for there in np.flatnonzero(np.bincount(number - lowest)):
+        table[there] = ends(lowest + int(there))
+    return table[number - lowest]
 
 
 @lru_cache(maxsize=128)
@@ -559,8 +616,11 @@ def _few_on_seats(average: SizeAverage, octave: int) -> tuple[Array, Array]:
 
 def _sizes(
     base: Distribution, varied: Distribution, arrays: Mapping[str, Array], count: int
-) -> Iterator[tuple[float, Array, Callable[[float], tuple[Array, Array]]]]:
-    """Weight, size (N, 1) [m], and a rule over the sizes in its unit for a width to resolve."""
+) -> Iterator[tuple[float, Array, Callable[..., tuple[Array, Array]]]]:
+    """Weight, size (N, 1) [m], and a rule over the sizes in its unit for a width to resolve.
+
+    The rule also takes the share of its nodes that are wanted, to come close to a root.
+    """
     factor = size_factor(base, arrays)
     if factor is not None:
         for weight, part in base.components:
@@ -575,21 +635,21 @@ def _sizes(
         raise TypeError("the shape of these sizes varies")
 
 
-def _shape_rule(shape: Distribution, width: float) -> tuple[Array, Array]:
+def _shape_rule(shape: Distribution, width: float, part: float = 1.0) -> tuple[Array, Array]:
     """Diameters and number weights of a fixed shape."""
     if isinstance(shape, Monodisperse):
         return np.full((1, 1), shape.mean), np.ones((1, 1))
     edges = subdivide(np.array(shape.pieces), width=1.5 * width)
-    x, weight = panel_rule(edges, 12)
+    x, weight = panel_rule(edges, math.ceil(12 * part))
     return x[None], (weight * shape.pdf(x))[None]
 
 
-def _gaussian_sizes(std: Array, n: Array, width: float) -> tuple[Array, Array]:
+def _gaussian_sizes(std: Array, n: Array, width: float, part: float = 1.0) -> tuple[Array, Array]:
     """Diameters over the mean and number weights of truncated Gaussians of their own widths."""
     high = np.minimum(n, NORMAL_CUT)
     low = np.maximum(-high, -1 / std)
     # one panel: 2e-13 for a cut at 3 and a seat ten times as wide
-    count = math.ceil(np.max((high - low) / 6 * (16 + 6 * std / width)))
+    count = math.ceil(part * np.max((high - low) / 6 * (16 + 6 * std / width)))
     u, weight = panel_rule(np.concatenate([low, high], axis=1), count)
     density = np.exp(-0.5 * u * u) * weight
     return 1 + std * u, density / density.sum(axis=1, keepdims=True)

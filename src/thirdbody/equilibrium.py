@@ -52,6 +52,24 @@ class Equilibrium:
     `d` counts from the datum of the particle law: the mean asperity height, except for
     `Horng2022`, which like the paper's eq. (8) puts that height at σ. `h`, from the mean surface
     plane, is the separation to compare between models.
+
+    Made by `solve`, where accuracy and source stand. The columns are named as in the
+    nomenclature.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> state = tb.solve(contact, pressure=[1e6, 5e6, 2e7])  # Pa
+    >>> state.mode.tolist(), state.d_star.round(2).tolist()
+    (['hybrid', 'hybrid', 'hybrid'], [3.27, 2.43, 1.64])
+    >>> state.modes(eps_1=0.05).tolist()  # 95 % of the area count as all of it
+    ['p-s', 'hybrid', 'hybrid']
     """
 
     contact: Contact = field(repr=False)
@@ -102,7 +120,11 @@ class Equilibrium:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PopulationShare:
-    """What one of several populations of particles carries: floats for one load, else arrays."""
+    """What one of several populations of particles carries: floats for one load, else arrays.
+
+    Part of `Equilibrium.populations`; the shares of all populations add up to
+    ``particle_load_share`` and ``particle_area_share``.
+    """
 
     name: str
     F_sa_star: Number
@@ -279,6 +301,28 @@ def roots(
     Returns
     -------
     list of (Equilibrium, bool)
+
+    Raises
+    ------
+    NoEquilibrium
+        No separation carries the load.
+
+    References
+    ----------
+    Horng et al. 2022, Lubricants 10(7), 164, doi:10.3390/lubricants10070164: the printed equations
+    whose load is not monotone.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> [(round(state.d_star, 3), stable) for state, stable in tb.roots(contact, F_star=1e-5)]
+    [(3.214, True)]
     """
     _, values, _ = given_load(contact, pressure, F_star, None)
     bound = interface(contact)
@@ -472,13 +516,13 @@ def _compiled(
     which = np.zeros(len(target), np.int64)
     h, iterations, fate, columns = batch.solve(which, target)
     d = bound.asperities.centre + bound.asperities.sigma_s * h
-    status = np.full(len(d), "ok", dtype=object)
-    if np.any(failed := fate != 0):
-        scan = LoadScan(bound)
-        status[failed] = [scan.why_not(float(F)) for F in target[failed]]
-        d[failed] = np.nan
-        columns = {name: values[~failed] for name, values in columns.items()}
-    return d, iterations, status, columns
+    if not fate.any():
+        return d, iterations, np.full(len(d), "ok"), columns
+    failed, status = fate != 0, np.full(len(d), "ok", dtype=object)
+    scan = LoadScan(bound)
+    status[failed] = [scan.why_not(float(F)) for F in target[failed]]
+    d[failed] = np.nan
+    return d, iterations, status, {name: values[~failed] for name, values in columns.items()}
 
 
 def _state(
@@ -505,7 +549,7 @@ def _state(
     columns = as_columns(
         full, d, bound.mean_plane, rough.sigma, contact.E_ss, target=target, F_star=F_star
     )
-    columns |= {"status": _words(status), "iterations": iterations}
+    columns |= {"status": status.astype(str, copy=False), "iterations": iterations}
     shares = _population_shares(contact, bound, d, columns, scalar)
     outputs, more = evaluate(contact, bound, columns) if contact.outputs else ({}, [])
     if scalar:
@@ -515,12 +559,6 @@ def _state(
     return Equilibrium(
         contact=contact, warnings=notes, populations=shares, outputs=outputs, **columns
     )
-
-
-def _words(status: NDArray[Any]) -> NDArray[np.str_]:
-    """The sentences as an array of strings, which is slow to ask of objects."""
-    ok = status == "ok"
-    return np.full(len(status), "ok") if ok.all() else status.astype(str)
 
 
 def _population_shares(

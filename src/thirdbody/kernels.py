@@ -15,7 +15,7 @@ from llvmlite import ir
 from numba import extending, types
 from numba import njit as _njit
 
-__all__ = ["FIELDS", "evaluate", "scan_loads", "solve_states"]
+__all__ = ["FIELDS", "scan_loads", "solve_states"]
 
 njit: Any = _njit
 intrinsic: Any = extending.intrinsic
@@ -34,15 +34,16 @@ FIELDS = ("F_ss", "e", "ep", "p", "F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow
 """Columns of a solved state: asperities without shadow, then particles."""
 
 # An interface is a row of integers and a row of floats: asperities first, then its parts.
-SHADOW, KIND, BEGIN, END, FEW, PARTS = *range(5), 6
+SHADOW, KIND, BEGIN, END, PARTS = range(5)
 """Column of the particles that is the shadow (−1: the coverage); kind of sum over asperities, its
-panels or nodes from BEGIN to END, at FEW the ends of the few nodes that come close to a root; where
-the parts begin, each PART_KINDS long: kind, begin, end, then begin and end of a plane's series for
-small gaps, or of the sizes over a rough seat, and of the few nodes there."""
-PART_KINDS = 7
-W, SIGMA_S, CENTRE, FORCE, AREA, HIGHEST, COVERAGE, VALUES = range(8)
-"""ω_1/σ_s, σ_s and the mean height [m], units of load [Pa] and area, highest separation [σ_s],
-coverage; where the parts begin, each PART_VALUES long, lengths in the size of the part:"""
+panels from BEGIN to END; where the parts begin, each PART_KINDS long: kind, begin, end, then begin
+and end of a plane's series for small gaps, or of the sizes over a rough seat, and of the few nodes
+and few sizes there."""
+PART_KINDS = 9
+ACROSS, SIGMA_S, CENTRE, FORCE, AREA, HIGHEST, COVERAGE, VALUES = range(8)
+"""place of ω_1/σ_s in its family (−1 to 1), σ_s and the mean height [m], units of load [Pa] and
+area, highest separation [σ_s], coverage; where the parts begin, each PART_VALUES long, lengths in
+the size of the part:"""
 SIZE, FACTOR, OFFSET, WIDTH, REACH, LEAST, TOP, BOTTOM, JOIN, POWERS, FLOOR = *range(10), 16
 """size [m]; density × size²: the unit of area, and of load per Pa; gap − d [m]; width of a rough
 seat; gap above which nothing is carried; gap below which each carries its most, on the seat and
@@ -50,14 +51,17 @@ on a plane; gap between the two series of a plane; leading powers of √(top −
 columns; the seven columns below the least gap."""
 PART_VALUES = 23
 
-BY_NODES, GAUSSIAN, DENSITY = range(3)
-"""Asperities: over nodes, by a series beside the Gaussian, by a series alone."""
+FAMILY, GAUSSIAN, DENSITY = range(3)
+"""Asperities: by a series in h and in ω_1/σ_s beside the Gaussian, by one in h, by one in h
+without the Gaussian."""
 ABSENT, PLANE, ROUGH, ROUGH_NODES = -1, 0, 1, 2
 """Particles: none, by series on a plane, by a series or over nodes on a rough seat."""
 
 TERMS, LOAD, EVERY, PANEL, ROWS = 18, 0, 6, 13, 14
 """A panel of a Chebyshev series: rows of TERMS coefficients, six for the balance and seven for
-the columns, and a last row with its left edge and half width."""
+the columns, and a last row with its left edge and half width. A family has ACROSS_TERMS panels, one
+for each term across it, where a series has one."""
+ACROSS_TERMS = 16
 AT = 7
 """Row of the abscissae in a rule (8, nodes); the others are weight times the seven columns, or
 for a rule of sizes the weight in the first."""
@@ -76,8 +80,9 @@ RESIDUAL = 2e-13
 """Imbalance of the load above which a solved state is polished."""
 CLOSE = 0.02
 """Step [σ_s] after which few nodes are left for all."""
-SCRATCH = 24
-"""Floats that a state needs to work in."""
+MEMBER = 24
+SCRATCH = MEMBER + ROWS * TERMS
+"""Floats that a state needs to work in; from MEMBER on, its panel in a family."""
 
 
 @intrinsic
@@ -163,6 +168,8 @@ class State(NamedTuple):
     parts: Any
     """number of parts of the particles"""
     series: Any
+    edges: Any
+    """left edge of every panel of the series"""
     rules: Any
     nodes: Any
     """length of a row of the rules"""
@@ -172,22 +179,19 @@ class State(NamedTuple):
 
 # ---------------------------------------------------------------- series and rules
 @exact
-def _panel(series, begin, end, x):
-    """The panel of series[begin:end] that holds x."""
-    low, count = begin, end - begin
+def _panel(edges, begin, end, x, stride):
+    """The panel of begin:end:stride whose left edge is the last that x has passed."""
+    low, count = 0, (end - begin) // stride
     while count > 1:  # as many steps for any x, without a branch to guess wrong
         half = count >> 1
-        low += half if series[((low + half) * ROWS + PANEL) * TERMS] <= x else 0
+        low += half if edges[begin + (low + half) * stride] <= x else 0
         count -= half
-    return low
+    return begin + low * stride
 
 
-@sums
-def _series(series, begin, end, x, row, count, out):
-    """Rows of a Chebyshev series at x, from ``row`` on, into ``out``."""
-    p = _panel(series, begin, end, x) * ROWS
-    edge = _from(series, (p + PANEL) * TERMS)
-    s = min(max((x - edge[0]) / edge[1] - 1.0, -1.0), 1.0)
+@exact
+def _polynomials(s):
+    """Chebyshev polynomials T_2 to T_17."""
     # T_2k = 2T_k² − 1 and T_2k+1 = 2T_k T_k+1 − s: a short chain of dependent steps
     z = 2 * s
     t2 = z * s - 1
@@ -199,12 +203,36 @@ def _series(series, begin, end, x, row, count, out):
     t12, t13 = 2 * t6 * t6 - 1, 2 * t6 * t7 - s
     t14, t15 = 2 * t7 * t7 - 1, 2 * t7 * t8 - s
     t16, t17 = 2 * t8 * t8 - 1, 2 * t8 * t9 - s
+    return t2, t3, t4, t5, t6, t7, t8, t9, t10, t11, t12, t13, t14, t15, t16, t17
+
+
+@sums
+def _series(panel, x, row, count, out):
+    """Rows of a Chebyshev series at x, from ``row`` on, into ``out``."""
+    edge = _from(panel, PANEL * TERMS)
+    s = min(max((x - edge[0]) / edge[1] - 1.0, -1.0), 1.0)
+    t2, t3, t4, t5, t6, t7, t8, t9, t10, t11, t12, t13, t14, t15, t16, t17 = _polynomials(s)
     for k in range(count):
-        c = _from(series, (p + row + k) * TERMS)
+        c = _from(panel, (row + k) * TERMS)
         low = c[0] + c[1] * s + c[2] * t2 + c[3] * t3 + c[4] * t4 + c[5] * t5
         middle = c[6] * t6 + c[7] * t7 + c[8] * t8 + c[9] * t9 + c[10] * t10 + c[11] * t11
         high = c[12] * t12 + c[13] * t13 + c[14] * t14 + c[15] * t15 + c[16] * t16 + c[17] * t17
         out[k] = low + middle + high
+
+
+@sums
+def _member(family, x, row, count, panel):
+    """Rows of the panel of one member, x across the family (−1 to 1), into ``panel``."""
+    edge, own = _from(family, PANEL * TERMS), _from(panel, PANEL * TERMS)
+    own[0], own[1] = edge[0], edge[1]
+    t2, t3, t4, t5, t6, t7, t8, t9, t10, t11, t12, t13, t14, t15, _, _ = _polynomials(x)
+    n = ROWS * TERMS
+    for i in range(row * TERMS, (row + count) * TERMS):
+        c = _from(family, i)
+        low = c[0] + c[n] * x + c[2 * n] * t2 + c[3 * n] * t3 + c[4 * n] * t4 + c[5 * n] * t5
+        middle = c[6 * n] * t6 + c[7 * n] * t7 + c[8 * n] * t8 + c[9 * n] * t9 + c[10 * n] * t10
+        high = c[11 * n] * t11 + c[12 * n] * t12 + c[13 * n] * t13 + c[14 * n] * t14
+        panel[i] = low + middle + (high + c[15 * n] * t15)
 
 
 @exact
@@ -221,53 +249,26 @@ def _below(at, low, high, x):
 
 
 # ---------------------------------------------------------------- asperities
-@sums
-def _asperity_nodes(rules, nodes, begin, end, w, h, every, out):
-    """Σ c exp(−hwy − w²y²/2) with the moments 1, wy, w²y² of the load, or of every column."""
-    a, b = -h * w, -0.5 * w * w
-    s0 = s1 = s2 = s3 = 0.0
-    at, c0 = _from(rules, AT * nodes + begin), _from(rules, begin)
-    if every:
-        c1, c2, c3 = _from(c0, nodes), _from(c0, 2 * nodes), _from(c0, 3 * nodes)
-        for j in range(end - begin):
-            y = at[j]
-            e = exp((a + b * y) * y)
-            s0 += e * c0[j]
-            s1 += e * c1[j]
-            s2 += e * c2[j]
-            s3 += e * c3[j]
-    else:
-        for j in range(end - begin):
-            y = at[j]
-            e = exp((a + b * y) * y) * c0[j]
-            s0 += e
-            s1 += e * y
-            s2 += e * y * y
-        s1 *= w
-        s2 *= w * w
-    out[0], out[1], out[2], out[3] = s0 * w, s1 * w, s2 * w, s3 * w
-
-
 @exact
-def _asperities(state, h, every, few, out):
+def _asperities(state, h, every, out):
     """Load [Pa] with two derivatives in h, or ``every`` column: load and areas by regime."""
-    kinds, values = state.kinds, state.values
-    kind, begin, end = kinds[KIND], kinds[BEGIN], kinds[END]
+    kinds, values, series = state.kinds, state.values, state.series
+    kind, row, count = kinds[KIND], EVERY if every else LOAD, 4 if every else 3
     if h > values[HIGHEST]:
         for k in range(4):
             out[k] = 0.0
         return
-    if kind == BY_NODES:
-        if few:
-            begin, end = kinds[FEW], kinds[FEW + 1]
-        w = values[W]
-        # beyond, the exponent has dropped by 36
-        reach = (math.sqrt(h * h + 72.0) - h) / w
-        end = _below(_from(state.rules, AT * state.nodes), begin, end, reach)
-        _asperity_nodes(state.rules, state.nodes, begin, end, w, h, every, out)
-    else:
-        row, count = (EVERY, 4) if every else (LOAD, 3)
-        _series(state.series, begin, end, h, row, count, out)
+    stride = ACROSS_TERMS if kind == FAMILY else 1
+    place = _panel(state.edges, kinds[BEGIN], kinds[END], h, stride)
+    panel = _from(series, place * ROWS * TERMS)
+    if kind == FAMILY:
+        member = _from(state.work, MEMBER)
+        held = _from(member, PANEL * TERMS + 2 + every)
+        if held[0] != place:
+            _member(panel, values[ACROSS], row, count, member)
+            held[0] = place
+        panel = member
+    _series(panel, h, row, count, out)
     factor = values[FORCE]
     if kind != DENSITY:
         factor *= exp(-0.5 * h * h)
@@ -331,10 +332,10 @@ def _rough_nodes(state, kinds, part, gap, shadow, every, few, out, each):
     width = part[WIDTH]
     for k in range(7):
         out[k] = 0.0
-    low, high = kinds[1], kinds[2]
+    low, high, first, last = kinds[1], kinds[2], kinds[3], kinds[4]
     if few:
-        low, high = kinds[5], kinds[6]
-    for n in range(kinds[3], kinds[4]):
+        low, high, first, last = kinds[5], kinds[6], kinds[7], kinds[8]
+    for n in range(first, last):
         size, weight = at[n], rules[n]
         # far above the largest particles the many below them carry the load
         begin = _below(at, low, high, (gap - 2 * SEAT_REACH * width) / size)
@@ -417,7 +418,8 @@ def _particles(state, d, every, few, total, out, each):
                 else:
                     begin, end = kinds[3], kinds[4]
             row, count = (EVERY, 7) if every else (LOAD, 6)
-            _series(state.series, begin, end, x, row, count, out)
+            place = _panel(state.edges, begin, end, x, 1)
+            _series(_from(state.series, place * ROWS * TERMS), x, row, count, out)
             if rise:
                 _rise(part, x, shadow, every, out)
         factor = part[FACTOR]
@@ -425,10 +427,11 @@ def _particles(state, d, every, few, total, out, each):
             for k in range(7):
                 total[k] += factor * out[k]
         else:
+            inverse = 1 / size
             for k in range(3):
                 total[k] += factor * out[k]
                 total[3 + k] += factor * out[3 + k]
-                factor /= size
+                factor *= inverse
     if state.kinds[SHADOW] < 0 and not every:
         total[3], total[4], total[5] = state.values[COVERAGE], 0.0, 0.0
 
@@ -438,7 +441,7 @@ def _particles(state, d, every, few, total, out, each):
 def _load(state, h, few):
     """Total load [Pa] with its first and second derivative in h, by all nodes or by few."""
     total, out, each = state.work, _from(state.work, 8), _from(state.work, 16)
-    _asperities(state, h, NO, few, out)
+    _asperities(state, h, NO, out)
     f, f1, f2 = out[0], out[1], out[2]
     if state.parts == 0:
         return f, f1, f2
@@ -466,6 +469,15 @@ def _highest(state):
 
 
 @exact
+def _has_few(state):
+    """Whether there are few nodes, quick and close, beside all of them."""
+    few = NO
+    for p in range(state.parts):
+        few |= state.kinds[PARTS + PART_KINDS * p] == ROUGH_NODES
+    return few
+
+
+@exact
 def _guess(scan, log_target):
     """h by inverse cubic interpolation in a scan of ln F and its slope, falling with h."""
     count = len(scan) - 1
@@ -487,16 +499,24 @@ def _guess(scan, log_target):
 
 
 @exact
+def _step(f, slope, bend):
+    """Euler's third-order step to the root of f with its first two derivatives."""
+    inside = 1 - 2 * f * bend / (slope * slope)
+    step = -f / slope
+    return step * 2 / (1 + math.sqrt(inside)) if inside > 0 else step
+
+
+@exact
 def _root(state, target, h):
     """Separation h from a first guess, evaluations by all nodes, and fate of one state.
 
-    Euler's third-order step on ln F_t(h) = ln F, exact where ln F_t is a parabola as it is in a
-    Gaussian tail, inside a bracket. Where there are few nodes beside all, they come first.
+    Steps on ln F_t(h) = ln F, exact where ln F_t is a parabola as it is in a Gaussian tail,
+    inside a bracket. Where there are few nodes beside all, they come first.
     """
     top = _highest(state)
     low, high = LOWEST, top
     h = min(max(h, low), high)
-    few = state.kinds[FEW] < state.kinds[FEW + 1]
+    few = _has_few(state)
     last, bend, count = high - low, 1.0, 0
     for n in range(1, MOST + 1):
         F, F1, F2 = _load(state, h, few)
@@ -511,11 +531,9 @@ def _root(state, target, h):
         step = 0.5 * (low + high) - h
         bisected = True
         if F > 0 and F1 < 0:
-            f, slope = math.log(F / target), F1 / F
-            inside = 1 - 2 * f * (F2 / F / (slope * slope) - 1)
-            trial = -f / slope
-            if inside > 0:
-                trial *= 2 / (1 + math.sqrt(inside))
+            slope = F1 / F
+            curve = F2 / F - slope * slope
+            trial = _step(math.log(F / target), slope, curve)
             if h + trial <= LOWEST:
                 trial = LOWEST - h
             if low <= h + trial <= high and (n % 4 != 0 or abs(trial) < 0.5 * last):
@@ -535,7 +553,8 @@ def _root(state, target, h):
             # so this step leaves K size³
             small = not bisected and size < 1e-3 and bend * size**3 <= ROUNDING
             if h != LOWEST and (small or size <= 1e-15 * max(1.0, abs(h))):
-                return h, count, TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
+                fate = TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
+                return h, count, fate
         last = size
     return h, MOST, OK
 
@@ -544,7 +563,7 @@ def _root(state, target, h):
 def _columns(state, h, row):
     """The columns `FIELDS` at a separation."""
     total, out, each = state.work, _from(state.work, 8), _from(state.work, 16)
-    _asperities(state, h, YES, NO, out)
+    _asperities(state, h, YES, out)
     for k in range(4):
         row[k] = out[k]
     for k in range(4, 10):
@@ -558,21 +577,17 @@ def _columns(state, h, row):
         row[9] = state.values[COVERAGE] if shadow < 0 else total[shadow]
 
 
-@njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
-def evaluate(series, x, out):
-    """The first row of a Chebyshev series at every x, into ``out``."""
-    for i in range(len(x)):
-        _series(_pointer(series), 0, len(series), x[i], LOAD, 1, _from(_pointer(out), i))
-
-
 @exact
-def _state(m, kinds, values, series, rules, work):
+def _state(m, kinds, values, series, edges, rules, work):
     """State of interface m."""
+    # no member of a family yet, for the load and for every column
+    work[MEMBER + PANEL * TERMS + 2] = work[MEMBER + PANEL * TERMS + 3] = -1.0
     return State(
         _from(_pointer(kinds), m * kinds.shape[1]),
         _from(_pointer(values), m * values.shape[1]),
         (kinds.shape[1] - PARTS) // PART_KINDS,
         _pointer(series),
+        _pointer(edges),
         _pointer(rules),
         rules.shape[1],
         _pointer(work),
@@ -580,9 +595,9 @@ def _state(m, kinds, values, series, rules, work):
 
 
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
-def scan_loads(m, kinds, values, series, rules, work, scan):
+def scan_loads(m, kinds, values, series, edges, rules, work, scan):
     """Fill a scan (K, 3) with ln F and its slope at the separations in its first column."""
-    state = _state(m, kinds, values, series, rules, work)
+    state = _state(m, kinds, values, series, edges, rules, work)
     for i in range(len(scan)):
         F, F1, _ = _load(state, scan[i, 0], NO)
         scan[i, 1], scan[i, 2] = math.log(F), F1 / F
@@ -590,7 +605,7 @@ def scan_loads(m, kinds, values, series, rules, work, scan):
 
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
 def solve_states(
-    kinds, values, series, rules, work, scan, which, target, h, given, count, fate, rows
+    kinds, values, series, edges, rules, work, scan, which, target, h, given, count, fate, rows
 ):
     """Solve states i of interfaces which[i] for the loads target[i] [Pa].
 
@@ -598,7 +613,7 @@ def solve_states(
     ``given``, h is taken as it is; the states of one interface may share a scan.
     """
     for i in range(len(which)):
-        state = _state(which[i], kinds, values, series, rules, work)
+        state = _state(which[i], kinds, values, series, edges, rules, work)
         row = _from(_pointer(rows), i * len(FIELDS))
         if given:
             count[i], fate[i] = 1, OK

@@ -54,6 +54,14 @@ def subdivide(edges: Array, *, width: float, ratio: float = np.inf) -> Array:
     return np.concatenate(out)
 
 
+def chebyshev_transform(n: int) -> tuple[Array, Array]:
+    """Chebyshev nodes (n,) on [−1, 1], and the matrix from values there to n coefficients."""
+    theta = np.pi * (np.arange(n) + 0.5) / n
+    transform = 2 / n * np.cos(np.arange(n)[:, None] * theta)
+    transform[0] *= 0.5
+    return np.cos(theta), transform
+
+
 MOST_PANELS = 200
 """So many panels that still ask to be halved are noise, not structure."""
 
@@ -88,11 +96,7 @@ class PiecewiseChebyshev:
         kinds: Sequence[int] | None = None,
     ):
         n = degree + 1
-        theta = np.pi * (np.arange(n) + 0.5) / n
-        nodes = np.cos(theta)
-        # values at Chebyshev nodes -> coefficients
-        transform = 2 / n * np.cos(np.arange(n)[:, None] * theta)
-        transform[0] *= 0.5
+        nodes, transform = chebyshev_transform(n)
         pending = [(a, b) for a, b in zip(breakpoints[:-1], breakpoints[1:], strict=True) if b > a]
         done: list[tuple[float, float, Array]] = []
         for depth in range(max_depth + 1):

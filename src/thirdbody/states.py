@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -82,11 +83,12 @@ def solve_states(
     for name in ABSENT:
         absent |= arrays.get(name, np.ones(1)) == 0
     bare = {name: v for name, v in arrays.items() if not name.startswith("particles.")}
+    if not absent.any():
+        return _solve(contact, arrays, load, loads)
     parts = []
     if not absent.all():
         parts.append((contact, arrays, np.flatnonzero(~absent)))
-    if absent.any():
-        parts.append((contact.replace(particles=None), bare, np.flatnonzero(absent)))
+    parts.append((contact.replace(particles=None), bare, np.flatnonzero(absent)))
     return _joined(
         len(loads),
         [
@@ -103,7 +105,7 @@ DEMANDING = ("asperity_law.", "particle_law.law.", "particles.diameter.", *engin
 """Inputs that change the contact of one asperity or particle, which nodes may share."""
 FEWEST = 20
 """Different states for which nodes are quicker than tables of each."""
-AT_ONCE, FEW = 50_000, 512
+AT_ONCE, FEW = 50000, 1_024
 """States laid out at a time, and where each has nodes of its own."""
 FATES = np.array(
     [
@@ -120,26 +122,21 @@ Arrays = Mapping[str, NDArray[Any]]
 Columns = dict[str, NDArray[Any]]
 
 
-def _taken(arrays: Arrays, which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
+def _taken(arrays: Arrays, which: Any) -> dict[str, NDArray[Any]]:
     return {name: values[which] for name, values in arrays.items()}
 
 
-def _joined(count: int, parts: list[tuple[NDArray[np.intp], Columns]]) -> Columns:
-    """Columns of all states from those of some."""
-    if len(parts) == 1 and np.array_equal(parts[0][0], np.arange(count)):
-        whole = parts[0][1]
-        return {
-            name: whole[name].astype(object) if whole[name].dtype.kind == "U" else whole[name]
-            for name in COLUMNS
-        }
+def _joined(count: int, parts: Iterable[tuple[Any, Columns]]) -> Columns:
+    """Columns of all states from those of some, in the order in which they come."""
     out: Columns = {}
     for which, columns in parts:
-        for name, column in columns.items():
+        for name in COLUMNS:
             if name not in out:
-                kind = object if column.dtype.kind in "UO" else column.dtype
+                # sentences are few and long
+                kind = object if name == "status" else columns[name].dtype
                 out[name] = np.empty(count, dtype=kind)
-            out[name][which] = column
-    return {name: out[name] for name in COLUMNS}
+            out[name][which] = columns[name]
+    return out
 
 
 def carries(name: str) -> bool:
@@ -207,24 +204,22 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
     """Every column by the compiled engine; TypeError where it does not know these inputs."""
     own = not engine.bare(contact, arrays) and engine.own_particles(contact, arrays)
     # states that need as many nodes side by side
-    order = np.argsort(engine.fineness(arrays), kind="stable") if own else np.arange(len(loads))
+    order = np.argsort(engine.fineness(arrays), kind="stable") if own else None
     at_once = FEW if own else AT_ONCE
 
-    def part(start: int) -> Columns:
-        here = order[start : start + at_once]
-        batch = engine.States(contact, _taken(arrays, here), len(here))
-        columns = batch.columns(load, loads[here])
-        return columns | {"status": FATES[columns["status"]]}
+    def part(start: int) -> tuple[Any, Columns]:
+        here: Any = slice(start, start + at_once)
+        if order is not None:
+            here = order[here]
+        given = loads[here]
+        batch = engine.States(contact, _taken(arrays, here), len(given))
+        columns = batch.columns(load, given)
+        return here, columns | {"status": FATES[columns["status"]]}
 
     starts = range(0, len(loads), at_once)
     first = part(0)  # refused, or compiled, once
     with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
-        parts = [first, *pool.map(part, starts[1:])]
-    out = {name: np.concatenate([part[name] for part in parts]) for name in COLUMNS}
-    if not own:
-        return out
-    back = np.argsort(order)
-    return {name: column[back] for name, column in out.items()}
+        return _joined(len(loads), chain([first], pool.map(part, starts[1:])))
 
 
 def _by_groups(

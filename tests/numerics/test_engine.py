@@ -14,9 +14,11 @@ from twins import base, bodies, decades, interfaces, material, series_twin, size
 
 import thirdbody as tb
 from thirdbody import engine, states
+from thirdbody.asperities import GaussianSums, gaussian_rule
 from thirdbody.asperity import REGISTRY
 from thirdbody.contact import interface as bound_interface
 from thirdbody.equilibrium import COLUMNS
+from thirdbody.numerics import chebyshev_transform
 
 pytest.importorskip("numba")
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
@@ -398,19 +400,32 @@ def test_order_and_company_change_no_bit(seat):
     same({k: v[alone] for k, v in whole.items()}, few)
 
 
-@pytest.mark.parametrize("seat", ["plane", "rough", "two-body"])
-def test_few_nodes_come_close(seat):
+@pytest.mark.parametrize("name", ["roughness.sigma", "particles.diameter.mean"])
+def test_few_nodes_come_close(name):
     """After them one evaluation by all nodes mostly ends at the root."""
-    contact = default() if seat == "two-body" else default(seat)
-    if seat == "two-body":
-        contact = contact.replace(particles=None)
     loads = 10.0 ** np.random.default_rng(6).uniform(-10, -3, 500)
+    own = {"roughness.sigma": 1e-7, "particles.diameter.mean": 3e-7}[name]
     with compiled_engine():
-        got = tb.solve_states(
-            contact, F_star=loads, vary={"roughness.sigma": 1e-7 * ratios(3, 500)}
-        )
+        got = tb.solve_states(default("rough"), F_star=loads, vary={name: own * ratios(3, 500)})
     assert np.mean(got["iterations"]) < 1.5
     assert np.max(got["residual"]) < 1e-11
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_series_across_a_family(seed):
+    """Half an octave of ω_1/σ_s in one series against the quadrature at each: 1e-13."""
+    rng = np.random.default_rng(seed)
+    law = [tb.asperity.ZMC(), tb.asperity.KE(), tb.asperity.CEB()][seed]
+    law = law.bound(R=2.8e-6, E_star=110e9, H=5e9, nu=0.3)
+    step = int(rng.integers(-14, 4))
+    family, rule = GaussianSums(law, step), gaussian_rule(law, step // 2)
+    for w, h in zip(2.0 ** (0.5 * (step + rng.random(20))), rng.uniform(-4.5, 30, 20), strict=True):
+        _, place = GaussianSums.place(np.array([w]))
+        every = family.table(np.array([h])).reshape(GaussianSums.TERMS, -1)
+        got = np.polynomial.chebyshev.chebval(place[0], chebyshev_transform(len(every))[1] @ every)
+        wanted = rule.sums(w, np.array([h]))[0]
+        scale = np.array([wanted[0], *[wanted[1:4].sum()] * 3, *wanted[4:]])
+        assert np.all(np.abs(got - wanted) < 2e-13 * scale)
 
 
 def test_company_of_states_with_materials_of_their_own():
