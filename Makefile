@@ -4,6 +4,7 @@
 #   make test     all tests
 #   make docs     the book, into docs/_build/html; it needs no network to be read
 #   make bench    speed, into benchmarks/results.md
+#   make pictures the pictures of the README, into docs/images
 #   make format   tidy the code
 #   make clean    remove what these commands made
 #
@@ -20,10 +21,10 @@ export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 export MPLBACKEND ?= Agg
 
-.PHONY: help demo test docs bench format clean
+.PHONY: help demo test docs bench pictures browser format clean
 
 help:
-	@sed -n '3,10s/^# \{0,1\}//p' Makefile
+	@sed -n '3,11s/^# \{0,1\}//p' Makefile
 
 $(RUN)/python:
 	$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(v < (3, 11) and f"thirdbody needs Python 3.11 or newer; {sys.executable} is {v.major}.{v.minor}. Try make PYTHON=python3.12 ...")'
@@ -59,6 +60,13 @@ docs: $(VENV)/installed-docs
 bench: $(VENV)/installed-test
 	$(RUN)/python benchmarks/run.py
 	$(RUN)/python benchmarks/sweep.py
+
+pictures: $(VENV)/installed-test
+	$(RUN)/python docs/figures/pictures.py
+
+# a browser for the tests of the page, where none is found and one can be had; they skip without
+browser: $(VENV)/installed-test
+	@$(RUN)/python tests/app/browser.py
 
 format: $(VENV)/installed-test
 	$(RUN)/ruff check --fix .

@@ -17,7 +17,7 @@ sys.path.insert(0, str(HERE))
 settings.register_profile(
     "quick",
     deadline=None,
-    max_examples=int(os.environ.get("THIRDBODY_EXAMPLES", "25")),
+    max_examples=int(os.environ.get("THIRDBODY_EXAMPLES", "16")),
     derandomize=True,
     phases=(Phase.explicit, Phase.generate),
     database=None,
@@ -27,6 +27,11 @@ settings.register_profile(
     "search", settings.get_profile("quick"), derandomize=False, phases=tuple(Phase)
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
+
+
+def pytest_collection_modifyitems(items):
+    """Long studies first, so that no worker is left alone with one at the end."""
+    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
 
 
 @pytest.fixture(scope="session")

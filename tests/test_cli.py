@@ -384,6 +384,28 @@ def test_interrupt_exits_130_with_one_line_and_no_file(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.skipif(os.name == "nt", reason="signals")
+@pytest.mark.parametrize("module", ["pydantic", "numba"])
+def test_interrupt_while_modules_load(tmp_path, module):
+    """At the start, and in the command; through exec of a text, as in numba and dataclasses."""
+    fake = tmp_path / "fake"
+    fake.mkdir()
+    text = "import os, signal, time; os.kill(os.getpid(), signal.SIGINT); time.sleep(20)"
+    (fake / f"{module}.py").write_text(f"exec({text!r})")
+    path = os.pathsep.join(filter(None, (str(fake), os.environ.get("PYTHONPATH"))))
+    command = [sys.executable, "-m", "thirdbody", "solve", str(DUSTY), "--csv", "states.csv"]
+    result = subprocess.run(
+        [*command, "--set", "load.F_star.points=1000000"],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": path},
+    )
+    assert (result.returncode, result.stdout) == (130, "")
+    assert result.stderr == "error: interrupted\n"
+    assert list(tmp_path.iterdir()) == [fake]
+
+
 @pytest.mark.skipif(os.name == "nt", reason="pipes")
 @pytest.mark.parametrize("more", [("--json",), ()])
 def test_reader_that_goes_away(more):
@@ -465,10 +487,10 @@ def test_one_state_is_quick_and_small():
         "print(used.ru_utime + used.ru_stime, peak, file=sys.stderr)\n"
     )
     command = [sys.executable, "-c", code]
-    done = [
-        subprocess.run(command, capture_output=True, text=True, check=True).stderr.split()
-        for _ in range(3)
-    ]
+    done = []
+    while len(done) < 3 and not any(float(seconds) < 2.0 for seconds, _ in done):
+        again = subprocess.run(command, capture_output=True, text=True, check=True)
+        done.append(again.stderr.split())
     assert min(float(seconds) for seconds, _ in done) < 2.0
     # kilobytes, on macOS bytes
     unit = 1 if sys.platform == "darwin" else 1024

@@ -153,16 +153,16 @@ def test_scatter():
     assert found == pytest.approx(same, rel=1e-9)
     wide = {"roughness.sigma": (60e-9, 160e-9), SIZE: tb.Uncertain.lognormal(300e-9, 1.2)}
     costs = {
-        how: scattered(Objective(of="A_t", over_scatter=how), scatter=wide, samples=8, **some)
-        for how in ("mean", "worst", "tail", "robust", "nominal")
+        how: scattered(Objective(of="A_t", over_scatter=how), scatter=wide, samples=4, **some)
+        for how in ("mean", "worst", "tail", "robust")
     }
     assert np.all(costs["worst"] >= costs["tail"] - 1e-15)
     assert np.all(costs["tail"] >= costs["mean"])
     assert np.all(costs["robust"] >= costs["mean"])
     # samples of one seed are common to all points, and of another they are others
-    again = scattered(objective, scatter=wide, samples=8, **some)
+    again = scattered(objective, scatter=wide, samples=4, **some)
     np.testing.assert_array_equal(again, costs["worst"])
-    other = scattered(objective, scatter=wide, samples=8, seed=1, **some)
+    other = scattered(objective, scatter=wide, samples=4, seed=1, **some)
     assert np.all(other != costs["worst"])
 
 

@@ -458,6 +458,7 @@ def test_two_faces_give_the_radius(R):
     ("shape", "words"),
     [
         (3, ["roughness.ellipticity = 3 must be a table", "ratios = [1, 2, 5]", "30 deg"]),
+        ("measured", ['ellipticity = "measured" must be a table', "goes with a topography"]),
         ({}, ["roughness.ellipticity.ratios is missing"]),
         ({"ratio": [1, 2]}, ["roughness.ellipticity.ratio", "did you mean ratios?"]),
         ({"ratios": 2}, ["roughness.ellipticity.ratios = 2 must be a list"]),

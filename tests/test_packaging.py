@@ -48,6 +48,7 @@ def test_format():
     assert status == 0, text
 
 
+@pytest.mark.slow
 def test_types(tmp_path):
     status, text = run(*tool("mypy"), "--cache-dir", str(tmp_path))
     assert status == 0, text

@@ -1,5 +1,6 @@
 """Sweeps: designs, blocks on disk, runs that are killed and go on, reductions, the command."""
 
+import functools
 import json
 import os
 import re
@@ -51,6 +52,12 @@ def needed(request):
     if "format" in getattr(request, "fixturenames", ()) or "tmp_path" in request.fixturenames:
         for name in ("zarr", "h5netcdf", "h5py"):
             pytest.importorskip(name, reason="needs the extra: pip install 'thirdbody[sweep]'")
+
+
+@functools.cache
+def in_memory(number, **options):
+    """`GRID` or `SAMPLES`, solved once."""
+    return tb.sweep(DUSTY, **(GRID, SAMPLES)[number], **options)
 
 
 def same(stored, memory):
@@ -227,7 +234,7 @@ def test_blocks_cover_every_state_once(sizes, chunk):
 @pytest.mark.parametrize("workers", [1, 3])
 def test_streamed_is_in_memory_bit_for_bit(tmp_path, format, workers):
     for number, asked in enumerate((GRID, SAMPLES)):
-        memory = tb.sweep(DUSTY, **asked, chunk=4)
+        memory = in_memory(number, chunk=4)
         stored = tb.sweep(
             DUSTY, **asked, chunk=4, out=tmp_path / str(number), format=format, workers=workers
         )
@@ -473,7 +480,7 @@ def reference(states, over, name):
 @pytest.mark.parametrize("over", [["sample"], ["particle_law.seat", "pressure"]])
 @pytest.mark.parametrize("chunk", [4, 1000])
 def test_reductions_are_numpys(tmp_path, format, over, chunk):
-    states = tb.sweep(DUSTY, **SAMPLES)
+    states = in_memory(1)
     data = tb.sweep(
         DUSTY, **SAMPLES, reduce=ALL | {"over": over}, out=tmp_path, format=format, chunk=chunk
     )

@@ -615,6 +615,26 @@ def test_a_study_has_the_roughness_of_the_topography(part):
     assert asked.contact.roughness.heights == tb.WeibullHeights(shape=2)
 
 
+def test_a_study_has_the_tips_of_the_topography(part):
+    elliptic = ("[surfaces]", 'asperity_law = "elliptic-zmc"\n[surfaces]')
+    one, s = from_topography("example", cutoff=8e-7), tb.Ellipticity(ratios=(1, 2))
+    file = '"example"\ncutoff = "800 nm"\n'
+    for heights in (None, "measured"):
+        more = f'heights = "{heights}"' if heights else ""
+        asked = part(('"example"', f'{file}{more}\nellipticity = "measured"'), elliptic)
+        rough = one.roughness(heights=heights, ellipticity="measured")
+        assert asked.contact.roughness == rough
+        assert len(rough.ellipticity.classes) > 8
+    told = study.run_study(asked)
+    again = tb.Roughness.from_dict(json.loads(json.dumps(told["inputs"]["roughness"])))
+    assert again == rough
+    assert told["states"]["status"] == ["ok"]
+    for files in (file, '["example", "example"]\ncutoff = "800 nm"\n'):
+        asked = part(('"example"', f"{files}ellipticity = {{ ratios = [1, 2] }}"), elliptic)
+        plain = part(('"example"', files))
+        assert asked.contact.roughness == plain.contact.roughness.replace(ellipticity=s)
+
+
 def test_two_faces_of_a_study_add(part):
     one, two = (part(('"example"', text)) for text in ('"example"', '["example", "example"]'))
     m = from_topography("example").moments
@@ -645,6 +665,20 @@ def test_a_file_lies_beside_the_study(part, tmp_path, library):
         ('["example", "example", "example"]', ["roughness.topography", "two"]),
         ('["example", "example"]\nheights = "measured"', ["measured", "one file"]),
         ('"example"\ncutoff = "2.5 um"\nheights = "measured"', ["roughness", "too few"]),
+        ('["example", "example"]\nellipticity = "measured"', ["ellipticity", "one file"]),
+        ('"example"\nellipticity = "mesured"', ["roughness.ellipticity", 'must be "measured"']),
+        ('"example"\nellipticity = 3', ["roughness.ellipticity = 3", 'must be "measured"']),
+        ('"example"\nellipticity = { ratios = 2 }', ["ellipticity.ratios = 2 must be a list"]),
+        (
+            '"example"\nellipticity = { first = 4, second = 2, angle = 0, R_first = "1 um" }',
+            ["ellipticity.R_first", "the topography tells; remove it"],
+        ),
+        (
+            '"example"\n[roughness.ellipticity]\nfirst = 4\nsecond = 2\nangle = "random"\n'
+            'R_first = "1 um"\nR_second = "1 um"\n',
+            ["ellipticity.R_first and R_second would give R", "remove both"],
+        ),
+        ('"example"\nellipticity = "measured"', ["asperity_law", "round"]),
     ],
 )
 def test_mistakes_beside_a_topography(part, text, words):

@@ -72,6 +72,20 @@ def plain_bars(app, what, name, obj, options, lines):
             lines[i] = line.replace("|", r"\|")
 
 
+COLON = "\ue000"
+
+
+def hide_colon(app, what, name, obj, options, lines):
+    """napoleon takes words before a colon for the type of an attribute; these are a sentence."""
+    if what in ("attribute", "data", "property") and lines:
+        lines[0] = re.sub(r"(?<!:):(?= |$)", COLON, lines[0])
+
+
+def show_colon(app, what, name, obj, options, lines):
+    """After napoleon, the colon is back."""
+    lines[:] = [line.replace(COLON, ":") for line in lines]
+
+
 # pages of the repository outside docs/, and where the book shows them
 ELSEWHERE = {
     "../benchmarks/results.md": "speed.md",
@@ -95,6 +109,8 @@ def stay_in_the_book(app, docname, source):
 def setup(app):
     app.connect("source-read", stay_in_the_book)
     app.connect("autodoc-process-docstring", plain_bars, priority=100)
+    app.connect("autodoc-process-docstring", hide_colon, priority=100)
+    app.connect("autodoc-process-docstring", show_colon, priority=900)
     # after napoleon, which would read the table as a part of its last section
     app.connect("autodoc-process-docstring", add_units, priority=900)
     return {"parallel_read_safe": True}

@@ -143,9 +143,21 @@ def reference_viscosity(turns: float, D: float) -> float:
 
 
 def viscosity_ratio(viscosity: float, turns: float, D: float) -> float:
-    """κ = ν/ν_1 [1], with the kinematic viscosity ν [m²/s] at the working temperature.
+    r"""Viscosity ratio of ISO 281.
 
-    Other arguments as in `reference_viscosity`.
+    .. math:: \kappa = \nu/\nu_1
+
+    Parameters
+    ----------
+    viscosity : float
+        Kinematic viscosity ν at the working temperature [m²/s].
+    turns, D : float
+        As in `reference_viscosity`, which gives ν_1.
+
+    Returns
+    -------
+    float
+        κ [1].
 
     Examples
     --------

@@ -11,6 +11,15 @@ __all__ = ["cite"]
 def cite(contact: Contact) -> str:
     """The works behind a contact, one a line: its laws, outputs and materials.
 
+    Parameters
+    ----------
+    contact : Contact
+
+    Returns
+    -------
+    str
+        Lines of author, year, journal and DOI, each work once.
+
     Examples
     --------
     >>> import thirdbody as tb

@@ -74,13 +74,18 @@ def _table(name: str) -> dict[str, Any]:
 
 # ------------------------------------------------------------------------------ concentration
 class Concentration(NamedTuple):
-    """How much of the fluid is particles.
+    """How much of the fluid is particles; made by `concentration`.
 
-    ``by`` is "number" (n [1/m³]), "mass" (w [1]), "volume" (φ [1]) or "mass per volume" [kg/m³].
+    Examples
+    --------
+    >>> concentration("50 ppm")
+    Concentration(amount=5e-05, by='mass')
     """
 
     amount: float
+    """n [1/m³], w [1], φ [1] or c [kg/m³]."""
     by: str
+    """Which of them: "number", "mass", "volume" or "mass per volume"."""
 
 
 _KINDS = {
@@ -343,6 +348,17 @@ def suspension_of_iso4406(
     ------
     InvalidValue
         An impossible code, level or end.
+
+    Notes
+    -----
+    The scale is that of ISO 4406, as printed by the sources named in the data file
+    ``data/cleanliness.toml``.
+
+    Examples
+    --------
+    >>> n, sizes = suspension_of_iso4406("18/16/13")
+    >>> f"{n / 1e6:.0f} per mL from {sizes.support[0] * 1e6:.0f} µm"
+    '1803 per mL from 4 µm'
     """
     scale = _table("cleanliness")["iso4406"]
     numbers = read_iso4406(code)
@@ -377,7 +393,18 @@ def _within(most: list[float], number: int, level: str) -> float:
 def iso4406_of(density: float, diameter: Distribution) -> str:
     """The ISO 4406 code of n particles per volume [1/m³] with these sizes.
 
-    A count above the scale reads ">28". Counts equal an end of a range within 1e-9.
+    Parameters
+    ----------
+    density : float
+        Particles per volume of fluid n [1/m³].
+    diameter : Distribution
+        Sizes by number [m].
+
+    Returns
+    -------
+    str
+        Such as "18/16/13". A count above the scale reads ">28"; counts equal an end of a range
+        within 1e-9.
 
     Examples
     --------
@@ -426,6 +453,12 @@ def suspension_of_class(
     ------
     InvalidValue
         An unknown class, or an impossible end.
+
+    Examples
+    --------
+    >>> n, sizes = suspension_of_class("nas1638", "6")
+    >>> f"{n / 1e6:.0f} per mL"
+    '195 per mL'
     """
     scale, limits = _class_table(kind)
     if not isinstance(name, str) or name not in limits:
@@ -457,7 +490,20 @@ def _class_table(kind: str) -> tuple[dict[str, Any], dict[str, list[int]]]:
 
 
 def class_of(kind: str, density: float, diameter: Distribution) -> str:
-    """The lowest class of `suspension_of_class` that permits these particles; ">12" if none does.
+    """The lowest class of `suspension_of_class` that permits these particles.
+
+    Parameters
+    ----------
+    kind : {"as4059", "nas1638"}
+    density : float
+        Particles per volume of fluid n [1/m³].
+    diameter : Distribution
+        Sizes by number [m].
+
+    Returns
+    -------
+    str
+        The class, such as "6"; ">12" if none permits them.
 
     Examples
     --------

@@ -134,9 +134,21 @@ def flattened_diameter(x: ArrayLike, gap: ArrayLike) -> Array:
 
 
 def fragments(x: ArrayLike, size: float) -> Array:
-    """Fragments of one size that a brittle particle of size x breaks into: (x/size)³, or 1.
+    r"""Fragments of one size that a brittle particle of size x breaks into, its volume kept.
 
-    Its volume is kept; particles up to that size stay whole.
+    .. math:: N = \max\left[(x/x_f)^3,\,1\right]
+
+    Parameters
+    ----------
+    x : array_like
+        Size of the particle [m]; up to ``size`` it stays whole.
+    size : float
+        Size of a fragment x_f [m].
+
+    Returns
+    -------
+    array
+        N [1], not rounded: a mean over many particles.
 
     Examples
     --------
@@ -179,22 +191,51 @@ def dents_after(rate: ArrayLike, overrollings: ArrayLike, area: ArrayLike) -> Ar
 
 
 class Dent(NamedTuple):
-    """What particles leave in one surface: arrays (M, n)."""
+    """What particles leave in one surface: arrays (M, n), made by `dent_of`.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
+    ...                                  material=silica, film=0.5e-6, entry=1.0)
+    >>> dent = dent_of(oil.single([2e-6, 5e-6]), 0, silica)
+    >>> (dent.diameter.ravel() * 1e6).round(2).tolist()  # µm
+    [1.94, 4.97]
+    """
 
     depth: Array
     """Depth left δ_res [m]; 0 where nothing stays."""
     diameter: Array
-    """[m]"""
+    """Its diameter, that under load [m]."""
     volume: Array
-    """[m³]"""
+    """Its volume [m³]."""
 
 
 def dent_of(spots: ParticleSpots, side: int, particle: Material) -> Dent:
     """The dents of particles in surface 1 (side 0) or 2 (side 1).
 
-    Depth and diameter [m] and volume [m³] of each spot, as arrays (M, n). Only a particle that is
-    harder than the surface dents it; otherwise it is deformed itself. No dent is deeper than the
-    particle is thick.
+    Only a particle that is harder than the surface dents it; otherwise it is deformed itself. No
+    dent is deeper than the particle is thick.
+
+    Parameters
+    ----------
+    spots : ParticleSpots
+        Particles and how deep each sits, as `FilmParticles.single` or a solved state has them.
+    side : {0, 1}
+        Surface 1 or 2.
+    particle : Material
+        Of the particles.
+
+    Returns
+    -------
+    Dent
+        Depth left and diameter [m] and volume [m³] of each spot: arrays (M, n).
+
+    Notes
+    -----
+    Depth left by `thirdbody.ploughing.residual_depth`, where the source stands; the width is that
+    under load.
 
     Examples
     --------
@@ -220,7 +261,20 @@ def dent_of(spots: ParticleSpots, side: int, particle: Material) -> Dent:
 
 # ------------------------------------------------------------------------------ in a film
 class FilmDents(NamedTuple):
-    """Dents in one surface per overrolling."""
+    """Dents in one surface per overrolling, made by `FilmParticles.dents`.
+
+    Depths are upper bounds: the film does not give way under a particle.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
+    ...                                  material=tb.materials["SiO2"], film=0.5e-6, entry=1.0)
+    >>> found = oil.dents(side=1)
+    >>> f"{found.depth_p95 * 1e6:.1f} µm deep and {found.diameter_p95 * 1e6:.1f} µm wide at p95"
+    '4.0 µm deep and 11.6 µm wide at p95'
+    """
 
     number: float
     """Dents per area [1/m²]."""
@@ -241,14 +295,33 @@ class FilmDents(NamedTuple):
 
 
 class SeverityIndex(NamedTuple):
-    """Damaged volume per area and overrolling, with its parts. Not a life."""
+    r"""Damaged volume per area and overrolling, with its parts. Not a life.
+
+    .. math:: I = \varepsilon h \int n\,\varphi_a\,(V_1+V_2+f_{ab}\,s\,A_g)\,dx
+
+    Made by `FilmParticles.severity_index`.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
+    ...                                  material=tb.materials["SiO2"], film=0.5e-6, entry=1.0)
+    >>> index = oil.severity_index()
+    >>> f"{index.total:.1e}", index.grooves_1, round(index.above, 2)
+    ('1.6e-13', 0.0, 1.0)
+    """
 
     total: float
-    """[m]"""
+    """Sum of the four parts below [m]."""
     dents_1: float
+    """Volume of the dents in surface 1 per area [m]."""
     dents_2: float
+    """The same in surface 2 [m]."""
     grooves_1: float
+    """Volume taken out of grooves in surface 1 per area [m]."""
     grooves_2: float
+    """The same in surface 2 [m]."""
     severity: float
     """Mean severity S of the particles that touch both surfaces [1]."""
     above: float

@@ -273,6 +273,27 @@ class Best:
         constant concentration where there is a `Suspension`.
     hypervolume : float or None
         Of the front against the worst feasible value of each objective; None for one objective.
+    warnings : tuple of str
+        What to know before the answer is used, one sentence each.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> best = tb.design(
+    ...     contact,
+    ...     over={"particles.diameter.mean+particles.diameter.std": (50e-9, 1e-6)},
+    ...     objective=tb.Objective(of="A_t", aim="smallest"),
+    ...     limits=[tb.Limit(of="plastic_share", most=0.1)],
+    ...     pressure=[1e6, 5e6],
+    ... )
+    >>> [round(float(x) * 1e9) for x in best.values.values()], best.active, best.at_bound
+    ([465], ('plastic_share <= 0.1',), ())
     """
 
     values: dict[str, Any]

@@ -46,6 +46,11 @@ def equal_share_size(
     float
         x_a/σ of the smallest such size; NaN where there is none in the range.
 
+    References
+    ----------
+    Horng et al. 2022, Lubricants 10(7), 164, doi:10.3390/lubricants10070164, finds 0.5 to 0.7, the
+    later paper of the group, doi:10.3389/fmech.2024.1390335, 0.8 to 1.3.
+
     Examples
     --------
     >>> import thirdbody as tb

@@ -46,7 +46,18 @@ NORMAL_CUT = 8.5
 
 
 class Distribution(Value):
-    """What every size distribution can do."""
+    """What every size distribution can do.
+
+    Sizes are diameters x [m], by number, φ_a(x). A distribution of your own gives the abstract
+    methods below; the integrals over sizes split at `pieces` and `kinks`.
+
+    Examples
+    --------
+    >>> sizes = TruncatedGaussian(mean=300e-9, std=24e-9)
+    >>> half = sizes.ppf(0.5)
+    >>> round(float(sizes.partial_moment(0, 0.0, half)), 12)  # share of the particles below it
+    0.5
+    """
 
     __slots__ = ()
 

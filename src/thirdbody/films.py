@@ -55,14 +55,30 @@ EP = REGIMES[3]
 
 # ------------------------------------------------------------------ where the film is
 class Hertz(NamedTuple):
-    """The dry smooth contact under the same load."""
+    r"""The dry smooth contact under the same load: numbers, or arrays (N,) for several loads.
+
+    .. math:: \bar p = w/A, \qquad p_0 = \tfrac32\bar p\ \text{(point)}, \quad
+              p_0 = \tfrac4\pi\bar p\ \text{(line)}
+
+    Attributes
+    ----------
+    area : float or array (N,)
+        Area of contact A [m²].
+    mean : float or array (N,)
+        Mean pressure [Pa].
+    maximum : float or array (N,)
+        Largest pressure p_0 [Pa].
+
+    Examples
+    --------
+    >>> hertz = Point(R=9.5e-3).hertz(20.0, 223.8e9)
+    >>> round(hertz.area * hertz.mean, 9), round(hertz.maximum / hertz.mean, 9)
+    (20.0, 1.5)
+    """
 
     area: Any
-    """[m²]"""
     mean: Any
-    """Mean pressure [Pa]"""
     maximum: Any
-    """[Pa]"""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -196,7 +212,13 @@ class Oil(Value):
     viscosity: str = choice("viscosity under pressure", "roelands", "barus", default="roelands")
 
     def at(self, pressure: Any) -> Any:
-        """Viscosity under a pressure [Pa s]."""
+        """Viscosity under a pressure [Pa s].
+
+        Parameters
+        ----------
+        pressure : float or array (N,)
+            p [Pa].
+        """
         p = np.asarray(pressure, float)
         if self.viscosity == "barus":
             return self.eta * np.exp(np.minimum(self.alpha * p, math.log(GLASS / self.eta)))
@@ -205,7 +227,15 @@ class Oil(Value):
         return self.eta * np.exp(span * ((1 + p / 1.96e8) ** z - 1))
 
     def shear_stress(self, rate: Any, pressure: Any) -> Any:
-        """Shear stress of the film [Pa] at a shear rate [1/s]; NaN without an Eyring stress."""
+        """Shear stress of the film [Pa]; NaN without an Eyring stress.
+
+        Parameters
+        ----------
+        rate : float or array (N,)
+            Shear rate [1/s].
+        pressure : float or array (N,)
+            p [Pa].
+        """
         if self.eyring_stress is None:
             return np.full(np.broadcast_shapes(np.shape(rate), np.shape(pressure)), np.nan)
         stress = self.eyring_stress * np.arcsinh(self.at(pressure) * rate / self.eyring_stress)
@@ -214,10 +244,28 @@ class Oil(Value):
 
 # ------------------------------------------------------------------ how thick it is
 class AbstractFilm(Law):
-    """The film between smooth bodies, fully flooded, isothermal, Newtonian.
+    r"""The film between smooth bodies, fully flooded, isothermal, Newtonian.
+
+    .. math:: h_c = R_x\,H(U, G, W, R_x/R_y)
 
     A subclass is a frozen, slotted, keyword-only dataclass with the class data of `Law`, the
-    shape it is for, and where it holds.
+    shape it is for, where it holds, and `central`. It enters `FORMULAS` when it is defined.
+
+    Attributes
+    ----------
+    shape : {"point", "line"}
+        What it is for; the load is then w [N] or w' [N/m].
+    regimes : tuple of str
+        Those of `REGIMES` in which it holds.
+    limits : mapping
+        Range of R_x/R_y [1], under the key ``ratio``.
+
+    Examples
+    --------
+    >>> sorted(FORMULAS)
+    ['dowson-line', 'hamrock-dowson', 'moes-line', 'nijenbanning-venner-moes']
+    >>> isinstance(full_range("line"), AbstractFilm), full_range("line").shape
+    (True, 'line')
     """
 
     __slots__ = ()
@@ -268,7 +316,7 @@ class AbstractFilm(Law):
 
 
 def groups(load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, power: int) -> Any:
-    """U, G and W of the formulas: W = load/(E'R^power)."""
+    """U, G and W of the formulas [1]: W = load/(E'R^power), power 2 for points and 1 for lines."""
     return eta * speed / (E * R), alpha * E, load / (E * R**power)
 
 
@@ -353,12 +401,29 @@ class HamrockDowson(AbstractFilm):
 
 
 def kappa(ratio: float) -> float:
-    """Ellipticity κ ≈ (R_y/R_x)^(2/π) of the contact, for R_x/R_y [1]."""
+    """Ellipticity κ ≈ (R_y/R_x)^(2/π) of the contact [1].
+
+    Parameters
+    ----------
+    ratio : float
+        R_x/R_y [1].
+
+    Examples
+    --------
+    >>> kappa(1.0)
+    1.0
+    """
     return float(ratio ** (-2 / math.pi))
 
 
 class Asymptotes(NamedTuple):
-    """Dimensionless films H = h/R (2U)^(−1/2) of the four limits, in the order of `REGIMES`."""
+    """Dimensionless films H = h/R (2U)^(−1/2) [1] of the four limits, in the order of `REGIMES`.
+
+    Examples
+    --------
+    >>> str(MoesLine.limits_of(100.0, 10.0).regime)
+    'elastic-piezoviscous'
+    """
 
     RI: Any
     EI: Any
@@ -532,5 +597,11 @@ FORMULAS = AbstractFilm.registry
 
 
 def full_range(shape: str) -> NijenbanningVennerMoes | MoesLine:
-    """The formula of every regime for a point or a line."""
+    """The formula of every regime for a shape, "point" or "line".
+
+    Examples
+    --------
+    >>> full_range("point").name
+    'nijenbanning-venner-moes'
+    """
     return NijenbanningVennerMoes() if shape == "point" else MoesLine()

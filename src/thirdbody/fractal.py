@@ -43,13 +43,23 @@ __all__ = [
 
 # ---------------------------------------------------------------- Majumdar and Bhushan
 class FractalLoad(NamedTuple):
-    """The load [N] on elastic and on plastic spots, and together."""
+    """The load [N] on elastic and on plastic spots, and together; see `MajumdarBhushan`.
+
+    Examples
+    --------
+    >>> load = MajumdarBhushan(D=1.5, G=1e-12, E_star=1e11, H=2e9).load(1e-10)
+    >>> bool(load.total == load.elastic + load.plastic)
+    True
+    """
 
     elastic: Array
+    """P_e [N]"""
     plastic: Array
+    """P_p [N]"""
 
     @property
     def total(self) -> Array:
+        """P_e + P_p [N]"""
         return self.elastic + self.plastic
 
 
@@ -200,6 +210,11 @@ def jackson_streator(q: ArrayLike) -> Array:
     q : array_like
         Pressure over the pressure of full contact [1]; 1 and more give full contact.
 
+    Returns
+    -------
+    array
+        Real area fraction A [1].
+
     Notes
     -----
     Limits derived, the join recalled. At q = 0.8 the join steps down by 0.046 %.
@@ -258,7 +273,16 @@ class Sinusoid(Value):
 
 
 class Convergence(NamedTuple):
-    """What the number of scales does to the real area of a `Stack`."""
+    """What the number of scales does to the real area of a `Stack`.
+
+    Examples
+    --------
+    >>> stack = Stack.self_affine(hurst=0.8, amplitude=1e-7, frequency=1e3, ratio=2, count=8,
+    ...                           E_star=1e11)
+    >>> found = stack.convergence(1e6)
+    >>> len(found.areas), found.converged
+    (8, False)
+    """
 
     areas: Array
     """Real area per nominal area after each scale."""
@@ -492,7 +516,14 @@ class ParticleFilm:
 class MultiscaleState:
     """Equilibrium of `GhaedniaMultiscale`: floats for one pressure, arrays for several.
 
-    Areas are per nominal area.
+    Areas are per nominal area [1]. Made by `GhaedniaMultiscale.solve`.
+
+    Examples
+    --------
+    >>> from thirdbody.studies.ghaednia2013 import model
+    >>> state = model("fractal").solve(1e6)
+    >>> bool(state.A_real < state.A_0), round(float(state.particle_load_share), 3)
+    (True, 1.0)
     """
 
     pressure: Array
@@ -508,6 +539,7 @@ class MultiscaleState:
     A_asperities: Array
     """Area of the asperities, zero while g > 0"""
     particle_load_share: Array
+    """Load of the particles over the total load [1]"""
     warnings: tuple[str, ...]
 
     @property

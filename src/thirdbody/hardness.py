@@ -32,7 +32,18 @@ _ALSO_WRITTEN = {"HBW": "HB", "HBS": "HB"}
 
 @cache
 def tables() -> dict[str, dict[str, Any]]:
-    """The published tables by name, with source and rows (HV, HB, HRC)."""
+    """The published tables that convert hardness, by name.
+
+    Returns
+    -------
+    dict
+        For each table its title, source and rows (HV, HB, HRC); NaN where a scale ends.
+
+    Examples
+    --------
+    >>> list(tables())
+    ['iso18265', 'astm-e140']
+    """
     text = resources.files(__package__).joinpath("data/hardness.toml").read_text("utf-8")
     return tomllib.loads(text)
 

@@ -72,7 +72,23 @@ _SPHERE_END = {
 
 # ------------------------------------------------------------------ one half-space
 def peclet(a: Number, *, v: float, D: float) -> Number:
-    """Péclet number Pe = v a/(2D) [1] of a source of radius a [m] at v [m/s], D = k/ρc [m²/s].
+    r"""Péclet number of a source that moves over a body.
+
+    .. math:: \mathrm{Pe} = \frac{v a}{2D}, \qquad D = \frac{k}{\rho c}
+
+    Parameters
+    ----------
+    a : float or array
+        Radius of the source [m].
+    v : float
+        Its speed over the body [m/s].
+    D : float
+        Diffusivity of the body [m²/s].
+
+    Returns
+    -------
+    float or array
+        Pe [1].
 
     Examples
     --------
@@ -146,7 +162,12 @@ def body_conductance(
     v : float, optional
         Speed of the contact over this body [m/s].
     kind, flux : str, optional
-        As in `moving_rise`.
+        As in `moving_rise`, where accuracy and source stand.
+
+    Returns
+    -------
+    float or array
+        G [W/K].
 
     Examples
     --------
@@ -206,6 +227,11 @@ def sudden_share(Fo: Number, *, kind: str = "mean", flux: str = "uniform") -> Nu
     kind, flux : str, optional
         As in `moving_rise`.
 
+    Returns
+    -------
+    float or array
+        Share from 0 to 1 [1].
+
     Notes
     -----
     Exact but for the table it is read from: 2e-5.
@@ -238,7 +264,12 @@ def partition(Q: Number, G_1: Number, G_2: Number, T_1: Number, T_2: Number) -> 
     G_1, G_2 : float or array
         Conductances into either body [W/K]; body 1 takes G_1/(G_1+G_2) of Q.
     T_1, T_2 : float or array
-        Their temperatures far from the contact.
+        Their temperatures far from the contact [K or °C].
+
+    Returns
+    -------
+    float or array
+        T_c, in the unit of T_1 and T_2.
 
     References
     ----------
@@ -271,7 +302,12 @@ def bridge(
     R : float or array
         Resistance of the particle [K/W]; inf insulates.
     T : two floats or arrays, optional
-        Temperatures of the bodies far away.
+        Temperatures of the bodies far away [K or °C].
+
+    Returns
+    -------
+    two floats or arrays
+        T_c1 and T_c2, in the unit of T; exact solution of the two balances.
 
     Examples
     --------
@@ -319,6 +355,11 @@ def sphere_resistance(
         Its conductivity [W/(m K)], or 1/ρ [1/(Ω m)]. That of the bulk is too large for crystals
         of less than about 0.1 µm, whose surface scatters phonons.
     ends : {"isothermal"} or pair of flux and kind, optional
+
+    Returns
+    -------
+    float or array
+        R [K/W], or [Ω].
 
     Notes
     -----
@@ -398,6 +439,11 @@ def spreading(epsilon: Number, *, form: str = "power") -> Number:
         Cooper, Mikic and Yovanovich; isothermal spot on a tube (constants from memory: not
         confirmed in a source; the first is Roess's 1.409); or 1.
 
+    Returns
+    -------
+    float or array
+        ψ [1].
+
     References
     ----------
     Cooper, Mikic, Yovanovich 1969, Int. J. Heat Mass Transfer 12, 279,
@@ -427,6 +473,16 @@ def absolute_slope(*, sigma: Number, R: Number, alpha: float) -> Number:
         RMS height, and mean radius of the asperities [m].
     alpha : float
         Nayak's bandwidth [1].
+
+    Returns
+    -------
+    float
+        m [1].
+
+    References
+    ----------
+    McCool 1986, doi:10.1016/0043-1648(86)90045-1 (m_4 from R); Nayak 1971, doi:10.1115/1.3451608
+    (α).
 
     Notes
     -----
@@ -461,6 +517,11 @@ def cooper_mikic_yovanovich(pressure: Number, *, H: float, k: float, m: float, s
     sigma : float
         RMS height [m].
 
+    Returns
+    -------
+    float or array
+        h [W/(m² K)].
+
     Notes
     -----
     For 1e-5 < p/H < 0.05, isotropic Gaussian surfaces, no gas in the gap. The product of number
@@ -485,9 +546,24 @@ def cooper_mikic_yovanovich(pressure: Number, *, H: float, k: float, m: float, s
 def cooper_mikic_yovanovich_fit(
     pressure: Number, *, H: float, k: float, m: float, sigma: float
 ) -> Number:
-    """The correlation 1.25 (k m/σ)(p/H)^0.95 [W/(m² K)]; see `cooper_mikic_yovanovich`.
+    r"""Conductance of clean, plastic, conforming rough surfaces, as a power law.
 
-    Within 1.5 % of the integral for p/H from 1e-4 to 1e-2.
+    .. math:: h = 1.25\,\frac{k m}{\sigma}\left(\frac pH\right)^{0.95}
+
+    Parameters
+    ----------
+    pressure, H, k, m, sigma
+        As in `cooper_mikic_yovanovich`: [Pa], [Pa], [W/(m K)], [1], [m].
+
+    Returns
+    -------
+    float or array
+        h [W/(m² K)].
+
+    Notes
+    -----
+    Within 1.5 % of `cooper_mikic_yovanovich`, which it approximates, for p/H from 1e-4 to 1e-2. Its
+    source is not confirmed here.
 
     Examples
     --------
@@ -508,6 +584,11 @@ def mikic_elastic(pressure: Number, *, E_star: float, k: float, m: float, sigma:
         As in `cooper_mikic_yovanovich`.
     E_star : float
         Contact modulus [Pa], 1/E* = Σ(1−ν²)/E.
+
+    Returns
+    -------
+    float or array
+        h [W/(m² K)].
 
     References
     ----------

@@ -43,7 +43,17 @@ COMPLETE = 45.0
 
 
 class Heights(Value):
-    """What every height distribution can do."""
+    """What every height distribution can do.
+
+    Heights z are those of asperities over σ_s, with zero mean and unit variance. A distribution of
+    your own gives the abstract methods below.
+
+    Examples
+    --------
+    >>> heights = ExponentialHeights()
+    >>> float(heights.pieces[0]), round(float(heights.pdf(0.0)), 6)
+    (-1.0, 0.367879)
+    """
 
     __slots__ = ()
 

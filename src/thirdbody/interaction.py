@@ -67,6 +67,8 @@ DISC_MEAN = 16 / (3 * math.pi**1.5)
 class MeanInteraction:
     """A contact whose summit plane sinks under its own nominal pressure.
 
+    Made by `mean_interaction`, where the source stands.
+
     Attributes
     ----------
     state : Equilibrium
@@ -79,6 +81,16 @@ class MeanInteraction:
         −dp/dd_0 with, and −dp/dd without the displacement [Pa/m].
     nominal_area, kappa : float
         A_n [m²] and the shape factor κ [1].
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> sunk = mean_interaction(contact, nominal_area=1e-6, pressure=5e6)
+    >>> sunk.stiffness < sunk.summit_stiffness
+    True
     """
 
     state: Equilibrium
@@ -194,6 +206,8 @@ def mean_interaction(
 class LocalInteraction:
     """Asperities whose own load is taken out of the mean displacement.
 
+    Made by `local_interaction`, where the source stands.
+
     Attributes
     ----------
     d : float or array
@@ -206,6 +220,16 @@ class LocalInteraction:
         The pressure without interaction at the same d [Pa].
     A_t, A_e, A_ep, A_p : float or array
         Real contact area per nominal area [1], and its elastic, elastoplastic, plastic parts.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> near = local_interaction(contact, d=100e-9)
+    >>> round(near.pressure / near.pressure_alone, 2)
+    1.08
     """
 
     contact: Contact = field(repr=False)

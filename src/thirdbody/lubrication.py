@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from scipy import special
@@ -39,7 +39,17 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Number = float | Array
 
-__all__ = ["Entrainment", "MixedFilm", "height_of", "mean_gap", "mixed_film", "stribeck"]
+__all__ = [
+    "Entrainment",
+    "FilmConditions",
+    "MixedFilm",
+    "RegimeSpeeds",
+    "height_of",
+    "mean_gap",
+    "mixed_film",
+    "regime_speeds",
+    "stribeck",
+]
 
 BOUNDARY, MIXED, FULL = "boundary", "mixed", "full film"
 FEW, MOST = 0.01, 0.99
@@ -82,9 +92,23 @@ def _gap(t: Array) -> Array:
 
 
 def height_of(gap: ArrayLike, sigma: float) -> Array:
-    """Height h above the mean plane at which a rough surface has a mean gap, both [m].
+    r"""Height above the mean plane at which a rough surface has this mean gap.
+
+    .. math:: \sigma[\varphi(t) + t\,\Phi(t)] = h_T, \qquad h = \sigma t
 
     The inverse of `mean_gap`; relative error 1e-13 for gaps from 1e-6 to 1e6 σ.
+
+    Parameters
+    ----------
+    gap : float or array
+        Mean gap h_T [m], > 0.
+    sigma : float
+        RMS height σ of the equivalent Gaussian surface [m].
+
+    Returns
+    -------
+    array
+        h [m].
 
     Examples
     --------
@@ -109,11 +133,55 @@ def _column(symbol: str, unit: str, meaning: str) -> Any:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MixedFilm:
-    """A lubricated contact with particles: floats for one speed and load, arrays for several.
+    r"""A lubricated contact with particles: floats for one speed and load, arrays (N,) for several.
 
-    Shares are of the load; areas are real areas per nominal (Hertzian) area. Tractions are NaN
-    unless the oil has an Eyring stress, the contact carries `outputs.Friction`, and sliding is
-    given.
+    .. math:: \frac1\gamma + \frac{F_{ss}}{F} + \frac{F_{sa}}{F} = 1, \qquad
+              \mu = \mu_f + \mu_{ss} + \mu_{sa}
+
+    Tractions are NaN unless the oil has an Eyring stress, the contact carries `outputs.Friction`,
+    and sliding is given.
+
+    Attributes
+    ----------
+    speed, load : float or array (N,)
+        Mean entrainment speed u [m/s] and load w [N].
+    pressure : float or array (N,)
+        Nominal pressure of film and solids, that of the dry smooth bodies [Pa].
+    h, h_T, h_smooth : float or array (N,)
+        Separation from the mean surface plane h [m]; mean gap, which is the film thickness,
+        h_T [m]; film thickness of smooth bodies under the whole load h_c [m].
+    lambda_ratio, H, h_over_x : float or array (N,)
+        h_T/σ, h/σ, and h over the largest mean diameter [1]; the last is NaN without particles.
+    gamma : float or array (N,)
+        Load over load on the film γ [1].
+    film_share, ss_share, sa_share : float or array (N,)
+        Shares of the load on film, asperities and particles [1].
+    A_t, A_ss, A_sa : float or array (N,)
+        Real area of solids, of asperities, of particles on surface 1, per nominal area [1].
+    mu, mu_film, mu_ss, mu_sa : float or array (N,)
+        Traction coefficient and its parts [1].
+    viscosity : float or array (N,)
+        η at the pressure of the film [Pa s].
+    regime : str or array (N,)
+        "boundary", "mixed" or "full film", by the share of the solids.
+    residual : float or array (N,)
+        Imbalance of the shares |1 − their sum| [1].
+    state : Equilibrium
+        The dry side: the contact at the same separation.
+    warnings : tuple of str
+        Where the model is extrapolated.
+
+    Examples
+    --------
+    >>> import warnings; warnings.simplefilter("ignore")
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> found = mixed_film(contact, conjunction=tb.films.Point(R=9.5e-3), load=20.0, speed=0.5,
+    ...                    oil=tb.films.Oil(eta=0.02, alpha=2e-8))
+    >>> found.regime, round(found.film_share + found.solid_share, 12)
+    ('mixed', 1.0)
     """
 
     speed: Number = _column("u", "m/s", "mean entrainment speed")
@@ -140,7 +208,6 @@ class MixedFilm:
     regime: Any = _column("regime", "", "boundary, mixed or full film, by the share of the solids")
     residual: Number = _column("r", "1", "imbalance of the shares |1 − their sum|")
     state: Equilibrium = field(repr=False)
-    """The dry side: the contact at the same separation."""
     warnings: tuple[str, ...] = ()
 
     @property
@@ -257,18 +324,7 @@ def mixed_film(
     p = hertz.mean if pressure == "mean" else hertz.maximum
 
     def thickness(x: Array) -> Array:
-        gamma = np.exp(x)
-        return np.asarray(
-            film.central(
-                load=conjunction.intensity(w) / gamma,
-                speed=u,
-                eta=oil.eta,
-                alpha=oil.alpha,
-                R=conjunction.R,
-                E=E / gamma,
-                ratio=conjunction.ratio,
-            )
-        )
+        return _thickness(film, conjunction, oil, w, u, E, np.exp(x))
 
     # deeper than this every asperity is crushed: more load than any film leaves to the solids
     floor = bound.asperities.centre + DEEPEST * sigma
@@ -322,6 +378,23 @@ def mixed_film(
         columns = {name: np.asarray(values)[0].item() for name, values in columns.items()}
         state = solve_quietly(contact, float(h[0] - bound.mean_plane))
     return MixedFilm(**columns, state=state, warnings=tuple(dict.fromkeys(notes)))
+
+
+def _thickness(
+    film: AbstractFilm, conjunction: Point | Line, oil: Oil, w: Any, u: Any, E: float, gamma: Any
+) -> Array:
+    """The film as if load and modulus were γ times smaller [m]."""
+    return np.asarray(
+        film.central(
+            load=conjunction.intensity(w) / gamma,
+            speed=u,
+            eta=oil.eta,
+            alpha=oil.alpha,
+            R=conjunction.R,
+            E=E / gamma,
+            ratio=conjunction.ratio,
+        )
+    )
 
 
 def solve_quietly(contact: Contact, d: float) -> Equilibrium:
@@ -565,6 +638,119 @@ def stribeck(
     )
 
 
+# ------------------------------------------------------------------ where regimes change
+class RegimeSpeeds(NamedTuple):
+    """Entrainment speeds [m/s] at which the regime changes; None where it never does.
+
+    Examples
+    --------
+    >>> RegimeSpeeds(boundary=0.02, full=3.0).full
+    3.0
+    """
+
+    boundary: float | None
+    """Up to which lubrication is boundary [m/s]"""
+    full: float | None
+    """From which the film is full [m/s]"""
+
+
+SLOWEST, FASTEST = 1e-12, 1e12
+"""Speeds among which those of `regime_speeds` are sought [m/s]."""
+
+
+def regime_speeds(
+    contact: Contact,
+    *,
+    conjunction: Point | Line,
+    oil: Oil,
+    load: float,
+    film: AbstractFilm | None = None,
+    pressure: str = "mean",
+    few: float = FEW,
+    most: float = MOST,
+) -> RegimeSpeeds:
+    r"""Speeds at which boundary lubrication ends and the full film begins.
+
+    The share s of the solids says both the gap and γ, and these say the speed:
+
+    .. math:: p_{ss}(h) + p_{sa}(h) = s\,\bar p, \qquad \gamma = \frac{1}{1 - s}, \qquad
+              h_c(w/\gamma,\ E'/\gamma,\ u) = h_T(h)
+
+    Parameters
+    ----------
+    contact, conjunction, oil, film, pressure
+        As in `mixed_film`.
+    load : float
+        w [N].
+    few, most : float, optional
+        Shares s [1] of the solids below which the film is full, and above which it is boundary.
+
+    Returns
+    -------
+    RegimeSpeeds
+        None where solids never carry that share, and for the shares 0 and 1.
+
+    Raises
+    ------
+    InvalidValue
+        As `mixed_film`.
+
+    Notes
+    -----
+    `mixed_film` at these speeds has the shares to 1e-9. Where solids carry more at some larger
+    gap, the change may happen more than once; one of the speeds is given.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> given = dict(conjunction=tb.films.Point(R=9.5e-3), load=20.0,
+    ...              oil=tb.films.Oil(eta=0.02, alpha=2e-8))
+    >>> found = regime_speeds(contact, **given)
+    >>> import warnings; warnings.simplefilter("ignore")
+    >>> round(mixed_film(contact, speed=found.full, **given).solid_share, 9)
+    0.01
+    """
+    w, _, _ = _given(load, 1.0)
+    film = film or full_range(getattr(conjunction, "shape", "point"))
+    _check(contact, conjunction, oil, film, None, pressure, (few, most))
+    bound = interface(contact)
+    sigma, E = contact.roughness.sigma, 2 * contact.E_ss
+    hertz = conjunction.hertz(w, E)
+    p = float((hertz.mean if pressure == "mean" else hertz.maximum)[0])
+    floor = bound.asperities.centre + DEEPEST * sigma
+
+    def carried(t: Array) -> Array:
+        """Share of the solids at a separation d = floor + σe^t."""
+        return bound.load(floor + sigma * np.exp(t))[:, 0] / p
+
+    shares = np.array([most, few])
+    known = (shares > 0) & (shares < 1) & (carried(np.full(2, -40.0)) > shares)
+    # beyond e^40 sigma there is no contact
+    t = _falling(lambda t: carried(t) - shares, np.full(2, -40.0), np.full(2, 40.0))
+    gap = mean_gap(floor + sigma * np.exp(t) + bound.mean_plane, sigma)
+    gamma = 1 / (1 - np.where(known, shares, 0.5))
+    ends = np.log([[SLOWEST] * 2, [FASTEST] * 2])
+
+    def short(v: Array) -> Array:
+        return gap / _thickness(film, conjunction, oil, w, np.exp(v), E, gamma) - 1
+
+    known &= (short(ends[0]) > 0) & (short(ends[1]) < 0)
+    speeds = np.exp(_falling(short, *ends))
+    return RegimeSpeeds(*(float(u) if yes else None for u, yes in zip(speeds, known, strict=True)))
+
+
+def _falling(excess: Any, low: Array, high: Array) -> Array:
+    """Zeros of falling functions by halving brackets."""
+    for _ in range(STEPS):
+        middle = 0.5 * (low + high)
+        above = excess(middle) >= 0
+        low, high = np.where(above, middle, low), np.where(above, high, middle)
+    return 0.5 * (low + high)
+
+
 # ------------------------------------------------------------------ what enters with the oil
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entrainment(Value):
@@ -622,7 +808,14 @@ class Entrainment(Value):
         return np.asarray(h, float) + 2 * self.friction**2 * R
 
     def passes(self, diameter: Distribution, h: ArrayLike) -> Array:
-        """Share of the particles smaller than the film h [m], by number [1]."""
+        """Share of the particles smaller than the film h [m], by number [1].
+
+        Parameters
+        ----------
+        diameter : Distribution
+        h : float or array (N,)
+            Film thickness [m].
+        """
         return np.asarray(diameter.partial_moment(0, 0.0, np.asarray(h, float)))
 
     def areal_density(self, diameter: Distribution, h: float, R: float) -> float:
@@ -643,3 +836,124 @@ class Entrainment(Value):
             entered = h * float(diameter.partial_moment(0, 0.0, h))
             entered += float(diameter.partial_moment(1, h, reach))
         return self.entry_ratio * self.per_volume(diameter) * entered
+
+
+# ------------------------------------------------------------------ all that is given at once
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilmConditions(Value):
+    r"""What a lubricated contact is run with: bodies, oil, load and speeds.
+
+    .. math:: w, \quad u = \tfrac12(u_1 + u_2), \quad u_s/u, \quad \eta, \alpha, \tau_E
+
+    The table [film] of a study file; `mixed_film` and `stribeck` take the same as arguments.
+
+    Parameters
+    ----------
+    conjunction : films.Point or films.Line
+        The bodies.
+    oil : films.Oil
+    load : float
+        w [N].
+    speed : tuple of float
+        Mean entrainment speeds u [m/s].
+    slide_roll : float, optional
+        Sliding over entrainment speed u_s/u [1]; without it there is no traction.
+    formula : films.AbstractFilm, optional
+        Film formula, that of every regime by default.
+    pressure : {"mean", "maximum"}, optional
+        Which Hertz pressure is nominal.
+    few, most : float, optional
+        Shares of the solids below which the film is full, and above which it is boundary [1].
+    entrainment : Entrainment, optional
+        What the oil carries.
+
+    Raises
+    ------
+    InvalidValue
+        A value outside its range, no speed, a formula for another shape.
+
+    Examples
+    --------
+    >>> import warnings; warnings.simplefilter("ignore")
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> run = FilmConditions(conjunction=tb.films.Point(R=9.5e-3), load=20.0, speed=(0.02, 0.5),
+    ...                      oil=tb.films.Oil(eta=0.02, alpha=2e-8))
+    >>> run.stribeck(contact).regime.values.tolist()
+    ['boundary', 'mixed']
+    >>> FilmConditions.from_dict(run.to_dict()) == run
+    True
+    """
+
+    conjunction: Point | Line
+    oil: Oil
+    load: float = quantity("w", "N", "normal load", gt=0)
+    speed: tuple[float, ...]
+    slide_roll: float | None = quantity(
+        "u_s/u", "1", "sliding over entrainment speed", default=None, ge=0
+    )
+    formula: AbstractFilm | None = None
+    pressure: str = choice("which Hertz pressure is nominal", "mean", "maximum", default="mean")
+    few: float = quantity(
+        "s_few", "1", "share of the solids below which the film is full", default=FEW, ge=0, le=1
+    )
+    most: float = quantity(
+        "s_most", "1", "share of the solids above which it is boundary", default=MOST, ge=0, le=1
+    )
+    entrainment: Entrainment | None = None
+
+    def _problems(self) -> list[str]:
+        out = []
+        if not isinstance(self.conjunction, Point | Line):
+            out.append(f"FilmConditions.conjunction = {self.conjunction!r} must be a Point or Line")
+        elif self.formula is not None and self.formula.shape != self.conjunction.shape:
+            out.append(
+                f"FilmConditions.formula = {self.formula.name} is for {self.formula.shape} "
+                f"contacts, and the conjunction is a {self.conjunction.shape}"
+            )
+        if not isinstance(self.oil, Oil):
+            out.append(f"FilmConditions.oil = {self.oil!r} must be an Oil")
+        if self.few > self.most:
+            out.append(
+                f"FilmConditions.few = {self.few:g} must be at most most = {self.most:g}: the film "
+                "is full below the first share of the solids and boundary above the second"
+            )
+        speeds = np.atleast_1d(np.asarray(self.speed, dtype=float))
+        if not speeds.size or not np.all(np.isfinite(speeds) & (speeds > 0)):
+            out.append("FilmConditions.speed must be numbers > 0 [m/s], at least one")
+        else:
+            object.__setattr__(self, "speed", tuple(speeds.tolist()))
+        return out
+
+    def arguments(self) -> dict[str, Any]:
+        """Arguments of `regime_speeds`; with ``speed`` and ``slide_roll`` those of `mixed_film`."""
+        return {
+            "conjunction": self.conjunction,
+            "oil": self.oil,
+            "load": self.load,
+            "film": self.formula,
+            "pressure": self.pressure,
+            "few": self.few,
+            "most": self.most,
+        }
+
+    def nominal_pressure(self, contact: Contact) -> float:
+        """Hertz pressure of the smooth dry bodies, the mean or the largest as asked [Pa]."""
+        hertz = self.conjunction.hertz(self.load, 2 * contact.E_ss)
+        return float(hertz.mean if self.pressure == "mean" else hertz.maximum)
+
+    def at(self, contact: Contact, speed: ArrayLike | None = None) -> MixedFilm:
+        """`mixed_film` at these speeds, or at another [m/s]; one speed gives floats."""
+        if speed is None:
+            speed = self.speed[0] if len(self.speed) == 1 else self.speed
+        return mixed_film(contact, speed=speed, slide_roll=self.slide_roll, **self.arguments())
+
+    def stribeck(self, contact: Contact) -> xarray.Dataset:
+        """`stribeck` over these speeds."""
+        return stribeck(contact, speed=self.speed, slide_roll=self.slide_roll, **self.arguments())
+
+    def regime_speeds(self, contact: Contact) -> RegimeSpeeds:
+        """`regime_speeds` of this load."""
+        return regime_speeds(contact, **self.arguments())

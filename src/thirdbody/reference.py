@@ -40,7 +40,14 @@ BUSH_GIBSON_THOMAS_SLOPE = math.sqrt(2 * math.pi)
 
 
 class HertzPoint(NamedTuple):
-    """A sphere on a flat."""
+    """A sphere on a flat: what `hertz_point` gives.
+
+    Examples
+    --------
+    >>> point = hertz_point(1.0, R=5e-3, E_star=115e9)
+    >>> f"{point.contact_radius * 1e6:.1f} µm, {point.peak_pressure / 1e6:.0f} MPa"
+    '31.9 µm, 468 MPa'
+    """
 
     contact_radius: Array
     """a [m]"""
@@ -103,6 +110,11 @@ def gaussian_integral(n: float, h: ArrayLike) -> Array:
     h : array_like
         Separation over the standard deviation of the heights [1].
 
+    Returns
+    -------
+    array
+        F_n(h) [1].
+
     Notes
     -----
     Derived: trapezoidal sum after a double-exponential change of variable; relative error 1e-13
@@ -134,7 +146,14 @@ def gaussian_integral(n: float, h: ArrayLike) -> Array:
 
 # ---------------------------------------------------------------- exponential heights
 class SummitSum(NamedTuple):
-    """What all summits do together, per nominal area."""
+    """What all summits do together, per nominal area: what the ``exponential_...`` forms give.
+
+    Examples
+    --------
+    >>> low, high = (exponential_gw(h, eta=2e10, sigma_s=1e-7, R=3e-6, E_star=1e11) for h in (2, 1))
+    >>> round(float(high.pressure / low.pressure), 6), round(float(high.area / low.area), 6)
+    (2.718282, 2.718282)
+    """
 
     pressure: Array
     """Load per nominal area [Pa]"""
@@ -343,6 +362,11 @@ def persson_area(pressure: ArrayLike, *, E_star: float, g: float) -> Array:
     g : float
         RMS slope of the surface, g = ⟨|∇h|²⟩^½ [1]. A profile has g²/2 only: g² = 2m₂.
 
+    Returns
+    -------
+    array
+        A/A_n [1].
+
     Notes
     -----
     Slope √(8/π) at small load. Derived check; the formula is recalled.
@@ -369,6 +393,11 @@ def bush_gibson_thomas_area(pressure: ArrayLike, *, E_star: float, g: float) -> 
     ----------
     pressure, E_star, g
         As in `persson_area`.
+
+    Returns
+    -------
+    array
+        A/A_n [1].
 
     Notes
     -----

@@ -23,7 +23,7 @@ from .materials import NUMBERS, Material, materials
 from .outputs.base import AbstractOutput, bodies_of
 from .sensitivities import Sensitivity, declared, sensitivity
 from .sensitivities import inputs as numbers_of
-from .study import Study, run_study
+from .study import Study, run_film, run_study
 from .transitions import Critical, Transitions, TurningPoint
 from .uncertainty import library_ranges
 from .values import Value
@@ -104,6 +104,8 @@ class Report:
         Number of that state.
     file : str
         The study file.
+    film : dict or None
+        What `run_film` gives, where the study has a table [film].
     """
 
     study: Study
@@ -113,6 +115,7 @@ class Report:
     slopes: Sensitivity | None
     at: int
     file: str = field(repr=False, default="")
+    film: dict[str, Any] | None = field(repr=False, default=None)
 
     @property
     def contact(self) -> Contact:
@@ -133,6 +136,7 @@ class Report:
             section("States", self._states(), name="states"),
             *self._critical(),
             *self._outputs(),
+            *self._film(),
             section("Error bars", self._error_bars(), name="errors"),
             section("Which inputs matter", self._slopes(), name="inputs-that-matter"),
             section("Inputs and their sources", self._inputs(), name="inputs"),
@@ -266,7 +270,8 @@ class Report:
 
     # ------------------------------------------------------------------ warnings
     def _warnings(self) -> list[str]:
-        texts = list(self.result["warnings"])
+        texts = [*self.result["warnings"], *(self.film or {"warnings": []})["warnings"]]
+        texts = list(dict.fromkeys(texts))
         states = self.result["states"]["status"]
         texts += [
             f"{states.count(status)} of {len(states)} states unsolved: {status}"
@@ -430,6 +435,33 @@ class Report:
             out += [f"<h3>{escape(output.title)}</h3>", table(head, rows)]
         return [section("What else the contact does", out, name="outputs")]
 
+    def _film(self) -> list[str]:
+        """The lubricated contact: in words, over speed, and at a few speeds."""
+        if self.film is None:
+            return []
+        from .film_words import point, summary
+        from .plot_film import stribeck
+
+        states, given = self.film["states"], self.film["inputs"]["film"]
+        total = len(states["speed"])
+        body = given["conjunction"]["type"].lower()
+        lead = (
+            f"A {body} contact under {number(given['load'])} N, with a Hertz pressure of "
+            f"{shown(states['pressure'][0], 'Pa')}, in oil of {number(given['oil']['eta'])} Pa s. "
+        )
+        pressed = "the load of the study" if self.study.own_load else "this Hertz pressure"
+        lead += f"Everything else on this page leaves the oil out, under {pressed}."
+        out = [f"<p>{words(text)}</p>" for text in (lead, *summary(self.film))]
+        if total > 1:
+            drawn = svg_of(stribeck(states, self.film["regime_speeds"]))
+            caption = "Friction, load shares and film thickness over speed; grey: the regimes."
+            out.append(f"<div class=figures>{figure(drawn, caption)}</div>")
+        which = _some(total, MOST_COLUMNS)
+        columns = [point(self.film, i) for i in which]
+        head = ["at a speed of", *(f"{number(states['speed'][i])} m/s" for i in which)]
+        rows = [[name, *(column[name] for column in columns)] for name in columns[0]]
+        return [section("The oil film", [*out, text_table(head, rows)], name="film")]
+
     # ------------------------------------------------------------------ how sure
     def _error_bars(self) -> list[str]:
         found = self.assessment
@@ -558,6 +590,7 @@ class Report:
     def _citations(self) -> list[str]:
         lines = [
             *self.result["citations"],
+            *(self.film or {"citations": []})["citations"],
             *(
                 output.citation + (f", doi:{output.doi}" if output.doi else "")
                 for output in self.contact.outputs
@@ -800,6 +833,7 @@ def report(study: Study, *, file: str = "") -> Report:
             slopes=_slopes(bare, given) if loaded else None,
             at=at,
             file=file,
+            film=None if study.film is None else run_film(study),
         )
 
 

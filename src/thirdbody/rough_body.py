@@ -426,6 +426,8 @@ def _rigid(skin: Skin, shape: Shape, load: float) -> float:
 class RoughBody:
     """A solved rough sphere, or a rough cylinder per metre of length.
 
+    Made by `rough_sphere` and `rough_cylinder`, where accuracy and source stand.
+
     Attributes
     ----------
     shape : str
@@ -452,6 +454,18 @@ class RoughBody:
         Load of the particles over the total load [1].
     resolution, residual : float
         Last coefficients of the pressure over the largest [1], largest error of the gap [m].
+    warnings : tuple of str
+        Where the body leaves the range of the model.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> ball = rough_sphere(contact, radius=5e-3, load=10.0)
+    >>> ball.shape, ball.peak_pressure < ball.p_hertz, ball.a_eff > ball.a_hertz
+    ('sphere', True, True)
     """
 
     shape: str

@@ -278,6 +278,14 @@ class Fit:
     rms, worst : float
         Root mean square and largest |Q − Q_j| [1]; the largest is the Kolmogorov distance at the
         edges.
+
+    Examples
+    --------
+    >>> from thirdbody.distributions import Histogram
+    >>> bins = Histogram(edges=(0.5e-6, 1e-6, 2e-6, 4e-6, 8e-6, 16e-6), counts=(3, 14, 38, 36, 9))
+    >>> fit = MeasuredSizes(sizes=bins, weighting="volume").fits()[0]
+    >>> fit.kind, round(fit.worst, 3), f"{fit.by_number().mean_diameter * 1e6:.2f} µm by number"
+    ('log-normal', 0.012, '1.41 µm by number')
     """
 
     kind: str

@@ -148,6 +148,18 @@ class Topography:
         Where `limit` is from, or that it is not known.
     notes : tuple of str
         What happened while reading.
+
+    References
+    ----------
+    Nayak 1971, doi:10.1115/1.3451608, and McCool 1986, doi:10.1016/0043-1648(86)90045-1: asperities
+    from moments.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> surface = tb.surfaces.from_topography("example", cutoff=1e-6)
+    >>> f"{surface.roughness().sigma * 1e9:.1f} nm, R {surface.roughness().R * 1e6:.2f} µm"
+    '59.5 nm, R 3.27 µm'
     """
 
     heights: Array = field(repr=False)

@@ -21,18 +21,48 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Critical:
-    """A load F* [1] where something changes, or why there is none."""
+    """A load F* [1] where something changes, or why there is none.
+
+    Attributes
+    ----------
+    value : float or None
+        F* = F/(A_n E_ss) [1]; None where there is none.
+    status : str
+        "found", "jump", or why there is none, as `transitions` lists them.
+
+    Examples
+    --------
+    >>> Critical(7.15e-06, "found").to_dict()
+    {'value': 7.15e-06, 'status': 'found'}
+    """
 
     value: float | None
     status: str
 
     def to_dict(self) -> dict[str, Any]:
+        """Value and status for JSON."""
         return {"value": self.value, "status": self.status}
 
 
 @dataclass(frozen=True, slots=True)
 class TurningPoint:
-    """The turning point of the contact area by three definitions; they differ by factors of 1–3."""
+    """The turning point of the contact area by three definitions; they differ by factors of 1–3.
+
+    The paper (Horng et al. 2022, doi:10.3390/lubricants10070164) gives it no formula.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> point = tb.transitions(contact).F_tpca
+    >>> point.A.status, f"{point.B.value:.2e}"
+    ('none', '2.59e-04')
+    """
 
     A: Critical
     """Largest particle share, where the share falls on both sides (the paper's recurrence)."""
@@ -42,18 +72,36 @@ class TurningPoint:
     """Strongest bend of ln A_t against ln F* in the hybrid mode."""
 
     def to_dict(self) -> dict[str, Any]:
+        """The three of them for JSON."""
         return {name: getattr(self, name).to_dict() for name in ("A", "B", "C")}
 
 
 @dataclass(frozen=True, slots=True)
 class Transitions:
-    """Critical loads F* [1] and turning point of one contact."""
+    """Critical loads F* [1] and turning point of one contact; made by `transitions`.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> found = tb.transitions(contact)
+    >>> f"{found.F_cr1.value:.2e}", found.F_cr2.status
+    ('7.15e-06', 'found')
+    """
 
     F_cr1: Critical
+    """Up to it particles alone carry."""
     F_cr2: Critical
+    """From it on surfaces alone carry."""
     F_tpca: TurningPoint
 
     def to_dict(self) -> dict[str, Any]:
+        """Everything for JSON."""
         return {
             "F_cr1": self.F_cr1.to_dict(),
             "F_cr2": self.F_cr2.to_dict(),

@@ -27,6 +27,10 @@ EXAMPLES = {
     "W/m/K": '"46 W/m/K"',
     "J/kg/K": '"460 J/kg/K"',
     "ohm*m": '"2e-7 ohm*m"',
+    "N": '"20 N"',
+    "m/s": '"0.5 m/s"',
+    "Pa s": '"20 mPa s"',
+    "1/Pa": '"20 / GPa"',
     "1": "0.5",
 }
 """How a value in each of the library's units may be written."""
@@ -56,6 +60,8 @@ _KINDS = {
     "J": "an energy",
     "rad/s": "a rate",
     "Pa*s": "a viscosity",
+    "Pa s": "a viscosity",
+    "1/Pa": "one over a pressure",
     "A": "an electric current (angstrom is written angstrom)",
 }
 _USUAL = ("nm", "um", "µm", "mm", "m", "angstrom", "Pa", "kPa", "MPa", "GPa", "bar", "psi")

@@ -38,6 +38,8 @@ __all__ = ["WavyContact", "elastic_wave", "measured_wave", "rigid_wave"]
 class WavyContact:
     """A rough contact on a wavy surface.
 
+    Made by `rigid_wave`, `elastic_wave` and `measured_wave`.
+
     Attributes
     ----------
     d : float
@@ -59,6 +61,18 @@ class WavyContact:
         Load of the particles over the total load [1].
     resolution : float
         Last coefficients of the pressure over the largest [1]; 0 for a measured wave.
+    warnings : tuple of str
+        Where the contact leaves the range of the model.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> wavy = rigid_wave(contact, amplitude=150e-9, pressure=5e6)
+    >>> bool(wavy.local_pressure.max() > wavy.pressure > wavy.local_pressure.min())
+    True
     """
 
     d: float

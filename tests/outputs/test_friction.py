@@ -169,7 +169,7 @@ class Finer(Friction):
     __slots__ = ()
 
     def splits(self, probe):
-        return sorted({*Friction.splits(self, probe), *np.geomspace(1e-5, 1.2, 120)})
+        return sorted({*Friction.splits(self, probe), *np.geomspace(1e-5, 1.2, 30)})
 
 
 @pytest.mark.parametrize("name", ["unequal", "severity", "long", "film", "growing", "rigid"])

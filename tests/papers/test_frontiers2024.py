@@ -11,8 +11,8 @@ READINGS = ("rough", "offset")
 
 
 @pytest.fixture(scope="module")
-def ledger():
-    return study.STUDY.ledger()
+def ledger(ledger_of):
+    return ledger_of(study.STUDY)
 
 
 VERDICTS = {
@@ -71,7 +71,8 @@ def test_every_claim_says_where_it_comes_from():
     assert all(claim.place for claim in study.CLAIMS)
 
 
-def test_pages(tmp_path, ledger):
+def test_pages(tmp_path, ledger, monkeypatch):
+    monkeypatch.setattr(type(study.STUDY), "ledger", lambda self: ledger)
     summary = study.reproduce(tmp_path)
     claims = json.loads((tmp_path / "claims.json").read_text("utf-8"))
     assert "10.3389/fmech.2024.1390335" in claims["paper"]

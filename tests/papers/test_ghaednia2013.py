@@ -10,8 +10,8 @@ READINGS = ("stack", "fractal")
 
 
 @pytest.fixture(scope="module")
-def ledger():
-    return study.STUDY.ledger()
+def ledger(ledger_of):
+    return ledger_of(study.STUDY)
 
 
 VERDICTS = {

@@ -8,7 +8,15 @@ import numpy as np
 import pytest
 
 from thirdbody import InvalidValue
-from thirdbody.studies.horng2022 import PANELS, READINGS, Curves, claims, reproduce, score
+from thirdbody.studies.horng2022 import (
+    PANELS,
+    READINGS,
+    Curves,
+    claims,
+    reproduce,
+    score,
+    study,
+)
 from thirdbody.studies.horng2022.claims import study_data
 from thirdbody.studies.horng2022.ledger import (
     MEASURES,
@@ -32,9 +40,9 @@ PUBLISHED_FAILS = {
 }
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def verdicts():
-    """Every reading scored once."""
+    """Every reading scored once in a process."""
     return {name: score(Curves(reading)) for name, reading in READINGS.items()}
 
 
@@ -286,11 +294,19 @@ def test_progress_and_summary(made):
 
 
 @pytest.mark.slow
-def test_the_same_bytes_again(made, tmp_path):
-    folder, _, _ = made
-    reproduce(tmp_path)
-    for path in folder.iterdir():
-        assert path.read_bytes() == (tmp_path / path.name).read_bytes(), path.name
+def test_the_same_bytes_again(made, verdicts, tmp_path, monkeypatch):
+    """The numbers are those scored above; two panels and the page around them, twice."""
+    folder, summary, _ = made
+    assert summary.ledger.verdicts == verdicts
+    some = {name: PANELS[name] for name in ("5", "12a")}
+    monkeypatch.setattr(study, "PANELS", some)
+    monkeypatch.setattr(study, "keep_ledger", lambda *_: summary.ledger)
+    for again in ("one", "two"):
+        reproduce(tmp_path / again)
+    for path in (tmp_path / "one").iterdir():
+        same = (tmp_path / "two" / path.name).read_bytes()
+        assert path.read_bytes() == same, path.name
+        assert path.name == "index.html" or same == (folder / path.name).read_bytes(), path.name
 
 
 def test_an_unknown_preset_is_refused(tmp_path):

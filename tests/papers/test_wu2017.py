@@ -27,8 +27,8 @@ VERDICTS = {
 
 
 @pytest.fixture(scope="module")
-def ledger():
-    return study.STUDY.ledger()
+def ledger(ledger_of):
+    return ledger_of(study.STUDY)
 
 
 def test_verdicts(ledger):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import thirdbody as tb
@@ -15,10 +16,12 @@ from ..sizes import FITS, WEIGHTINGS
 from ..study import DISTRIBUTIONS, HEIGHTS, LOADS, filled_in
 from ..study.concentration import AMOUNT
 from ..study.counted import COUNTED
+from ..study.reader import Reader
+from ..study.tables import FIELDS, TABLES
 from ..study.toml import value_of
 from ..units import quantity_to_si
 from ..values import allowed_range
-from .text import written
+from .text import in_ascii, with_micro, written
 
 __all__ = [
     "COUNTED_FIELDS",
@@ -26,6 +29,8 @@ __all__ = [
     "Field",
     "engineering",
     "fields_of",
+    "known_keys",
+    "number_field",
     "number_of",
     "options_of",
     "shown",
@@ -70,7 +75,14 @@ class Field:
     default: Any = None
 
 
-NESTED = {"Material", "Heights", "AbstractAsperityLaw", "Value | None"}
+NESTED = {
+    "Material",
+    "Heights",
+    "Ellipticity | None",
+    "AbstractAsperityLaw",
+    "Value | None",
+    "Distribution",
+}
 """Types of fields that have widgets of their own."""
 
 
@@ -79,7 +91,7 @@ def fields_of(kind: type) -> list[Field]:
     out = []
     for item in dataclasses.fields(kind):
         declared = str(getattr(item.type, "__name__", item.type))
-        if item.name in filled_in(kind) or declared in NESTED or declared == "Distribution":
+        if item.name in filled_in(kind) or declared in NESTED:
             continue
         default = None if item.default is dataclasses.MISSING else item.default
         needed = item.default is dataclasses.MISSING and (
@@ -110,6 +122,14 @@ def fields_of(kind: type) -> list[Field]:
                 Field(name=item.name, kind=kind_, label=item.name, about=text, default=default)
             )
     return out
+
+
+def known_keys(study: dict[str, Any], name: str) -> dict[str, dict[str, str]]:
+    """What the reader of study files knows in one table and those inside: keys, what each is."""
+    reader = Reader(Path(), study, FIELDS)
+    table = next(table for table in TABLES if table.name == name)
+    table.read(reader, name, study.get(name))
+    return reader.known.keys
 
 
 def number_field(
@@ -189,12 +209,12 @@ def shown(value: Any) -> str:
         return ""
     if isinstance(value, list) and not any(isinstance(x, dict) for x in value):
         return ", ".join(map(shown, value))
-    return value if isinstance(value, str) else written(value)
+    return with_micro(value if isinstance(value, str) else written(value))
 
 
 def value_from(text: str) -> Any:
     """What a user wrote: numbers as numbers, tables and lists as in TOML, text as text."""
-    text = text.strip()
+    text = in_ascii(text.strip())
     if not text:
         return None
     if "," in text and text[0] not in '[{"':

@@ -9,6 +9,7 @@ import numpy as np
 from ..plot import MODE_COLOURS, OKABE_ITO, REGIMES
 
 __all__ = [
+    "AXES",
     "CONFIG",
     "DASHES",
     "GREY",
@@ -26,6 +27,12 @@ __all__ = [
 
 INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
 DASHES = ["solid", "dash", "dashdot", "dot", "longdash", "longdashdot"]
+AXES = {
+    "F_star": "load F* = F/(A<sub>n</sub> E<sub>ss</sub>)",
+    "pressure": "nominal pressure [Pa]",
+    "d": "separation d [m]",
+}
+"""What loads are called, by the arguments of `tb.solve`."""
 GREY = "#7f7f7f"
 CONFIG = {
     "displaylogo": False,

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import Any, NamedTuple
 
-from nicegui import ui
+from nicegui import events, ui
 
 import thirdbody as tb
 
+from ..errors import InvalidValue
+from ..study import LOADS
+from ..study.concentration import AMOUNT
 from ..study.counted import COUNTED
 from ..study.inputs import inputs_of
 from ..uncertainty import KINDS
@@ -18,24 +22,66 @@ from .fields import (
     VARIANTS,
     Field,
     fields_of,
+    known_keys,
     number_field,
     options_of,
     shown,
     value_from,
 )
-from .state import State
+from .state import State, refuse_foreign_files
+from .text import from_toml, to_toml, with_micro
+from .uploads import keep
 
-__all__ = ["Inputs"]
+__all__ = ["FORMED", "Inputs"]
 
 Place = tuple[str | int, ...]
 OWN = "own values"
 SIZES = (*VARIANTS["distribution"], *COUNTED)
 AMOUNTS = ("gap", "particle_density", "oil_density")
+FORMED = (
+    "title", "materials", "surfaces", "roughness", "asperity_law", "particles", "particle_law",
+    "outputs", "load",
+)  # fmt: skip
+"""Tables of a study file that have forms; every other can be written as text."""
+BEGUN = {
+    "sweep": """[sweep]
+design = "sobol"
+samples = 256
+
+[sweep.vary.roughness]
+sigma = { from = "50 nm", to = "200 nm" }
+""",
+    "uncertainty": """[uncertainty]
+samples = 1024
+seed = 1
+
+[uncertainty.inputs]
+"roughness.sigma" = { low = "90 nm", high = "110 nm" }
+""",
+    "design": """[design]
+objective = { of = "particle_load_share", aim = "largest" }
+limits = [{ of = "A_t", most = 0.1 }]
+
+[design.over]
+"roughness.sigma" = { low = "50 nm", high = "200 nm" }
+""",
+}
+"""How a table may begin; shown while there is none."""
 
 
 def dotted(path: Iterable[str | int]) -> str:
     """A place in the study as messages name it."""
     return ".".join(map(str, path))
+
+
+class Entry(NamedTuple):
+    """A widget of one entry; ``read`` gives what is meant by its text, None for a menu."""
+
+    widget: Any
+    read: Callable[[str], Any] | None = None
+    show: Callable[[Any], str] = shown
+    whole: bool = False
+    """Whether mistakes inside the table belong to it as well."""
 
 
 class Inputs:
@@ -45,28 +91,33 @@ class Inputs:
         self.state = state
         self.again = again
         """Called when other entries are needed than before."""
-        self.shown: dict[str, Any] = {}
+        self.shown: dict[str, Entry] = {}
         self.rest: Any = None
 
     # ------------------------------------------------------------------ mistakes
     def tell(self) -> None:
         """Put every mistake beside its field, and the others where they can be seen."""
         left = list(self.state.problems)
-        for name, widget in self.shown.items():
-            mine = [text for text in left if about_of(text) == name]
+        for name, (widget, read, show, whole) in self.shown.items():
+            inner = f"{name}." if whole else name
+            mine = [t for t in left if about_of(t) == name or about_of(t).startswith(inner)]
             left = [text for text in left if text not in mine]
-            fitting = " ".join(mine) or None
-            if getattr(widget, "error", None) != fitting:
-                widget.error = fitting
             path = tuple(int(step) if step.isdecimal() else step for step in name.split("."))
             now = self.state.get(*path)
-            if not mine and isinstance(widget, ui.input) and value_from(widget.value or "") != now:
-                widget.value = shown(now)
+            if read is not None:
+                try:
+                    if read(widget.value or "") != now and not mine:
+                        widget.value = show(now)
+                except InvalidValue as error:
+                    mine = list(error.problems)
+            fitting = with_micro(" ".join(mine)) or None
+            if widget.error != fitting:
+                widget.error = fitting
         if self.rest is not None:
             self.rest.clear()
             with self.rest:
                 for text in left:
-                    ui.label(text).classes("problem").props("role=alert")
+                    ui.label(with_micro(text)).classes("problem").props("role=alert")
 
     # ------------------------------------------------------------------ one entry
     def field(self, path: Place, field: Field) -> None:
@@ -83,23 +134,51 @@ class Inputs:
         else:
             self.text(place, field)
 
-    def text(self, place: Place, field: Field) -> Any:
+    def text(self, place: Place, field: Field, put: Callable[[Any], None] | None = None) -> Any:
         """An entry that is written: the study changes when typing pauses."""
-        plain = field.kind == "string"
+        set_to = put or (lambda value: self.state.set(*place, value))
+        read, show = (
+            (lambda text: text.strip() or None, lambda value: str(value or ""))
+            if field.kind == "string"
+            else (value_from, shown)
+        )
+        entry = ui.input(field.label, value=show(self.state.get(*place))).classes("w-full")
+        entry.props(f'dense debounce=350 hint="{_attribute(with_micro(field.about))}"')
+        entry.props(f'aria-label="{_attribute(dotted(place))}" data-path="{dotted(place)}"')
+        entry.on_value_change(lambda event: set_to(read(event.value or "")))
+        self.shown[dotted(place)] = Entry(entry, read, show)
+        return entry
+
+    def known(self, *place: str) -> None:
+        """The entries of a table without a form of its own, as the reader knows them."""
+        for name, about in known_keys(self.state.study, place[0])[dotted(place)].items():
+            if about:
+                self.field(place, Field(name=name, kind="text", label=name, about=about))
+
+    def as_text(self, name: str) -> None:
+        """A table as it stands in the file, its mistakes below."""
 
         def read(text: str) -> Any:
-            return (text.strip() or None) if plain else value_from(text)
+            given = from_toml(text)
+            if other := [key for key in given if key != name]:
+                raise InvalidValue(f"here stands [{name}] alone, not {', '.join(other)}")
+            return given.get(name)
 
         def changed(event: Any) -> None:
-            self.state.set(*place, read(event.value or ""))
+            try:
+                self.state.set(name, read(event.value or ""))
+            except InvalidValue:
+                self.state.tell()  # which reads it again, to put the mistake beside it
 
-        entry = ui.input(field.label, value=shown(self.state.get(*place)))
-        entry.props(f'dense debounce=350 hint="{_attribute(field.about)}"')
-        entry.props(f'aria-label="{_attribute(dotted(place))}" data-path="{dotted(place)}"')
-        entry.classes("w-full")
-        entry.on_value_change(changed)
-        self.shown[dotted(place)] = entry
-        return entry
+        def show(table: Any) -> str:
+            return "" if table is None else to_toml({name: table})
+
+        entry = ui.textarea(value=show(self.state.get(name)), placeholder=BEGUN.get(name, ""))
+        entry.props(f'outlined autogrow debounce=500 data-path="{name}" aria-label="[{name}]"')
+        entry.classes("w-full code").on_value_change(changed)
+        keys = known_keys(self.state.study, name)[name]
+        ui.label(f"Keys: {', '.join(keys)}.").classes("hint")
+        self.shown[name] = Entry(entry, read, show, whole=True)
 
     def select(
         self,
@@ -120,10 +199,10 @@ class Inputs:
 
         known = options if now in options else {now: str(now), **options}
         menu = ui.select(known, value=now, label=label, on_change=changed)
-        menu.props(f'dense options-dense hint="{_attribute(hint)}"').classes("w-full")
+        menu.props(f'dense options-dense hint="{_attribute(with_micro(hint))}"').classes("w-full")
         if place is not None:
             menu.props(f'data-path="{dotted(place)}"')
-            self.shown[dotted(place)] = menu
+            self.shown[dotted(place)] = Entry(menu)
         return menu
 
     def change(self, *path_and_value: Any) -> None:
@@ -136,13 +215,14 @@ class Inputs:
         """A material of the library, or own values."""
         now = self.state.get(*place)
         own = isinstance(now, dict)
-        options = {OWN: OWN, **{name: name for name in tb.materials}}
+        library = self._library()
+        options = {OWN: OWN, **{name: name for name in library}}
 
         def then(value: Any) -> None:
             if value != OWN:
                 self.change(*place, value)
                 return
-            known = tb.materials[now] if isinstance(now, str) and now in tb.materials else None
+            known = library[now] if isinstance(now, str) and now in library else None
             given = {"E": known.E, "nu": known.nu, "H": known.H} if known else {}
             self.change(*place, given or {"E": "205 GPa", "nu": 0.29, "H": "5 GPa"})
 
@@ -150,11 +230,20 @@ class Inputs:
         if own:
             for each in fields_of(tb.Material):
                 self.field(place, each)
-        elif now in tb.materials:
-            known = tb.materials[now]
+        elif now in library:
+            known = library[now]
             ui.label(
                 f"E = {known.E / 1e9:.4g} GPa, ν = {known.nu:g}, H = {known.H / 1e9:.4g} GPa"
             ).classes("hint")
+
+    def _library(self) -> tb.MaterialLibrary:
+        """The materials that the study can name."""
+        own = self.state.get("materials")
+        try:
+            refuse_foreign_files({"materials": own}, self.state.folder)
+            return tb.materials.load(self.state.folder / own) if own else tb.materials
+        except (InvalidValue, TypeError):
+            return tb.materials
 
     def variant(
         self,
@@ -186,15 +275,16 @@ class Inputs:
                 self._named(place, each, tag, chosen)
             else:
                 self.field(place, each)
+        for item in dataclasses.fields(kind):
+            if item.type == "AbstractAsperityLaw" and isinstance(now, dict):
+                label = f"{item.name}: asperity law inside"
+                inner = (*place, item.name)
+                self.variant(inner, VARIANTS["asperity"], "", label, blank="left out")
 
     def _named(self, place: Place, field: Field, tag: str, word: str) -> None:
         """An entry of a table that is still a word, or left out."""
-        entry = ui.input(field.label, value="").classes("w-full")
-        entry.props(f'dense debounce=350 hint="{_attribute(field.about)}"')
-        entry.props(f'data-path="{dotted((*place, field.name))}"')
 
-        def changed(event: Any) -> None:
-            value = value_from(event.value or "")
+        def put(value: Any) -> None:
             table = self.state.get(*place)
             if value is None and not isinstance(table, dict):
                 return
@@ -202,13 +292,20 @@ class Inputs:
             new = {key: old for key, old in kept.items() if key != field.name}
             self.state.set(*place, new if value is None else new | {field.name: value})
 
-        entry.on_value_change(changed)
-        self.shown[dotted((*place, field.name))] = entry
+        self.text((*place, field.name), field, put)
 
     def surfaces(self) -> None:
         """Both bodies."""
         for side in ("first", "second"):
             self.material(("surfaces", side), f"{side} surface")
+
+        async def uploaded(event: events.UploadEventArguments) -> None:
+            self.change("materials", await keep(self.state.folder, event))
+
+        about = "a file, dropped below"
+        self.field((), Field(name="materials", kind="string", label="own materials", about=about))
+        upload = ui.upload(label="Own materials", auto_upload=True, on_upload=uploaded)
+        upload.props('flat bordered data-upload="materials" accept=".toml,text/plain"')
 
     def asperity_law(self) -> None:
         """What one asperity does."""
@@ -217,19 +314,32 @@ class Inputs:
     def roughness(self) -> None:
         """The rough surface."""
         if self.state.get("roughness", "topography") is not None:
-            ui.label("The roughness is that of a measured file.").classes("hint")
-            for name, about in (
-                ("topography", "the file"),
-                ("cutoff", "cut-off wavelength, e.g. 2 um"),
-                ("detrend", "none, tilt or curvature"),
-                ("unit", "of a file that tells none"),
-            ):
-                self.field(("roughness",), Field(name=name, kind="text", label=name, about=about))
+            ui.label("The roughness is that of a measured file, or of two faces.").classes("hint")
+            self.known("roughness")
             ui.button("Numbers instead", on_click=self._numbers).props("flat dense")
             return
         for each in fields_of(tb.Roughness):
             self.field(("roughness",), each)
         self.variant(("roughness", "heights"), VARIANTS["heights"], "gaussian", "heights")
+        self.ellipticity()
+
+    def ellipticity(self) -> None:
+        """Round tips, classes of elliptic ones, or two faces at an angle."""
+        place: Place = ("roughness", "ellipticity")
+        now = self.state.get(*place)
+        starts: dict[str, Any] = {
+            "": None,
+            "ratios": {"ratios": [1, 2, 5], "weights": [5, 3, 2]},
+            "faces": {"first": 4, "second": 2, "angle": "30 deg"},
+        }
+        words = {"": "round", "ratios": "classes of ratios", "faces": "two faces at an angle"}
+        faces = isinstance(now, dict) and bool({"first", "second", "angle"} & set(now))
+        chosen = "" if now is None else "faces" if faces else "ratios"
+        self.select(
+            place, words, chosen, "shape of the tips", lambda w: self.change(*place, starts[w])
+        )
+        if now is not None:
+            self.known("roughness", "ellipticity")
 
     def _numbers(self) -> None:
         answer = self.state.answer
@@ -284,8 +394,6 @@ class Inputs:
 
     def amount(self, place: Place, kind: Any) -> None:
         """Per area, or a concentration and the gap."""
-        from ..study.concentration import AMOUNT
-
         coded = kind in ("iso4406", "as4059", "nas1638")
         if not coded:
             about = next(f for f in fields_of(tb.Particles) if f.name == "areal_density")
@@ -446,17 +554,14 @@ class Inputs:
     # ------------------------------------------------------------------ uncertainty
     def uncertain(self) -> None:
         """What is known of the inputs: a row each."""
-        names = {
-            each.name: each.quantity
-            for each in inputs_of(self.state.study)
-            if each.quantity and not each.idle
-        }
+        names = [e.name for e in inputs_of(self.state.study) if e.quantity and not e.idle]
+        names += [f"load.{name}" for name in LOADS if self.state.get("load", name) is not None]
         given = self.state.get("uncertainty", "inputs") or {}
         flat = _flat(given)
         for label, entry in flat.items():
             with ui.row().classes("w-full items-center no-wrap gap-2"):
                 ui.label(label).classes("grow break-all")
-                ui.label(say(entry)).classes("hint")
+                ui.label(with_micro(say(entry))).classes("hint")
                 drop = ui.button(icon="delete", on_click=lambda _, k=label: self._known(k, None))
                 drop.props(f'flat dense aria-label="remove {_attribute(label)}"')
         kinds = {
@@ -466,7 +571,8 @@ class Inputs:
             "lognormal": "median and geometric deviation",
         }
         with ui.row().classes("w-full items-end gap-2"):
-            which = ui.select(list(names), label="input", value=next(iter(names), None))
+            which = ui.select(names, label="input, or several that move together", multiple=True)
+            which.set_value(names[:1])
             which.props('dense options-dense data-path="uncertain.name"').classes("grow")
             how = (
                 ui.select(
@@ -487,7 +593,7 @@ class Inputs:
                 entry = dict(zip(keys, values, strict=False))
                 if kind == "log-uniform":
                     entry["spacing"] = "log"
-                self._known(str(which.value), entry)
+                self._known("+".join(which.value), entry)
 
             ui.button("Add", icon="add", on_click=add).props('dense data-path="uncertain.add"')
 

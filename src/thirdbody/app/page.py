@@ -7,6 +7,7 @@ import shutil
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -15,13 +16,14 @@ from fastapi import Request
 from nicegui import background_tasks, ui
 
 from ..errors import InvalidValue, ThirdBodyError
+from ..study.tables import TABLES
 from .examples import EXAMPLES, example
 from .fields import Field
-from .inputs import Inputs
+from .inputs import FORMED, Inputs
 from .sliders import Sliders
 from .state import State, files_of
 from .tabs import TABS
-from .text import from_link
+from .text import from_link, with_micro
 
 __all__ = ["Start", "page"]
 
@@ -49,10 +51,23 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .js-plotly-plot .main-svg text { fill: currentColor !important; }
 .js-plotly-plot .main-svg { background: transparent !important; }
 .js-plotly-plot .hoverlayer text { fill: #222 !important; }
+.body--dark .scatterlayer .lines, .body--dark .legendlines { filter: brightness(1.4); }
+.body--dark .layer-below .shapelayer { opacity: 0.5; }
+.q-tab { padding: 0 11px; }
 .q-field__messages { line-height: 1.2; }
 .q-field--with-bottom { padding-bottom: 0; }
 .q-field--with-bottom .q-field__bottom { position: static; transform: none; padding: 3px 0 6px; }
-:focus-visible { outline: 2px solid #0072B2; outline-offset: 2px; }
+.q-header .q-field__label { color: #ffffff; }
+@media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
+/* what is important in the framework yields only to an earlier layer */
+@layer overrides {
+  :root { --focus: #0072B2; }
+  .body--dark { --focus: #56B4E9; }
+  .q-header { --focus: #ffffff; }
+  :focus-visible { outline: 2px solid var(--focus) !important; outline-offset: 2px; }
+  .body--dark .text-primary,
+  .body--dark .q-field--highlighted .q-field__label { color: #56B4E9 !important; }
+}
 """
 
 
@@ -195,14 +210,16 @@ def page(start: Start, request: Request) -> None:
                     "Surfaces": inputs.surfaces,
                     "Asperity law": inputs.asperity_law,
                 }
+                for table in TABLES:
+                    if table.name not in FORMED:
+                        sections[f"[{table.name}] as text"] = partial(inputs.as_text, table.name)
                 for name, build in sections.items():
                     fold = ui.expansion(name, value=name in opened_sections).classes("w-full")
                     fold.on_value_change(lambda e, n=name: folded(n, e.value))
                     with fold, ui.column().classes("w-full gap-2"):
                         build()
                 ui.label(
-                    "Outputs and error bars have tabs of their own; everything else that a study "
-                    "file can say can be written under Take away."
+                    "Outputs have a tab of their own; the whole study file stands under Take away."
                 ).classes("hint")
             inputs.tell()
 
@@ -238,7 +255,7 @@ def page(start: Start, request: Request) -> None:
                 "shown is the last study without one."
             )
         if state.answer is None:
-            banner.set_text("; ".join(state.problems))
+            banner.set_text(with_micro("; ".join(state.problems)))
             return
         try:
             if name not in draws:
@@ -247,11 +264,11 @@ def page(start: Start, request: Request) -> None:
             draws[name]()
         except ThirdBodyError as error:
             wrong = str(error)
-        banner.set_text(wrong or told)
+        banner.set_text(with_micro(wrong or told))
         notes.clear()
         with notes:
             for text in state.answer.notes[:6]:
-                ui.label(f"Note: {text}").classes("hint")
+                ui.label(with_micro(f"Note: {text}")).classes("hint")
         clock.set_text(f"answered in {1e3 * (time.perf_counter() - state.began):.0f} ms")
 
     def opened(name: str | None) -> None:

@@ -12,11 +12,12 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ..cli.show import as_length, as_number, as_pressure
+from ..cli.show import as_number, as_pressure
 from .fields import engineering, number_of
 from .inputs import Inputs
 from .sizing import size_of, with_size
 from .state import State
+from .widgets import as_length
 
 __all__ = ["Sliders", "at_position", "position_of"]
 

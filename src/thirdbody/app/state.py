@@ -17,7 +17,7 @@ import thirdbody as tb
 from ..errors import InvalidValue, RangeWarning, ThirdBodyError
 from ..study import Study, check
 
-__all__ = ["Answer", "State", "files_of"]
+__all__ = ["Answer", "State", "files_of", "refuse_foreign_files"]
 
 Path_ = tuple[str | int, ...]
 FILES = ("topography", "sizes", "materials")

@@ -17,8 +17,10 @@ __all__ = [
     "LONGEST_STUDY",
     "from_link",
     "from_toml",
+    "in_ascii",
     "to_link",
     "to_toml",
+    "with_micro",
     "written",
 ]
 
@@ -26,6 +28,24 @@ LONGEST_STUDY = 200_000
 """Characters of a study file that the page reads."""
 LONGEST_LINK = 16_000
 """Characters of a link that the page reads."""
+
+
+def with_micro(text: str) -> str:
+    """A text as it is shown: files write um, people µm.
+
+    >>> with_micro("1 um, 2 um, sum")
+    '1 µm, 2 µm, sum'
+    """
+    return re.sub(r"\bum\b", "µm", text)
+
+
+def in_ascii(text: str) -> str:
+    """The inverse of `with_micro`, for both signs in use.
+
+    >>> in_ascii("1 µm")
+    '1 um'
+    """
+    return re.sub(r"[\u00b5\u03bc]m\b", "um", text)
 
 
 def to_toml(study: dict[str, Any]) -> str:

@@ -9,6 +9,7 @@ from nicegui import ui
 
 from ..errors import InvalidValue
 from .jobs import Job, Stopped
+from .text import with_micro
 
 __all__ = ["Work"]
 
@@ -71,7 +72,7 @@ class Work:
         except Stopped:
             self.said.set_text("cancelled")
         except InvalidValue as error:
-            self.said.set_text("; ".join(error.problems))
+            self.said.set_text(with_micro("; ".join(error.problems)))
         else:
             self.show(result)
         finally:

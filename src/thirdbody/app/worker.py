@@ -22,6 +22,8 @@ __all__ = ["TASKS", "compare", "design", "error_bars", "mode_map", "surface"]
 Report = Callable[[float], None]
 SECONDS = 300
 """Processor time a task may take."""
+MOST_LOADS, MOST_SAMPLES = 10, 256
+"""For error bars of outputs."""
 MEMORY = 6 * 2**30
 """Bytes a task may use."""
 
@@ -148,11 +150,14 @@ def error_bars(
     samples: int,
     report: Report,
 ) -> dict[str, Any]:
-    """Bands of one output over the load, and its tornado at the operating load."""
+    """Bands of one result over the load, and its tornado at the operating load.
+
+    Critical loads do not depend on the load: all of them have one band each.
+    """
     import thirdbody as tb
 
     from ..errors import InvalidValue
-    from ..uncertainty import library_ranges
+    from ..uncertainty import CRITICAL, library_ranges
 
     asked = _study(study, folder)
     known = asked.uncertainty
@@ -160,25 +165,29 @@ def error_bars(
     if not inputs:
         raise InvalidValue("no input is uncertain yet; add one, and what is known of it")
     seed = 0 if known is None else known.seed
-    rows, errors, nominal, modes = [], [], [], []
-    asking: dict[str, Any] = {"samples": samples, "seed": seed, "outputs": [of]}
-    for number, value in enumerate(loads):
+    critical = of in CRITICAL
+    if any(of in output.columns for output in asked.contact.outputs):
+        # each sample of an output is a contact of its own
+        loads, samples = loads[:: len(loads) // MOST_LOADS + 1], min(samples, MOST_SAMPLES)
+    names = list(CRITICAL) if critical else [of]
+    asking: dict[str, Any] = {"samples": samples, "seed": seed, "outputs": [*names, "F_star"]}
+    rows, nominal = [], []
+    for number, value in enumerate([] if critical else loads):
         found = tb.propagate(asked.contact, inputs, **(asking | {load: value}))
         rows.append(found.bands[of])
-        errors.append(found.error[of])
         nominal.append(found.nominal[of])
-        modes.append(found.mode_probability)
         report(0.9 * (number + 1) / len(loads))
     point = tb.propagate(asked.contact, inputs, **(asking | {load: at}))
+    report(0.95)
     return {
         "of": of,
         "loads": loads,
         "probabilities": point.probabilities,
         "bands": rows,
-        "errors": errors,
         "nominal": nominal,
-        "modes": modes,
-        "samples": point.samples,
+        "critical": {n: [*point.bands[n], point.nominal[n]] for n in names if critical},
+        "F_star_at": point.nominal["F_star"],
+        "samples": point.critical_samples if critical else point.samples,
         "at": at,
         "band_at": point.bands[of],
         "nominal_at": point.nominal[of],
@@ -187,31 +196,13 @@ def error_bars(
     }
 
 
-def design(
-    *,
-    study: dict[str, Any],
-    folder: str,
-    over: dict[str, list[float]],
-    load: str,
-    loads: list[float],
-    objective: dict[str, Any],
-    limits: list[dict[str, Any]],
-    report: Report,
-) -> dict[str, Any]:
-    """The best inputs over a range of loads."""
-    from ..design import Limit, Objective
-    from ..design import design as search
+def design(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
+    """The best inputs over a range of loads, as the table [design] asks."""
+    from ..study.design import design_study
 
-    contact = _study(study, folder).contact
+    asked = _study(study, folder)
     report(0.05)
-    found = search(
-        contact,
-        over={name: (low, high) for name, (low, high) in over.items()},
-        objective=Objective(**objective),
-        limits=[Limit(**each) for each in limits],
-        **{load: np.array(loads)},  # type: ignore[arg-type]
-    )
-    return found.to_dict()
+    return design_study(asked).to_dict()
 
 
 def surface(*, file: str, options: dict[str, Any], report: Report) -> dict[str, Any]:

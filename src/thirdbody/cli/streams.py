@@ -1,7 +1,8 @@
 """What goes to which stream, and the exit status.
 
 Standard output holds the answer and nothing else; progress, warnings and errors go to standard
-error. Exit status: 0 done, 2 bad input, 3 no equilibrium or no transition in the range searched.
+error. Exit status: 0 done, 2 bad input, 3 no equilibrium or no transition in the range searched,
+130 interrupted.
 """
 
 from __future__ import annotations
@@ -19,10 +20,11 @@ import typer
 from typer.core import TyperGroup
 
 from ..errors import InvalidValue, NoEquilibrium, NoTransition
+from ..interrupt import INTERRUPTED, interruptible
 
 __all__ = ["INTERRUPTED", "Commands", "complain", "warn", "write_csv"]
 
-BAD_INPUT, NO_ANSWER, INTERRUPTED, BROKEN_PIPE = 2, 3, 130, 141
+BAD_INPUT, NO_ANSWER, BROKEN_PIPE = 2, 3, 141
 
 
 class Commands(TyperGroup):
@@ -32,8 +34,9 @@ class Commands(TyperGroup):
         with warnings.catch_warnings():
             warnings.showwarning = warn
             try:
-                answer = super().invoke(ctx)
-                sys.stdout.flush()
+                with interruptible():
+                    answer = super().invoke(ctx)
+                    sys.stdout.flush()
                 return answer
             except InvalidValue as error:
                 complain(error.problems)

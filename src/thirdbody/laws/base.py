@@ -44,9 +44,19 @@ NO_SPOTS = (
 
 
 class Branch(NamedTuple):
-    """One smooth piece of a law, in reduced form."""
+    """One smooth piece of a law, in reduced form.
+
+    Examples
+    --------
+    Hertz, with y = ω/ω_1 and the pressure 0.4 H at first yield:
+
+    >>> elastic = Branch("elastic", lambda y: 0.4 * y**1.5, lambda y: y, lambda y: 0.6 * y**0.5)
+    >>> elastic.force(4.0) / elastic.area(4.0)
+    0.8
+    """
 
     regime: str
+    """One of `REGIMES`."""
     force: Callable[[Array], Array]
     """f(y) = F/(πRω_1 H)"""
     area: Callable[[Array], Array]
@@ -56,11 +66,21 @@ class Branch(NamedTuple):
 
 
 class Jump(NamedTuple):
-    """What the published formulas step by at a breakpoint: upper over lower branch, less one."""
+    """What the published formulas step by at a breakpoint: upper over lower branch, less one [1].
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> round(tb.asperity.KE(K=0.6).jumps[1].force, 6)
+    0.03
+    """
 
     force: float = 0.0
+    """Of F."""
     area: float = 0.0
+    """Of A."""
     stiffness: float = 0.0
+    """Of dF/dω."""
 
 
 class Law(Value):
@@ -95,7 +115,15 @@ class AbstractAsperityLaw(Law):
     A subclass is a frozen, slotted, keyword-only dataclass. It gives `yield_interference`,
     `breakpoints` and `branches` (one more branch than breakpoints), the class data of `Law`,
     where the published formulas do not join, `jumps`, and, where their range ends, `valid_to`
-    and `beyond`.
+    and `beyond`. The book's page "Add a law" writes one out.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> law, tip = tb.asperity.ZMC(), dict(R=2.8e-6, E_star=115e9, H=5e9)
+    >>> omega_1 = law.yield_interference(**tip)
+    >>> round(float(law.mean_pressure(omega_1, **tip)) / 5e9, 12)  # first yield at k H
+    0.4
     """
 
     __slots__ = ()
@@ -260,6 +288,12 @@ class AbstractParticleLaw(Law):
     """What a particle caught between two surfaces does.
 
     `response` binds the law to an interface and returns a `ParticleResponse`.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> sorted(tb.particle.REGISTRY)
+    ['flakes', 'horng2022', 'series']
     """
 
     __slots__ = ()
@@ -288,7 +322,22 @@ class AbstractParticleLaw(Law):
 
 
 class ParticleResponse(ABC):
-    """Particles between two surfaces, per nominal area, as functions of the separation d [m]."""
+    """Particles between two surfaces, per nominal area, as functions of the separation d [m].
+
+    Made by `AbstractParticleLaw.response`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e11,
+    ...                     diameter=tb.Monodisperse(mean=300e-9))
+    >>> made = tb.particle.Series(seat="plane").response(
+    ...     tb.MaterialPair(steel, steel), tb.Roughness(sigma=100e-9, R=2.8e-6), dust)
+    >>> f"{made.reach:.1e}", f"{made.fields(np.array([250e-9]))['F_sa'][0]:.3g} Pa"
+    ('3.0e-07', '7.49e+06 Pa')
+    """
 
     reach: float
     """Separation [m] above which no particle is loaded (or the load is negligible)."""

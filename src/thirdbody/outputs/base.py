@@ -41,16 +41,36 @@ AT_ONCE = 4096
 
 
 class Column(NamedTuple):
-    """One number of every state."""
+    """One number of every state.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> tb.outputs.Friction.columns["mu"]
+    Column(symbol='μ', unit='1', meaning='coefficient of friction')
+    """
 
     symbol: str
+    """As in figures."""
     unit: str
+    """SI, "1" for none."""
     meaning: str
+    """In words."""
 
 
 @dataclass(frozen=True)
 class Solved:
-    """N solved states of one contact, and every spot in them."""
+    """N solved states of one contact, and every spot in them: what `AbstractOutput.of` is given.
+
+    Sums over spots agree with load and area of the state to 1e-9.
+
+    Examples
+    --------
+    An output that counts the contacts of asperities would be
+
+    >>> def of(state):
+    ...     return {"n_ss": state.total(lambda spots: 1.0)}
+    """
 
     contact: Contact
     d: Array
@@ -85,7 +105,14 @@ class AbstractOutput(Law):
     """A result of the solved contact besides load, area and mode.
 
     A subclass is a frozen, slotted, keyword-only dataclass with the class data of `Law` and
-    `columns`. Numbers that nobody can predict are fields without a default.
+    `columns`. Numbers that nobody can predict are fields without a default. The book's page "Add an
+    output" writes one out.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> sorted(tb.outputs.REGISTRY)[:3]
+    ['counts', 'dents', 'electrical_conductance']
     """
 
     __slots__ = ()

@@ -40,9 +40,21 @@ TIE = 1e-12
 
 
 class Motion(NamedTuple):
-    """How particles move, and what that costs each of them: arrays (M, n)."""
+    """How particles move, and what that costs each of them: arrays (M, n).
+
+    A particle takes the cheapest of three motions; see `Friction`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> one, two = np.array([[0.2]]), np.array([[0.3]])
+    >>> Motion(rolls=one < two, side=np.array([[0]]), shear=np.array([[1e-6]]), plough=(one, two),
+    ...        resistance=(one + two) / 2).resistance.item()
+    0.25
+    """
 
     rolls: Flags
+    """Whether it rolls."""
     side: Sides
     """Surface it slides over where it does not roll: 0 the first, 1 the second."""
     shear: Array
@@ -54,7 +66,28 @@ class Motion(NamedTuple):
 
 
 def changes(probe: Probe, kind: Callable[[ParticleSpots], NDArray[np.intp]]) -> list[float]:
-    """Squeezes over diameter at which particles become of another kind."""
+    """Squeezes over diameter ε at which particles become of another kind.
+
+    Parameters
+    ----------
+    probe : callable
+        ``probe(ε)`` gives particles of unit size, one a row; see `AbstractOutput.splits`.
+    kind : callable
+        A whole number for each particle of such a group: (M, n).
+
+    Returns
+    -------
+    list of float
+        Every ε between 1e-6 and 2 [1] at which that number changes, to 1e-10 of the spacing of the
+        300 first looked at; two changes between neighbours of these are not seen.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> found = changes(lambda eps: SimpleNamespace(x=eps[:, None]), lambda it: (it.x > 0.1) * 1)
+    >>> [round(eps, 9) for eps in found]
+    [0.1]
+    """
 
     def at(eps: Array) -> NDArray[np.intp]:
         return kind(probe(eps.ravel())).reshape(eps.shape)

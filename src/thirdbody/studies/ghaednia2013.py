@@ -92,6 +92,10 @@ def model(
     roughness : float, optional
         As in `surfaces` [1].
 
+    Returns
+    -------
+    GhaedniaMultiscale
+
     Examples
     --------
     >>> state = model("fractal").solve(1e7)

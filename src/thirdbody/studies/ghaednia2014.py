@@ -85,6 +85,10 @@ def contact(
     roughness, sharpness : float, optional
         Factors on σ and on the curvature 1/R of the asperities [1].
 
+    Returns
+    -------
+    Contact
+
     Examples
     --------
     >>> dusty = contact()
@@ -117,6 +121,15 @@ def stacked(
     roughness: float = 1.0,
 ) -> GhaedniaMultiscale:
     """Elastic stacked sinusoids instead of asperities, elastic particles where they touch.
+
+    Parameters
+    ----------
+    size, spread, density, stiffness, roughness : float, optional
+        Factors on the inputs, as in `contact` [1].
+
+    Returns
+    -------
+    GhaedniaMultiscale
 
     Examples
     --------
@@ -233,6 +246,11 @@ def conductance_ratio(
         Perfectly conducting particles instead of insulating ones; elastic particles only.
     **factors
         As in `contact`.
+
+    Returns
+    -------
+    array
+        Ratio of conductances [1].
 
     Raises
     ------

@@ -55,7 +55,13 @@ class Measurement:
 
 @dataclass(frozen=True)
 class Verdict:
-    """A claim judged in one reading."""
+    """A claim judged in one reading; made by `Claim.judge`.
+
+    Examples
+    --------
+    >>> Verdict(Measurement.of(0.9), "pass", "0.9; allowed < 1").passed
+    True
+    """
 
     measured: Measurement
     word: str
@@ -65,12 +71,34 @@ class Verdict:
 
     @property
     def passed(self) -> bool:
+        """Whether the word is "pass"."""
         return self.word == "pass"
 
 
 @dataclass(frozen=True)
 class Claim:
-    """One statement of a paper with what is measured and how it is judged."""
+    """One statement of a paper with what is measured and how it is judged.
+
+    Attributes
+    ----------
+    id, place, statement : str
+        Its key, where it stands in the paper, and what it says.
+    quantity, measure : str
+        What is measured, in words, and the name of the function that does.
+    inputs : dict
+        Arguments of that function.
+    paper : str
+        The number printed.
+    rule : dict
+        ``kind``, ``value`` and allowances; {} where nothing is judged.
+
+    Examples
+    --------
+    >>> from thirdbody.studies.horng2022.claims import claims
+    >>> claim = claims()[0]
+    >>> claim.judge(Measurement.absent("no such curve")).word
+    'not reproduced'
+    """
 
     id: str
     place: str

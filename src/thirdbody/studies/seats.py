@@ -31,7 +31,20 @@ STATED_AGREEMENT = {200e-9: 0.10, 300e-9: 0.06, 600e-9: 0.02}
 
 @cache
 def explicit_particles() -> dict[str, Any]:
-    """The stored runs: parameters, method, and load share, area share and separation by load."""
+    """The stored runs: parameters, method, and load share, area share and separation by load.
+
+    Returns
+    -------
+    dict
+        ``parameters`` in SI, ``points`` with ``diameter`` [m], ``F_star`` [1], and the results as
+        computed (``raw``) and with the luck of sampling removed (``control_variate``).
+
+    Examples
+    --------
+    >>> runs = explicit_particles()
+    >>> runs["parameters"]["sigma"], len(runs["points"])
+    (3e-07, 12)
+    """
     file = resources.files("thirdbody").joinpath("data/explicit_particles.json")
     return json.loads(file.read_text("utf-8"))
 
@@ -47,6 +60,10 @@ def contact(diameter: float, seat: str = "rough", h_0: float = 0.0) -> tb.Contac
         Where the particles rest.
     h_0 : float, optional
         Height of the seat above the mean asperity plane [m], for ``offset``.
+
+    Returns
+    -------
+    Contact
 
     Examples
     --------

@@ -8,7 +8,7 @@ Each table is read in a file of its own; `tables` lists them.
 """
 
 from .fields import filled_in
-from .run import run_study
+from .run import run_film, run_study
 from .vocabulary import DISTRIBUTIONS, HEIGHTS, LOADS
 from .whole import Study, check, load_study
 
@@ -20,5 +20,6 @@ __all__ = [
     "check",
     "filled_in",
     "load_study",
+    "run_film",
     "run_study",
 ]

@@ -12,11 +12,15 @@ from .fields import about_of
 from .one_value import number, refused
 from .reader import Key, Reader, plain
 
-__all__ = ["ellipticity"]
+__all__ = ["ellipticity", "ellipticity_beside_topography"]
 
 NO_SHAPE = (
     "must be a table: { ratios = [1, 2, 5], weights = [5, 3, 2] }, or "
-    '{ first = 4, second = 2, angle = "30 deg" } for two faces'
+    '{ first = 4, second = 2, angle = "30 deg" } for two faces; "measured" goes with a topography'
+)
+NO_SHAPE_MEASURED = (
+    'must be "measured", for the summits counted, or a table: '
+    "{ ratios = [1, 2, 5], weights = [5, 3, 2] }"
 )
 SECOND_SHAPE = (
     "is for two faces at an angle, ratios for the asperities of both together; keep one of the two"
@@ -56,6 +60,21 @@ def ellipticity(reader: Reader, path: str, data: Any) -> Any:
             ) from None
 
     return reader.table(path, keys, build)
+
+
+def ellipticity_beside_topography(reader: Reader, path: str, data: Any) -> Any:
+    """Shapes of the summits counted on a measured surface, or classes and faces as elsewhere."""
+    if data == "measured":
+        return plain(str)
+    if not isinstance(data, dict):
+        return plain(refused(path, NO_SHAPE_MEASURED))
+    if radii := [key for key in ("R_first", "R_second") if key in data]:
+        reader.problems.append(
+            f"{path}.{' and '.join(radii)} would give R, which the topography tells; remove "
+            f"{'both' if len(radii) == 2 else 'it'}"
+        )
+        data = {key: value for key, value in data.items() if key not in radii}
+    return ellipticity(reader, path, data)
 
 
 def _angle(reader: Reader, path: str) -> Callable[[Any], Any]:

@@ -11,17 +11,17 @@ from .. import asperity, particle
 from .one_value import word
 from .reader import Reader, Table, get
 
-__all__ = ["ASPERITY_LAW", "PARTICLE_LAW", "asperity_law", "class_of", "particle_law"]
+__all__ = ["ASPERITY_LAW", "PARTICLE_LAW", "asperity_law", "class_of", "named_law", "particle_law"]
 
 
 def asperity_law(reader: Reader, path: str, data: Any) -> Any:
     """What one asperity does."""
-    return _law(reader, path, data, asperity.REGISTRY)
+    return named_law(reader, path, data, asperity.REGISTRY)
 
 
 def particle_law(reader: Reader, path: str, data: Any) -> Any:
     """What one particle does."""
-    return _law(reader, path, data, particle.REGISTRY)
+    return named_law(reader, path, data, particle.REGISTRY)
 
 
 def class_of(data: Any, registry: Mapping[str, type]) -> type | None:
@@ -29,7 +29,7 @@ def class_of(data: Any, registry: Mapping[str, type]) -> type | None:
     return registry.get(str(get(data, "name") if isinstance(data, dict) else data))
 
 
-def _law(reader: Reader, path: str, data: Any, registry: Mapping[str, type]) -> Any:
+def named_law(reader: Reader, path: str, data: Any, registry: Mapping[str, type]) -> Any:
     """A name, or a table with the name and options of the law."""
 
     def build(values: dict[str, Any]) -> Any:

@@ -40,6 +40,8 @@ TABLE = Table(
     name="load",
     read=load,
     about='a table [load] with one of F_star, pressure, separation, e.g. pressure = "5 MPa"',
-    required=lambda whole: all(get(whole.get("sweep"), name) is None for name in LOADS),
+    required=lambda whole: (
+        "film" not in whole and all(get(whole.get("sweep"), name) is None for name in LOADS)
+    ),
     role="study",
 )

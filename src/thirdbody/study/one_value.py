@@ -56,7 +56,9 @@ def number(reader: Reader, path: str, about: dict[str, Any]) -> Callable[[Any], 
 def _plausible(reader: Reader, path: str, unit: str, value: Any, number: float) -> None:
     """Note a number that is allowed but looks like a forgotten unit."""
     usual = None
-    if unit == "m" and abs(number) >= 0.01:
+    if path.startswith("film.conjunction"):
+        usual = "mm" if abs(number) >= 1 else None
+    elif unit == "m" and abs(number) >= 0.01:
         usual = "nm" if abs(number) >= 10 else "um"
     elif unit == "Pa" and number < 1e5 and not path.startswith(("load", "sweep.pressure")):
         usual = "GPa"

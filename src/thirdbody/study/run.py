@@ -11,11 +11,17 @@ import numpy as np
 from ..citations import cite
 from ..contact import Contact
 from ..equilibrium import Equilibrium
-from ..errors import RangeWarning, ThirdBodyError
+from ..errors import InvalidValue, RangeWarning, ThirdBodyError
+from ..films import full_range
+from ..lubrication import FilmConditions
 from ..transitions import Critical, Transitions, TurningPoint, transitions
 from .whole import Study
 
-__all__ = ["run_study"]
+SHARING = "Johnson, Greenwood, Poon 1972, Wear 19, 91, doi:10.1016/0043-1648(72)90445-0"
+ROELANDS = "Roelands 1966, thesis, TU Delft"
+EYRING = "Eyring 1936, J. Chem. Phys. 4, 283, doi:10.1063/1.1749836"
+
+__all__ = ["film_conditions", "passing", "run_film", "run_study"]
 
 
 def run_study(study: Study) -> dict[str, Any]:
@@ -52,6 +58,106 @@ def run_study(study: Study) -> dict[str, Any]:
         "warnings": list(dict.fromkeys(sentences)),
         "citations": cite(study.contact).splitlines(),
     }
+
+
+def film_conditions(study: Study) -> FilmConditions:
+    """What the table [film] says.
+
+    Raises
+    ------
+    InvalidValue
+        There is no such table.
+    """
+    if study.film is None:
+        raise InvalidValue(
+            "the study has no table [film]: it says what is lubricated, e.g. [film] "
+            'load = "20 N", speed = "0.5 m/s", conjunction = { shape = "point", R = "9.5 mm" }, '
+            'oil = { eta = "20 mPa s", alpha = "20 / GPa" }'
+        )
+    return study.film
+
+
+def run_film(study: Study) -> dict[str, Any]:
+    """The lubricated contact of a study file, as plain data ready for JSON.
+
+    Parameters
+    ----------
+    study : Study
+        With a table [film].
+
+    Returns
+    -------
+    dict
+        Title, version, inputs (SI), states (a list each, one entry a speed), the speeds at which
+        the regime changes, what of each population passes the film, what the oil brings,
+        warnings, citations.
+
+    Raises
+    ------
+    InvalidValue
+        There is no table [film].
+    NoEquilibrium
+        The solids carry more than the load at every gap that a film leaves.
+    """
+    from .. import __version__
+
+    given, contact = film_conditions(study), study.contact
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", RangeWarning)
+        curve = given.stribeck(contact)
+        changes = given.regime_speeds(contact)
+    states = {str(name): _listed(curve[name].values) for name in ("speed", "hersey")}
+    states |= {str(name): _listed(curve[name].values) for name in curve.data_vars}
+    sentences = [*study.notes, *(str(item.message) for item in heard)]
+    return {
+        "title": study.title,
+        "version": __version__,
+        "inputs": contact.to_dict() | {"film": given.to_dict()},
+        "states": states,
+        "regime_speeds": changes._asdict(),
+        "passing": passing(study, curve["h"].values),
+        "entrainment": _brought(study, curve["h_T"].values),
+        "warnings": list(dict.fromkeys(sentences)),
+        "citations": _sources(study),
+    }
+
+
+def passing(study: Study, h: Any) -> list[dict[str, Any]]:
+    """Of each population the share, by number, that is narrower than the separation h [m]."""
+    return [
+        {
+            "name": each.name or each.material.name or f"particles {number + 1}",
+            "share": _listed(each.diameter.partial_moment(0, 0.0, np.asarray(h, float))),
+        }
+        for number, each in enumerate(study.contact.populations)
+    ]
+
+
+def _brought(study: Study, h_T: Any) -> dict[str, Any] | None:
+    """Largest particle dragged in, and particles that enter per area, at every film thickness."""
+    given = film_conditions(study)
+    dirt, R = given.entrainment, given.conjunction.R
+    if dirt is None:
+        return None
+    return {
+        "largest": _listed(dirt.largest(h_T, R)),
+        "areal_density": [
+            [dirt.areal_density(each.diameter, float(h), R) for h in h_T]
+            for each in study.contact.populations
+        ],
+    }
+
+
+def _sources(study: Study) -> list[str]:
+    given = film_conditions(study)
+    law = given.formula or full_range(given.conjunction.shape)
+    lines = [*cite(study.contact).splitlines(), law.citation + (f", doi:{law.doi}" * bool(law.doi))]
+    lines.append(SHARING)
+    if given.oil.viscosity == "roelands":
+        lines.append(ROELANDS)
+    if given.oil.eyring_stress is not None:
+        lines.append(EYRING)
+    return list(dict.fromkeys(lines))
 
 
 def _populations(state: Equilibrium) -> list[dict[str, Any]]:

@@ -136,9 +136,11 @@ def plan(
         raise InvalidValue(*map(told, error.problems)) from None
 
 
-def ends(asked: dict[str, Any]) -> tuple[str, np.ndarray]:
+def ends(asked: dict[str, Any]) -> tuple[str, np.ndarray] | None:
     """The loads of the table [sweep], for commands that do not sweep."""
-    name = next(name for name in LOADS if name in asked)
+    name = next((name for name in LOADS if name in asked), None)
+    if name is None:
+        return None
     values = asked[name]
     return name, np.array([values["low"], values["high"]]) if is_span(values) else values
 

@@ -10,6 +10,7 @@ from typing import Any
 from . import (
     design,
     ellipticity,
+    film,
     heights,
     laws,
     load,
@@ -41,6 +42,7 @@ TABLES: tuple[Table, ...] = (
     laws.PARTICLE_LAW,
     outputs.TABLE,
     load.TABLE,
+    film.TABLE,
     sweep.TABLE,
     uncertainty.TABLE,
     design.TABLE,

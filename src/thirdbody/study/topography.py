@@ -13,6 +13,7 @@ from ..topography import FORMS, from_topography
 from ..units import say
 from ..values import quantity
 from .amounts import amounts
+from .ellipticity import ellipticity_beside_topography
 from .fields import about_of
 from .heights import heights
 from .one_value import number, refused, text, word
@@ -33,6 +34,7 @@ def topography(reader: Reader, path: str, data: dict[str, Any]) -> Any:
     }
     measured = data.get("heights") == "measured"
     shape = plain(str) if measured else heights(reader, f"{path}.heights", data.get("heights"))
+    tips = ellipticity_beside_topography(reader, f"{path}.ellipticity", data.get("ellipticity"))
     cutoff = plain(number(reader, f"{path}.cutoff", CUTOFF))
     lengths = amounts(reader, f"{path}.spacing", SPACING, data.get("spacing"))
     keys |= {
@@ -40,19 +42,25 @@ def topography(reader: Reader, path: str, data: dict[str, Any]) -> Any:
         "cutoff": Key(cutoff, False, about_of("cutoff", CUTOFF)),
         "detrend": Key(plain(word(f"{path}.detrend", FORMS)), False, "form to remove"),
         "heights": Key(shape, False, "distribution of asperity heights, or measured"),
+        "ellipticity": Key(tips, False, "shapes of elliptic asperities, or measured"),
         "unit": Key(plain(text(f"{path}.unit")), False, "unit of a file that tells none"),
         "spacing": Key(lengths, False, about_of("spacing", SPACING)),
         "channel": Key(plain(text(f"{path}.channel")), False, "name of a channel of the file"),
     }
 
     def build(values: dict[str, Any]) -> Roughness:
-        files, heights = values.pop("topography"), values.pop("heights", None)
+        files = values.pop("topography")
+        shapes = {name: values.pop(name, None) for name in ("heights", "ellipticity")}
         if "spacing" in values:
             values["spacing"] = tuple(values["spacing"])
-        if len(files) == 2 and isinstance(heights, str):
+        counted = [name for name, shape in shapes.items() if isinstance(shape, str)]
+        if len(files) == 2 and counted:
             raise InvalidValue(
-                f'{path}.heights = "measured" goes with one file: summits of two faces do not '
-                "add, only their moments do"
+                *(
+                    f'{path}.{name} = "measured" goes with one file: summits of two faces do not '
+                    "add, only their moments do"
+                    for name in counted
+                )
             )
         try:
             faces = [from_topography(file, **values) for file in files]
@@ -62,8 +70,9 @@ def topography(reader: Reader, path: str, data: dict[str, Any]) -> Any:
             for face in faces:
                 reader.notes += [f"{path}.topography: {sentence}" for sentence in face.warnings]
             if len(faces) == 1:
-                return faces[0].roughness(heights=heights)
-            return (faces[0].moments + faces[1].moments).roughness(heights=heights)
+                return faces[0].roughness(**shapes)
+            both = (faces[0].moments + faces[1].moments).roughness(heights=shapes["heights"])
+            return both.replace(ellipticity=shapes["ellipticity"])
         except InvalidValue as error:
             raise InvalidValue(
                 *(

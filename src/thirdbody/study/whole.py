@@ -14,6 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 from ..contact import Contact
 from ..equilibrium import Equilibrium, solve
 from ..errors import InvalidValue
+from ..lubrication import FilmConditions
 from ..sweep import Plan
 from ..uncertainty import Uncertainty
 from .overrides import override
@@ -47,6 +48,10 @@ class Study:
         What the table [uncertainty] says of the inputs.
     design : dict, optional
         What the table [design] asks: arguments of `thirdbody.design`.
+    film : FilmConditions, optional
+        What the table [film] says of bodies, oil and speeds.
+    own_load : bool, optional
+        Whether the file gives a load of its own; else it is the Hertz pressure of [film].
     """
 
     title: str
@@ -57,6 +62,8 @@ class Study:
     sweep: Plan | None = None
     uncertainty: Uncertainty | None = None
     design: dict[str, Any] | None = None
+    film: FilmConditions | None = None
+    own_load: bool = True
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -149,9 +156,11 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     several = given if isinstance(given, tuple) else (given,)
     if "particle_law" in parts and all(each.law is not None for each in several):
         reader.notes.append("[particle_law] has no effect: all particles have laws of their own")
-    asked = own.get("sweep")
-    load, loads = own.get("load") or ends(asked or {})
+    asked: Any = own.get("sweep")
+    film: Any = own.get("film")
     contact = reader.make(Contact, "", parts)
+    loaded = own.get("load") or ends(asked or {})
+    load, loads = loaded or _pressed(film, contact)
     states = None if asked is None else plan(reader, contact, load, loads, asked)
     return Study(
         title=own.get("title", ""),
@@ -162,4 +171,11 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         sweep=states,
         uncertainty=own.get("uncertainty"),
         design=own.get("design"),
+        film=film,
+        own_load=loaded is not None,
     )
+
+
+def _pressed(film: FilmConditions, contact: Contact) -> tuple[str, np.ndarray]:
+    """The load of a study that gives none but that of its film: without oil, all is on solids."""
+    return "pressure", np.array([film.nominal_pressure(contact)])

@@ -9,6 +9,7 @@ TABS = (
     "dust",
     "error_bars",
     "outputs",
+    "film",
     "design",
     "take_away",
 )

@@ -9,8 +9,9 @@ import numpy as np
 from nicegui import ui
 
 from ...cli.show import as_number, as_pressure
-from ..figures import empty, figure, line
+from ..figures import AXES, empty, figure, line
 from ..state import State
+from ..widgets import table as shown_table
 from ..work import Work
 
 __all__ = ["TITLE", "build", "law_figure"]
@@ -36,8 +37,9 @@ def law_figure(found: dict[str, Any], of: str) -> dict[str, Any]:
         y = np.array([np.nan if v is None else scale * v for v in found["columns"][of][number]])
         own = law == found["own"]
         traces.append(line(found["loads"], y, law, number, line={"width": 4 if own else 1.8}))
-    x = "load F*" if found["load"] == "F_star" else "nominal pressure [Pa]"
-    return figure(traces, x=x, y=label, title="Asperity laws", ylog=ylog, height=460)
+    return figure(
+        traces, x=AXES[found["load"]], y=label, title="Asperity laws", ylog=ylog, height=460
+    )
 
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
@@ -135,13 +137,7 @@ def _table(found: dict[str, Any], at: int, place: Any) -> None:
     with place:
         said = as_pressure(columns["pressure"][at]) if "pressure" in columns else ""
         ui.label(f"At {said}" if said else "").classes("hint")
-        ui.table(
-            columns=[
-                {"name": key, "label": text, "field": key, "align": "left"}
-                for key, text in heads.items()
-            ],
-            rows=rows,
-        ).props('dense flat wrap-cells data-figure="laws"').classes("w-full")
+        shown_table("laws", heads, rows)
 
 
 def _percent(value: float | None) -> str:

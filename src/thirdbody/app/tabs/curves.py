@@ -9,17 +9,13 @@ import numpy as np
 from nicegui import ui
 
 from ...cli.show import as_number, as_pressure
-from ..figures import REGIME_FILLS, empty, figure, line, log_title, mark, mode_bands
+from ..figures import AXES, REGIME_FILLS, empty, figure, line, log_title, mark, mode_bands
 from ..state import Answer, State
+from ..widgets import table as shown_table
 
 __all__ = ["TITLE", "build", "figures"]
 
 TITLE = "Curves"
-AXES = {
-    "F_star": "load F* = F/(A<sub>n</sub> E<sub>ss</sub>)",
-    "pressure": "nominal pressure [Pa]",
-    "d": "separation d [m]",
-}
 CRITICAL = {
     "F_cr1": "F<sub>cr1</sub>",
     "F_cr2": "F<sub>cr2</sub>",
@@ -197,13 +193,6 @@ def _table(state: State, place: Any) -> None:
         }
         for name, one in entries.items()
     ]
-    columns = [
-        {"name": "name", "label": "critical load", "field": "name", "align": "left"},
-        {"name": "F", "label": "F*", "field": "F"},
-        {"name": "p", "label": "pressure", "field": "p"},
-        {"name": "status", "label": "status", "field": "status", "align": "left"},
-    ]
+    heads = {"name": "critical load", "F": "F*", "p": "pressure", "status": "status"}
     with place:
-        ui.table(columns=columns, rows=rows).props('dense flat data-figure="critical"').classes(
-            "w-full"
-        )
+        shown_table("critical", heads, rows)

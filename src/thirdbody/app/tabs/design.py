@@ -10,10 +10,11 @@ from nicegui import ui
 
 from ...equilibrium import COLUMNS, about
 from ...errors import InvalidValue
-from ...study.inputs import inputs_of
-from ..fields import engineering, number_of, value_from
+from ...study.inputs import field_of, inputs_of
+from ..fields import engineering, shown, value_from
 from ..figures import GREY, empty, figure, line
 from ..state import State
+from ..text import with_micro
 from ..work import Work
 
 __all__ = ["TITLE", "build", "design_figure"]
@@ -21,7 +22,7 @@ __all__ = ["TITLE", "build", "design_figure"]
 TITLE = "Design"
 LOADS = 16
 METRICS = ("particle_load_share", "A_t", "plastic_share", "d", "h", "A_p")
-TOGETHER = {"particles.mean": "particles.diameter.mean+particles.diameter.std"}
+WRITTEN = "as the table [design] says"
 
 
 def metrics_of(state: State) -> dict[str, str]:
@@ -37,27 +38,25 @@ def metrics_of(state: State) -> dict[str, str]:
     return out
 
 
-def variables_of(state: State) -> dict[str, tuple[str, dict[str, Any]]]:
-    """Inputs that may be searched, by their name in the file: field and quantity."""
-    out: dict[str, tuple[str, dict[str, Any]]] = {}
-    for each in inputs_of(state.study):
-        if each.quantity and not each.idle:
-            out[each.name] = (each.field, each.quantity)
-    if state.get("particles", "std") is not None and "particles.mean" in out:
-        quantity = out["particles.mean"][1]
-        out = {"particles.mean": (TOGETHER["particles.mean"], quantity)} | out
-        out["particles.mean"] = (TOGETHER["particles.mean"], quantity)
+def variables_of(state: State) -> dict[str, str]:
+    """Inputs that may be searched, by their names in the file, with their units."""
+    out = {e.name: e.quantity["unit"] for e in inputs_of(state.study) if e.quantity and not e.idle}
+    if {"particles.mean", "particles.std"} <= out.keys():
+        # a size is searched with its spread in proportion
+        out = {"particles.mean+particles.std": out["particles.mean"]} | out
     return out
 
 
 def design_figure(found: dict[str, Any], variable: str, objective: str) -> dict[str, Any]:
     """Every point tried, the best marked, the tolerance as a band."""
-    x = np.array(found["points"][variable], dtype=float)
+    every = found["points"][variable]
+    words = any(isinstance(item, str) for item in every)
+    x = np.array(every, dtype=str if words else float)
     y = np.array([np.nan if v is None else v for v in found["points"][objective]], dtype=float)
     good = np.array(found["points"]["feasible"], dtype=bool)
     order = np.argsort(x)
     traces = [
-        line(x[order], y[order], "all points", 0, line={"width": 1.5}),
+        line([], y[order], "all points", 0, line={"width": 1.5}) | {"x": x[order].tolist()},
         {
             "type": "scatter",
             "mode": "markers",
@@ -77,10 +76,10 @@ def design_figure(found: dict[str, Any], variable: str, objective: str) -> dict[
     ]
     made = figure(
         traces,
-        x=f"{variable} [SI]",
+        x=f"{variable.split('+')[0]} [SI]",
         y=objective,
         title="Search",
-        xlog=bool(x.min() > 0),
+        xlog=not words and bool(x.min() > 0),
         height=420,
     )
     if band := found["tolerance"].get(variable):
@@ -107,15 +106,14 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         "The search runs over the loads of the study. Limits hold at every load; besides, "
         "always: A_t < 0.2, and particles cover less than 0.3."
     ).classes("hint")
-    known = variables_of(state)
-    with ui.row().classes("w-full items-end gap-3"):
-        first = "particles.mean" if "particles.mean" in known else next(iter(known))
-        which = ui.select(list(known), value=first, label="what may change").classes("grow")
+    names = _names(state)
+    which = ui.select(names, value=names[0], label="what may change").classes("w-full")
+    which.props('data-path="design.which"')
+    form = ui.column().classes("w-full")
+    with form, ui.row().classes("w-full items-end gap-3"):
         low = ui.input("from", value="50 nm").props('data-path="design.low"')
-        high = ui.input("to", value="1 um").props('data-path="design.high"')
-    with ui.row().classes("w-full items-end gap-3"):
+        high = ui.input("to", value="1 µm").props('data-path="design.high"')
         of = ui.select(metrics_of(state), value="particle_load_share", label="what counts")
-        of.classes("grow")
         aims = {
             "smallest": "as small as possible",
             "largest": "as large as possible",
@@ -123,100 +121,95 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         }
         aim = ui.select(aims, value="largest", label="aim")
         over = ui.select({"mean": "on average", "worst": "at the worst load"}, value="mean")
-    with ui.row().classes("w-full items-end gap-3"):
+    with form, ui.row().classes("w-full items-end gap-3"):
         limit = ui.select({"": "no limit"} | metrics_of(state), value="", label="limit")
-        limit.classes("grow")
         most = ui.input("at most").props('data-path="design.most"')
         least = ui.input("at least").props('data-path="design.least"')
     for each in (which, of, aim, over, limit, low, high, most, least):
         each.props("dense")
-    told: dict[str, Any] = {}
+    for each in (of, limit):
+        each.classes("grow")
+    form.set_visibility(names[0] != WRITTEN)
 
     def ranged() -> None:
-        field = variables_of(state).get(str(which.value))
-        if field is None or state.answer is None:
+        name = str(which.value)
+        unit = variables_of(state).get(name)
+        form.set_visibility(name != WRITTEN)
+        if unit is None or state.answer is None:
             return
+        *path, last = name.split("+")[0].split(".")
         try:
-            now = float(state.answer.contact.part(field[0].split("+")[0]))
+            now = float(state.answer.contact.part(field_of(".".join(path), last)))
         except (InvalidValue, TypeError, ValueError):
             return
-        low.set_value(str(engineering(now / 5, field[1]["unit"])))
-        high.set_value(str(engineering(now * 3, field[1]["unit"])))
+        low.set_value(shown(engineering(now / 5, unit)))
+        high.set_value(shown(engineering(now * 3, unit)))
 
     which.on_value_change(ranged)
 
-    def ask() -> dict[str, Any] | None:
-        answer = state.answer
-        if answer is None:
-            return None
-        field, about_it = variables_of(state)[str(which.value)]
-        ends = [number_of(value_from(str(w.value or "")), about_it) for w in (low, high)]
-        limits: list[dict[str, Any]] = []
+    def table() -> dict[str, Any]:
+        """What the form asks, as the table [design] of a study."""
+        ends = {end: value_from(str(w.value or "")) for end, w in (("low", low), ("high", high))}
+        wanted = {"of": of.value, "aim": aim.value, "over_loads": over.value}
+        asked: dict[str, Any] = {"objective": wanted, "over": {str(which.value): ends}}
         if limit.value:
-            one: dict[str, Any] = {"of": str(limit.value)}
-            for key, entry in (("most", most), ("least", least)):
-                value = value_from(str(entry.value or ""))
-                if isinstance(value, (int, float)):
-                    one[key] = value
-            limits.append(one)
-        values = answer.loads
-        load = answer.load
-        if load == "d":
-            load, values = "F_star", np.asarray(answer.curves.F_star)
-        if not (np.isfinite(ends).all() and ends[0] < ends[1]):
-            work.said.set_text("the range needs two values with their units, the smaller first")
-            return None
-        told.update(variable=field, unit=about_it["unit"], name=str(which.value))
-        return {
-            "study": state.study,
-            "folder": str(state.folder),
-            "over": {field: ends},
-            "load": load,
-            "loads": np.geomspace(values.min(), values.max(), LOADS).tolist(),
-            "objective": {
-                "of": str(of.value),
-                "aim": str(aim.value),
-                "over_loads": str(over.value),
-            },
-            "limits": limits,
-        }
+            ends = {"most": value_from(most.value or ""), "least": value_from(least.value or "")}
+            asked["limits"] = [
+                {"of": limit.value} | {k: v for k, v in ends.items() if v is not None}
+            ]
+        if (answer := state.answer) is not None:
+            name = answer.load if answer.load != "d" else "F_star"
+            values = answer.loads if name == answer.load else np.asarray(answer.curves.F_star)
+            first, last = float(values.min()), float(values.max())
+            asked[name] = {"from": first, "to": last, "points": LOADS}
+        return asked
+
+    def ask() -> dict[str, Any]:
+        own = {} if which.value == WRITTEN else {"design": table()}
+        return {"study": state.study | own, "folder": str(state.folder)}
 
     def show(result: dict[str, Any]) -> None:
-        objective = next(iter(result["objectives"]))
-        plot.update_figure(design_figure(result, told["variable"], objective))
+        objective, variable = next(iter(result["objectives"])), next(iter(result["values"]))
+        plot.update_figure(design_figure(result, variable, objective))
         plot.set_visibility(True)
-        value = result["values"][told["variable"]]
-        told["best"] = value
-        words = [
-            f"Best: {told['name']} = {engineering(value, told['unit'])}, {objective} = "
-            f"{result['objectives'][objective]:.4g}."
-        ]
+        units = {e.field: e.quantity["unit"] for e in inputs_of(state.study) if e.quantity}
+
+        def told(name: str, value: Any) -> str:
+            unit = units.get(name.split("+")[0], "1")
+            return str(value) if isinstance(value, str) else str(engineering(value, unit))
+
+        best = [f"{name} = {told(name, value)}" for name, value in result["values"].items()]
+        best += [f"{name} = {value:.4g}" for name, value in result["objectives"].items()]
+        words = [f"Best: {', '.join(best)}."]
         if not result["feasible"]:
             words = [f"Nothing that was tried obeys the limits: {result['reason']}."]
-        if band := result["tolerance"].get(told["variable"]):
-            words.append(
-                f"Less than 5 % is lost between {engineering(band[0], told['unit'])} and "
-                f"{engineering(band[1], told['unit'])}."
-            )
+        for name, band in result["tolerance"].items():
+            low_, high_ = (told(name, end) for end in band)
+            words.append(f"Less than 5 % is lost for {name} between {low_} and {high_}.")
         if result["at_bound"]:
             words.append("It lies at an end of the range: the best may lie beyond.")
         if result["active"]:
             words.append(f"Limits that hold it there: {', '.join(result['active'])}.")
-        said.set_text(" ".join(words))
+        said.set_text(with_micro(" ".join(words)))
 
-    work = Work("design", "Search", ask, show)
+    Work("design", "Search", ask, show)
     said = ui.label().props('data-fact="design"')
     plot = ui.plotly(empty(420)).classes("w-full")
     plot.props('data-figure="design"')
     plot.set_visibility(False)
 
     def draw() -> None:
-        names = variables_of(state)
-        if list(names) != which.options:
-            which.set_options(list(names), value=which.value if which.value in names else None)
+        names = _names(state)
+        if names != which.options:
+            which.set_options(names, value=which.value if which.value in names else names[0])
         for menu, blank in ((of, {}), (limit, {"": "no limit"})):
             options = blank | metrics_of(state)
             if options != menu.options:
                 menu.set_options(options, value=menu.value if menu.value in options else None)
 
     return draw
+
+
+def _names(state: State) -> list[str]:
+    """What may change: an input, or what the study says."""
+    return [*([WRITTEN] if state.get("design") else []), *variables_of(state)]

@@ -10,12 +10,13 @@ from nicegui import events, ui
 
 import thirdbody as tb
 
-from ...cli.show import as_length, as_number, as_percent
+from ...cli.show import as_number, as_percent
 from ..figures import empty, figure, line
 from ..guard import LARGEST_UPLOAD
 from ..inputs import Inputs
 from ..state import State
 from ..uploads import keep
+from ..widgets import as_length, facts
 
 __all__ = ["TITLE", "build", "dust_facts", "size_figure"]
 
@@ -123,10 +124,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             for dust in answer.contact.populations:
                 ui.label(dust.name or dust.material.name).classes("subhead")
                 with ui.row().classes("facts w-full"):
-                    for name, value in dust_facts(dust):
-                        with ui.column().classes("fact gap-0"):
-                            ui.label(name).classes("hint")
-                            ui.label(value).classes("value").props(f'data-fact="{name}"')
+                    facts(dust_facts(dust))
 
     return draw
 

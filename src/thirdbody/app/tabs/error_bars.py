@@ -9,13 +9,13 @@ import numpy as np
 from nicegui import ui
 
 from ...plot import OKABE_ITO
-from ...uncertainty import OUTPUTS
-from ..figures import GREY, empty, figure, line, listed, mark
+from ...uncertainty import CRITICAL, about_result
+from ..figures import AXES, GREY, INKS, empty, figure, line, listed, mark
 from ..inputs import Inputs
 from ..state import State
 from ..work import Work
 
-__all__ = ["TITLE", "band_figure", "build", "tornado_figure"]
+__all__ = ["TITLE", "band_figure", "build", "critical_figure", "results_of", "tornado_figure"]
 
 TITLE = "Error bars"
 LOADS = 21
@@ -23,10 +23,21 @@ PLAIN = ("particle_load_share", "particle_area_share", "plastic_share", "A_t", "
 
 
 def label_of(name: str) -> str:
-    """What an output is called."""
-    about = OUTPUTS[name]
+    """What a result is called."""
+    about = about_result(name)
     unit = f" [{about['unit']}]" if about["unit"] not in ("1", "") else ""
     return f"{about['meaning']}{unit}"
+
+
+def results_of(state: State) -> dict[str, str]:
+    """What can have a band: the state, critical loads, and outputs that the study asks for."""
+    names = list(PLAIN)
+    if (answer := state.answer) is not None:
+        names += [] if answer.contact.two_body else CRITICAL
+        names += [column for output in answer.contact.outputs for column in output.columns]
+    return {
+        name: label_of(name) if name in PLAIN else f"{name}: {label_of(name)}" for name in names
+    }
 
 
 def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
@@ -56,10 +67,9 @@ def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
     own = {"color": GREY, "dash": "dash"}
     traces.append(line(x, nominal, "this study", 1, line=own))
     positive = bool(np.nanmin(band) > 0) and not found["of"].endswith("_share")
-    name = {"F_star": "load F*", "pressure": "nominal pressure [Pa]"}.get(load, "separation d [m]")
     made = figure(
         traces,
-        x=name,
+        x=AXES[load],
         y=label_of(found["of"]),
         title="Bands",
         xlog=load != "d",
@@ -68,6 +78,54 @@ def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
     )
     shape, _ = mark(found["at"], "", dash="solid")
     made["layout"]["shapes"] = [shape]
+    return made
+
+
+def critical_figure(found: dict[str, Any]) -> dict[str, Any]:
+    """Each critical load as an interval, its median and the study's own; the load as a line."""
+    names = [n if row[-1] else f"{n} (none)" for n, row in found["critical"].items()]
+    rows = list(found["critical"].values())
+    q = found["probabilities"]
+    traces: list[dict[str, Any]] = []
+    for k in range(len(q) // 2):
+        ends = [(row[k], row[len(q) - 1 - k]) for row in rows]
+        traces.append(
+            {
+                "type": "bar",
+                "orientation": "h",
+                "y": names,
+                "base": [low for low, _ in ends],
+                "x": [None if None in pair else pair[1] - pair[0] for pair in ends],
+                "width": 0.3 + 0.3 * k,
+                "marker": {"color": f"rgba(0,114,178,{0.3 + 0.3 * k})"},
+                "name": f"{100 * (q[-1 - k] - q[k]):.3g} % of cases",
+            }
+        )
+    for place, name, symbol, ink in (
+        (len(q) // 2, "median", "line-ns", INKS[0]),
+        (-1, "this study", "x", INKS[1]),
+    ):
+        traces.append(
+            {
+                "type": "scatter",
+                "mode": "markers",
+                "y": names,
+                "x": [row[place] for row in rows],
+                "name": name,
+                "marker": {
+                    "symbol": symbol,
+                    "size": 12,
+                    "color": ink,
+                    "line": {"width": 2, "color": ink},
+                },
+            }
+        )
+    made = figure(
+        traces, x="load F*", y="", title="Critical loads", height=420, barmode="overlay",
+        hovermode="closest",
+    )  # fmt: skip
+    made["layout"]["yaxis"] |= {"autorange": "reversed", "type": "category"}
+    made["layout"]["shapes"] = [mark(found["F_star_at"], "", dash="solid")[0]]
     return made
 
 
@@ -134,15 +192,17 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     entries()
     found: dict[str, Any] = {}
     with ui.row().classes("w-full items-end gap-3"):
-        of = ui.select({name: label_of(name) for name in PLAIN}, value=PLAIN[0], label="result")
-        of.props("dense options-dense").classes("grow")
-        samples = ui.select([256, 1024, 4096, 16384], value=1024, label="samples").props("dense")
+        of = ui.select(results_of(state), value=PLAIN[0], label="result")
+        of.props('dense options-dense data-path="error bars.of"').classes("grow")
+        samples = ui.select([256, 1024, 4096, 16384], value=1024, label="samples")
+        samples.props("dense").classes("w-24")
 
     def ask() -> dict[str, Any] | None:
         answer = state.answer
         if answer is None:
             return None
         values = answer.loads
+        said.set_text("")
         space = np.linspace if answer.load == "d" else np.geomspace
         found["load"] = answer.load
         return {
@@ -156,21 +216,22 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         }
 
     def show(result: dict[str, Any]) -> None:
-        for name, made in (
-            ("bands", band_figure(result, found["load"])),
-            ("tornado", tornado_figure(result)),
-        ):
-            plots[name].update_figure(made)
+        bands = (
+            critical_figure(result) if result["critical"] else band_figure(result, found["load"])
+        )
+        plots["bands"].update_figure(bands)
+        plots["tornado"].update_figure(tornado_figure(result))
         low, middle, high = result["band_at"][0], result["nominal_at"], result["band_at"][-1]
+        start = result["of"] if result["critical"] else "At the operating load"
         said.set_text(
-            f"At the operating load: {middle:.4g}, in nine of ten cases between {low:.4g} and "
+            f"{start}: {middle:.4g}, in nine of ten cases between {low:.4g} and "
             f"{high:.4g} ({result['samples']} samples)."
             if None not in (low, middle, high)
-            else ""
+            else f"{result['of']} is not known at every end of the inputs."
         )
         box.set_visibility(True)
 
-    work = Work("error bars", "Draw error bars", ask, show)
+    Work("error bars", "Draw error bars", ask, show)
     said = ui.label().props('data-fact="error bars"')
     box = ui.element("div").classes("figures w-full")
     plots: dict[str, Any] = {}
@@ -179,5 +240,11 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             plots[name] = ui.plotly(empty(380)).classes("w-full")
             plots[name].props(f'data-figure="{name}"')
     box.set_visibility(False)
-    assert work is not None
-    return inputs.tell
+
+    def draw() -> None:
+        inputs.tell()
+        options = results_of(state)
+        if options != of.options:
+            of.set_options(options, value=of.value if of.value in options else PLAIN[0])
+
+    return draw

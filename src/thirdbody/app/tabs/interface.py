@@ -9,16 +9,17 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ...cli.show import as_length, as_number, as_percent, as_pressure
+from ...cli.show import as_number, as_percent, as_pressure
 from ..cross_section import section, to_svg
 from ..state import State
+from ..widgets import as_length, facts
 
-__all__ = ["TITLE", "build", "facts"]
+__all__ = ["TITLE", "build", "told"]
 
 TITLE = "Interface"
 
 
-def facts(state: State) -> list[tuple[str, str]]:
+def told(state: State) -> list[tuple[str, str]]:
     """The state under the operating load, in the words of the command line."""
     point = state.point()
     at = [
@@ -74,10 +75,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             _legend(drawn)
         table.clear()
         with table:
-            for name, value in facts(state):
-                with ui.column().classes("fact gap-0"):
-                    ui.label(name).classes("hint")
-                    ui.label(value).classes("value").props(f'data-fact="{name}"')
+            facts(told(state))
 
     def another() -> None:
         seed["now"] += 1

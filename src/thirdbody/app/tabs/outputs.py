@@ -10,9 +10,10 @@ from nicegui import ui
 
 from ...cli.show import as_number
 from ...equilibrium import about
-from ..figures import figure, line, mark
+from ..figures import AXES, figure, line, mark
 from ..inputs import Inputs
 from ..state import Answer, State
+from ..widgets import table as shown_table
 
 __all__ = ["TITLE", "build", "output_figures"]
 
@@ -25,7 +26,6 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
     state = answer.curves
     load = answer.load
     x = answer.loads
-    names = {"F_star": "load F*", "pressure": "nominal pressure [Pa]", "d": "separation d [m]"}
     for output in answer.contact.outputs:
         units: dict[str, list[str]] = {}
         for column, told in output.columns.items():
@@ -43,7 +43,7 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
             shape, _ = mark(at, "", dash="solid")
             out[f"{output.name} [{unit}]"] = figure(
                 traces,
-                x=names[load],
+                x=AXES[load],
                 y=f"[{unit}]",
                 title=f"{getattr(output, 'title', output.name)} [{unit}]",
                 xlog=load != "d",
@@ -73,7 +73,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     with ui.element("div").classes("figures w-full"):
         with ui.column().classes("w-full"):
             entries()
-        table = ui.column().classes("w-full scroll-x")
+        table = ui.column().classes("w-full")
     grid = ui.element("div").classes("figures w-full")
     plots: dict[str, Any] = {}
 
@@ -113,11 +113,5 @@ def _table(state: State, place: Any) -> None:
             ui.label("Switch an output on.").classes("hint")
             return
         ui.label("At the operating load").classes("subhead")
-        ui.table(
-            columns=[
-                {"name": key, "label": key, "field": key, "align": "left"}
-                for key in ("name", "value", "unit", "meaning")
-            ],
-            rows=rows,
-            pagination=12,
-        ).props('dense flat wrap-cells data-figure="outputs"').classes("w-full")
+        heads = {key: key for key in ("name", "value", "unit", "meaning")}
+        shown_table("outputs", heads, rows, pagination=12)

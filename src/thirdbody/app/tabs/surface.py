@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from nicegui import events, ui
 
-from ...cli.show import as_length, as_number
+from ...cli.show import as_number
 from ...errors import InvalidValue
 from ...units import to_si
+from ..fields import value_from
 from ..figures import empty, figure, line, mark
 from ..guard import LARGEST_UPLOAD
 from ..state import State
+from ..text import with_micro
 from ..uploads import keep
+from ..widgets import as_length, facts
 from ..work import Work
 
 __all__ = ["TITLE", "build", "options_from"]
@@ -91,7 +95,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         source = ui.label("file: the example of the library").classes("hint")
     with ui.row().classes("w-full gap-3"):
         for name, hint in (
-            ("cutoff", "cut-off, e.g. 2 um; 0 as sampled"),
+            ("cutoff", "cut-off, e.g. 2 µm; 0 as sampled"),
             ("spacing", "of a file that tells none"),
             ("unit", "of a file that tells none"),
             ("channel", "of a file with several"),
@@ -100,7 +104,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             entry = ui.input(name).props(f'dense hint="{hint}" data-path="surface.{name}"')
             texts[name] = entry.classes("w-52")
         forms = {"": "tilt", "none": "none", "curvature": "curvature"}
-        texts["detrend"] = ui.select(forms, value="", label="form removed").props("dense")
+        texts["detrend"] = ui.select(forms, value="", label="form removed")
+        texts["detrend"].props("dense").classes("w-36")
 
     def ask() -> dict[str, Any] | None:
         try:
@@ -128,14 +133,11 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         }
         table.clear()
         with table:
-            for name, value in words.items():
-                with ui.column().classes("fact gap-0"):
-                    ui.label(name).classes("hint")
-                    ui.label(value).classes("value").props(f'data-fact="surface {name}"')
+            facts(words.items(), "surface ")
         notes.clear()
         with notes:
             for text in result["warnings"]:
-                ui.label(text).classes("hint")
+                ui.label(with_micro(text)).classes("hint")
         box.set_visibility(True)
 
     work = Work("surface", "Read it", ask, show, seconds=SECONDS)
@@ -143,9 +145,10 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     with box:
         table = ui.row().classes("facts w-full")
         notes = ui.column().classes("w-full gap-1")
-        ui.button("Use these in the study", icon="input", on_click=lambda: take()).props(
-            'no-caps data-take="surface"'
-        )
+        with ui.row():
+            for label, name in (("Use these numbers", "surface"), ("Use the file", "file")):
+                button = ui.button(label, icon="input", on_click=lambda _, n=name: take(n))
+                button.props(f'no-caps data-take="{name}"')
         plots: dict[str, Any] = {}
         with ui.element("div").classes("figures w-full"):
             for name in ("heights", "rms_gradient", "R", "eta"):
@@ -153,10 +156,15 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
                 plots[name].props(f'data-figure="surface-{name}"')
     box.set_visibility(False)
 
-    def take() -> None:
+    def take(what: str) -> None:
         used = now["result"]["used"]
-        numbers = {key: used[key] for key in ("sigma", "R", "alpha", "eta")}
-        state.set("roughness", numbers)
+        if what == "file":
+            asked = {name: value_from(str(w.value or "")) for name, w in texts.items()}
+            asked.pop("resolution")
+            rough = {"topography": Path(now["file"]).name} | {k: v for k, v in asked.items() if v}
+        else:
+            rough = {key: used[key] for key in ("sigma", "R", "alpha", "eta")}
+        state.set("roughness", rough)
         again()
         ui.notify("The roughness of the study is that of this surface now.")
 

@@ -3,6 +3,7 @@
 COMMANDS = (
     "solve",
     "sweep",
+    "film",
     "assess",
     "design",
     "report",

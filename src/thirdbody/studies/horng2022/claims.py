@@ -34,7 +34,17 @@ class Errata:
 
 @cache
 def claims() -> tuple[Claim, ...]:
-    """All statements in the order of the paper."""
+    """All statements in the order of the paper.
+
+    Returns
+    -------
+    tuple of Claim
+
+    Examples
+    --------
+    >>> len(claims())
+    84
+    """
     return tuple(
         Claim(**{**entry, "conflicts": tuple(entry.get("conflicts", ()))})
         for entry in study_data()["claims"]
@@ -43,5 +53,15 @@ def claims() -> tuple[Claim, ...]:
 
 @cache
 def errata() -> tuple[Errata, ...]:
-    """The errata that bear on the figures."""
+    """The errata that bear on the figures.
+
+    Returns
+    -------
+    tuple of Errata
+
+    Examples
+    --------
+    >>> errata()[0].erratum
+    1
+    """
     return tuple(Errata(**entry) for entry in study_data()["errata"])

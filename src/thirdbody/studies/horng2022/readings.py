@@ -54,6 +54,8 @@ class Reading:
         A letter for tables, the name that ``preset`` takes, and a line for people.
     law : callable
         Particle law for σ and x_a [m].
+    law_words : str
+        That law in words, for tables.
     R : float
         Asperity radius [m].
     spread, cut : float
@@ -68,6 +70,11 @@ class Reading:
         Book the area under particles as eqs. (1), (2) and (13) do: F_sa/H_s, all of it plastic.
     adjusted : str
         What was chosen so that the paper's numbers come out.
+
+    Examples
+    --------
+    >>> READINGS["published"].contact("SiO2", 100, 300).particle_law.preset  # σ and x_a [nm]
+    'published'
     """
 
     key: str
@@ -237,7 +244,7 @@ AREAS = ("A_t", "A_ss", "A_sa", "A_e", "A_ep", "A_p")
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """One contact under the loads F*, in the paper's terms; areas per nominal area."""
+    """One contact under the loads F*, in the paper's terms; areas per nominal area [1]."""
 
     F: Array
     A_t: Array
@@ -272,7 +279,18 @@ class Curve:
 
 
 class Curves:
-    """The load curves of one reading, each computed once."""
+    """The load curves of one reading, each computed once.
+
+    Parameters
+    ----------
+    reading : Reading
+
+    Examples
+    --------
+    >>> curve = Curves(READINGS["published"])("SiO2", 100, 300)  # σ and x_a [nm]
+    >>> bool(curve.particle_share[0] > curve.particle_share[-1])
+    True
+    """
 
     def __init__(self, reading: Reading):
         self.reading = reading

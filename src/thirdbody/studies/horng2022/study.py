@@ -60,9 +60,13 @@ class Summary:
     """What `reproduce` did."""
 
     out: Path
+    """Folder it wrote."""
     preset: str
+    """Reading in which the panels are drawn."""
     ledger: Ledger
+    """Verdicts of every reading."""
     files: tuple[str, ...]
+    """Names of what it wrote."""
 
     @property
     def totals(self) -> dict[str, int]:

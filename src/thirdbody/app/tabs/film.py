@@ -1,0 +1,284 @@
+"""The lubricated contact: friction, load shares and film thickness over speed."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from nicegui import ui
+
+from ...film_words import point, summary
+from ...lubrication import Entrainment, FilmConditions, Oil
+from ...plot_film import OF_PARTICLES, bands_of
+from ...study import Study, run_film
+from ...study.film import SHAPES, SPEED
+from ..fields import Field, fields_of, number_field
+from ..figures import GREY, empty, figure, line, log_title, mark
+from ..inputs import Inputs
+from ..state import State
+from ..text import with_micro
+from ..widgets import facts as named_values
+
+__all__ = ["START", "TITLE", "build", "film_figures", "solved"]
+
+TITLE = "Film"
+START: dict[str, Any] = {
+    "load": "20 N",
+    "speed": {"from": "5 mm/s", "to": "20 m/s", "points": 60, "spacing": "log"},
+    "conjunction": {"shape": "point", "R": "9.5 mm"},
+    "oil": {"eta": "20 mPa s", "alpha": "20 / GPa"},
+}
+RANGE = START["speed"]
+BODIES = {
+    "point": {"shape": "point", "R": "9.5 mm"},
+    "line": {"shape": "line", "R": "9.5 mm", "length": "10 mm"},
+}
+DIRT = {"concentration": 1e-6, "entry_ratio": 1.0, "friction": 0.1}
+MOST, REACH = 80, 100.0
+"""Speeds of the curves, and how far they go beyond one speed."""
+SHADE = {"boundary": 0.35, "mixed": 0.15, "full film": 0.0}
+CURVES: dict[str, dict[str, tuple[str, int]]] = {
+    "film friction": {
+        "mu": ("sum", 3),
+        "mu_film": ("film", 0),
+        "mu_ss": ("asperities", 1),
+        "mu_sa": ("particles", 2),
+    },
+    "film shares": {
+        "film_share": ("on the film", 0),
+        "ss_share": ("on asperities", 1),
+        "sa_share": ("on particles", 2),
+    },
+    "film thickness": {
+        "lambda_ratio": ("film over roughness λ", 0),
+        "h_over_x": ("gap over particle", 2),
+    },
+}
+"""Columns of each figure, what they are called, and which ink draws them."""
+AXES = {
+    "film friction": ("friction coefficient μ", "Friction"),
+    "film shares": ("share of the load [%]", "Who carries the load"),
+    "film thickness": ("thickness ratio", "How thick the film is"),
+}
+
+
+def solved(study: Study) -> tuple[dict[str, Any], int]:
+    """What `run_film` finds over the speeds of the study, and which speed is its own or middle."""
+    given = study.film
+    assert given is not None
+    speeds = np.unique(given.speed)
+    if len(speeds) == 1:
+        at = MOST // 2
+        around = speeds[0] * REACH ** np.linspace(-1, 1, MOST + 1)
+        around[at] = speeds[0]
+        speeds = around
+    elif len(speeds) > MOST:
+        speeds = speeds[np.unique(np.linspace(0, len(speeds) - 1, MOST).round().astype(int))]
+    found = run_film(dataclasses.replace(study, film=given.replace(speed=tuple(speeds.tolist()))))
+    return found, len(speeds) // 2
+
+
+def film_figures(found: dict[str, Any], i: int) -> dict[str, dict[str, Any]]:
+    """Three figures over speed, with the regimes behind the curves and the speed i marked."""
+    states = found["states"]
+    u = np.asarray(states["speed"], float)
+    shapes, notes = [], []
+    for low, high, word in bands_of(u, found["regime_speeds"]):
+        shapes.append(
+            {
+                "type": "rect",
+                "xref": "x",
+                "yref": "paper",
+                "x0": low,
+                "x1": high,
+                "y0": 0,
+                "y1": 1,
+                "fillcolor": GREY,
+                "opacity": SHADE[word],
+                "line": {"width": 0},
+                "layer": "below",
+            }
+        )
+        notes.append(log_title(mark(float(np.sqrt(low * high)), word)[1]))
+    shapes.append(mark(float(u[i]), "", dash="solid")[0])
+    out = {}
+    for name, curves in CURVES.items():
+        traces = []
+        for column, (label, number) in curves.items():
+            if column in OF_PARTICLES and not found["passing"]:
+                continue
+            y = np.asarray(states[column], float)
+            style = {"color": GREY, "dash": "solid"} if column == "mu" else {}
+            scaled = 100 * y if name == "film shares" else y
+            traces.append(line(u, scaled, label, number, line=style))
+        y_title, title = AXES[name]
+        out[name] = figure(
+            traces,
+            x="entrainment speed [m/s]",
+            y=y_title,
+            title=title,
+            ylog=name == "film thickness",
+            shapes=shapes,
+            annotations=notes,
+        )
+        out[name]["layout"]["margin"]["t"] = 64
+    out["film shares"]["layout"]["yaxis"]["range"] = [-2, 102]
+    out["film friction"]["layout"]["yaxis"]["rangemode"] = "tozero"
+    return out
+
+
+def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+    """Entries, a slider over the speed, facts, three figures."""
+    ui.label(
+        "An oil film, asperities and particles carry one load together. The film of smooth bodies "
+        "follows from their radii, the oil and the speed."
+    ).classes("hint")
+
+    def renewed() -> None:
+        entries.refresh()
+
+    inputs = Inputs(state, renewed)
+
+    @ui.refreshable
+    def entries() -> None:
+        inputs.shown.clear()
+        with ui.column().classes("w-full gap-2 narrow"):
+            _entries(inputs, state)
+            inputs.rest = ui.column().classes("w-full")
+
+    plots: dict[str, Any] = {}
+    now: dict[str, Any] = {"answer": None, "found": None, "i": 0, "there": None}
+    with ui.element("div").classes("figures w-full"):
+        with ui.column().classes("w-full"):
+            entries()
+        with ui.column().classes("w-full gap-1") as beside:
+            said = ui.label().classes("hint").props('data-fact="film speed"')
+            slider = ui.slider(min=0, max=MOST, step=1, value=0)
+            slider.props('aria-label="speed" data-slider="film.speed"').classes("q-px-sm")
+            facts = ui.row().classes("facts w-full")
+            words = ui.column().classes("w-full gap-0")
+            for name in CURVES:
+                plots[name] = ui.plotly(empty(360)).classes("w-full")
+                plots[name].props(f'data-figure="{name}"')
+
+    def show() -> None:
+        found, i = now["found"], now["i"]
+        for name, made in film_figures(found, i).items():
+            plots[name].update_figure(made)
+        known = found["states"]["mu"][i] is not None
+        plots["film friction"].set_visibility(known)
+        said.set_text(f"speed {found['states']['speed'][i]:.4g} m/s")
+        facts.clear()
+        with facts:
+            said_of = point(found, i)
+            named_values(((name, with_micro(value)) for name, value in said_of.items()), "film: ")
+
+    def moved() -> None:
+        i = int(slider.value or 0)
+        if now["found"] is not None and i != now["i"]:
+            now["i"] = i
+            show()
+
+    slider.on_value_change(moved)
+
+    def draw() -> None:
+        table = state.get("film")
+        if _shape(table) != now["there"]:
+            now["there"] = _shape(table)
+            entries.refresh()
+        inputs.tell()
+        answer = state.answer
+        assert answer is not None
+        given = answer.study.film
+        beside.set_visibility(given is not None)
+        if given is None or answer is now["answer"]:
+            return
+        before = now["found"]
+        found, middle = solved(answer.study)
+        kept = before is not None and before["states"]["speed"] == found["states"]["speed"]
+        now.update(answer=answer, found=found, i=now["i"] if kept else middle)
+        slider.props(f"max={len(found['states']['speed']) - 1}")
+        slider.set_value(now["i"])
+        words.clear()
+        with words:
+            for text in (*summary(found), *found["warnings"][len(answer.study.notes) :]):
+                ui.label(with_micro(text)).classes("hint")
+        show()
+
+    return draw
+
+
+def _entries(inputs: Inputs, state: State) -> None:
+    """The table [film], entry by entry."""
+    table = state.get("film")
+    if not isinstance(table, dict):
+        ui.button("Add a film", icon="add", on_click=lambda: inputs.change("film", START)).props(
+            'no-caps data-path="film.add"'
+        )
+        return
+    own = {field.name: field for field in fields_of(FilmConditions)}
+    inputs.field(("film",), own["load"])
+    _speed(inputs, table.get("speed"))
+    inputs.field(("film",), own["slide_roll"])
+    ui.label("bodies").classes("subhead")
+    bodies = table.get("conjunction")
+    shape = str(bodies.get("shape")) if isinstance(bodies, dict) else "point"
+    words = {"point": "point: a ball, a crowned roller", "line": "line: a roller, a gear tooth"}
+    inputs.select(
+        ("film", "conjunction", "shape"),
+        words,
+        shape,
+        "kind of contact",
+        lambda word: inputs.change("film", "conjunction", BODIES[word]),
+    )
+    for field in fields_of(SHAPES.get(shape, SHAPES["point"])):
+        inputs.field(("film", "conjunction"), field)
+    ui.label("oil").classes("subhead")
+    for field in fields_of(Oil):
+        inputs.field(("film", "oil"), field)
+    with ui.expansion("more").classes("w-full"), ui.column().classes("w-full gap-2"):
+        for name in ("pressure", "few", "most"):
+            inputs.field(("film",), own[name])
+        if isinstance(table.get("entrainment"), dict):
+            for field in fields_of(Entrainment):
+                inputs.field(("film", "entrainment"), field)
+        else:
+            ui.button(
+                "What the oil carries", on_click=lambda: inputs.change("film", "entrainment", DIRT)
+            ).props("flat dense no-caps")
+    ui.button("Remove the film", icon="delete", on_click=lambda: _removed(inputs, state)).props(
+        'flat dense no-caps data-path="film.remove"'
+    )
+
+
+def _speed(inputs: Inputs, now: Any) -> None:
+    """One speed, or a range."""
+    if not isinstance(now, dict):
+        said = "one value with its unit, or several with commas between"
+        inputs.field(("film",), Field(name="speed", kind="text", label="speed u [m/s]", about=said))
+        ui.button("A range", on_click=lambda: inputs.change("film", "speed", RANGE)).props(
+            "flat dense no-caps"
+        )
+        return
+    for end in ("from", "to"):
+        inputs.field(("film", "speed"), number_field(end, SPEED))
+    points = Field(name="points", kind="text", label="points", about="how many speeds")
+    inputs.field(("film", "speed"), points)
+
+
+def _removed(inputs: Inputs, state: State) -> None:
+    """The study without a film; it keeps a load."""
+    answer = state.answer
+    if state.get("load") is None and answer is not None:
+        pressure = f"{float(answer.study.values[0]) / 1e6:.4g} MPa"
+        state.replace({**state.study, "load": {"pressure": pressure}})
+    inputs.change("film", None)
+
+
+def _shape(table: Any) -> Any:
+    """Which entries there are: the keys, without the numbers."""
+    if not isinstance(table, dict):
+        return table is None
+    return {key: sorted(value) if isinstance(value, dict) else "" for key, value in table.items()}

@@ -1,0 +1,39 @@
+"""Widgets that several tabs show: named numbers, tables, what is told of a file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from nicegui import ui
+
+from ..cli import show
+from .text import with_micro
+
+__all__ = ["as_length", "facts", "table"]
+
+
+def as_length(value: float | None) -> str:
+    """A length as the page shows it.
+
+    >>> as_length(2.8e-6)
+    '2.8 µm'
+    """
+    return with_micro(show.as_length(value))
+
+
+def facts(pairs: Iterable[tuple[str, str]], kind: str = "") -> None:
+    """Named numbers side by side."""
+    for name, value in pairs:
+        with ui.column().classes("fact gap-0"):
+            ui.label(name).classes("hint")
+            ui.label(value).classes("value").props(f'data-fact="{kind}{name}"')
+
+
+def table(name: str, heads: dict[str, str], rows: list[dict[str, Any]], **more: Any) -> None:
+    """Rows under heads, by their keys."""
+    columns = [
+        {"name": key, "label": label, "field": key, "align": "left"} for key, label in heads.items()
+    ]
+    made = ui.table(columns=columns, rows=rows, **more).classes("w-full")
+    made.props(f'dense flat wrap-cells data-figure="{name}"')

@@ -1,0 +1,142 @@
+"""``thirdbody film``: film thickness, load shares and friction of a lubricated contact."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ..options import AsJson, Settings, read_study
+from ..show import as_length, as_number, as_pressure, table_of, terminal
+from ..streams import warn, write_csv
+
+__all__ = ["columns_of", "command"]
+
+MOST_ROWS = 20
+
+
+def command(
+    study: Annotated[
+        Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [film].")
+    ],
+    as_json: AsJson = False,
+    csv_file: Annotated[
+        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per speed.")
+    ] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", metavar="FILE", help="Draw the curve over speed.")
+    ] = None,
+    settings: Settings = None,
+) -> None:
+    """Film, load shares and friction of a lubricated contact, at one speed or over many."""
+    from ...study import run_film
+
+    asked = read_study(study, settings)
+    kind = "" if figure is None else _format_of(figure)
+    result = run_film(asked)
+    for sentence in result["warnings"][len(asked.notes) :]:
+        warn(sentence)
+    drawn = None
+    if figure is not None:
+        from ...plot_film import stribeck
+
+        drawn = stribeck(result["states"], result["regime_speeds"])
+    if csv_file is not None:
+        write_csv(csv_file, *columns_of(result))
+        print(f"written: {csv_file}", file=sys.stderr)
+    if figure is not None and drawn is not None:
+        from ...files import whole
+
+        with whole(figure) as part:
+            drawn.savefig(part, format=kind)
+        print(f"written: {figure}", file=sys.stderr)
+    if as_json:
+        print(json.dumps(result, indent=1, allow_nan=False))
+    else:
+        _show(result)
+
+
+def _format_of(figure: Path) -> str:
+    """What a figure is written as, by the end of its name."""
+    from ...errors import InvalidValue
+
+    kind = figure.suffix.lstrip(".").lower() or "png"
+    if kind not in ("png", "svg", "pdf"):
+        raise InvalidValue(f"--figure {figure} must end in .png, .svg or .pdf")
+    return kind
+
+
+def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, str]]:
+    """Columns of the states, then what passes and what the oil brings, and their units."""
+    from ...lubrication import COLUMNS
+
+    columns = dict(result["states"])
+    units = {name: COLUMNS[name]["unit"] if name in COLUMNS else "1" for name in columns}
+    names = [part["name"] for part in result["passing"]]
+    for part in result["passing"]:
+        columns[f"{part['name']}: passing"] = part["share"]
+    if brought := result["entrainment"]:
+        columns["largest"] = brought["largest"]
+        for name, density in zip(names, brought["areal_density"], strict=True):
+            columns[f"{name}: areal_density"] = density
+    mine = {name: "1" for name in columns if name not in units}
+    mine |= {name: "m" for name in mine if name == "largest"}
+    mine |= {name: "1/m^2" for name in mine if name.endswith(": areal_density")}
+    units |= mine
+    return columns, {name: "" if name == "regime" else unit for name, unit in units.items()}
+
+
+def _show(result: dict[str, Any]) -> None:
+    """The result for a reader: the point or the curve, then in words."""
+    from ...film_words import point, summary
+
+    console = terminal()
+    console.print(f"{result['title'] or 'Study'} (thirdbody {result['version']})")
+    film, states = result["inputs"]["film"], result["states"]
+    console.print(
+        f"{film['conjunction']['type'].lower()} contact under {as_number(film['load'])} N, "
+        f"{'mean' if film['pressure'] == 'mean' else 'largest'} Hertz pressure "
+        f"{as_pressure(states['pressure'][0])}, sigma = "
+        f"{as_length(result['inputs']['roughness']['sigma'])}"
+    )
+    total = len(states["speed"])
+    if total == 1:
+        table = table_of((f"at {as_number(states['speed'][0])} m/s", ""))
+        for name, value in point(result, 0).items():
+            table.add_row(name, value)
+        console.print(table)
+    else:
+        console.print(_curve(result))
+    if total > MOST_ROWS:
+        console.print(f"{MOST_ROWS} of {total} speeds shown; --csv FILE writes all\n")
+    for sentence in summary(result):
+        console.print(sentence)
+
+
+def _curve(result: dict[str, Any]) -> Any:
+    """A row a speed; of many speeds some, evenly spread."""
+    from ...film_words import share
+
+    states = result["states"]
+    shares = {"film_share": "on film", "ss_share": "on asperities"}
+    if result["passing"]:
+        shares["sa_share"] = "on particles"
+    known = any(value is not None for value in states["mu"])
+    heads = ["speed [m/s]", "film h_T", "lambda", *shares.values()]
+    table = table_of([*heads, *["friction"] * known, "regime"], right=True)
+    total = len(states["speed"])
+    rows = min(total, MOST_ROWS)
+    for row in range(rows):
+        i = round(row * (total - 1) / max(rows - 1, 1))
+        table.add_row(
+            as_number(states["speed"][i]),
+            as_length(states["h_T"][i]),
+            as_number(states["lambda_ratio"][i]),
+            *(share(states[name][i]) for name in shares),
+            *[as_number(states["mu"][i])] * known,
+            states["regime"][i],
+        )
+    return table

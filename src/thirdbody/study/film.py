@@ -1,0 +1,76 @@
+"""The table [film]: bodies, oil, load and speeds of a lubricated contact."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..films import AbstractFilm, Line, Oil, Point
+from ..lubrication import Entrainment, FilmConditions
+from ..values import quantity
+from .amounts import amounts
+from .fields import about_of
+from .laws import named_law
+from .reader import Key, Reader, Table, get
+
+__all__ = ["SHAPES", "SPEED", "TABLE"]
+
+SHAPES: dict[str, type[Point] | type[Line]] = {"point": Point, "line": Line}
+SPEED = quantity("u", "m/s", "mean entrainment speed", gt=0).metadata["quantity"]
+
+
+def film(reader: Reader, path: str, data: Any) -> Any:
+    """The bodies, the oil, the load, and the speeds."""
+    speed = f"{path}.speed"
+    keys = {
+        "conjunction": Key(
+            reader.variant(
+                f"{path}.conjunction",
+                get(data, "conjunction"),
+                "shape",
+                SHAPES,
+                lambda values: reader.make(
+                    SHAPES[values.pop("shape")], f"{path}.conjunction", values
+                ),
+                {},
+            ),
+            True,
+            'the bodies, e.g. conjunction = { shape = "point", R = "9.5 mm" }',
+        ),
+        "oil": Key(
+            reader.value(f"{path}.oil", get(data, "oil"), Oil),
+            True,
+            'e.g. oil = { eta = "20 mPa s", alpha = "20 / GPa" }',
+        ),
+        **reader.keys_of(FilmConditions, path, data),
+        "speed": Key(
+            amounts(reader, speed, SPEED, get(data, "speed")), True, about_of("speed", SPEED)
+        ),
+        "formula": Key(
+            named_law(reader, f"{path}.formula", get(data, "formula"), AbstractFilm.registry),
+            False,
+            "the film formula",
+        ),
+        "entrainment": Key(
+            reader.value(f"{path}.entrainment", get(data, "entrainment"), Entrainment),
+            False,
+            "what the oil carries",
+        ),
+    }
+
+    def build(values: dict[str, Any]) -> FilmConditions | None:
+        speeds = tuple(np.sort(values.pop("speed")).tolist())
+        if not speeds:
+            return None  # an empty range, which was told
+        return reader.make(FilmConditions, path, values | {"speed": speeds})
+
+    return reader.table(path, keys, build)
+
+
+TABLE = Table(
+    name="film",
+    read=film,
+    about="a table [film] with conjunction, oil, load and speed",
+    role="study",
+)
