@@ -233,6 +233,12 @@ class GaussianSums:
         apart = self.table.coefficients.reshape(panels, terms, self.TERMS, -1)
         self.coefficients = np.einsum("ij,pkjc->pikc", transform, apart)
 
+    def middle(self, h: Array) -> Array:
+        """The load in the middle of the half octave: (N,)."""
+        each = self.table(h).reshape(len(h), self.TERMS, -1)[:, :, 0]
+        _, transform = chebyshev_transform(self.TERMS)
+        return np.asarray(np.polynomial.chebyshev.chebval(0.0, transform @ each.T))
+
     @staticmethod
     def place(w: Array) -> tuple[NDArray[np.intp], Array]:
         """Step of every w, and where it lies in the step, from −1 to 1."""

@@ -15,7 +15,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .asperities import AsperitySum, GaussianSum, GaussianSums, gaussian_sums, scales
+from .asperities import (
+    AsperitySum,
+    GaussianSum,
+    GaussianSums,
+    ReducedSum,
+    gaussian_sums,
+    scales,
+)
 from .contact import Contact, Interface, together
 from .distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
 from .heights import GaussianHeights
@@ -111,6 +118,13 @@ class _Panels:
         self.count += len(panels)
         self.panels.append(panels)
 
+    def add_inverse(self, of: GaussianSums | SizeAverage) -> int:
+        """Where the separation stands as a function of the load, for first guesses."""
+        key = of, "inverse"
+        if key not in self.known:
+            self._append(key, _inverse(of))
+        return self.known[key][0]
+
     def add_family(self, family: GaussianSums) -> tuple[int, int]:
         """Begin and end of the sums over Gaussian heights for many w."""
         if family not in self.known:
@@ -142,6 +156,24 @@ def _family(family: GaussianSums) -> Array:
     """The sums over Gaussian heights for half an octave of w in the kernel's layout."""
     every = family.coefficients
     return _laid(family.table, every[..., [0, 4, 5]], every[..., :4])
+
+
+@lru_cache(maxsize=128)
+def _inverse(of: GaussianSums | SizeAverage) -> Array:
+    """A panel of separations that fall with ln of a load."""
+    from .kernels import PANEL, TERMS
+
+    if isinstance(of, GaussianSums):
+        separation = np.linspace(-ReducedSum.DEEPEST, GaussianSum.highest, 2_000)
+        log_load = np.log(of.middle(separation)) - 0.5 * separation**2
+    else:
+        rise = np.geomspace(1, 1e-5, 2_000) * math.sqrt(of.top - of.bottom)
+        separation = of.top - rise**2
+        log_load = np.log(of(separation)[:, 0])
+    depth = np.sqrt(np.maximum(log_load[0] - log_load, 0.0))
+    at = np.linspace(0, depth[-1], (PANEL + 1) * TERMS - 2)
+    panel = np.concatenate([[log_load[0], at[1]], np.interp(at, depth, separation)])
+    return panel.reshape(1, PANEL + 1, TERMS)
 
 
 class _Rules:
@@ -177,7 +209,7 @@ class _Batch:
     def __init__(self, count: int, parts: int):
         from . import kernels as k
 
-        self.kinds = np.full((count, k.PARTS + parts * k.PART_KINDS), k.ABSENT)
+        self.kinds = np.full((count, k.PARTS + parts * k.PART_KINDS), k.ABSENT, np.int32)
         self.values = np.zeros((count, k.VALUES + parts * k.PART_VALUES))
         self._panels, self._rules = _Panels(), _Rules()
 
@@ -301,7 +333,7 @@ class Interfaces(_Batch):
             kind, load = k.GAUSSIAN, table.coefficients[:, :, [0, 4, 5]]
         else:
             kind, load = k.DENSITY, table.with_derivatives[:, :, 0, :]
-        self.kinds[m, k.KIND : k.PARTS] = kind, *self._panels.add(reduced, table, load, 4)
+        self.kinds[m, k.KIND : k.GUESS] = kind, *self._panels.add(reduced, table, load, 4)
         self.values[m, : k.COVERAGE] = (
             *(0.0, asperities.sigma_s, asperities.centre),
             *(*asperities.units[:2], asperities.highest),
@@ -403,10 +435,11 @@ class States(_Batch):
         self.law, self.w = law, np.broadcast_to(w, len(self.kinds))
         step, across = GaussianSums.place(self.w)
 
-        def family(step: int) -> tuple[int, int]:
-            return self._panels.add_family(gaussian_sums(law, step))
+        def family(step: int) -> tuple[int, ...]:
+            sums = gaussian_sums(law, step)
+            return *self._panels.add_family(sums), self._panels.add_inverse(sums)
 
-        self.kinds[:, k.BEGIN : k.PARTS] = _each(step, family)
+        self.kinds[:, k.BEGIN : k.PARTS] = _each(step, family, 3)
         self.kinds[:, k.KIND] = k.FAMILY
         named = {"ACROSS": across, "SIGMA_S": rough.sigma_s, "CENTRE": datum * rough.sigma}
         named |= {"FORCE": units[..., 0], "AREA": units[..., 1], "HIGHEST": GaussianSum.highest}
@@ -479,6 +512,7 @@ class States(_Batch):
             width = law.zeta_std * varied.roughness.sigma / size if rough else 0.0 * size
             kinds = np.empty((len(self.kinds), k.PART_KINDS), np.int64)
             kinds[:, 0] = k.ROUGH_NODES if rough else k.PLANE
+            kinds[:, k.PART_GUESS] = self._panels.add_inverse(average)
             if rough:
                 kinds[:, 3:5] = self._rules.add("one", np.ones(1), np.ones((1, 1)))
                 kinds[:, 7:9] = kinds[:, 3:5]
@@ -488,7 +522,7 @@ class States(_Batch):
                     def ends(octave: int, rule: Any = rule, average: Any = average) -> Any:
                         return self._rules.add((rule, average, octave), *rule(average, octave))
 
-                    kinds[:, i : i + 2] = _each(octave, ends)
+                    kinds[:, i : i + 2] = _each(octave, ends, 2)
             else:
                 # without small gaps the second function is not asked for
                 for i, function in enumerate((average.upper, average.lower or average.upper)):
@@ -546,7 +580,7 @@ class States(_Batch):
                 split_areas=law.shadow == "footprint",
             )
             factor = changed.areal_density * share * size[:, 0] ** 2
-            kinds = np.empty((count, k.PART_KINDS), np.int64)
+            kinds = np.full((count, k.PART_KINDS), k.ABSENT)
             kinds[:, 0] = k.ROUGH_NODES
             kinds[:, 1:3] = kinds[:, 5:7] = self._rules.add_each(rule.gaps, rule.weighted)
             kinds[:, 3:5] = self._rules.add_each(x, (weight * x**3)[..., None])
@@ -587,12 +621,12 @@ def fineness(arrays: Mapping[str, Array]) -> Array:
     return np.broadcast_to(sizes / rough, max(map(len, arrays.values())))
 
 
-def _each(number: Index, ends: Callable[[int], tuple[int, int]]) -> Index:
-    """Begin and end (N, 2) of what belongs to each number, asked for each number once."""
+def _each(number: Index, places: Callable[[int], tuple[int, ...]], count: int) -> Index:
+    """Places (N, count) of what belongs to each number, asked for each number once."""
     lowest = int(number.min())
-    table = np.zeros((int(number.max()) - lowest + 1, 2), np.int64)
+    table = np.zeros((int(number.max()) - lowest + 1, count), np.int64)
     for there in np.flatnonzero(np.bincount(number - lowest)):
-        table[there] = ends(lowest + int(there))
+        table[there] = places(lowest + int(there))
     return table[number - lowest]
 
 

@@ -34,12 +34,12 @@ FIELDS = ("F_ss", "e", "ep", "p", "F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow
 """Columns of a solved state: asperities without shadow, then particles."""
 
 # An interface is a row of integers and a row of floats: asperities first, then its parts.
-SHADOW, KIND, BEGIN, END, PARTS = range(5)
+SHADOW, KIND, BEGIN, END, GUESS, PARTS = range(6)
 """Column of the particles that is the shadow (−1: the coverage); kind of sum over asperities, its
-panels from BEGIN to END; where the parts begin, each PART_KINDS long: kind, begin, end, then begin
-and end of a plane's series for small gaps, or of the sizes over a rough seat, and of the few nodes
-and few sizes there."""
-PART_KINDS = 9
+panels from BEGIN to END; panel with its inverse, for a first guess, or −1; where the parts begin,
+each PART_KINDS long: kind, begin, end, then begin and end of a plane's series for small gaps, or of
+the sizes over a rough seat, and of the few nodes and few sizes there; and its inverse, or −1."""
+PART_KINDS, PART_GUESS = 10, 9
 ACROSS, SIGMA_S, CENTRE, FORCE, AREA, HIGHEST, COVERAGE, VALUES = range(8)
 """place of ω_1/σ_s in its family (−1 to 1), σ_s and the mean height [m], units of load [Pa] and
 area, highest separation [σ_s], coverage; where the parts begin, each PART_VALUES long, lengths in
@@ -62,6 +62,8 @@ TERMS, LOAD, EVERY, PANEL, ROWS = 18, 0, 6, 13, 14
 the columns, and a last row with its left edge and half width. A family has ACROSS_TERMS panels, one
 for each term across it, where a series has one."""
 ACROSS_TERMS = 16
+DROP = 1.25 * math.log(2) / 4
+"""About how much ln of the asperities' load falls from the middle of a family to its end."""
 AT = 7
 """Row of the abscissae in a rule (8, nodes); the others are weight times the seven columns, or
 for a rule of sizes the weight in the first."""
@@ -478,6 +480,32 @@ def _has_few(state):
 
 
 @exact
+def _inverse(panel, log_load):
+    """Separation by straight lines over √(most − ln F): a panel of most, step, separations."""
+    x = math.sqrt(max(panel[0] - log_load, 0.0)) / panel[1]
+    i = min(int(x), ROWS * TERMS - 4)
+    return panel[2 + i] + min(x - i, 1.0) * (panel[3 + i] - panel[2 + i])
+
+
+@exact
+def _start(state, target):
+    """The highest of the separations at which asperities, or a part of the particles, do alone."""
+    kinds, values = state.kinds, state.values
+    if kinds[GUESS] < 0:
+        return START
+    log_load = math.log(target / values[FORCE]) + DROP * values[ACROSS]
+    h = _inverse(_from(state.series, kinds[GUESS] * ROWS * TERMS), log_load)
+    for p in range(state.parts):
+        place = kinds[PARTS + PART_KINDS * p + PART_GUESS]
+        if place >= 0:
+            part = _from(values, VALUES + PART_VALUES * p)
+            log_load = math.log(target / part[FACTOR])
+            gap = part[SIZE] * _inverse(_from(state.series, place * ROWS * TERMS), log_load)
+            h = max(h, (gap - part[OFFSET] - values[CENTRE]) / values[SIGMA_S])
+    return h
+
+
+@exact
 def _guess(scan, log_target):
     """h by inverse cubic interpolation in a scan of ln F and its slope, falling with h."""
     count = len(scan) - 1
@@ -618,7 +646,8 @@ def solve_states(
         if given:
             count[i], fate[i] = 1, OK
         else:
-            guess = _guess(scan, math.log(target[i])) if len(scan) else START
+            scanned = len(scan) > 0
+            guess = _guess(scan, math.log(target[i])) if scanned else _start(state, target[i])
             h[i], count[i], fate[i] = _root(state, target[i], guess)
         # where ln F is not smooth, a third-order step leaves more behind than it seems
         for again in range(4):
