@@ -263,13 +263,10 @@ class _Batch:
         else:
             for start in starts:
                 part(start)
-        F, *areas = rows.T[:4]
-        return (
-            h,
-            evaluations,
-            fate,
-            together(F, areas, dict(zip(FIELDS[4:], rows.T[4:], strict=True))),
-        )
+        columns = np.ascontiguousarray(rows.T)
+        F, *areas = columns[:4]
+        part = dict(zip(FIELDS[4:], columns[4:], strict=True))
+        return h, evaluations, fate, together(F, areas, part)
 
     def _scan(self, target: Array) -> Array:
         """ln F and its slope over the separations of these loads, for close first guesses."""
