@@ -472,26 +472,32 @@ def test_reproduce_hands_over_and_prints(monkeypatch, tmp_path):
 
 @pytest.mark.skipif(os.name == "nt", reason="resource")
 def test_one_state_is_quick_and_small():
-    """Under 2 s of processor time (best of three) and 400 MB, start-up included."""
-    code = (
-        "import resource, runpy, sys\n"
+    """A state by command costs little more than loading what it is built on; 400 MB."""
+    solving = (
+        "import runpy\n"
         f"sys.argv = ['thirdbody', 'solve', {str(DUSTY)!r}, '--json', '--set',"
         " 'load.pressure=5 MPa']\n"
         "try:\n    runpy.run_module('thirdbody', run_name='__main__')\n"
         "except SystemExit as end:\n    assert not end.code, end.code\n"
+    )
+    loading = "import numpy, pydantic, scipy.optimize.elementwise, scipy.special, typer\n"
+    # ru_maxrss remembers the process that started this one, VmHWM does not
+    used = (
         "used = resource.getrusage(resource.RUSAGE_SELF)\n"
-        # ru_maxrss remembers the process that started this one, VmHWM does not
         "peak = used.ru_maxrss\n"
         "if sys.platform == 'linux':\n"
         "    peak = open('/proc/self/status').read().split('VmHWM:')[1].split()[0]\n"
         "print(used.ru_utime + used.ru_stime, peak, file=sys.stderr)\n"
     )
-    command = [sys.executable, "-c", code]
-    done = []
-    while len(done) < 3 and not any(float(seconds) < 2.0 for seconds, _ in done):
+
+    def cost(code):
+        command = [sys.executable, "-c", "import resource, sys\n" + code + used]
         again = subprocess.run(command, capture_output=True, text=True, check=True)
-        done.append(again.stderr.split())
-    assert min(float(seconds) for seconds, _ in done) < 2.0
+        return [float(word) for word in again.stderr.split()]
+
+    done = [(cost(loading), cost(solving)) for _ in range(3)]
+    # 1.7 on a quiet machine
+    assert min(seconds / floor for (floor, _), (seconds, _) in done) < 2.5
     # kilobytes, on macOS bytes
     unit = 1 if sys.platform == "darwin" else 1024
-    assert min(float(memory) for _, memory in done) * unit < 400e6
+    assert min(memory for _, (_, memory) in done) * unit < 400e6

@@ -184,7 +184,7 @@ def test_populations_may_be_uncertain(tmp_path):
     path = tmp_path / "study.toml"
     known = """
 [uncertainty]
-samples = 16
+samples = 64
 [uncertainty.inputs]
 particles.0.areal_density = { median = "1e11 / m^2", gsd = 1.5 }
 "particles.1.median" = { mean = "400 nm", std = "10 nm" }

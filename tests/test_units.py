@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from thirdbody.errors import InvalidValue
-from thirdbody.units import say, to_si
+from thirdbody.units import _POWERS, _normal, _registry, _scaled, say, to_si
 
 
 @pytest.mark.parametrize(
@@ -98,9 +98,20 @@ def test_long_values_are_shortened():
     assert len(say(list(range(1000)))) < 90
 
 
-def test_pint_is_loaded_only_for_a_unit():
+def test_pint_is_loaded_only_for_an_unusual_unit():
     code = (
-        "import sys, thirdbody.study; from thirdbody.units import to_si; to_si('3e-7', 'm');"
-        "assert 'pint' not in sys.modules; to_si('3 nm', 'm'); assert 'pint' in sys.modules"
+        "import sys, thirdbody.study; from thirdbody.units import to_si; to_si('3 nm', 'm');"
+        "assert 'pint' not in sys.modules; to_si('3 inch', 'm'); assert 'pint' in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize(("unit", "name"), [(u, n) for u, names in _POWERS.items() for n in names])
+def test_usual_units_are_those_of_the_registry(unit, name):
+    wanted = unit.replace("^", "**")
+    known = _registry()(f"1 {name}" if name[0] in "/1" else name).to(wanted)
+    assert known.magnitude == pytest.approx(10.0 ** _POWERS[unit][name], rel=1e-12)
+    # the same double as by the registry, which reads a blank in front of the power
+    for number in ("0.3", "7e-3", "-1.7", "123456.789"):
+        body = _normal(name, "", unit)
+        assert to_si(f"{number} {name}", unit) == _scaled(number, body, "", unit)

@@ -221,6 +221,11 @@ class _Batch:
         self.edges = self.series[:, k.PANEL, 0].copy()
         self.rules = np.ascontiguousarray(np.concatenate([*self._rules.rules, no_node], axis=1))
 
+    @property
+    def arrays(self) -> tuple[np.ndarray, ...]:
+        """What the kernels read."""
+        return self.kinds, self.values, self.series, self.edges, self.rules
+
     def solve(
         self, which: Index, target: Array | None, h: Array | None = None
     ) -> tuple[Array, Index, Index, dict[str, Array]]:
@@ -242,15 +247,9 @@ class _Batch:
         def part(start: int) -> None:
             here = slice(start, start + AT_ONCE)
             solve_states(
-                *(
-                    self.kinds,
-                    self.values,
-                    self.series,
-                    self.edges,
-                    self.rules,
-                    np.empty(SCRATCH),
-                    scan,
-                ),
+                *self.arrays,
+                np.empty(SCRATCH),
+                scan,
                 *(which[here], target[here], h[here], given),
                 *(evaluations[here], fate[here], rows[here]),
             )
@@ -265,8 +264,8 @@ class _Batch:
                 part(start)
         columns = np.ascontiguousarray(rows.T)
         F, *areas = columns[:4]
-        part = dict(zip(FIELDS[4:], columns[4:], strict=True))
-        return h, evaluations, fate, together(F, areas, part)
+        fields = dict(zip(FIELDS[4:], columns[4:], strict=True))
+        return h, evaluations, fate, together(F, areas, fields)
 
     def _scan(self, target: Array) -> Array:
         """ln F and its slope over the separations of these loads, for close first guesses."""
@@ -278,18 +277,7 @@ class _Batch:
         scan[:, 0] = np.linspace(h[0], h[1], SCAN)
         if fate.any() or h[0] >= h[1]:
             return scan[:0]
-        scan_loads(
-            *(
-                0,
-                self.kinds,
-                self.values,
-                self.series,
-                self.edges,
-                self.rules,
-                np.empty(SCRATCH),
-                scan,
-            )
-        )
+        scan_loads(0, *self.arrays, np.empty(SCRATCH), scan)
         return scan if np.all(np.diff(scan[:, 1]) < 0) else scan[:0]
 
 

@@ -1,7 +1,7 @@
 """Numbers with a unit, as a user writes them: "300 nm", "5 GPa", "1e11 / m^2".
 
 Everything else in the library is a plain number in SI; strings are read here and nowhere else.
-The unit registry (pint) is loaded with the first string that has a unit.
+The unit registry (pint) is loaded with the first unit that is not among the usual ones.
 """
 
 from __future__ import annotations
@@ -66,6 +66,15 @@ _KINDS = {
 }
 _USUAL = ("nm", "um", "µm", "mm", "m", "angstrom", "Pa", "kPa", "MPa", "GPa", "bar", "psi")
 
+_POWERS = {
+    "m": {"nm": -9, "um": -6, "µm": -6, "mm": -3, "m": 0},
+    "Pa": {"Pa": 0, "kPa": 3, "MPa": 6, "GPa": 9},
+    "1/m^2": {"1/m^2": 0, "/ m^2": 0},
+    "N": {"N": 0, "kN": 3},
+    "m/s": {"mm/s": -3, "m/s": 0},
+}
+"""The usual units as powers of ten of those that are needed: the registry takes half a second."""
+
 _NUMBER = re.compile(
     r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?(?:infinity|inf|nan)\b", re.IGNORECASE
 )
@@ -125,6 +134,9 @@ def to_si(value: Any, unit: str) -> float:
         return _refuse(f"{shown} has a decimal comma; write a point: {shown.replace(',', '.')}")
     if not rest:
         return float(number.group())
+    power = _POWERS.get(unit, {}).get(rest)
+    if power is not None and math.isfinite(float(number.group())):
+        return _shifted(number.group(), power)
     return _scaled(number.group(), _normal(rest, shown, unit), shown, unit)
 
 
@@ -208,6 +220,11 @@ def _normal(rest: str, shown: str, unit: str) -> str:
     return out
 
 
+def _shifted(number: str, power: int) -> float:
+    """The number times a power of ten: "300 nm" is the double 300e-9, not 300 * 1e-9."""
+    return float(Fraction(number) * Fraction(10) ** power)
+
+
 @cache
 def _registry() -> Any:
     import pint
@@ -226,8 +243,7 @@ def _scaled(number: str, body: str, shown: str, unit: str) -> float:
         factor = registry.convert(1.0, found, wanted)
         exponent = round(math.log10(factor)) if factor > 0 else 0
         if math.isfinite(float(number)) and math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
-            # "300 nm" is the double 300e-9, not 300 * 1e-9
-            return float(Fraction(number) * Fraction(10) ** exponent)
+            return _shifted(number, exponent)
         return float(number) * factor
     kinds = (
         name

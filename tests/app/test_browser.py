@@ -35,6 +35,7 @@ from thirdbody.app.widgets import as_length  # noqa: E402
 from thirdbody.cli.show import as_number, as_percent, as_pressure  # noqa: E402
 
 PATIENCE = 30_000
+FILM = Path(__file__).parents[2] / "examples" / "oil_film.toml"
 AT = 2e-5
 STUDY = example() | {
     "uncertainty": {"inputs": {"roughness.sigma": {"low": "95 nm", "high": "105 nm"}}},
@@ -342,6 +343,41 @@ def test_error_bars_of_critical_loads(visit):
     page.locator('[data-work="error bars"]').click()
     assert [trace["y"][1] for trace in drawn(page, "bands")] == ["F_cr2"] * 4
     looked_at(page, "error bars")
+
+
+def test_a_film_is_that_of_the_library_and_moves(visit):
+    data = tomllib.loads(FILM.read_text(encoding="utf-8"))
+    page = visit(data)
+    tab(page, "Film")
+    by_name = {trace["name"]: trace for trace in drawn(page, "film friction")}
+    study = check(data)
+    curve = study.film.stribeck(study.contact)
+    assert by_name["sum"]["y"] == curve.mu.values.tolist()
+    assert fact(page, "film: friction coefficient") == f"{float(curve.mu[30]):.4g}"
+    looked_at(page, "film")
+    moved(page, "film.speed", 5)
+    there = page.locator('[data-fact="film: friction coefficient"]')
+    there.get_by_text(f"{float(curve.mu[35]):.4g}", exact=True).wait_for()
+
+
+def test_a_film_is_added_changed_and_removed(visit):
+    page = visit()
+    tab(page, "Film")
+    page.locator('[data-path="film.add"]').click()
+    drawn(page, "film shares")
+    field = page.locator('[data-path="film.oil.eta"]')
+    field.fill("20 mPa")
+    entry = page.locator(".q-field", has=field)
+    entry.get_by_text("is a pressure, but a viscosity").wait_for()
+    before = fact(page, "film: lambda = h_T/sigma")
+    field.fill("60 mPa s")
+    page.wait_for_function(
+        "old => document.querySelector(`[data-fact='film: lambda = h_T/sigma']`).innerText !== old",
+        arg=before,
+    )
+    assert not page.locator('[data-said="page"]').inner_text()
+    page.locator('[data-path="film.remove"]').click()
+    page.locator('[data-path="film.add"]').wait_for()
 
 
 # ---------------------------------------------------------------- fields

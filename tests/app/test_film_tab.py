@@ -1,6 +1,5 @@
 """The tab of the lubricated contact: its numbers are those of the library, in time."""
 
-import sys
 import time
 import tomllib
 from pathlib import Path
@@ -69,53 +68,3 @@ def test_what_is_added_is_a_study():
     data = study_of()
     data["film"] = START
     assert np.all(np.diff(check(data).film.speed) > 0)
-
-
-# ---------------------------------------------------------------- in a browser
-sys.path.insert(0, str(Path(__file__).parent))
-pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
-from test_browser import (  # noqa: E402, F401
-    address,
-    browser,
-    drawn,
-    fact,
-    looked_at,
-    moved,
-    shared,
-    tab,
-    visit,
-)
-
-
-def test_the_tab_shows_and_moves(visit):  # noqa: F811
-    page = visit(study_of())
-    tab(page, "Film")
-    by_name = {trace["name"]: trace for trace in drawn(page, "film friction")}
-    study = check(study_of())
-    curve = study.film.stribeck(study.contact)
-    assert by_name["sum"]["y"] == curve.mu.values.tolist()
-    assert fact(page, "film: friction coefficient") == f"{float(curve.mu[30]):.4g}"
-    looked_at(page, "film")
-    moved(page, "film.speed", 5)
-    there = page.locator('[data-fact="film: friction coefficient"]')
-    there.get_by_text(f"{float(curve.mu[35]):.4g}", exact=True).wait_for()
-
-
-def test_a_film_is_added_changed_and_removed(visit):  # noqa: F811
-    page = visit()
-    tab(page, "Film")
-    page.locator('[data-path="film.add"]').click()
-    drawn(page, "film shares")
-    field = page.locator('[data-path="film.oil.eta"]')
-    field.fill("20 mPa")
-    entry = page.locator(".q-field", has=field)
-    entry.get_by_text("is a pressure, but a viscosity").wait_for()
-    before = fact(page, "film: lambda = h_T/sigma")
-    field.fill("60 mPa s")
-    page.wait_for_function(
-        "old => document.querySelector(`[data-fact='film: lambda = h_T/sigma']`).innerText !== old",
-        arg=before,
-    )
-    assert not page.locator('[data-said="page"]').inner_text()
-    page.locator('[data-path="film.remove"]').click()
-    page.locator('[data-path="film.add"]').wait_for()

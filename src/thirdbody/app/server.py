@@ -55,7 +55,7 @@ def serve(
         show_welcome_message=False,
         language="en-US",
         dark=None,
-        reconnect_timeout=10.0,
+        reconnect_timeout=60.0,
         storage_secret=None,
         on_air=None,
     )
