@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import sys
 from pathlib import Path
 
@@ -11,6 +12,10 @@ from hypothesis import HealthCheck, Phase, settings
 HERE = Path(__file__).parent
 # the oracle and the twins are plain modules beside this file; importlib mode adds no path
 sys.path.insert(0, str(HERE))
+
+# tests interrupt commands, and a shell makes those deaf to it that it starts with &
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # CI: the same examples every time, and the first counterexample as it is; a contact costs up to
 # a second to bind, so shrinking is left to HYPOTHESIS_PROFILE=search, which also looks elsewhere

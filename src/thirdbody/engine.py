@@ -269,16 +269,16 @@ class _Batch:
 
     def _scan(self, target: Array) -> Array:
         """ln F and its slope over the separations of these loads, for close first guesses."""
-        from .kernels import SCRATCH, scan_loads
-
+        one = np.zeros(SCAN, np.intp)
         ends = np.array([target.max(), target.min()])
-        h, _, fate, _ = self.solve(np.zeros(2, np.int64), ends)
-        scan = np.zeros((SCAN, 3))
-        scan[:, 0] = np.linspace(h[0], h[1], SCAN)
+        h, _, fate, _ = self.solve(one[:2], ends)
         if fate.any() or h[0] >= h[1]:
-            return scan[:0]
-        scan_loads(0, *self.arrays, np.empty(SCRATCH), scan)
-        return scan if np.all(np.diff(scan[:, 1]) < 0) else scan[:0]
+            return np.zeros((0, 3))
+        h = np.linspace(*h, SCAN)
+        _, _, _, columns = self.solve(one, None, h)
+        log_load = np.log(columns["F_ss"] + columns["F_sa"])
+        scan = np.stack([h, log_load, np.gradient(log_load, h)], axis=1)
+        return scan if np.all(np.diff(log_load) < 0) else scan[:0]
 
 
 class Interfaces(_Batch):

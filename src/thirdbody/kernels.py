@@ -15,7 +15,7 @@ from llvmlite import ir
 from numba import extending, types
 from numba import njit as _njit
 
-__all__ = ["FIELDS", "scan_loads", "solve_states"]
+__all__ = ["FIELDS", "solve_states"]
 
 njit: Any = _njit
 intrinsic: Any = extending.intrinsic
@@ -377,15 +377,16 @@ def _rise(part, u, shadow, every, out):
             out[k] *= _power(u, part[POWERS + k])
         return
     inverse = 1 / u
+    square = inverse * inverse
     for j in range(0, 6, 3):
         value, first, second = out[j], out[j + 1] * u, out[j + 2] * u * u
         n = part[POWERS + (shadow if j else 0)]
         lead = _power(u, n)
         du = first + n * value
         out[j] = lead * value
-        out[j + 1] = -0.5 * lead * inverse**2 * du
+        out[j + 1] = -0.5 * lead * square * du
         ddu = second + 2 * n * first + n * (n - 1) * value
-        out[j + 2] = 0.25 * lead * inverse**4 * (ddu - du)
+        out[j + 2] = 0.25 * lead * square * square * (ddu - du)
 
 
 @exact
@@ -450,11 +451,11 @@ def _load(state, h, few):
     sigma_s = state.values[SIGMA_S]
     d = state.values[CENTRE] + sigma_s * h
     _particles(state, d, NO, few, total, out, each)
-    bare, s1, s2 = 1 - total[3], sigma_s * total[4], sigma_s**2 * total[5]
+    bare, s1, s2 = 1 - total[3], sigma_s * total[4], sigma_s * sigma_s * total[5]
     return (
         bare * f + total[0],
         bare * f1 - s1 * f + sigma_s * total[1],
-        bare * f2 - 2 * s1 * f1 - s2 * f + sigma_s**2 * total[2],
+        bare * f2 - 2 * s1 * f1 - s2 * f + sigma_s * sigma_s * total[2],
     )
 
 
@@ -570,7 +571,7 @@ def _root(state, target, h):
         h += step
         # errors follow e' = Ke³
         if last < 1:
-            bend = size / last**3
+            bend = size / (last * last * last)
         if few:
             if h == LOWEST or size < CLOSE or n > 20:
                 few = NO
@@ -579,7 +580,7 @@ def _root(state, target, h):
                 continue
         else:
             # so this step leaves K size³
-            small = not bisected and size < 1e-3 and bend * size**3 <= ROUNDING
+            small = not bisected and size < 1e-3 and bend * size * size * size <= ROUNDING
             if h != LOWEST and (small or size <= 1e-15 * max(1.0, abs(h))):
                 fate = TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
                 return h, count, fate
@@ -620,15 +621,6 @@ def _state(m, kinds, values, series, edges, rules, work):
         rules.shape[1],
         _pointer(work),
     )
-
-
-@njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
-def scan_loads(m, kinds, values, series, edges, rules, work, scan):
-    """Fill a scan (K, 3) with ln F and its slope at the separations in its first column."""
-    state = _state(m, kinds, values, series, edges, rules, work)
-    for i in range(len(scan)):
-        F, F1, _ = _load(state, scan[i, 0], NO)
-        scan[i, 1], scan[i, 2] = math.log(F), F1 / F
 
 
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
