@@ -48,11 +48,10 @@ def exponentials(states: engine.States, h: Array) -> Array:
     Nodes within reach, where the exponent has not fallen by 36.
     """
     k, kinds, values = kernels, states.kinds, states.values
-    nodes = states.rules[k.AT]
-    count = np.ones(len(h))
+    total = np.ones(len(h))
     for m in range(len(h)):
         reach = (math.sqrt(h[m] * h[m] + 72.0) - h[m]) / states.w[m]
-        count[m] += np.searchsorted(
+        total[m] += np.searchsorted(
             gaussian_rule(states.law, math.frexp(states.w[m])[1] - 1).y, reach
         )
         d = values[m, k.CENTRE] + values[m, k.SIGMA_S] * h[m]
@@ -62,11 +61,12 @@ def exponentials(states: engine.States, h: Array) -> Array:
                 continue
             gap = (d + values[m, v + k.OFFSET]) / values[m, v + k.SIZE]
             reach = k.SEAT_REACH * values[m, v + k.WIDTH]
-            gaps = nodes[kinds[m, i + 1] : kinds[m, i + 2]]
-            for size in nodes[kinds[m, i + 3] : kinds[m, i + 4]]:
+            (at, n), (first, count) = kinds[m, i + 1 : i + 5].reshape(2, 2)
+            gaps = states.rules[at : at + (k.AT + 1) * n].reshape(-1, n)[k.AT]
+            for size in states.rules[first + count : first + 2 * count]:
                 low, high = np.searchsorted(gaps, [(gap - reach) / size, (gap + reach) / size])
-                count[m] += high - low
-    return count
+                total[m] += high - low
+    return total
 
 
 if __name__ == "__main__":

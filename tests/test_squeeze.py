@@ -8,7 +8,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from thirdbody.laws.asperity import ZMC, Hermite
-from thirdbody.laws.particle.rules import inverse_law, squeeze_rule
+from thirdbody.laws.particle.rules import NEAR, inverse_law, near_rule, squeeze_rule
 from thirdbody.laws.particle.series import COLUMNS, Side, SqueezedParticle
 
 pytest.importorskip("numba", reason="nodes are compiled")
@@ -35,7 +35,8 @@ def test_nodes_integrate_what_one_particle_carries(law, name):
     bodies = BODIES[name]
     one, two = (Side(law, E, H, 0.0) for E, H in bodies)
     rule = ruled(law, bodies)
-    assert np.all(np.diff(rule.gaps) > 0)
+    gaps = rule.rows[0, -1]
+    assert np.all(np.diff(gaps) > 0)
     end = 1 - float(rule.bottom[0])
     kinks = SqueezedParticle(law, *((E, H, 0.0) for E, H in bodies)).kinks
 
@@ -65,8 +66,8 @@ def test_nodes_integrate_what_one_particle_carries(law, name):
             for a, b in zip(marks[:-1], marks[1:], strict=True)
             if b - a > 1e-12 * end
         )
-        weighted = rule.weighted[0, :, COLUMNS.index(column)]
-        found = np.sum(weighted * np.exp(-0.5 * ((1 - rule.gaps[0] - 0.5 * end) / 0.1) ** 2))
+        weighted = rule.rows[0, COLUMNS.index(column)]
+        found = np.sum(weighted * np.exp(-0.5 * ((1 - gaps - 0.5 * end) / 0.1) ** 2))
         assert found == pytest.approx(exact, rel=1e-9, abs=1e-14 * bodies[0][1])
 
 
@@ -80,9 +81,11 @@ def test_materials_side_by_side_are_each_their_own(law):
     together = squeeze_rule(law, *sides, tip_radius=0.5, widths=widths, split_areas=True)
     for m in range(6):
         alone = ruled(law, [(E[m, i], H[m, i]) for i in (0, 1)])
-        seats = [np.exp(-(((rule.gaps - 0.9) / 0.1) ** 2))[..., None] for rule in (together, alone)]
-        found = (together.weighted * seats[0])[m].sum(axis=0)
-        np.testing.assert_allclose(found, (alone.weighted * seats[1])[0].sum(axis=0), rtol=1e-11)
+        found, own = (
+            np.sum(rows[:-1] * np.exp(-(((rows[-1] - 0.9) / 0.1) ** 2)), axis=-1)
+            for rows in (together.rows[m], alone.rows[0])
+        )
+        np.testing.assert_allclose(found, own, rtol=1e-11)
         np.testing.assert_allclose(together.floor[m], alone.floor[0], rtol=1e-12)
 
 
@@ -92,3 +95,26 @@ def test_the_great_circle_is_reached_where_its_area_is(law):
     ends = inverse.areas * np.array([0.1, 10.0])
     a = np.geomspace(*ends, 50)
     np.testing.assert_allclose(law.reduced("area", inverse.of_area(a)), a, rtol=1e-13)
+
+
+@laws
+@pytest.mark.parametrize("name", BODIES)
+@pytest.mark.parametrize("width", [0.065, 0.1, 0.3, 2.0])
+def test_fewer_nodes_near_the_seat_are_as_good(law, name, width):
+    rule = ruled(law, BODIES[name], width)
+    fewer = near_rule(rule, width)
+    assert fewer is not None
+    assert fewer.shape[2] < 0.75 * rule.rows.shape[2]
+    bottom = float(rule.bottom[0])
+    gap = np.linspace(bottom - NEAR * width, 1 + NEAR * width, 60)[:, None]
+    found, exact = (
+        np.exp(-0.5 * ((gap - rows[-1]) / width) ** 2) @ rows[:-1].T
+        for rows in (fewer[0], rule.rows[0])
+    )
+    whole = exact.copy()
+    whole[:, 1:6] = exact[:, 1:4].sum(axis=1, keepdims=True)
+    assert np.max(np.abs(found - exact) / whole) < 2e-13
+
+
+def test_smooth_seats_take_all_nodes():
+    assert near_rule(ruled(LAWS[0], BODIES["near"], 0.05), 0.05) is None

@@ -27,7 +27,7 @@ from .contact import Contact, Interface, together
 from .distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
 from .heights import GaussianHeights
 from .laws.base import AbstractAsperityLaw
-from .laws.particle.rules import squeeze_rule
+from .laws.particle.rules import NEAR, near_rule, squeeze_rule
 from .laws.particle.series import (
     COLUMNS,
     SeatAverage,
@@ -177,30 +177,27 @@ def _inverse(of: GaussianSums | SizeAverage) -> Array:
 
 
 class _Rules:
-    """Quadrature rules one after another in the kernel's layout, each kept once."""
+    """Quadrature rules one after another for the kernel, each kept once."""
 
     def __init__(self) -> None:
         self.known: dict[Any, tuple[int, int]] = {}
         self.rules: list[Array] = []
         self.count = 0
 
-    def add(self, key: Any, at: Array, columns: Array) -> tuple[int, int]:
-        """Begin and end of a rule: increasing abscissae (n,) and columns (n, k)."""
+    def add(self, key: Any, rows: Array) -> tuple[int, int]:
+        """Begin and nodes of a rule (k, n): weighted columns, then increasing abscissae."""
         if key not in self.known:
-            from .kernels import AT
-
-            rule = np.zeros((AT + 1, len(at)))
-            rule[: columns.shape[1]], rule[AT] = columns.T, at
-            self.known[key] = self.count, self.count + len(at)
-            self.count += len(at)
-            self.rules.append(rule)
+            begin, n = self.add_each(rows[None])[0]
+            self.known[key] = int(begin), int(n)
         return self.known[key]
 
-    def add_each(self, at: Array, columns: Array) -> Array:
-        """Begin and end (M, 2) of rules (M, n) with columns (M, n, k), one for each state."""
-        count, n = at.shape
-        begin = self.add(object(), at.ravel(), columns.reshape(count * n, -1))[0]
-        return begin + n * np.arange(count)[:, None] + np.array([0, n])
+    def add_each(self, rows: Array) -> Index:
+        """Begin and nodes (M, 2) of rules (M, k, n), one for each state."""
+        count, k, n = rows.shape
+        begin = self.count + k * n * np.arange(count)
+        self.rules.append(rows.ravel())
+        self.count += rows.size
+        return np.stack([begin, np.full(count, n)], axis=1)
 
 
 class _Batch:
@@ -216,10 +213,10 @@ class _Batch:
     def _finish(self) -> None:
         from . import kernels as k
 
-        no_panel, no_node = np.zeros((1, k.PANEL + 1, k.TERMS)), np.zeros((k.AT + 1, 0))
+        no_panel = np.zeros((1, k.PANEL + 1, k.TERMS))
         self.series = np.concatenate([*self._panels.panels, no_panel])
         self.edges = self.series[:, k.PANEL, 0].copy()
-        self.rules = np.ascontiguousarray(np.concatenate([*self._rules.rules, no_node], axis=1))
+        self.rules = np.concatenate([*self._rules.rules, np.zeros(0)])
 
     @property
     def arrays(self) -> tuple[np.ndarray, ...]:
@@ -274,7 +271,7 @@ class _Batch:
         h, _, fate, _ = self.solve(one[:2], ends)
         if fate.any() or h[0] >= h[1]:
             return np.zeros((0, 3))
-        h = np.linspace(*h, SCAN)
+        h = np.linspace(h[0], h[1], SCAN)
         _, _, _, columns = self.solve(one, None, h)
         log_load = np.log(columns["F_ss"] + columns["F_sa"])
         scan = np.stack([h, log_load, np.gradient(log_load, h)], axis=1)
@@ -499,13 +496,12 @@ class States(_Batch):
             kinds[:, 0] = k.ROUGH_NODES if rough else k.PLANE
             kinds[:, k.PART_GUESS] = self._panels.add_inverse(average)
             if rough:
-                kinds[:, 3:5] = self._rules.add("one", np.ones(1), np.ones((1, 1)))
-                kinds[:, 7:9] = kinds[:, 3:5]
+                kinds[:, 3:5] = kinds[:, 7:9] = self._rules.add("one", np.ones((2, 1)))
                 octave = np.broadcast_to(np.frexp(width)[1] - 1, len(kinds))
                 for i, rule in ((1, _seat_rule), (5, _few_on_seats)):
 
                     def ends(octave: int, rule: Any = rule, average: Any = average) -> Any:
-                        return self._rules.add((rule, average, octave), *rule(average, octave))
+                        return self._rules.add((rule, average, octave), rule(average, octave))
 
                     kinds[:, i : i + 2] = _each(octave, ends, 2)
             else:
@@ -518,7 +514,8 @@ class States(_Batch):
                 **{"SIZE": size, "FACTOR": factor, "WIDTH": width},
                 "REACH": average.top + k.SEAT_REACH * width,
                 "LEAST": average.bottom - k.SEAT_REACH * width,
-                **{"TOP": average.top, "BOTTOM": average.bottom, "JOIN": average.join},
+                **{"TOP": average.top, "BOTTOM": average.bottom},
+                **({"NEAR": -1.0} if rough else {"JOIN": average.join}),
                 **{"POWERS": average.powers, "FLOOR": average.floor},
             }
 
@@ -551,7 +548,10 @@ class States(_Batch):
         if bound != {law.law}:
             raise TypeError("the law of the particles depends on their material")
         sigma = column(law.zeta_std * varied.roughness.sigma)
-        for share, size, sizes in _sizes(particles.diameter, changed.diameter, arrays, count):
+        unvaried = contact_sides(contact.surfaces, particles.material)
+        parts = [part.standardised()[1] for _, part in particles.diameter.components]
+        each = _sizes(particles.diameter, changed.diameter, arrays, count)
+        for shape, (share, size, sizes) in zip(parts, each, strict=True):
             width = sigma / size
             x, weight = sizes(float(width.min()))
             if x[..., -1].max() > MOST_WIDTHS * width.min():
@@ -567,10 +567,15 @@ class States(_Batch):
             factor = changed.areal_density * share * size[:, 0] ** 2
             kinds = np.full((count, k.PART_KINDS), k.ABSENT)
             kinds[:, 0] = k.ROUGH_NODES
-            kinds[:, 1:3] = kinds[:, 5:7] = self._rules.add_each(rule.gaps, rule.weighted)
-            kinds[:, 3:5] = self._rules.add_each(x, (weight * x**3)[..., None])
-            x_few, weight_few = sizes(float(width.min()), FEW_SIZES)
-            kinds[:, 7:9] = self._rules.add_each(x_few, (weight_few * x_few**3)[..., None])
+            average = size_average(law.law, *unvaried, shape, law.tip_radius)
+            kinds[:, k.PART_GUESS] = self._panels.add_inverse(average)
+            few = sizes(float(width.min()), FEW_SIZES)
+            kinds[:, 1:3] = kinds[:, 5:7] = self._rules.add_each(rule.rows)
+            fewer = near_rule(rule, float(panels.min()))
+            if fewer is not None:
+                kinds[:, 5:7] = self._rules.add_each(fewer)
+            for i, (at, number) in ((3, (x, weight)), (7, few)):
+                kinds[:, i : i + 2] = self._rules.add_each(np.stack([number * at**3, at], axis=1))
             deepest = np.minimum(x[..., 0] * rule.bottom, x[..., -1] * rule.bottom)
             yield {
                 "kinds": kinds,
@@ -578,7 +583,7 @@ class States(_Batch):
                 **{"SIZE": size[:, 0], "FACTOR": factor, "WIDTH": width[:, 0]},
                 "REACH": x[..., -1] + k.SEAT_REACH * width[:, 0],
                 "LEAST": deepest - k.SEAT_REACH * width[:, 0],
-                **{"TOP": x[..., -1], "BOTTOM": rule.bottom, "FLOOR": rule.floor},
+                **{"TOP": 1.0, "BOTTOM": rule.bottom, "NEAR": NEAR, "FLOOR": rule.floor},
             }
 
 
@@ -616,21 +621,21 @@ def _each(number: Index, places: Callable[[int], tuple[int, ...]], count: int) -
 
 
 @lru_cache(maxsize=128)
-def _seat_rule(average: SizeAverage, octave: int) -> tuple[Array, Array]:
-    """Gaps and weighted columns for seats of 2^octave to 2^(octave + 1) in the size."""
+def _seat_rule(average: SizeAverage, octave: int) -> Array:
+    """Weighted columns and gaps for seats of 2^octave to 2^(octave + 1) in the size."""
     if average.top - average.bottom > MOST_WIDTHS * 2.0**octave:
         raise TypeError("the seat is too smooth for shared nodes")
     gaps, weight, values = average.nodes(1.25 * 2.0**octave)
-    return gaps, weight[:, None] * values
+    return np.vstack([weight * values.T, gaps])
 
 
 @lru_cache(maxsize=128)
-def _few_on_seats(average: SizeAverage, octave: int) -> tuple[Array, Array]:
+def _few_on_seats(average: SizeAverage, octave: int) -> Array:
     """As `_seat_rule`, with nodes enough to come close to a root."""
     depth = subdivide(np.array([0.0, average.top - average.bottom]), width=0.75 * 2.0**octave)
     u, weight = panel_rule(np.sqrt(depth), 6)
     gaps = average.top - u[::-1] ** 2
-    return gaps, (2 * u * weight)[::-1, None] * average(gaps)
+    return np.vstack([(2 * u * weight)[::-1] * average(gaps).T, gaps])
 
 
 def _sizes(

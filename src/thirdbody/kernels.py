@@ -37,18 +37,21 @@ FIELDS = ("F_ss", "e", "ep", "p", "F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow
 SHADOW, KIND, BEGIN, END, GUESS, PARTS = range(6)
 """Column of the particles that is the shadow (−1: the coverage); kind of sum over asperities, its
 panels from BEGIN to END; panel with its inverse, for a first guess, or −1; where the parts begin,
-each PART_KINDS long: kind, begin, end, then begin and end of a plane's series for small gaps, or of
-the sizes over a rough seat, and of the few nodes and few sizes there; and its inverse, or −1."""
+each PART_KINDS long: kind, begin and end of a series, then of that of a plane for small gaps; or
+over a rough seat begin and length of rules over gaps, over sizes, over fewer gaps, and over few
+sizes; and its inverse, or −1."""
 PART_KINDS, PART_GUESS = 10, 9
 ACROSS, SIGMA_S, CENTRE, FORCE, AREA, HIGHEST, COVERAGE, VALUES = range(8)
 """place of ω_1/σ_s in its family (−1 to 1), σ_s and the mean height [m], units of load [Pa] and
 area, highest separation [σ_s], coverage; where the parts begin, each PART_VALUES long, lengths in
 the size of the part:"""
 SIZE, FACTOR, OFFSET, WIDTH, REACH, LEAST, TOP, BOTTOM, JOIN, POWERS, FLOOR = *range(10), 16
+NEAR = JOIN
 """size [m]; density × size²: the unit of area, and of load per Pa; gap − d [m]; width of a rough
 seat; gap above which nothing is carried; gap below which each carries its most, on the seat and
-on a plane; gap between the two series of a plane; leading powers of √(top − gap) of the seven
-columns; the seven columns below the least gap."""
+on a plane; gap between the two series of a plane, or the widths of a seat beyond the gaps within
+which the fewer are as good, −1 where they only come close; leading powers of √(top − gap) of the
+seven columns; the seven columns below the least gap."""
 PART_VALUES = 23
 
 FAMILY, GAUSSIAN, DENSITY = range(3)
@@ -65,8 +68,8 @@ ACROSS_TERMS = 16
 DROP = 1.25 * math.log(2) / 4
 """About how much ln of the asperities' load falls from the middle of a family to its end."""
 AT = 7
-"""Row of the abscissae in a rule (8, nodes); the others are weight times the seven columns, or
-for a rule of sizes the weight in the first."""
+"""Row of the abscissae in a rule (8, nodes) over gaps, below weight times the seven columns; a rule
+of sizes has two rows, weights and sizes."""
 
 SEAT_REACH = 9.0
 """Standard deviations of the seat above a gap that count; twice as many count below it."""
@@ -173,8 +176,6 @@ class State(NamedTuple):
     edges: Any
     """left edge of every panel of the series"""
     rules: Any
-    nodes: Any
-    """length of a row of the rules"""
     work: Any
     """SCRATCH floats to work in"""
 
@@ -242,6 +243,8 @@ def _below(at, low, high, x):
     """The first of the abscissae low:high that is not below x."""
     if low == high or not at[low] < x:
         return low
+    if at[high - 1] < x:
+        return high
     count = high - low
     while count > 1:
         half = count >> 1
@@ -288,11 +291,11 @@ def _asperities(state, h, every, out):
 
 # ---------------------------------------------------------------- particles
 @sums
-def _seat_nodes(rules, nodes, begin, end, gap, width, size, shadow, every, out):
+def _seat_nodes(rule, nodes, begin, end, gap, width, size, shadow, every, out):
     """Σ c exp(−z²/2) over local gaps: load and shadow with two derivatives, or every column."""
     inverse = 1 / width
     norm = inverse / math.sqrt(2 * math.pi)
-    at, c0 = _from(rules, AT * nodes + begin), _from(rules, begin)
+    at, c0 = _from(rule, AT * nodes + begin), _from(rule, begin)
     if every:
         c1, c2, c3 = _from(c0, nodes), _from(c0, 2 * nodes), _from(c0, 3 * nodes)
         c4, c5, c6 = _from(c0, 4 * nodes), _from(c0, 5 * nodes), _from(c0, 6 * nodes)
@@ -329,20 +332,23 @@ def _seat_nodes(rules, nodes, begin, end, gap, width, size, shadow, every, out):
 @exact
 def _rough_nodes(state, kinds, part, gap, shadow, every, few, out, each):
     """Particles on a rough seat by the sum over sizes and over local gaps in their size."""
-    rules, nodes = state.rules, state.nodes
-    at = _from(rules, AT * nodes)
     width = part[WIDTH]
     for k in range(7):
         out[k] = 0.0
-    low, high, first, last = kinds[1], kinds[2], kinds[3], kinds[4]
-    if few:
-        low, high, first, last = kinds[5], kinds[6], kinds[7], kinds[8]
-    for n in range(first, last):
-        size, weight = at[n], rules[n]
+    first = 7 if few else 3
+    sizes, count = _from(state.rules, kinds[first]), kinds[first + 1]
+    middle, half = 0.5 * (part[TOP] + part[BOTTOM]), 0.5 * (part[TOP] - part[BOTTOM])
+    for n in range(count):
+        weight, size = sizes[n], sizes[count + n]
+        i, beyond = 1, abs(gap - size * middle) - size * half
+        if (beyond < part[NEAR] * width) if part[NEAR] > 0 else few:
+            i = 5
+        rule, nodes = _from(state.rules, kinds[i]), kinds[i + 1]
+        at = _from(rule, AT * nodes)
         # far above the largest particles the many below them carry the load
-        begin = _below(at, low, high, (gap - 2 * SEAT_REACH * width) / size)
-        end = _below(at, begin, high, (gap + SEAT_REACH * width) / size)
-        _seat_nodes(rules, nodes, begin, end, gap, width, size, shadow, every, each)
+        begin = _below(at, 0, nodes, (gap - 2 * SEAT_REACH * width) / size)
+        end = _below(at, begin, nodes, (gap + SEAT_REACH * width) / size)
+        _seat_nodes(rule, nodes, begin, end, gap, width, size, shadow, every, each)
         z = (size * part[BOTTOM] - gap) / width
         if z > -2 * SEAT_REACH:
             share = 0.5 * math.erfc(-z / math.sqrt(2)) / size
@@ -473,10 +479,12 @@ def _highest(state):
 
 @exact
 def _has_few(state):
-    """Whether there are few nodes, quick and close, beside all of them."""
+    """Whether there are few sizes or gaps, quick and close, beside all of them."""
     few = NO
     for p in range(state.parts):
-        few |= state.kinds[PARTS + PART_KINDS * p] == ROUGH_NODES
+        kinds = _from(state.kinds, PARTS + PART_KINDS * p)
+        part = _from(state.values, VALUES + PART_VALUES * p)
+        few |= kinds[0] == ROUGH_NODES and (kinds[8] < kinds[4] or part[NEAR] < 0)
     return few
 
 
@@ -601,7 +609,7 @@ def _columns(state, h, row):
         d = state.values[CENTRE] + state.values[SIGMA_S] * h
         _particles(state, d, YES, NO, total, out, each)
         for k in range(5):
-            row[4 + k] = total[k]
+            row[4 + k] = max(total[k], 0.0)  # rounding of the other regimes
         shadow = state.kinds[SHADOW]
         row[9] = state.values[COVERAGE] if shadow < 0 else total[shadow]
 
@@ -618,7 +626,6 @@ def _state(m, kinds, values, series, edges, rules, work):
         _pointer(series),
         _pointer(edges),
         _pointer(rules),
-        rules.shape[1],
         _pointer(work),
     )
 

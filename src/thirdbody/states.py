@@ -105,7 +105,7 @@ DEMANDING = ("asperity_law.", "particle_law.law.", "particles.diameter.", *engin
 """Inputs that change the contact of one asperity or particle, which nodes may share."""
 FEWEST = 20
 """Different states for which nodes are quicker than tables of each."""
-AT_ONCE, FEW = 16_384, 1_024
+AT_ONCE, FEW = 16_384, 2_048
 """States laid out at a time, and where each has nodes of its own."""
 FATES = np.array(
     [

@@ -134,14 +134,14 @@ def share(law, tables, weaker, stronger, equal, y, out):
 
 @njit(nogil=True, cache=True, error_model="numpy", fastmath=FAST)
 def fill(law, tables, weaker, stronger, equal, turned, breaks, order, edges, nodes, slope, R,
-         gaps, columns, bottom, floor):  # fmt: skip
-    """Gaps (M, n), weighted columns (7, M, n), and both where nothing changes any more.
+         rows, bottom, floor):  # fmt: skip
+    """Weighted columns and gaps (M, 8, n), and both where nothing changes any more.
 
     ``edges`` (M, k) are roots of the weaker side's indentation; ``turned`` tells where that is
     the second surface, ``breaks`` and ``order`` the regimes of the law.
     """
     per = len(nodes)
-    n = gaps.shape[1]
+    n = rows.shape[2]
     both, weight, values = np.empty(4), np.empty(per), np.empty((8, per))
     for m in range(len(edges)):
         A, B = weaker[m], stronger[m]
@@ -178,7 +178,33 @@ def fill(law, tables, weaker, stronger, equal, turned, breaks, order, edges, nod
                     weight[j] += slope[i, j] * eps
             at = n - (p + 1) * per
             for j in range(per):
-                gaps[m, at + j] = 1 - values[7, per - 1 - j]
+                for c in range(7):
+                    rows[m, c, at + j] = weight[per - 1 - j] * values[c, per - 1 - j]
+                rows[m, 7, at + j] = 1 - values[7, per - 1 - j]
+
+
+@njit(nogil=True, cache=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz"})
+def gather(rows, bottom, transform, out):
+    """Columns of rules (M, 8, n) moved to Chebyshev nodes between their bottoms and 1.
+
+    ``transform`` (m, m) takes values at these nodes to coefficients.
+    """
+    terms = len(transform)
+    before, now, after, at = np.empty((4, rows.shape[2]))
+    for m in range(len(rows)):
+        half = 0.5 * (1 - bottom[m])
+        for j in range(len(at)):
+            at[j] = (rows[m, 7, j] - bottom[m]) / half - 1
+        out[m] = 0.0
+        before[:], now[:] = 0.0, 1.0
+        for i in range(terms):
             for c in range(7):
-                for j in range(per):
-                    columns[c, m, at + j] = weight[per - 1 - j] * values[c, per - 1 - j]
+                moment = 0.0
+                for j in range(len(at)):
+                    moment += rows[m, c, j] * now[j]
+                for k in range(terms):
+                    out[m, c, k] += moment * transform[i, k]
+            factor = 2.0 if i else 1.0
+            for j in range(len(at)):
+                after[j] = factor * at[j] * now[j] - before[j]
+            before, now, after = now, after, before
