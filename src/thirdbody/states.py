@@ -105,8 +105,10 @@ DEMANDING = ("asperity_law.", "particle_law.law.", "particles.diameter.", *engin
 """Inputs that change the contact of one asperity or particle, which nodes may share."""
 FEWEST = 20
 """Different states for which nodes are quicker than tables of each."""
-AT_ONCE, FEW = 16_384, 2_048
-"""States laid out at a time, and where each has nodes of its own."""
+FIRST, AT_ONCE = 256, 16_384
+"""States laid out first, and at most at a time."""
+ROOM = 3_000_000
+"""Numbers in the rules of states laid out together, where each has rules of its own."""
 FATES = np.array(
     [
         "ok",
@@ -205,21 +207,21 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
     own = not engine.bare(contact, arrays) and engine.own_particles(contact, arrays)
     # states that need as many nodes side by side
     order = np.argsort(engine.fineness(arrays), kind="stable") if own else None
-    at_once = FEW if own else AT_ONCE
 
-    def part(start: int) -> tuple[Any, Columns]:
-        here: Any = slice(start, start + at_once)
+    def part(here: Any) -> tuple[Any, Columns, int]:
         if order is not None:
             here = order[here]
         given = loads[here]
         batch = engine.States(contact, _taken(arrays, here), len(given))
         columns = batch.columns(load, given)
-        return here, columns | {"status": FATES[columns["status"]]}
+        return here, columns | {"status": FATES[columns["status"]]}, batch.rules.size
 
-    starts = range(0, len(loads), at_once)
-    first = part(0)  # refused, or compiled, once
+    here, columns, size = part(slice(0, FIRST))  # refused, or compiled, once
+    at_once = max(min(AT_ONCE, ROOM * FIRST // max(size, 1)), 1)
+    starts = range(FIRST, len(loads), at_once)
     with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
-        return _joined(len(loads), chain([first], pool.map(part, starts[1:])))
+        rest = pool.map(part, (slice(start, start + at_once) for start in starts))
+        return _joined(len(loads), chain([(here, columns)], (found[:2] for found in rest)))
 
 
 def _by_groups(
