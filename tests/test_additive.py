@@ -4,7 +4,6 @@ import csv
 import json
 import os
 import resource
-import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -121,13 +120,6 @@ def test_command(tmp_path):
     assert {row["feasible"] for row in rows} == {"True", "False"}
     assert sorted(path.name for path in tmp_path.iterdir()) == ["p.csv", "p.png"]
     assert "the best particles.concentration is an end of its range" in done.stderr
-
-
-def test_worked_example(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(sys, "argv", ["additive.py", str(tmp_path / "a.png")])
-    runpy.run_path(str(EXAMPLE.with_suffix(".py")), run_name="__main__")
-    assert (tmp_path / "a.png").stat().st_size > 10_000
-    assert capsys.readouterr().out.startswith("Order silica of ")
 
 
 # ---------------------------------------------------------------------------- mistakes in a file

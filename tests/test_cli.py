@@ -495,9 +495,13 @@ def test_one_state_is_quick_and_small():
         again = subprocess.run(command, capture_output=True, text=True, check=True)
         return [float(word) for word in again.stderr.split()]
 
-    done = [(cost(loading), cost(solving)) for _ in range(3)]
-    # 1.7 on a quiet machine
-    assert min(seconds / floor for (floor, _), (seconds, _) in done) < 2.5
     # kilobytes, on macOS bytes
     unit = 1 if sys.platform == "darwin" else 1024
-    assert min(memory for _, (_, memory) in done) * unit < 400e6
+    ratio = memory = np.inf
+    for _ in range(3):  # until one pair was left in peace
+        (floor, _), (seconds, peak) = cost(loading), cost(solving)
+        ratio, memory = min(ratio, seconds / floor), min(memory, peak * unit)
+        if ratio < 2.5 and memory < 400e6:
+            break
+    assert ratio < 2.5  # 1.7 on a quiet machine
+    assert memory < 400e6

@@ -42,7 +42,7 @@ ASKED = dict(
 @pytest.fixture(scope="module")
 def cluster():
     with distributed.LocalCluster(
-        n_workers=3,
+        n_workers=2,
         threads_per_worker=1,
         processes=True,
         host="127.0.0.1",
@@ -55,7 +55,7 @@ def cluster():
 @pytest.fixture
 def client(cluster):
     with connected(cluster.scheduler_address) as one:
-        one.wait_for_workers(3, timeout=60)
+        one.wait_for_workers(2, timeout=60)
         yield one
 
 

@@ -18,7 +18,9 @@ ANSWERS = {
     "electrical_contact": r"press with [\d.]+ N instead of [\d.]+ N",
     "stribeck": r"filter the oil, or run [\d.]+ times as fast",
 }
-SLOW = {"additive": r"Order silica of \d+ to \d+ nm and put in all of [\d.]+% by weight.*no margin"}
+SLOW = {
+    "additive": r"^Order silica of \d+ to \d+ nm and put in all of [\d.]+% by weight.*no margin"
+}
 EVERY = [
     *ANSWERS.items(),
     *(pytest.param(*item, marks=pytest.mark.slow) for item in SLOW.items()),
@@ -42,6 +44,7 @@ def test_example_as_a_stranger(name, answer, tmp_path):
     picture = imread(tmp_path / "told.png")
     assert min(picture.shape[:2]) > 300
     assert picture[..., :3].std() > 0.05  # something is drawn
+    assert (tmp_path / "told.png").stat().st_size > 10_000
     last = said.splitlines()[-1]
     assert re.search(answer, last), last
     assert last.endswith(".")

@@ -2,6 +2,7 @@
 
 import importlib.util
 import json
+import os
 import re
 import subprocess
 import sys
@@ -49,8 +50,8 @@ def test_format():
 
 
 @pytest.mark.slow
-def test_types(tmp_path):
-    status, text = run(*tool("mypy"), "--cache-dir", str(tmp_path))
+def test_types():
+    status, text = run(*tool("mypy"), "--cache-dir", os.devnull)
     assert status == 0, text
 
 
