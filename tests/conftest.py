@@ -22,7 +22,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 settings.register_profile(
     "quick",
     deadline=None,
-    max_examples=int(os.environ.get("THIRDBODY_EXAMPLES", "16")),
+    max_examples=int(os.environ.get("THIRDBODY_EXAMPLES", "12")),
     derandomize=True,
     phases=(Phase.explicit, Phase.generate),
     database=None,

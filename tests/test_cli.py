@@ -9,7 +9,7 @@ import stat
 import subprocess
 import sys
 import time
-from importlib import resources
+from importlib import import_module, resources
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -505,3 +505,16 @@ def test_one_state_is_quick_and_small():
             break
     assert ratio < 2.5  # 1.7 on a quiet machine
     assert memory < 400e6
+
+
+@pytest.mark.parametrize("command", [("assess", "--html"), ("design", "--csv", "--figure")])
+def test_a_missing_folder_is_told_before_long_work(tmp_path, command, monkeypatch):
+    name, *options = command
+    for module, work in (("assess", "assess_study"), ("study.design", "design_study")):
+        monkeypatch.setattr(import_module(f"thirdbody.{module}"), work, None)
+    study = {"assess": "assess.toml", "design": "additive.toml"}[name]
+    files = [str(tmp_path / "no" / option.strip("-")) for option in options]
+    asked = [word for pair in zip(options, files, strict=True) for word in pair]
+    result = run(name, DUSTY.with_name(study), *asked)
+    assert result.exit_code == 2
+    assert result.stderr.count("there is no folder") == len(files)

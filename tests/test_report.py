@@ -17,7 +17,7 @@ import thirdbody as tb
 from thirdbody import cli
 from thirdbody.html import figure, symbols, text_table, words
 from thirdbody.outputs.base import AbstractOutput, Column
-from thirdbody.report import Row, laws_of, report, rows_of, source_of
+from thirdbody.report import Report, Row, laws_of, report, rows_of, source_of
 from thirdbody.study import load_study
 
 ROOT = Path(__file__).parents[1]
@@ -122,6 +122,12 @@ def two_body(tmp_path_factory):
     return found, Page(found.html())
 
 
+@pytest.fixture
+def no_figures(monkeypatch):
+    """Figures cost most of a page; what a test says of its text needs none."""
+    monkeypatch.setattr(Report, "_figures", lambda report: [])
+
+
 # ---------------------------------------------------------------- the answer
 def test_the_answer_is_that_of_the_solver(dusty):
     found, _ = dusty
@@ -139,7 +145,7 @@ def test_the_answer_is_that_of_the_solver(dusty):
     assert f"F_cr2 = {critical.F_cr2.value:.4g}" in third
 
 
-def test_under_one_load_the_answer_says_how_far_the_mode_is_from_changing(tmp_path):
+def test_under_one_load_the_answer_says_how_far_the_mode_is_from_changing(tmp_path, no_figures):
     text = DUSTY.replace(
         '{ from = "1 MPa", to = "20 MPa", points = 5, spacing = "log" }', '"5 MPa"'
     )
@@ -180,7 +186,7 @@ def test_states_and_outputs_are_those_of_the_solver(dusty):
     assert table["psa"][3:] == [f"{p / 1e9:.4g} GPa" for p in state.outputs["p_sa"]]
 
 
-def test_any_output_has_its_table(tmp_path):
+def test_any_output_has_its_table(tmp_path, no_figures):
     """Columns are read from the output, whatever it is."""
 
     @dataclass(frozen=True, slots=True, kw_only=True)
@@ -306,7 +312,7 @@ def test_laws_say_who_chose_them(dusty):
 
 # ---------------------------------------------------------------- several populations, other laws
 @pytest.mark.slow
-def test_several_populations(tmp_path):
+def test_several_populations(tmp_path, no_figures):
     out = tmp_path / "page.html"
     file = EXAMPLES / "dust_and_debris.toml"
     few = ["--set", 'load.pressure=["0.1 MPa", "5 MPa"]']
@@ -383,7 +389,7 @@ def test_the_page_is_one_file(dusty, two_body):
     assert "<and>" not in dusty[1].source
 
 
-def test_the_same_study_gives_the_same_bytes(tmp_path):
+def test_the_same_study_gives_the_same_bytes(tmp_path, request):
     """In another process too, with another number of threads, hash seed and file name."""
     files = [written(tmp_path, TWO_BODY, name) for name in ("a.toml", "b.toml")]
     pages = [tmp_path / name for name in ("a.html", "b.html")]
@@ -392,10 +398,11 @@ def test_the_same_study_gives_the_same_bytes(tmp_path):
     environment = os.environ | {"THIRDBODY_THREADS": "2", "PYTHONHASHSEED": "2", "TZ": "Asia/Tokyo"}
     subprocess.run([*map(str, command)], check=True, env=environment, capture_output=True)
     assert pages[0].read_bytes() == pages[1].read_bytes()
+    request.getfixturevalue("no_figures")
     other = tmp_path / "other.html"
     assert run("report", files[0], "--out", other, "--set", "roughness.alpha=7").exit_code == 0
-    assert other.read_bytes() != pages[0].read_bytes()
     assert "--set roughness.alpha=7" in other.read_text("utf-8")
+    assert "--set" not in pages[0].read_text("utf-8")
 
 
 # ---------------------------------------------------------------- refusals

@@ -67,6 +67,24 @@ def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
         draft.unlink(missing_ok=True)
 
 
+def need_folders(*paths: str | os.PathLike[str] | None) -> None:
+    """Refuse files whose folder does not exist before long work is done for them.
+
+    Raises
+    ------
+    InvalidValue
+        As `whole` says it, a sentence a file.
+    """
+    targets = [(path, Path(os.path.realpath(path))) for path in paths if path is not None]
+    problems = [
+        f"cannot write {path}: {_why(FileNotFoundError(), target)}"
+        for path, target in targets
+        if not target.parent.is_dir()
+    ]
+    if problems:
+        raise InvalidValue(*problems)
+
+
 def write_text(path: str | os.PathLike[str], text: str) -> None:
     """Write a text file in UTF-8, whole or not at all.
 

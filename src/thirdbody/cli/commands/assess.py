@@ -29,9 +29,10 @@ def command(
 ) -> None:
     """One page: the mode at the operating load, how sure it is, and what would change it."""
     from ...assess import assess_study
-    from ...files import write_text
+    from ...files import need_folders, write_text
 
     asked = read_study(study, settings)
+    need_folders(html_file)
     answer = assess_study(asked)
     if html_file is not None:
         write_text(html_file, answer.html())

@@ -37,9 +37,11 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The best size, concentration or roughness over a range of loads, under limits."""
+    from ...files import need_folders, whole
     from ...study.design import design_study
 
     asked = read_study(study, settings)
+    need_folders(csv_file, figure)
     best = design_study(asked, progress=True)
     for sentence in best.warnings:
         warn(sentence)
@@ -48,7 +50,6 @@ def command(
         write_csv(csv_file, columns, dict.fromkeys(columns, ""))
         print(f"written: {csv_file}", file=sys.stderr)
     if figure is not None:
-        from ...files import whole
         from ...plot_design import tried
 
         drawing = tried(best)

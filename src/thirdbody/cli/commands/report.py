@@ -22,10 +22,11 @@ def command(
     settings: Settings = None,
 ) -> None:
     """A report to hand on: answer, figures, tables, error bars and sources, in one file."""
-    from ...files import write_text
+    from ...files import need_folders, write_text
     from ...report import report
 
     asked = read_study(study, settings)
+    need_folders(out)
     text = study.read_text(encoding="utf-8-sig")
     given = "".join(f"# --set {setting}\n" for setting in settings or ())
     found = report(asked, file=f"{text.rstrip()}\n\n{given}".rstrip() + "\n")
