@@ -771,7 +771,7 @@ class SeatAverage:
         z = (self.average.bottom - mean_gap) / self.width
         out = special.ndtr(z)[:, None] * self.floor
         order = np.argsort(mean_gap)
-        at_once = max(1, 400_000 // min(len(gaps), 1000))
+        at_once = max(1, 40_000 // min(len(gaps), 1000))
         for part in np.array_split(order, math.ceil(len(order) / at_once)):
             lowest, highest = mean_gap[part[0]], min(mean_gap[part[-1]], gaps[-1])
             near = slice(
