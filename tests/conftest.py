@@ -34,6 +34,25 @@ settings.register_profile(
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
 
+def pytest_sessionstart(session):
+    """Compile the engine before the workers start: two compilations may differ in last digits."""
+    if hasattr(session.config, "workerinput"):
+        return
+    import numpy as np
+
+    import thirdbody as tb
+
+    bodies = tb.MaterialPair(tb.materials["S45C"], tb.materials["100Cr6"])
+    dust = tb.TruncatedGaussian(mean=300e-9, std=24e-9)
+    contact = tb.Contact(
+        surfaces=bodies,
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=tb.Particles(material=tb.materials["SiO2"], diameter=dust, areal_density=1e11),
+    )
+    vary = {"particles.material.H": np.linspace(4e9, 5e9, 32)}
+    tb.solve_states(contact, F_star=1e-5, vary=vary)
+
+
 def pytest_collection_modifyitems(items):
     """Long studies first, so that no worker is left alone with one at the end."""
     items.sort(key=lambda item: item.get_closest_marker("slow") is None)
