@@ -223,7 +223,44 @@ def test_dust_tables_are_tables():
         assert np.all(np.diff(high) >= 0)
         assert np.all(low <= high)
         assert high[-1] == low[-1] == 100
-    assert [cl.dust_table(name)["verified"] for name in cl.DUSTS] == [True, False, False, False]
+    verified = {name: cl.dust_table(name)["verified"] for name in cl.DUSTS}
+    assert verified == {"A1": True, "A2": False, "A3": False, "A4": False, "A3-lot": True}
+
+
+def finer(name, x, limit="middle"):
+    """Per cent of the volume of a dust below x [µm]."""
+    sizes = cl.dust_sizes(name, limit=limit)
+    return 100 * np.array([sizes.partial_moment(3, 0, 1e-6 * one) for one in x]) / sizes.moment(3)
+
+
+# sizes [µm] with 10, 50 and 90 % of the volume below, of measured batches: doc page dust.md
+BATCHES = {
+    "A2": (1.496, 8.250, 42.192),
+    "A3": (2.606, 14.214, 59.827),
+    "A4": (4.467, 34.620, 104.761),
+}
+
+
+@pytest.mark.parametrize("name", BATCHES)
+def test_batches_are_broader_than_the_tables(name):
+    """What dust.md says of tables that no print confirmed: within 5 % of the volume."""
+    low, middle, high = finer(name, BATCHES[name]) - (10, 50, 90)
+    assert -3 < low < -1.5
+    assert abs(middle) < 5
+    assert 0 < high < 5
+
+
+def test_a_measured_batch():
+    """The curve of A3-lot has the sizes read from it, and leaves the printed limits."""
+    np.testing.assert_allclose(finer("A3-lot", BATCHES["A3"]), (10, 50, 90), atol=0.5)
+    table = np.array(cl.dust_table("A3")["finer"])
+    got = finer("A3-lot", table[:, 0])
+    beyond = np.maximum(table[:, 1] - got, got - table[:, 2])
+    assert 4.5 < beyond.max() < 5.5
+    for limit in ("coarse", "fine"):
+        assert cl.dust_sizes("A3-lot", limit=limit) == cl.dust_sizes("A3-lot")
+    more = cl.dust_sizes("A3").moment(3) / cl.dust_sizes("A3-lot").moment(3)
+    assert more == pytest.approx(2.0, abs=0.05)
 
 
 def test_smallest_moves_the_number_not_the_volume():

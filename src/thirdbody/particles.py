@@ -271,8 +271,8 @@ class Particles(Value):
 
         Parameters
         ----------
-        grade : {"A1", "A2", "A3", "A4"}
-            Ultrafine, fine, medium, coarse.
+        grade : {"A1", "A2", "A3", "A4", "A3-lot"}
+            Ultrafine, fine, medium, coarse; one batch of A3 as its maker measured it.
         material : Material
             Of the grains: 69 to 77 % quartz, ``materials["quartz"]``.
         concentration, gap, by, oil_density
