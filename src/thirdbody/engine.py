@@ -27,7 +27,7 @@ from .contact import Contact, Interface, together
 from .distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
 from .heights import GaussianHeights
 from .laws.base import AbstractAsperityLaw
-from .laws.particle.rules import NEAR, near_rule, squeeze_rule
+from .laws.particle.rules import NEAR, SharedRules, near_rule, squeeze_rules
 from .laws.particle.series import (
     COLUMNS,
     SeatAverage,
@@ -183,6 +183,8 @@ class _Rules:
         self.known: dict[Any, tuple[int, int]] = {}
         self.rules: list[Array] = []
         self.count = 0
+        self.own = 0
+        """Numbers in the rules of single states."""
 
     def add(self, key: Any, rows: Array) -> tuple[int, int]:
         """Begin and nodes of a rule (k, n): weighted columns, then increasing abscissae."""
@@ -194,6 +196,7 @@ class _Rules:
     def add_each(self, rows: Array) -> Index:
         """Begin and nodes (M, 2) of rules (M, k, n), one for each state."""
         count, k, n = rows.shape
+        self.own += rows.size if count > 1 else 0
         begin = self.count + k * n * np.arange(count)
         self.rules.append(rows.ravel())
         self.count += rows.size
@@ -217,6 +220,7 @@ class _Batch:
         self.series = np.concatenate([*self._panels.panels, no_panel])
         self.edges = self.series[:, k.PANEL, 0].copy()
         self.rules = np.concatenate([*self._rules.rules, np.zeros(0)])
+        self.own = self._rules.own
 
     @property
     def arrays(self) -> tuple[np.ndarray, ...]:
@@ -492,7 +496,7 @@ class States(_Batch):
             size = scale * ratio
             factor = changed.areal_density * share * size**2
             width = law.zeta_std * varied.roughness.sigma / size if rough else 0.0 * size
-            kinds = np.empty((len(self.kinds), k.PART_KINDS), np.int64)
+            kinds = np.full((len(self.kinds), k.PART_KINDS), k.ABSENT)
             kinds[:, 0] = k.ROUGH_NODES if rough else k.PLANE
             kinds[:, k.PART_GUESS] = self._panels.add_inverse(average)
             if rough:
@@ -557,33 +561,53 @@ class States(_Batch):
             if x[..., -1].max() > MOST_WIDTHS * width.min():
                 raise TypeError("the seat is too smooth for nodes")
             panels = width / x[..., -1:]
-            rule = squeeze_rule(
-                law.law,
-                *sides,
-                tip_radius=law.tip_radius,
-                widths=panels if len(sides[0][0]) > 1 else panels.min(keepdims=True),
-                split_areas=law.shadow == "footprint",
-            )
             factor = changed.areal_density * share * size[:, 0] ** 2
             kinds = np.full((count, k.PART_KINDS), k.ABSENT)
             kinds[:, 0] = k.ROUGH_NODES
             average = size_average(law.law, *unvaried, shape, law.tip_radius)
             kinds[:, k.PART_GUESS] = self._panels.add_inverse(average)
             few = sizes(float(width.min()), FEW_SIZES)
-            kinds[:, 1:3] = kinds[:, 5:7] = self._rules.add_each(rule.rows)
-            fewer = near_rule(rule, float(panels.min()))
-            if fewer is not None:
-                kinds[:, 5:7] = self._rules.add_each(fewer)
+            one = len(sides[0][0]) == 1
+            rules = {name: np.zeros(count) for name in ("BOTTOM", "PLACE", "MODULUS")}
+            rules |= {
+                "MODULUS": np.broadcast_to(sides[0][0][:, 0], count),
+                "FLOOR": np.empty((count, len(COLUMNS))),
+            }
+            for which, rule in squeeze_rules(
+                law.law,
+                *sides,
+                tip_radius=law.tip_radius,
+                widths=panels.min(keepdims=True) if one else panels,
+                split_areas=law.shadow == "footprint",
+            ):
+                here = slice(None) if one else which
+                rules["BOTTOM"][here], rules["FLOOR"][here] = rule.bottom, rule.floor
+                if isinstance(rule, SharedRules):
+                    series = rule.series
+                    kinds[here, k.PART_TERMS], rules["PLACE"][here] = len(series.rows), rule.across
+                    laid = [
+                        self._rules.add((series, i), rows.reshape(-1, rows.shape[2]))
+                        for i, rows in enumerate((series.rows, series.near))
+                        if rows is not None
+                    ]
+                else:
+                    fewer = near_rule(rule, float(panels.min()))
+                    laid = [
+                        self._rules.add_each(rows)
+                        for rows in (rule.rows, fewer)
+                        if rows is not None
+                    ]
+                kinds[here, 1:3], kinds[here, 5:7] = laid[0], laid[-1]
             for i, (at, number) in ((3, (x, weight)), (7, few)):
                 kinds[:, i : i + 2] = self._rules.add_each(np.stack([number * at**3, at], axis=1))
-            deepest = np.minimum(x[..., 0] * rule.bottom, x[..., -1] * rule.bottom)
+            deepest = np.minimum(x[..., 0] * rules["BOTTOM"], x[..., -1] * rules["BOTTOM"])
             yield {
                 "kinds": kinds,
                 "coverage": math.pi / 4 * factor * np.sum(weight * x**2, axis=-1),
                 **{"SIZE": size[:, 0], "FACTOR": factor, "WIDTH": width[:, 0]},
                 "REACH": x[..., -1] + k.SEAT_REACH * width[:, 0],
                 "LEAST": deepest - k.SEAT_REACH * width[:, 0],
-                **{"TOP": 1.0, "BOTTOM": rule.bottom, "NEAR": NEAR, "FLOOR": rule.floor},
+                **{"TOP": 1.0, "NEAR": NEAR, **rules},
             }
 
 

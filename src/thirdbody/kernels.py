@@ -39,20 +39,22 @@ SHADOW, KIND, BEGIN, END, GUESS, PARTS = range(6)
 panels from BEGIN to END; panel with its inverse, for a first guess, or −1; where the parts begin,
 each PART_KINDS long: kind, begin and end of a series, then of that of a plane for small gaps; or
 over a rough seat begin and length of rules over gaps, over sizes, over fewer gaps, and over few
-sizes; and its inverse, or −1."""
-PART_KINDS, PART_GUESS = 10, 9
+sizes; its inverse, or −1; and the terms of both rules over gaps where they are series, or −1."""
+PART_KINDS, PART_GUESS, PART_TERMS = 11, 9, 10
 ACROSS, SIGMA_S, CENTRE, FORCE, AREA, HIGHEST, COVERAGE, VALUES = range(8)
 """place of ω_1/σ_s in its family (−1 to 1), σ_s and the mean height [m], units of load [Pa] and
 area, highest separation [σ_s], coverage; where the parts begin, each PART_VALUES long, lengths in
 the size of the part:"""
 SIZE, FACTOR, OFFSET, WIDTH, REACH, LEAST, TOP, BOTTOM, JOIN, POWERS, FLOOR = *range(10), 16
+PLACE, MODULUS = 23, 24
 NEAR = JOIN
 """size [m]; density × size²: the unit of area, and of load per Pa; gap − d [m]; width of a rough
 seat; gap above which nothing is carried; gap below which each carries its most, on the seat and
 on a plane; gap between the two series of a plane, or the widths of a seat beyond the gaps within
 which the fewer are as good, −1 where they only come close; leading powers of √(top − gap) of the
-seven columns; the seven columns below the least gap."""
-PART_VALUES = 23
+seven columns; the seven columns below the least gap; where the part lies on series of rules (−1
+to 1), and its modulus, their unit of load."""
+PART_VALUES = 25
 
 FAMILY, GAUSSIAN, DENSITY = range(3)
 """Asperities: by a series in h and in ω_1/σ_s beside the Gaussian, by one in h, by one in h
@@ -86,8 +88,11 @@ RESIDUAL = 2e-13
 CLOSE = 0.02
 """Step [σ_s] after which few nodes are left for all."""
 MEMBER = 24
-SCRATCH = MEMBER + ROWS * TERMS
-"""Floats that a state needs to work in; from MEMBER on, its panel in a family."""
+RULE, MOST_NODES = MEMBER + ROWS * TERMS, 256
+FEWER_RULE = RULE + 1 + 8 * MOST_NODES
+SCRATCH = FEWER_RULE + 1 + 8 * MOST_NODES
+"""Floats that a state needs to work in; from MEMBER on its panel in a family; from RULE and
+FEWER_RULE on where the series of a rule begins, and the rule on it."""
 
 
 @intrinsic
@@ -329,6 +334,40 @@ def _seat_nodes(rule, nodes, begin, end, gap, width, size, shadow, every, out):
     out[3], out[4], out[5] = norm * t0, -norm * inverse * t1, norm * inverse * inverse * (t2 - t0)
 
 
+@sums
+def _on_series(series, terms, x, count, out):
+    """Sum of Chebyshev polynomials at x times ``count`` coefficients of each of an even number."""
+    last, now = 1.0, x
+    c = _from(series, count)
+    for k in range(count):
+        out[k] = series[k] + x * c[k]
+    for n in range(2, terms, 2):
+        last = 2 * x * now - last
+        now = 2 * x * last - now
+        b = _from(series, n * count)
+        c = _from(b, count)
+        for k in range(count):
+            out[k] += last * b[k] + now * c[k]
+
+
+@exact
+def _gaps(state, kinds, part, fewer):
+    """The rule over gaps of a part, or the one with fewer."""
+    i = 5 if fewer else 1
+    begin, nodes = kinds[i], kinds[i + 1]
+    rule = _from(state.rules, begin)
+    if kinds[PART_TERMS] < 0:
+        return rule
+    held = _from(state.work, FEWER_RULE if fewer else RULE)
+    own = _from(held, 1)
+    if held[0] != begin:
+        _on_series(rule, kinds[PART_TERMS], part[PLACE], 8 * nodes, own)
+        for k in range(nodes):
+            own[k] *= part[MODULUS]
+        held[0] = begin
+    return own
+
+
 @exact
 def _rough_nodes(state, kinds, part, gap, shadow, every, few, out, each):
     """Particles on a rough seat by the sum over sizes and over local gaps in their size."""
@@ -340,10 +379,9 @@ def _rough_nodes(state, kinds, part, gap, shadow, every, few, out, each):
     middle, half = 0.5 * (part[TOP] + part[BOTTOM]), 0.5 * (part[TOP] - part[BOTTOM])
     for n in range(count):
         weight, size = sizes[n], sizes[count + n]
-        i, beyond = 1, abs(gap - size * middle) - size * half
-        if (beyond < part[NEAR] * width) if part[NEAR] > 0 else few:
-            i = 5
-        rule, nodes = _from(state.rules, kinds[i]), kinds[i + 1]
+        beyond = abs(gap - size * middle) - size * half
+        fewer = (beyond < part[NEAR] * width) if part[NEAR] > 0 else few
+        rule, nodes = _gaps(state, kinds, part, fewer), kinds[6 if fewer else 2]
         at = _from(rule, AT * nodes)
         # far above the largest particles the many below them carry the load
         begin = _below(at, 0, nodes, (gap - 2 * SEAT_REACH * width) / size)
@@ -617,8 +655,9 @@ def _columns(state, h, row):
 @exact
 def _state(m, kinds, values, series, edges, rules, work):
     """State of interface m."""
-    # no member of a family yet, for the load and for every column
+    # no member of a family yet, for the load and for every column, and no rule on a series
     work[MEMBER + PANEL * TERMS + 2] = work[MEMBER + PANEL * TERMS + 3] = -1.0
+    work[RULE] = work[FEWER_RULE] = -1.0
     return State(
         _from(_pointer(kinds), m * kinds.shape[1]),
         _from(_pointer(values), m * values.shape[1]),

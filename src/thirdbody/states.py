@@ -214,7 +214,7 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
         given = loads[here]
         batch = engine.States(contact, _taken(arrays, here), len(given))
         columns = batch.columns(load, given)
-        return here, columns | {"status": FATES[columns["status"]]}, batch.rules.size
+        return here, columns | {"status": FATES[columns["status"]]}, batch.own
 
     here, columns, size = part(slice(0, FIRST))  # refused, or compiled, once
     at_once = max(min(AT_ONCE, ROOM * FIRST // max(size, 1)), 1)

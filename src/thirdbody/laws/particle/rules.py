@@ -13,9 +13,10 @@ with the weights Δε from the derivative of ε along the nodes of a panel.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -27,8 +28,17 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
+    Index = NDArray[np.intp]
 
-__all__ = ["NEAR", "InverseLaw", "SqueezeRule", "near_rule", "squeeze_rule"]
+__all__ = [
+    "NEAR",
+    "InverseLaw",
+    "SharedRules",
+    "SqueezeRule",
+    "near_rule",
+    "squeeze_rule",
+    "squeeze_rules",
+]
 
 NODES, NODES_ALIKE = 16, 14
 """of a panel, and where both sides are of one material: 4e-13 and 4e-14 of every sum"""
@@ -39,6 +49,10 @@ NEAR, MOST_REACH = 3.0, 8.0
 that the gaps may span."""
 SEAT_WIDTHS = 2.0
 """Widest panel in widths of the seat."""
+STEP, TERMS, EXACT = 0.0625, 24, 1e-13
+"""Of rules as series in ln(H/E*): widest panel, terms, and what their last terms may reach."""
+WORTH = 200
+"""Materials for which series are quicker than rules of each."""
 
 
 def _table(function: PiecewiseChebyshev) -> Array:
@@ -287,6 +301,131 @@ def near_rule(rule: SqueezeRule, width: float) -> Array | None:
     gather(rule.rows, rule.bottom, np.ascontiguousarray(transform[:, ::-1]), out)
     out[:, -1] = 1 - 0.5 * (1 - rule.bottom[:, None]) * (1 + x)
     return out
+
+
+def squeeze_rules(
+    law: AbstractAsperityLaw,
+    first: tuple[Array, Array],
+    second: tuple[Array, Array],
+    *,
+    widths: Array,
+    **options: Any,
+) -> Iterator[tuple[Index, SqueezeRule | SharedRules]]:
+    """Which materials, and their rules by `squeeze_rule` or the series on which these lie.
+
+    Everything but the load depends on H₁/E*₁, H₂/E*₂ and E*₂/E*₁ alone, and the load is E*₁ times
+    what depends on them. Where one of them varies, or the first two alike, the rules are Chebyshev
+    series in its logarithm, between the values at which the area of the great circle is one where
+    the law changes its formula. Where series do not converge, and where more varies, each
+    material has its rule.
+
+    Parameters
+    ----------
+    law, first, second, widths, **options
+        As in `squeeze_rule`.
+    """
+    E = first[0]
+    ratios = [np.log(first[1] / E), np.log(second[1] / second[0]), np.log(second[0] / E)]
+    varied = [ratio[:, 0] for ratio in ratios if np.ptp(ratio) > 0]
+    rest = np.ones(len(E), bool)
+    if len(E) >= WORTH and all(np.array_equal(ratio, varied[0]) for ratio in varied):
+        fixed = tuple(None if np.ptp(ratio) > 0 else float(ratio[0, 0]) for ratio in ratios)
+        # a little finer than asked for, so that others share them
+        width = 2 ** (math.floor(4 * math.log2(np.min(widths))) / 4)
+        given = (("widths", width), *options.items())
+        edges = _edges_in_ratio(law, options["tip_radius"], varied[0].min(), varied[0].max())
+        panel = np.searchsorted(edges, varied[0], side="right")
+        for p in np.unique(panel):
+            series = _series_in_ratio(law, fixed, edges[p - 1], edges[p], given)
+            if series is not None:
+                here = np.flatnonzero(panel == p)
+                rest[here] = False
+                yield here, series.shared(varied[0][here], E[here, 0])
+    if np.any(rest):
+        which = np.flatnonzero(rest)
+        sides = [(E[which], H[which]) for E, H in (first, second)]
+        some = widths[which] if len(widths) > 1 else widths
+        yield which, squeeze_rule(law, *sides, widths=some, **options)
+
+
+class SharedRules(NamedTuple):
+    """Rules of M materials that lie on one series."""
+
+    series: RuleSeries
+    across: Array
+    """(M,): where they lie on it, −1 to 1"""
+    bottom: Array
+    floor: Array
+    """As in `SqueezeRule`"""
+
+
+@dataclass(frozen=True, eq=False)
+class RuleSeries:
+    """Rules of unit E*₁ as Chebyshev series in the logarithm of a ratio of materials."""
+
+    low: float
+    high: float
+    rows: Array
+    """(TERMS, 8, n), coefficients of `SqueezeRule.rows`"""
+    near: Array | None
+    """(TERMS, 8, m), of those of `near_rule`"""
+    ends: Array
+    """(TERMS, 8), of the floor and the bottom"""
+
+    def shared(self, ratio: Array, E: Array) -> SharedRules:
+        """Rules for ratios (M,) between the ends and moduli E*₁ (M,)."""
+        x = np.clip((2 * ratio - self.low - self.high) / (self.high - self.low), -1, 1)
+        ends = np.polynomial.chebyshev.chebvander(x, TERMS - 1) @ self.ends
+        ends[:, 0] *= E
+        return SharedRules(self, x, ends[:, 7], ends[:, :7])
+
+
+@lru_cache(maxsize=64)
+def _great_circles(law: AbstractAsperityLaw, tip_radius: float) -> Array:
+    """ln(H/E*) at which the area of the great circle is one where the law changes its formula."""
+    one = np.ones((1, 1))
+    full = _Sides(inverse_law(law), one, one, tip_radius).full[0, 0]
+    # the area over that at yield falls with the square of H/E*
+    areas = law.reduced("area", np.array(law.breakpoints or (1.0,)))
+    return np.asarray(0.5 * np.log(full / areas))
+
+
+def _edges_in_ratio(law: AbstractAsperityLaw, tip_radius: float, low: float, high: float) -> Array:
+    """Edges of panels over low to high: steps that do not depend on them, and great circles."""
+    steps = STEP * np.arange(math.floor(low / STEP), math.floor(high / STEP) + 2)
+    circles = _great_circles(law, tip_radius)
+    return np.unique(np.append(steps, circles[(circles > steps[0]) & (circles < steps[-1])]))
+
+
+@lru_cache(maxsize=128)
+def _series_in_ratio(
+    law: AbstractAsperityLaw,
+    fixed: tuple[float | None, ...],
+    low: float,
+    high: float,
+    options: tuple[tuple[str, Any], ...],
+) -> RuleSeries | None:
+    """Series where the ratios that are not fixed go from low to high; None if they diverge."""
+    from ...kernels import MOST_NODES
+
+    x, transform = chebyshev_transform(TERMS)
+    ratio = 0.5 * (low + high) + 0.5 * (high - low) * x[:, None]
+    one, two, E = (np.exp(ratio if value is None else 0 * ratio + value) for value in fixed)
+    given = dict(options)
+    width = given.pop("widths")
+    sides = (np.ones_like(E), one), (E, two * E)
+    rule = squeeze_rule(law, *sides, widths=np.full((1, 1), width), **given)
+    if rule.rows.shape[2] > MOST_NODES:
+        return None
+    ends = np.concatenate([rule.floor, rule.bottom[:, None]], axis=1)
+    found = [rule.rows, near_rule(rule, width), ends]
+    for i, values in enumerate(found):
+        if values is not None:
+            found[i] = np.tensordot(transform, values, 1)
+            size = np.abs(found[i]).reshape(TERMS, 8, -1).max(axis=2)
+            if np.any(size[-2:] > EXACT * size.max(axis=0)):
+                return None
+    return RuleSeries(low, high, *found)
 
 
 class _Sides(Side):
