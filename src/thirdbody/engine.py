@@ -347,7 +347,7 @@ class Interfaces(_Batch):
             at = k.PARTS + p * k.PART_KINDS
             self.kinds[m, at : at + len(kinds)] = kinds
             at = k.VALUES + p * k.PART_VALUES
-            self.values[m, at : at + k.PART_VALUES] = (
+            self.values[m, at : at + k.PLACE] = (
                 *(part.scale, part.factor, part.offset, width),
                 *((part.reach + part.offset) / part.scale, least),
                 *(plane.top, plane.bottom, plane.join, *plane.powers, *plane.floor),
@@ -567,37 +567,7 @@ class States(_Batch):
             average = size_average(law.law, *unvaried, shape, law.tip_radius)
             kinds[:, k.PART_GUESS] = self._panels.add_inverse(average)
             few = sizes(float(width.min()), FEW_SIZES)
-            one = len(sides[0][0]) == 1
-            rules = {name: np.zeros(count) for name in ("BOTTOM", "PLACE", "MODULUS")}
-            rules |= {
-                "MODULUS": np.broadcast_to(sides[0][0][:, 0], count),
-                "FLOOR": np.empty((count, len(COLUMNS))),
-            }
-            for which, rule in squeeze_rules(
-                law.law,
-                *sides,
-                tip_radius=law.tip_radius,
-                widths=panels.min(keepdims=True) if one else panels,
-                split_areas=law.shadow == "footprint",
-            ):
-                here = slice(None) if one else which
-                rules["BOTTOM"][here], rules["FLOOR"][here] = rule.bottom, rule.floor
-                if isinstance(rule, SharedRules):
-                    series = rule.series
-                    kinds[here, k.PART_TERMS], rules["PLACE"][here] = len(series.rows), rule.across
-                    laid = [
-                        self._rules.add((series, i), rows.reshape(-1, rows.shape[2]))
-                        for i, rows in enumerate((series.rows, series.near))
-                        if rows is not None
-                    ]
-                else:
-                    fewer = near_rule(rule, float(panels.min()))
-                    laid = [
-                        self._rules.add_each(rows)
-                        for rows in (rule.rows, fewer)
-                        if rows is not None
-                    ]
-                kinds[here, 1:3], kinds[here, 5:7] = laid[0], laid[-1]
+            rules = self._over_gaps(law, sides, panels, kinds)
             for i, (at, number) in ((3, (x, weight)), (7, few)):
                 kinds[:, i : i + 2] = self._rules.add_each(np.stack([number * at**3, at], axis=1))
             deepest = np.minimum(x[..., 0] * rules["BOTTOM"], x[..., -1] * rules["BOTTOM"])
@@ -607,8 +577,42 @@ class States(_Batch):
                 **{"SIZE": size[:, 0], "FACTOR": factor, "WIDTH": width[:, 0]},
                 "REACH": x[..., -1] + k.SEAT_REACH * width[:, 0],
                 "LEAST": deepest - k.SEAT_REACH * width[:, 0],
-                **{"TOP": 1.0, "NEAR": NEAR, **rules},
+                **{"TOP": 1.0, **rules},
             }
+
+    def _over_gaps(
+        self, law: Any, sides: list[tuple[Array, Array]], panels: Array, kinds: Index
+    ) -> dict[str, Array]:
+        """Rules over the squeeze, with their places in ``kinds``: what else the kernel needs."""
+        from . import kernels as k
+
+        count, one = len(kinds), len(sides[0][0]) == 1
+        out = {name: np.full(count, -1.0) for name in ("BOTTOM", "NEAR", "PLACE")}
+        out["FLOOR"] = np.empty((count, len(COLUMNS)))
+        for which, rule in squeeze_rules(
+            law.law,
+            *sides,
+            tip_radius=law.tip_radius,
+            widths=panels.min(keepdims=True) if one else panels,
+            split_areas=law.shadow == "footprint",
+        ):
+            here = slice(None) if one else which
+            if isinstance(rule, SharedRules):
+                kinds[here, k.PART_TERMS], out["PLACE"][here] = len(rule.series.rows), rule.across
+                rows, near = rule.series.rows, rule.series.near
+                add: Callable[[Array], Any] = partial(self._add_series, rule.series)
+            else:
+                rows, near = rule.rows, near_rule(rule, float(panels.min()))
+                add = self._rules.add_each
+            kinds[here, 1:3] = kinds[here, 5:7] = add(rows)
+            if near is not None:
+                kinds[here, 5:7], out["NEAR"][here] = add(near), NEAR
+            out["BOTTOM"][here], out["FLOOR"][here] = rule.bottom, rule.floor
+        return out | {"MODULUS": np.broadcast_to(sides[0][0][:, 0], count)}
+
+    def _add_series(self, series: Any, rows: Array) -> tuple[int, int]:
+        """Begin and nodes of the rules (terms, 8, n) that a series has."""
+        return self._rules.add((series, rows.shape[2]), rows.reshape(-1, rows.shape[2]))
 
 
 MATERIALS = ("surfaces.", "particles.material.")

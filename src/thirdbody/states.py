@@ -107,6 +107,8 @@ FEWEST = 20
 """Different states for which nodes are quicker than tables of each."""
 FIRST, AT_ONCE = 256, 16_384
 """States laid out first, and at most at a time."""
+ALIKE = 2.0
+"""Spread of particle sizes over roughness within which states take about as many nodes."""
 ROOM = 3_000_000
 """Numbers in the rules of states laid out together, where each has rules of its own."""
 FATES = np.array(
@@ -205,8 +207,9 @@ def _own(contact: Contact, name: str) -> Any:
 def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
     """Every column by the compiled engine; TypeError where it does not know these inputs."""
     own = not engine.bare(contact, arrays) and engine.own_particles(contact, arrays)
-    # states that need as many nodes side by side
-    order = np.argsort(engine.fineness(arrays), kind="stable") if own else None
+    order = None
+    if own and np.ptp(fine := engine.fineness(arrays)) > ALIKE * fine.min():
+        order = np.argsort(fine, kind="stable")  # those that need as many nodes side by side
 
     def part(here: Any) -> tuple[Any, Columns, int]:
         if order is not None:

@@ -293,7 +293,7 @@ def near_rule(rule: SqueezeRule, width: float) -> Array | None:
     from .squeeze_kernel import gather
 
     reach = float(np.max(1 - rule.bottom)) / width
-    count = math.ceil(10 + 6 * reach**0.75)  # found by trial
+    count = 8 * math.ceil((10 + 6 * reach**0.75) / 8)  # found by trial
     if count >= rule.rows.shape[2] or reach > MOST_REACH:
         return None
     x, transform = chebyshev_transform(count)
@@ -367,10 +367,10 @@ class RuleSeries:
     high: float
     rows: Array
     """(TERMS, 8, n), coefficients of `SqueezeRule.rows`"""
-    near: Array | None
-    """(TERMS, 8, m), of those of `near_rule`"""
     ends: Array
     """(TERMS, 8), of the floor and the bottom"""
+    near: Array | None = None
+    """(TERMS, 8, m), of those of `near_rule`"""
 
     def shared(self, ratio: Array, E: Array) -> SharedRules:
         """Rules for ratios (M,) between the ends and moduli E*₁ (M,)."""
@@ -384,7 +384,7 @@ class RuleSeries:
 def _great_circles(law: AbstractAsperityLaw, tip_radius: float) -> Array:
     """ln(H/E*) at which the area of the great circle is one where the law changes its formula."""
     one = np.ones((1, 1))
-    full = _Sides(inverse_law(law), one, one, tip_radius).full[0, 0]
+    full = np.ravel(_Sides(inverse_law(law), one, one, tip_radius).full)[0]
     # the area over that at yield falls with the square of H/E*
     areas = law.reduced("area", np.array(law.breakpoints or (1.0,)))
     return np.asarray(0.5 * np.log(full / areas))
@@ -418,13 +418,14 @@ def _series_in_ratio(
     if rule.rows.shape[2] > MOST_NODES:
         return None
     ends = np.concatenate([rule.floor, rule.bottom[:, None]], axis=1)
-    found = [rule.rows, near_rule(rule, width), ends]
-    for i, values in enumerate(found):
-        if values is not None:
-            found[i] = np.tensordot(transform, values, 1)
-            size = np.abs(found[i]).reshape(TERMS, 8, -1).max(axis=2)
-            if np.any(size[-2:] > EXACT * size.max(axis=0)):
-                return None
+    near = near_rule(rule, width)
+    found = []
+    for values in (rule.rows, ends, *([] if near is None else [near])):
+        series = np.tensordot(transform, values, 1)
+        size = np.abs(series).reshape(TERMS, 8, -1).max(axis=2)
+        if np.any(size[-2:] > EXACT * size.max(axis=0)):
+            return None
+        found.append(series)
     return RuleSeries(low, high, *found)
 
 
