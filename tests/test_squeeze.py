@@ -8,7 +8,14 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from thirdbody.laws.asperity import ZMC, Hermite
-from thirdbody.laws.particle.rules import NEAR, inverse_law, near_rule, squeeze_rule
+from thirdbody.laws.particle.rules import (
+    NEAR,
+    SharedRules,
+    inverse_law,
+    near_rule,
+    squeeze_rule,
+    squeeze_rules,
+)
 from thirdbody.laws.particle.series import COLUMNS, Side, SqueezedParticle
 
 pytest.importorskip("numba", reason="nodes are compiled")
@@ -118,3 +125,64 @@ def test_fewer_nodes_near_the_seat_are_as_good(law, name, width):
 
 def test_smooth_seats_take_all_nodes():
     assert near_rule(ruled(LAWS[0], BODIES["near"], 0.05), 0.05) is None
+
+
+COUNT = 240
+VARIED = {  # E* and H of both contacts, x from -1 to 1, and how many of them lie on series
+    "hardness of alike bodies": (lambda x: ((6e10, 5e9 * 1.3**x),) * 2, "all"),
+    "modulus of alike bodies": (lambda x: ((6e10 * 1.3**x, 5e9),) * 2, "all"),
+    "hardness of one": (lambda x: ((6e10, 7e9 * 1.2**x), (5.5e10, 4e9)), "some"),
+    "modulus of one": (lambda x: ((6e10, 7e9), (3e10 * 1.2**x, 4e9)), "none"),
+    "which is weaker": (lambda x: ((6e10, 5e9 * 1.2**x), (6e10, 5e9)), "some"),
+    "both hardnesses": (lambda x: ((6e10, 5e9 * 1.2**x), (6e10, 4e9 * 1.2 ** (x * x))), "none"),
+}
+
+
+@laws
+@pytest.mark.parametrize("name", VARIED)
+def test_series_are_the_rules_of_each(law, name):
+    """Sums over rules read from series, against sums over the rule of each material."""
+    bodies, how = VARIED[name]
+    x = np.sort(np.random.default_rng(1).uniform(-1, 1, COUNT))
+    sides = [[np.broadcast_to(v, COUNT)[:, None] for v in body] for body in bodies(x)]
+    modulus = sides[0][0]
+    options = {"tip_radius": 0.5, "split_areas": True}
+    widths = np.full((COUNT, 1), 0.3)
+    alone = squeeze_rule(law, *sides, widths=widths, **options)
+    gap = np.linspace(-0.5, 1.5, 9)[:, None]
+
+    def sums(rules):
+        """Every column weighted by seats at several gaps: (gaps, M, 7)."""
+        weigh = [np.exp(-0.5 * ((gap - rows[-1]) / 0.3) ** 2) @ rows[:-1].T for rows in rules]
+        return np.stack(weigh, axis=1)
+
+    exact = sums(alone.rows)
+    whole = exact.copy()
+    whole[..., 1:6] = exact[..., 1:4].sum(axis=-1, keepdims=True)
+    seen, shared = np.zeros(COUNT, int), 0
+    for which, rule in squeeze_rules(law, *sides, widths=widths, **options):
+        seen[which] += 1
+        np.testing.assert_allclose(rule.bottom, alone.bottom[which], rtol=1e-11, atol=1e-13)
+        np.testing.assert_allclose(rule.floor, alone.floor[which], rtol=1e-11)
+        if not isinstance(rule, SharedRules):
+            read = [rule.rows]
+        else:
+            shared += len(which)
+            series = (rule.series.rows, rule.series.near)
+            read = [np.polynomial.chebyshev.chebval(rule.across, c) for c in series]
+            read = [np.moveaxis(rows, -1, 0) for rows in read]
+            for rows in read:
+                rows[:, 0] *= modulus[which]
+        for found in read:
+            assert np.max(np.abs(sums(found) - exact[:, which]) / whole[:, which]) < 1e-12
+    assert np.all(seen == 1)
+    assert {"all": shared == COUNT, "some": 0 < shared < COUNT, "none": shared == 0}[how]
+
+
+def test_few_materials_are_ruled_each():
+    """Series pay for many materials only."""
+    sides = [(np.full((5, 1), 6e10), 5e9 * np.linspace(1, 1.1, 5)[:, None])] * 2
+    given = {"tip_radius": 0.5, "widths": np.full((5, 1), 0.3), "split_areas": False}
+    ((which, rule),) = squeeze_rules(LAWS[0], *sides, **given)
+    assert which.tolist() == list(range(5))
+    assert not isinstance(rule, SharedRules)

@@ -524,6 +524,51 @@ def test_exponential_against_thirty_digits():
             assert abs(mpmath.mpf(float(kernels.exp(x))) / mpmath.exp(mpmath.mpf(x)) - 1) < 4e-16
 
 
+def test_gaussian_tail_against_thirty_digits():
+    import mpmath
+
+    from thirdbody import kernels
+
+    with mpmath.workdps(30):
+        for z in [*np.random.default_rng(7).uniform(-14, 14, 2_000), 0.0, -1e-9, 1e-9, 40.0]:
+            got = float(kernels.below(z, math.exp(-0.5 * z * z)))
+            # the density given has rounding of its own, z² ulps of it
+            most = 2e-15 * (1 + 0.1 * z * z)
+            assert (
+                abs(mpmath.mpf(got) / (mpmath.erfc(-mpmath.mpf(z) / mpmath.sqrt(2)) / 2) - 1) < most
+            )
+
+
+# ------------------------------------------------------------------------ shared series of rules
+def test_states_on_series_of_rules():
+    """States whose materials vary alike, against the same states with a rule each."""
+    from thirdbody.laws.particle import rules
+
+    rng = np.random.default_rng(8)
+    count = 600
+    hardness = 5e9 * 1.25 ** rng.uniform(-1, 1, count)
+    vary = {
+        "surfaces.first.H": hardness,
+        "surfaces.second.H": hardness,
+        "roughness.sigma": 1e-7 * 1.2 ** rng.uniform(-1, 1, count),
+        "particles.diameter.mean": 3e-7 * 1.3 ** rng.uniform(-1, 1, count),
+    }
+    pressure = np.geomspace(1e3, 1e8, count)
+    shared = tb.solve_states(default(), pressure=pressure, vary=vary)
+    with mock.patch.object(rules, "WORTH", 10**9):
+        each = tb.solve_states(default(), pressure=pressure, vary=vary)
+    assert set(shared["status"]) == {"ok"}
+    for name in set(COLUMNS) - {*WORDS, *COUNTED}:
+        areas = name.startswith("A_")  # regimes that hardly occur are small differences
+        scale = np.abs(each["A_t" if areas else name])
+        assert np.max(np.abs(shared[name] - each[name]) / scale) < 2e-12, name
+    # and one of them alone, by tables
+    for i in (0, 300, 599):
+        one = states.varied(default(), {name: values[i] for name, values in vary.items()})
+        alone = tb.solve(one, pressure=pressure[i])
+        assert alone.A_t == pytest.approx(shared["A_t"][i], rel=1e-11)
+
+
 # ---------------------------------------------------------------------------- mistakes
 def with_one(name: str, value: float, count: int = 30) -> dict[str, np.ndarray]:
     """Good values with one bad among them."""
