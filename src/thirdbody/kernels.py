@@ -29,6 +29,8 @@ EXACT = {"nnan", "ninf", "nsz", "contract"}
 INNER = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 """Options of functions that only the kernels call."""
 exact, sums = njit(fastmath=EXACT, **INNER), njit(fastmath=SUM, **INNER)
+inlined = njit(fastmath=EXACT, inline="always", **INNER)
+"""Inlined: part of the one function that calls it, which would compile it once more."""
 
 FIELDS = ("F_ss", "e", "ep", "p", "F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow")
 """Columns of a solved state: asperities without shadow, then particles."""
@@ -373,19 +375,68 @@ def _seat_nodes(rule, nodes, begin, end, gap, width, size, shadow, every, out):
 
 
 @sums
+def _spread(at, nodes, weights, sizes, count, gap, inverse, out):
+    """Σ w exp(−z²/2) z^k over sizes at each of the gaps of a rule, for k = 0, 1, 2 in turn."""
+    first, second = _from(out, nodes), _from(out, 2 * nodes)
+    for i in range(3 * nodes):
+        out[i] = 0.0
+    for n in range(count):
+        weight, size = weights[n], sizes[n]
+        for i in range(nodes):
+            z = (gap - size * at[i]) * inverse
+            density = weight * exp(-0.5 * z * z)
+            out[i] += density
+            first[i] += density * z
+            second[i] += density * z * z
+
+
+@sums
+def _below_bottom(bottom, weights, sizes, count, gap, inverse):
+    """Σ w/size of the share of a seat below the bottom of each size, and of its derivatives."""
+    s0 = s1 = s2 = 0.0
+    for n in range(count):
+        weight, z = weights[n] / sizes[n], (sizes[n] * bottom - gap) * inverse
+        density = exp(-0.5 * min(z * z, 1_000.0))
+        s0 += weight * below(z, density)
+        s1 += weight * density
+        s2 += weight * density * z
+    norm = inverse / math.sqrt(2 * math.pi)
+    return s0, norm * s1, norm * inverse * s2
+
+
+@sums
+def _weighted(rule, nodes, moments, inverse, shadow, every, out):
+    """Add Σ c m over a rule: load and shadow with two derivatives, or every column."""
+    norm = inverse / math.sqrt(2 * math.pi)
+    m1, m2 = _from(moments, nodes), _from(moments, 2 * nodes)
+    for j in range(7 if every else 2):
+        c = _from(rule, (j if every else j * shadow) * nodes)
+        s0 = s1 = s2 = 0.0
+        for i in range(nodes):
+            s0 += c[i] * moments[i]
+            s1 += c[i] * m1[i]
+            s2 += c[i] * m2[i]
+        if every:
+            out[j] += norm * s0
+        else:
+            out[3 * j] += norm * s0
+            out[3 * j + 1] -= norm * inverse * s1
+            out[3 * j + 2] += norm * inverse * inverse * (s2 - s0)
+
+
+@sums
 def _on_series(series, terms, x, count, out):
     """Sum of Chebyshev polynomials at x times ``count`` coefficients of each of an even number."""
-    last, now = 1.0, x
-    c = _from(series, count)
+    even, odd = 1.0, x
     for k in range(count):
-        out[k] = series[k] + x * c[k]
-    for n in range(2, terms, 2):
-        last = 2 * x * now - last
-        now = 2 * x * last - now
-        b = _from(series, n * count)
-        c = _from(b, count)
+        out[k] = 0.0
+    for n in range(0, terms, 2):
+        a = _from(series, n * count)
+        b = _from(a, count)
         for k in range(count):
-            out[k] += last * b[k] + now * c[k]
+            out[k] += even * a[k] + odd * b[k]
+        even = 2 * x * odd - even
+        odd = 2 * x * even - odd
 
 
 @exact
@@ -406,115 +457,43 @@ def _gaps(state, kinds, part, fewer):
     return own
 
 
-@sums
-def _spread(at, nodes, sizes, count, gap, width, every, out):
-    """Σ w exp(−z²/2) z^k over sizes at each of the gaps of a rule: k = 0, or 0 to 2 in a row."""
-    inverse = 1 / width
-    first, second = _from(out, nodes), _from(out, 2 * nodes)
-    for i in range(nodes if every else 3 * nodes):
-        out[i] = 0.0
-    for n in range(count):
-        weight, size = sizes[n], sizes[count + n]
-        if every:
-            for i in range(nodes):
-                z = (gap - size * at[i]) * inverse
-                out[i] += weight * exp(-0.5 * z * z)
-        else:
-            for i in range(nodes):
-                z = (gap - size * at[i]) * inverse
-                density = weight * exp(-0.5 * z * z)
-                out[i] += density
-                first[i] += density * z
-                second[i] += density * z * z
-
-
-@sums
-def _dot(a, b, count):
-    """Σ a b."""
-    out = 0.0
-    for i in range(count):
-        out += a[i] * b[i]
-    return out
-
-
-@sums
-def _below_bottom(bottom, sizes, count, gap, width):
-    """Σ w/size of the share of a seat below the bottom of each size, and of its derivatives."""
-    s0 = s1 = s2 = 0.0
-    inverse = 1 / width
-    for n in range(count):
-        weight, z = sizes[n] / sizes[count + n], (sizes[count + n] * bottom - gap) * inverse
-        density = exp(-0.5 * z * z)
-        s0 += weight * below(z, density)
-        s1 += weight * density
-        s2 += weight * density * z
-    norm = inverse / math.sqrt(2 * math.pi)
-    return s0, -norm * s1, -norm * inverse * s2
-
-
-@exact
-def _near_nodes(state, kinds, part, gap, shadow, every, few, out):
-    """As `_rough_nodes`, for a seat that is near all sizes, all of which have the same rule."""
-    sizes, count = _from(state.rules, kinds[7 if few else 3]), kinds[8 if few else 4]
-    rule, nodes, width = _gaps(state, kinds, part, YES), kinds[6], part[WIDTH]
-    each = _from(state.work, EACH)
-    _spread(_from(rule, AT * nodes), nodes, sizes, count, gap, width, every, each)
-    inverse = 1 / width
-    norm = inverse / math.sqrt(2 * math.pi)
-    s0, s1, s2 = _below_bottom(part[BOTTOM], sizes, count, gap, width)
-    if every:
-        for k in range(7):
-            out[k] = norm * _dot(each, _from(rule, k * nodes), nodes) + part[FLOOR + k] * s0
-        return
-    for j in range(0, 6, 3):
-        k = shadow if j else 0
-        column, floor = _from(rule, k * nodes), part[FLOOR + k]
-        m0 = norm * _dot(each, column, nodes)
-        m1 = norm * inverse * _dot(_from(each, nodes), column, nodes)
-        m2 = norm * inverse * inverse * _dot(_from(each, 2 * nodes), column, nodes)
-        out[j] = m0 + floor * s0
-        out[j + 1] = floor * s1 - m1
-        out[j + 2] = floor * s2 + m2 - inverse * inverse * m0
-
-
-@exact
+@inlined
 def _rough_nodes(state, kinds, part, gap, shadow, every, few, out, each):
-    """Particles on a rough seat by the sum over sizes and over local gaps in their size."""
-    width = part[WIDTH]
-    sizes, count = _from(state.rules, kinds[7 if few else 3]), kinds[8 if few else 4]
-    beyond = max(gap - sizes[count] * part[TOP], sizes[2 * count - 1] * part[BOTTOM] - gap)
-    if part[NEAR] > 0 and beyond < part[NEAR] * width:
-        _near_nodes(state, kinds, part, gap, shadow, every, few, out)
-        return
+    """Particles on a rough seat by the sum over sizes and over local gaps in their size.
+
+    A seat near all sizes weighs the same gaps for all of them, so they are summed first.
+    """
+    bottom, width, inverse = part[BOTTOM], part[WIDTH], 1 / part[WIDTH]
+    begin, count = (kinds[7], kinds[8]) if few else (kinds[3], kinds[4])
+    weights, sizes = _from(state.rules, begin), _from(state.rules, begin + count)
     for k in range(7):
         out[k] = 0.0
-    middle, half = 0.5 * (part[TOP] + part[BOTTOM]), 0.5 * (part[TOP] - part[BOTTOM])
-    for n in range(count):
-        weight, size = sizes[n], sizes[count + n]
-        beyond = abs(gap - size * middle) - size * half
-        fewer = (beyond < part[NEAR] * width) if part[NEAR] > 0 else few
-        rule, nodes = _gaps(state, kinds, part, fewer), kinds[6 if fewer else 2]
-        at = _from(rule, AT * nodes)
-        # far above the largest particles the many below them carry the load
-        begin = _below(at, 0, nodes, (gap - 2 * SEAT_REACH * width) / size)
-        end = _below(at, begin, nodes, (gap + SEAT_REACH * width) / size)
-        _seat_nodes(rule, nodes, begin, end, gap, width, size, shadow, every, each)
-        z = (size * part[BOTTOM] - gap) / width
-        if z > -2 * SEAT_REACH:
-            density = exp(-0.5 * min(z * z, 1_000.0))
-            share = below(z, density) / size
-            density /= width * math.sqrt(2 * math.pi) * size
-            if every:
-                for k in range(7):
-                    each[k] += share * part[FLOOR + k]
-            else:
-                for j in range(0, 6, 3):
-                    floor = part[FLOOR + (shadow if j else 0)]
-                    each[j] += floor * share
-                    each[j + 1] -= floor * density
-                    each[j + 2] -= floor * density * z / width
-        for k in range(7):
-            out[k] += weight * each[k]
+    near = part[NEAR] * width
+    if near > 0 and max(gap - sizes[0] * part[TOP], sizes[count - 1] * bottom - gap) < near:
+        rule, nodes, moments = _gaps(state, kinds, part, YES), kinds[6], _from(state.work, EACH)
+        _spread(_from(rule, AT * nodes), nodes, weights, sizes, count, gap, inverse, moments)
+        _weighted(rule, nodes, moments, inverse, shadow, every, out)
+    else:
+        for n in range(count):
+            size = sizes[n]
+            fewer = max(gap - size * part[TOP], size * bottom - gap) < near if near > 0 else few
+            rule, nodes = _gaps(state, kinds, part, fewer), kinds[6 if fewer else 2]
+            at = _from(rule, AT * nodes)
+            # far above the largest particles the many below them carry the load
+            low = _below(at, 0, nodes, (gap - 2 * SEAT_REACH * width) / size)
+            high = _below(at, low, nodes, (gap + SEAT_REACH * width) / size)
+            _seat_nodes(rule, nodes, low, high, gap, width, size, shadow, every, each)
+            for k in range(7):
+                out[k] += weights[n] * each[k]
+    s0, s1, s2 = _below_bottom(bottom, weights, sizes, count, gap, inverse)
+    for k in range(7 if every else 2):
+        if every:
+            out[k] += part[FLOOR + k] * s0
+        else:
+            floor = part[FLOOR + k * shadow]
+            out[3 * k] += floor * s0
+            out[3 * k + 1] -= floor * s1
+            out[3 * k + 2] -= floor * s2
 
 
 @exact
@@ -694,7 +673,7 @@ def _step(f, slope, bend):
     return step * 2 / (1 + math.sqrt(inside)) if inside > 0 else step
 
 
-@exact
+@inlined
 def _root(state, target, h):
     """Separation h from a first guess, evaluations by all nodes, and fate of one state.
 
