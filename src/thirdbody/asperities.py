@@ -162,7 +162,13 @@ class GaussianSum(ReducedSum):
     """
 
     highest = 37.0
-    SPAN = np.array([-ReducedSum.DEEPEST, 0.0, 3.0, 8.0, 16.0, highest + 1])
+    SPAN = np.array(
+        [
+            *np.linspace(-ReducedSum.DEEPEST, 0.0, 9),
+            *(0.75, 1.5, 3.0, 4.25, 5.5, 8.0, 12.0, 16.0, 21.5, 27.0, highest + 1),
+        ]
+    )
+    """Panels in h that every law needs at least."""
     KINDS = (*KINDS, 2, 3)
 
     def __init__(self, law: AbstractAsperityLaw, heights: Heights, w: float):
