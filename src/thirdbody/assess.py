@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import warnings
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -659,15 +661,21 @@ def _parts(ends: Mapping[str, tuple[float, float]], *, logarithm: bool) -> dict[
 
 def _elasticities(found: Propagation, decisive: str) -> dict[str, float]:
     """d ln F_cr/d ln p of every input, where it exists."""
-    out = {}
-    for label in (label for label in found.inputs if label != found.load):
-        out[label] = math.nan
-        if decisive in CRITICAL:
-            try:
-                slopes = sensitivity(found.contact, of=decisive, to=label)
-            except InvalidValue:
-                continue
-            out[label] = float(slopes.elasticity[decisive][label])
+    labels = [label for label in found.inputs if label != found.load]
+    out = dict.fromkeys(labels, math.nan)
+    if decisive not in CRITICAL:
+        return out
+
+    def slopes(some: list[str]) -> dict[str, float]:
+        found_here = sensitivity(found.contact, of=decisive, to=some).elasticity[decisive]
+        return {label: float(found_here[label]) for label in some}
+
+    try:
+        return slopes(labels)
+    except InvalidValue:  # one of them has none
+        for label in labels:
+            with suppress(InvalidValue):
+                out |= slopes([label])
     return out
 
 
@@ -676,18 +684,20 @@ def _changes(found: Propagation, mode: str) -> tuple[Change, ...]:
     out: list[Change] = []
     if found.contact.two_body:
         return ()
-    load = float(found.loads)
+    ways: dict[tuple[str, int], tuple[Drawn, Array]] = {}
     for label, known in found.inputs.items():
-        if label == found.load:
-            continue
-        drawn = drawn_inputs(found.contact, {label: known}, found.load, load)
-        for side in (-1, 1):
-            step = _departure(found, drawn, _path(found.contact, drawn, known, side), mode)
-            step = step and _departure(found, drawn, np.linspace(step[0], step[1], FINE), mode)
-            if step:
-                value = 0.5 * (step[0] + step[1])
-                beyond = known.cdf(value) if side < 0 else 1 - known.cdf(value)
-                out.append(Change(label, value, step[2], beyond))
+        if label != found.load:
+            drawn = drawn_inputs(found.contact, {label: known}, found.load, float(found.loads))
+            for side in (-1, 1):
+                ways[label, side] = drawn, _path(found.contact, drawn, known, side)
+    steps = _departures(found, ways, mode)
+    finer = {
+        way: (ways[way][0], np.linspace(low, high, FINE)) for way, (low, high, _) in steps.items()
+    }
+    for (label, side), (low, high, other) in _departures(found, finer, mode).items():
+        value, known = 0.5 * (low + high), found.inputs[label]
+        beyond = known.cdf(value) if side < 0 else 1 - known.cdf(value)
+        out.append(Change(label, value, other, beyond))
     near = {
         label: abs(math.log(change.value / start)) if change.value * start > 0 else math.inf
         for change in out
@@ -717,16 +727,25 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int) -> Array:
     return values[: good.index(False)] if False in good else values
 
 
-def _departure(
-    found: Propagation, drawn: Drawn, values: Array, mode: str
-) -> tuple[float, float, str] | None:
-    """The step at which the first other mode comes, and that mode; None where there is none."""
-    if len(values) < 2:
-        return None
-    load = float(found.loads)
-    states = columns_at(found.contact, found.load, load, drawn.at([values]), len(values))
-    modes = [str(word) for word in states["mode"]]
-    step = next((i for i, other in enumerate(modes) if other != mode), 0)
-    if step == 0 or modes[step] == "":
-        return None
-    return float(values[step - 1]), float(values[step]), modes[step]
+def _departures(
+    found: Propagation, ways: Mapping[tuple[str, int], tuple[Drawn, Array]], mode: str
+) -> dict[tuple[str, int], tuple[float, float, str]]:
+    """The step at which the first other mode comes, and that mode, on each way that has one."""
+    if not ways:
+        return {}
+    own = all_inputs(found.contact)
+    moved = [drawn.at([values]) for drawn, values in ways.values()]
+    ends = np.cumsum([0, *(len(values) for _, values in ways.values())])
+    pieces = [slice(*pair) for pair in itertools.pairwise(ends.tolist())]
+    vary: dict[str, Array] = {}
+    for some, piece in zip(moved, pieces, strict=True):
+        for name, values in some.items():
+            vary.setdefault(name, np.full(ends[-1], own[name]))[piece] = values
+    states = columns_at(found.contact, found.load, float(found.loads), vary, int(ends[-1]))
+    out = {}
+    for (way, (_, values)), piece in zip(ways.items(), pieces, strict=True):
+        modes = [str(word) for word in states["mode"][piece]]
+        step = next((i for i, other in enumerate(modes) if other != mode), 0)
+        if step > 0 and modes[step] != "":
+            out[way] = float(values[step - 1]), float(values[step]), modes[step]
+    return out
