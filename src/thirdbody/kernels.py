@@ -577,16 +577,27 @@ def _particles(state, d, every, few, total, out, each):
 
 # ---------------------------------------------------------------- the balance
 @exact
-def _load(state, h, few):
-    """Total load [Pa] with its first and second derivative in h, by all nodes or by few."""
+def _contact(state, h, every, few, row):
+    """Total load [Pa] with its first and second derivative in h, by all nodes or by few.
+
+    With ``every``, the columns `FIELDS` into ``row`` instead.
+    """
     total, out, each = state.work, _from(state.work, 8), _from(state.work, 16)
-    _asperities(state, h, NO, out)
+    _asperities(state, h, every, out)
     f, f1, f2 = out[0], out[1], out[2]
+    if every:
+        for k in range(10):
+            row[k] = out[k] if k < 4 else 0.0
     if state.parts == 0:
         return f, f1, f2
-    sigma_s = state.values[SIGMA_S]
+    sigma_s, shadow = state.values[SIGMA_S], state.kinds[SHADOW]
     d = state.values[CENTRE] + sigma_s * h
-    _particles(state, d, NO, few, total, out, each)
+    _particles(state, d, every, few, total, out, each)
+    if every:
+        for k in range(5):
+            row[4 + k] = max(total[k], 0.0)  # rounding of the other regimes
+        row[9] = state.values[COVERAGE] if shadow < 0 else total[shadow]
+        return f, f1, f2
     bare, s1, s2 = 1 - total[3], sigma_s * total[4], sigma_s * sigma_s * total[5]
     return (
         bare * f + total[0],
@@ -686,7 +697,7 @@ def _root(state, target, h):
     few = _has_few(state)
     last, bend, count = high - low, 1.0, 0
     for n in range(1, MOST + 1):
-        F, F1, F2 = _load(state, h, few)
+        F, F1, F2 = _contact(state, h, NO, few, state.work)
         if not few:
             count += 1
         if F >= target:
@@ -727,24 +738,6 @@ def _root(state, target, h):
 
 
 @exact
-def _columns(state, h, row):
-    """The columns `FIELDS` at a separation."""
-    total, out, each = state.work, _from(state.work, 8), _from(state.work, 16)
-    _asperities(state, h, YES, out)
-    for k in range(4):
-        row[k] = out[k]
-    for k in range(4, 10):
-        row[k] = 0.0
-    if state.parts > 0:
-        d = state.values[CENTRE] + state.values[SIGMA_S] * h
-        _particles(state, d, YES, NO, total, out, each)
-        for k in range(5):
-            row[4 + k] = max(total[k], 0.0)  # rounding of the other regimes
-        shadow = state.kinds[SHADOW]
-        row[9] = state.values[COVERAGE] if shadow < 0 else total[shadow]
-
-
-@exact
 def _state(m, kinds, values, series, edges, rules, work):
     """State of interface m."""
     # no member of a family yet, for the load and for every column, and no rule on a series
@@ -781,10 +774,10 @@ def solve_states(
             h[i], count[i], fate[i] = _root(state, target[i], guess)
         # where ln F is not smooth, a third-order step leaves more behind than it seems
         for again in range(4):
-            _columns(state, h[i], row)
+            _contact(state, h[i], YES, NO, row)
             F = (1 - row[9]) * row[0] + row[4]
             if given or again == 3 or fate[i] != OK or abs(F / target[i] - 1) < RESIDUAL:
                 break
-            F, F1, _ = _load(state, h[i], NO)
+            F, F1, _ = _contact(state, h[i], NO, NO, row)
             count[i] += 1
             h[i] -= (F - target[i]) / F1
