@@ -193,6 +193,24 @@ def own_inputs(nanoseconds: float) -> Iterator[Row]:
             yield this
 
 
+def own_particles() -> Iterator[Row]:
+    """Besides, what decides the contact of a particle: its own in every state."""
+    count = 20_000
+    rng = np.random.default_rng(3)
+    surfaces = contact("rough").surfaces
+    soft, other = (H * rng.uniform(0.8, 1.2, count) for H in (surfaces.first.H, surfaces.second.H))
+    alike = {"surfaces.first.H": soft, "surfaces.second.H": soft}
+    ways = {
+        "width of the sizes": {"particles.diameter.std": naive.S_A * rng.uniform(0.8, 1.2, count)},
+        "hardness of both surfaces alike": alike,
+        "hardness of each surface": alike | {"surfaces.second.H": other},
+    }
+    for name, more in ways.items():
+        vary = inputs("rough", count) | more
+        call = partial(tb.solve_states, contact("rough"), F_star=loads(count), vary=vary)
+        yield row(f"compiled, rough, {name}, 1 thread", call, count, 1, None, repeats=3)
+
+
 LAWS = {
     "coated": {"E_1": 2e11, "nu_1": 0.3, "t": 2e-8, "E_2": 4e10, "nu_2": 0.25},
     "dmt": {"w": 0.05},
@@ -409,6 +427,11 @@ def main() -> int:
     )
     page.head(*COLUMNS)
     for each in own_inputs(nanoseconds):
+        page.rates(each, slow)
+
+    page.title("And with what decides the contact of a particle: nodes of each state")
+    page.head(*COLUMNS)
+    for each in own_particles():
         page.rates(each, slow)
 
     page.title("Every law and height distribution: rough seat, many loads, one thread")
