@@ -611,7 +611,7 @@ class States(_Batch):
         return out | {"MODULUS": np.broadcast_to(sides[0][0][:, 0], count)}
 
     def _add_series(self, series: Any, rows: Array) -> tuple[int, int]:
-        """Begin and nodes of the rules (terms, 8, n) that a series has."""
+        """Begin and nodes of a rule (terms, 8, n) on a series, whose two rules differ in n."""
         return self._rules.add((series, rows.shape[2]), rows.reshape(-1, rows.shape[2]))
 
 

@@ -30,7 +30,7 @@ INNER = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper":
 """Options of functions that only the kernels call."""
 exact, sums = njit(fastmath=EXACT, **INNER), njit(fastmath=SUM, **INNER)
 inlined = njit(fastmath=EXACT, inline="always", **INNER)
-"""Inlined: part of the one function that calls it, which would compile it once more."""
+"""What one function alone calls, compiled as a part of it: apart, it would be optimised twice."""
 
 FIELDS = ("F_ss", "e", "ep", "p", "F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow")
 """Columns of a solved state: asperities without shadow, then particles."""
