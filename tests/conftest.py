@@ -35,7 +35,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
 
 def pytest_sessionstart(session):
-    """Compile the engine before the workers start: two compilations may differ in last digits."""
+    """Compile the engine once, before the workers start."""
     if hasattr(session.config, "workerinput"):
         return
     import numpy as np

@@ -19,7 +19,13 @@ from numpy.typing import NDArray
 from .heights import GaussianHeights, Heights
 from .laws.base import REGIMES, AbstractAsperityLaw
 from .materials import MaterialPair
-from .numerics import PiecewiseChebyshev, chebyshev_transform, panel_rule, subdivide
+from .numerics import (
+    PiecewiseChebyshev,
+    chebyshev_transform,
+    in_pieces,
+    panel_rule,
+    subdivide,
+)
 from .spots import AsperitySpots
 from .surfaces import Roughness
 
@@ -136,9 +142,7 @@ class GaussianRule:
         force = self.columns[:, :1]
         columns = w * np.hstack([self.columns, force * t[:, None], force * t[:, None] ** 2])
         out = np.empty((len(h), columns.shape[1]))
-        size = max(1, 200_000 // len(t))
-        for start in range(0, len(h), size):
-            part = slice(start, start + size)
+        for part in in_pieces(len(h), columns.size):
             e = np.multiply.outer(-h[part], t)
             e -= 0.5 * t**2
             np.maximum(e, -700.0, out=e)
@@ -243,7 +247,7 @@ class GaussianSums:
         """The load in the middle of the half octave: (N,)."""
         each = self.table(h).reshape(len(h), self.TERMS, -1)[:, :, 0]
         _, transform = chebyshev_transform(self.TERMS)
-        return np.asarray(np.polynomial.chebyshev.chebval(0.0, transform @ each.T))
+        return each @ np.polynomial.chebyshev.chebval(0.0, transform)
 
     @staticmethod
     def place(w: Array) -> tuple[NDArray[np.intp], Array]:

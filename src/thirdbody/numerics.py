@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,14 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["PiecewiseChebyshev", "gauss_legendre", "halley_root", "panel_rule", "subdivide"]
+__all__ = [
+    "PiecewiseChebyshev",
+    "gauss_legendre",
+    "halley_root",
+    "in_pieces",
+    "panel_rule",
+    "subdivide",
+]
 
 
 @cache
@@ -52,6 +59,18 @@ def subdivide(edges: Array, *, width: float, ratio: float = np.inf) -> Array:
             count = max(1, int(np.ceil((right - left) / width)))
             out.append(np.linspace(left, right, count + 1)[1:])
     return np.concatenate(out)
+
+
+ONE_THREAD = 200_000
+"""Multiplications of a product of matrices that BLAS does not share among threads: where it does,
+last digits depend on how many there are."""
+
+
+def in_pieces(rows: int, work: int) -> Iterator[slice]:
+    """Slices of rows, of ``work`` multiplications each, whose products take one thread."""
+    size = max(1, ONE_THREAD // work)
+    for start in range(0, rows, size):
+        yield slice(start, min(start + size, rows))
 
 
 def chebyshev_transform(n: int) -> tuple[Array, Array]:
@@ -151,8 +170,10 @@ class PiecewiseChebyshev:
         sorted_values = np.empty((len(x), flat.shape[2]))
         starts = np.searchsorted(where, np.arange(len(self.half) + 1))
         for p in np.unique(where):
-            part = slice(starts[p], starts[p + 1])
-            np.matmul(basis[:, part].T, flat[p], out=sorted_values[part])
+            mine = slice(starts[p], starts[p + 1])
+            terms, values = basis[:, mine].T, sorted_values[mine]
+            for part in in_pieces(len(values), flat[p].size):
+                np.matmul(terms[part], flat[p], out=values[part])
         out = np.empty_like(sorted_values)
         out[order] = sorted_values
         return out.reshape(len(x), *coefficients.shape[2:])

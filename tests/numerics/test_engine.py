@@ -2,7 +2,10 @@
 
 import math
 import os
+import subprocess
+import sys
 from contextlib import contextmanager
+from pathlib import Path
 from unittest import mock
 
 import numpy as np
@@ -659,3 +662,43 @@ def test_one_length_alone_changes_no_shape(sizes, name, material):
         alone = tb.solve(case.replace(**{k: v[i] for k, v in vary.items()}), F_star=1e-5)
         assert states["d"][i] == pytest.approx(alone.d, rel=1e-11)
         assert states["F_sa_star"][i] == pytest.approx(alone.F_sa_star, rel=1e-9)
+
+
+# ---------------------------------------------------------------------------- threads of BLAS
+BITS = """
+import hashlib, sys
+import numpy as np
+import thirdbody as tb
+from thirdbody.study import load_study
+
+out = hashlib.sha256()
+study = load_study(sys.argv[1])
+contact = study.contact
+for given in ({"d": np.linspace(-1e-7, 5e-7, 60_000)}, {"pressure": np.geomspace(1e3, 1e8, 400)}):
+    result = tb.solve(contact, **given).columns()
+    for name in sorted(result):
+        if result[name].dtype.kind == "f":
+            out.update(result[name].tobytes())
+H = np.linspace(4e9, 6e9, 600)
+vary = {"surfaces.first.H": H, "surfaces.second.H": H}
+states = tb.solve_states(contact.replace(outputs=()), pressure=5e6, vary=vary)
+out.update(states["d"].tobytes())
+print(out.hexdigest())
+"""
+
+
+def test_threads_of_linear_algebra_change_no_bit():
+    """A product of matrices shared by threads has other last digits than one that is not."""
+    study = Path(__file__).parents[2] / "examples" / "bearing_wear_debris.toml"
+    found = set()
+    for count in ("1", "2"):
+        names = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+        run = subprocess.run(
+            [sys.executable, "-W", "ignore", "-c", BITS, str(study)],
+            env=os.environ | dict.fromkeys(names, count),
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        found.add(run.stdout)
+    assert len(found) == 1

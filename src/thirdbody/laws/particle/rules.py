@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ...numerics import PiecewiseChebyshev, chebyshev_transform, gauss_legendre
+from ...numerics import PiecewiseChebyshev, chebyshev_transform, gauss_legendre, in_pieces
 from ..base import REGIMES, AbstractAsperityLaw
 from .series import COLUMNS, Side
 
@@ -375,7 +375,9 @@ class RuleSeries:
     def shared(self, ratio: Array, E: Array) -> SharedRules:
         """Rules for ratios (M,) between the ends and moduli E*₁ (M,)."""
         x = np.clip((2 * ratio - self.low - self.high) / (self.high - self.low), -1, 1)
-        ends = np.polynomial.chebyshev.chebvander(x, TERMS - 1) @ self.ends
+        ends = np.empty((len(x), self.ends.shape[1]))
+        for part in in_pieces(len(x), self.ends.size):
+            ends[part] = np.polynomial.chebyshev.chebvander(x[part], TERMS - 1) @ self.ends
         ends[:, 0] *= E
         return SharedRules(self, x, ends[:, 7], ends[:, :7])
 
@@ -421,7 +423,7 @@ def _series_in_ratio(
     near = near_rule(rule, width)
     found = []
     for values in (rule.rows, ends, *([] if near is None else [near])):
-        series = np.tensordot(transform, values, 1)
+        series = np.einsum("ij,j...->i...", transform, values)
         size = np.abs(series).reshape(TERMS, 8, -1).max(axis=2)
         if np.any(size[-2:] > EXACT * size.max(axis=0)):
             return None

@@ -16,7 +16,7 @@ from scipy import special
 from ...distributions import Distribution, Monodisperse
 from ...errors import InvalidValue
 from ...materials import reduced_modulus
-from ...numerics import PiecewiseChebyshev, panel_rule, subdivide
+from ...numerics import PiecewiseChebyshev, in_pieces, panel_rule, subdivide
 from ...spots import ParticleSpots
 from ...values import choice, quantity
 from ..asperity.hermite import Hermite
@@ -771,8 +771,8 @@ class SeatAverage:
         z = (self.average.bottom - mean_gap) / self.width
         out = special.ndtr(z)[:, None] * self.floor
         order = np.argsort(mean_gap)
-        at_once = max(1, 40_000 // min(len(gaps), 1000))
-        for part in np.array_split(order, math.ceil(len(order) / at_once)):
+        for piece in in_pieces(len(order), weights[:1000].size):
+            part = order[piece]
             lowest, highest = mean_gap[part[0]], min(mean_gap[part[-1]], gaps[-1])
             near = slice(
                 np.searchsorted(gaps, min(lowest, highest) - 2 * NORMAL_REACH * self.width),
