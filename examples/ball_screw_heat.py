@@ -39,10 +39,9 @@ def solved(contact, speed):
 
 
 bare = {speed: solved(clean, speed)["dT_ss_peak"] for speed in speeds}
-dusty = {
-    speed: np.array([solved(clean.replace(particles=dust(x)), speed)["dT_peak"] for x in sizes])
-    for speed in speeds
-}
+dirty = [clean.replace(particles=dust(x)) for x in sizes]
+peaks = [[solved(contact, speed)["dT_peak"] for speed in speeds] for contact in dirty]
+dusty = dict(zip(speeds, np.array(peaks).T, strict=True))
 
 # %%
 # Rise of the hottest contact over the bulk temperature, with grains and without.
