@@ -134,6 +134,7 @@ VARIED = {  # E* and H of both contacts, x from -1 to 1, and how many of them li
     "hardness of one": (lambda x: ((6e10, 7e9 * 1.2**x), (5.5e10, 4e9)), "some"),
     "modulus of one": (lambda x: ((6e10, 7e9), (3e10 * 1.2**x, 4e9)), "none"),
     "which is weaker": (lambda x: ((6e10, 5e9 * 1.2**x), (6e10, 5e9)), "some"),
+    "unit of load": (lambda x: ((6e10 * 2.0 ** (x > 0), 5e9 * 2.0 ** (x > 0)),) * 2, "none"),
     "both hardnesses": (lambda x: ((6e10, 5e9 * 1.2**x), (6e10, 4e9 * 1.2 ** (x * x))), "none"),
 }
 

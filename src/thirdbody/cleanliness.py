@@ -569,8 +569,8 @@ def dust_sizes(name: str, *, limit: str = "middle", smallest: float | None = Non
     -----
     A1 is the table of ISO 12103-1:2024 as a maker of the dust prints it. **A2, A3 and A4 are the
     limits of the 1997 edition and were not compared with a printed copy**; later editions use
-    other sizes. Compare them with the certificate of your dust. One batch of A3, measured by its
-    maker in 36 channels (Hagmeyer, Mauthe, Zeiler 2021, doi:10.36001/ijphm.2021.v12i2.3087), is
+    other sizes. Compare them with the certificate of your dust. One batch of A3, measured
+    in 36 channels (Hagmeyer, Mauthe, Zeiler 2021, doi:10.36001/ijphm.2021.v12i2.3087), is
     ``"A3-lot"``; it is broader than the table and leaves its limits by up to 5 % of the volume.
 
     Examples

@@ -173,11 +173,11 @@ def exp(x):
 
 
 @njit(fastmath=EXACT, inline="never", error_model="numpy")
-def below(z, density):
-    """½ erfc(−z/√2), where ``density`` is exp(−z²/2), without a branch.
+def normal_cdf(z, density):
+    """Φ(z) = ½ erfc(−z/√2), where ``density`` is exp(−z²/2), without a branch.
 
-    (1 + 2x) exp(x²) erfc(x), x = |z|/√2, is a polynomial in (x − 3.75)/(x + 3.75). Relative error
-    1e-15 for z < 0.
+    (1 + 2x) exp(x²) erfc(x), x = |z|/√2, is a polynomial in (x − 3.75)/(x + 3.75): its Chebyshev
+    series of degree 22, from sixty digits. Relative error 1e-15 for z < 0.
     """
     x = abs(z) / math.sqrt(2)
     s = (x - 3.75) / (x + 3.75)
@@ -397,7 +397,7 @@ def _below_bottom(bottom, weights, sizes, count, gap, inverse):
     for n in range(count):
         weight, z = weights[n] / sizes[n], (sizes[n] * bottom - gap) * inverse
         density = exp(-0.5 * min(z * z, 1_000.0))
-        s0 += weight * below(z, density)
+        s0 += weight * normal_cdf(z, density)
         s1 += weight * density
         s2 += weight * density * z
     norm = inverse / math.sqrt(2 * math.pi)

@@ -272,7 +272,7 @@ class Particles(Value):
         Parameters
         ----------
         grade : {"A1", "A2", "A3", "A4", "A3-lot"}
-            Ultrafine, fine, medium, coarse; one batch of A3 as its maker measured it.
+            Ultrafine, fine, medium, coarse; one batch of A3 as measured.
         material : Material
             Of the grains: 69 to 77 % quartz, ``materials["quartz"]``.
         concentration, gap, by, oil_density

@@ -328,7 +328,7 @@ def squeeze_rules(
     ratios = [np.log(first[1] / E), np.log(second[1] / second[0]), np.log(second[0] / E)]
     varied = [ratio[:, 0] for ratio in ratios if np.ptp(ratio) > 0]
     rest = np.ones(len(E), bool)
-    if len(E) >= WORTH and all(np.array_equal(ratio, varied[0]) for ratio in varied):
+    if varied and len(E) >= WORTH and all(np.array_equal(ratio, varied[0]) for ratio in varied):
         fixed = tuple(None if np.ptp(ratio) > 0 else float(ratio[0, 0]) for ratio in ratios)
         # a little finer than asked for, so that others share them
         width = 2 ** (math.floor(4 * math.log2(np.min(widths))) / 4)
