@@ -314,6 +314,7 @@ class DensitySum(ReducedSum):
         out[h > high] = 0.0
         if np.any(below := h < low):
             out[below] = self._sum(h[below])
+        out[:, 1:] = np.maximum(out[:, 1:], 0.0)  # rounding of the other regimes
         return out
 
     def nodes(self, h: Array) -> tuple[Array, Array | None, Array]:

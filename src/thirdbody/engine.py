@@ -239,7 +239,7 @@ class _Batch:
         h = np.array(h) if h is not None else np.empty(count)
         target = np.zeros(count) if target is None else np.ascontiguousarray(target)
         evaluations, fate = np.zeros(count, np.int64), np.zeros(count, np.int64)
-        rows = np.empty((count, len(FIELDS)))
+        rows = np.full((count, len(FIELDS)), np.nan)  # of states that are not solved
 
         scan = np.zeros((0, 3))
         if not given and len(self.kinds) == 1 and count >= SCANNED:
@@ -389,21 +389,20 @@ class States(_Batch):
     def columns(self, load: str, loads: Array) -> dict[str, Any]:
         """Every column of a result at the given pressure [Pa], F* [1] or d [m]."""
         from .equilibrium import as_columns
-        from .kernels import CENTRE, SIGMA_S
+        from .kernels import CENTRE, SIGMA_S, TOO_DEEP
 
         centre, sigma_s = self.values[:, CENTRE], self.values[:, SIGMA_S]
         E, rough = self.varied.E_ss, self.varied.roughness
         target = None if load == "d" else loads * E if load == "F_star" else loads
-        given = None
-        if target is None:
-            given = (loads - centre) / sigma_s
-            if given.min() < -GaussianSum.DEEPEST:
-                raise TypeError("nodes do not reach so deep")
+        given = (loads - centre) / sigma_s if target is None else None
         h, iterations, fate, raw = self.solve(np.arange(len(loads)), target, given)
+        if given is not None:
+            deep = given < -GaussianSum.DEEPEST
+            fate[deep], iterations[deep] = TOO_DEEP, 0
         h[fate != 0] = np.nan
         for values in raw.values():
             values[fate != 0] = np.nan
-        d = loads if target is None else centre + sigma_s * h
+        d = np.where(fate == 0, loads, np.nan) if target is None else centre + sigma_s * h
         given = loads if load == "F_star" else None
         columns = as_columns(
             raw, d, rough.y_s - centre, rough.sigma, E, target=target, F_star=given

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import engine
+from .asperities import ReducedSum
 from .contact import Contact, Interface, interface
 from .errors import InvalidValue, NoEquilibrium, RangeWarning
 from .numerics import halley_root
@@ -34,6 +35,13 @@ CHUNK = 16_384
 """States solved together: their arrays stay in the processor's cache."""
 P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
 MODES = np.array(["", S_S, HYBRID, P_S])
+NOT_SOLVED = (
+    "not solved: no separation was found at which the load is in balance; the load may jump there"
+)
+TOO_DEEP = (
+    f"not solved: the separation is lower than {-ReducedSum.DEEPEST:g} sigma_s from the mean "
+    "asperity height, where no asperity model holds; check its sign and its unit"
+)
 EPS_1, EPS_2 = 0.02, 0.05
 """Default shares that separate the contact modes: read-off resolution, and the paper's 95 %."""
 
@@ -229,10 +237,11 @@ def solve(
     Raises
     ------
     InvalidValue
-        No load, two loads, or a load that is not positive and finite.
+        No load, two loads, or a load that is not positive and finite; a single d below −5 σ_s
+        from the mean asperity height, where no asperity model holds.
     NoEquilibrium
-        A single load that no separation above −3 σ_s carries. In an array such a state is NaN
-        with a sentence in ``status``.
+        A single load that no separation above −3 σ_s carries. In an array such a state, and one
+        below −5 σ_s, is NaN with a sentence in ``status``.
 
     Warns
     -----
@@ -268,8 +277,11 @@ def solve(
     raw = None
     target = None if name == "d" else values
     if target is None:
-        separation, status = values, np.full(len(values), "ok", dtype=object)
-        iterations = np.ones(len(values), dtype=int)
+        deep = values < deepest(contact)
+        if scalar and deep.any():
+            raise InvalidValue(f"d = {values[0]:g} m is refused: {why_deep(contact)}")
+        separation, status = np.where(deep, np.nan, values), np.where(deep, TOO_DEEP, "ok")
+        iterations = np.where(deep, 0, 1)
     elif compiled := _compiled(bound, target):
         separation, iterations, status, raw = compiled
     else:
@@ -282,6 +294,21 @@ def solve(
     for sentence in result.warnings:
         warnings.warn(sentence, RangeWarning, stacklevel=2)
     return result
+
+
+def deepest(contact: Contact) -> float:
+    """Lowest separation d [m] at which states are evaluated."""
+    rough = contact.roughness
+    datum = next((contact.law_of(each).centre for each in contact.populations), 0.0)
+    return datum * rough.sigma - ReducedSum.DEEPEST * rough.sigma_s
+
+
+def why_deep(contact: Contact) -> str:
+    """What is allowed of separations, and why."""
+    return (
+        f"it must be at least {deepest(contact):.4g} m, {-ReducedSum.DEEPEST:g} sigma_s from the "
+        "mean asperity height, below which no asperity model holds; check its sign and its unit"
+    )
 
 
 def roots(
@@ -518,9 +545,14 @@ def _compiled(
     d = bound.asperities.centre + bound.asperities.sigma_s * h
     if not fate.any():
         return d, iterations, np.full(len(d), "ok"), columns
+    from .kernels import UNSOLVED
+
     failed, status = fate != 0, np.full(len(d), "ok", dtype=object)
     scan = LoadScan(bound)
-    status[failed] = [scan.why_not(float(F)) for F in target[failed]]
+    status[failed] = [
+        NOT_SOLVED if what == UNSOLVED else scan.why_not(float(F))
+        for what, F in zip(fate[failed], target[failed], strict=True)
+    ]
     d[failed] = np.nan
     return d, iterations, status, {name: values[~failed] for name, values in columns.items()}
 

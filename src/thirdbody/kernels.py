@@ -79,14 +79,20 @@ SEAT_REACH = 9.0
 """Standard deviations of the seat above a gap that count; twice as many count below it."""
 YES, NO = np.bool_(True), np.bool_(False)
 """Typed, so that one compiled function serves both."""
-OK, TOO_MUCH, TOO_LITTLE = range(3)
-"""What became of a state."""
-LOWEST, START, MOST = -3.0, 1.0, 100
-"""Lowest separation searched [σ_s], the first guess, and the most evaluations of the load."""
+OK, TOO_MUCH, TOO_LITTLE, UNSOLVED, TOO_DEEP = range(5)
+"""What became of a state; too deep is for those who give a separation to say."""
+LOWEST, START, MOST, STEPS = -3.0, 1.0, 120, 30
+"""Lowest separation searched [σ_s], the first guess, and the most evaluations of the load, of
+which those after STEPS only halve the bracket."""
 ROUNDING = 1e-16
 """Error [σ_s] that a third-order step may leave behind."""
-RESIDUAL = 2e-13
-"""Imbalance of the load above which a solved state is polished."""
+RESIDUAL, WORST = 2e-13, 1e-3
+"""Imbalance of the load of a solved state, and where an ulp of separation changes it by more."""
+ULP, EPSILON = 5e-16, 2.220446049250313e-16
+"""Error of a separation in the load at it, and width of the smallest bracket: over the larger of
+the separation and 1 [σ_s]."""
+FLAT = 1e-100
+"""Slope of ln F [1/σ_s] below which no step is taken along it."""
 CLOSE = 0.02
 """Step [σ_s] after which few nodes are left for all."""
 MEMBER = 24
@@ -596,7 +602,7 @@ def _contact(state, h, every, few, row):
     if every:
         for k in range(5):
             row[4 + k] = max(total[k], 0.0)  # rounding of the other regimes
-        row[9] = state.values[COVERAGE] if shadow < 0 else total[shadow]
+        row[9] = state.values[COVERAGE] if shadow < 0 else max(total[shadow], 0.0)
         return f, f1, f2
     bare, s1, s2 = 1 - total[3], sigma_s * total[4], sigma_s * sigma_s * total[5]
     return (
@@ -685,14 +691,18 @@ def _step(f, slope, bend):
 
 
 @inlined
-def _root(state, target, h):
-    """Separation h from a first guess, evaluations by all nodes, and fate of one state.
+def _root(state, target, h, row):
+    """Separation h from a first guess, evaluations by all nodes, fate and columns of one state.
 
-    Steps on ln F_t(h) = ln F, exact where ln F_t is a parabola as it is in a Gaussian tail,
-    inside a bracket. Where there are few nodes beside all, they come first.
+    Steps on ln F_t(h) = ln F, exact where ln F_t is a parabola as it is in a Gaussian tail, inside
+    a bracket that is halved where a step leaves it, where there is no slope to step along, and
+    where steps do not halve. Where there are few nodes beside all, they come first. The columns
+    are evaluated where the root seems to be, and tell whether it is: where the load hardly
+    changes, a step says little. A root balances the load, or as well as an ulp of h can.
     """
     top = _highest(state)
-    low, high = LOWEST, top
+    low, high, held = LOWEST, top, False  # held: the load at the lower end is known to be enough
+    over, under = math.inf, target  # imbalance at both ends
     h = min(max(h, low), high)
     few = _has_few(state)
     last, bend, count = high - low, 1.0, 0
@@ -701,40 +711,55 @@ def _root(state, target, h):
         if not few:
             count += 1
         if F >= target:
-            low = h
+            low, over, held = h, F - target, True
         elif h == LOWEST and not few:
             return h, count, TOO_MUCH
         else:
-            high = h
-        step = 0.5 * (low + high) - h
-        bisected = True
-        if F > 0 and F1 < 0:
-            slope = F1 / F
+            high, under = h, target - F
+        unit = max(1.0, abs(h))
+        pinched = high - low <= EPSILON * unit
+        step = (0.5 * (low + high) if held or n % 4 == 0 else LOWEST) - h
+        bisected, explained = True, False
+        if F > 0 and F1 < -FLAT * F and n <= STEPS:
+            f, slope = math.log(F / target), F1 / F
             curve = F2 / F - slope * slope
-            trial = _step(math.log(F / target), slope, curve)
-            if h + trial <= LOWEST:
-                trial = LOWEST - h
-            if low <= h + trial <= high and (n % 4 != 0 or abs(trial) < 0.5 * last):
+            trial = _step(f, slope, curve)
+            explained = abs(f) <= -slope * ULP * unit
+            if low < h + trial < high and (n % 4 != 0 or abs(trial) < 0.5 * last):
                 step, bisected = trial, False
         size = abs(step)
-        h += step
         # errors follow e' = Ke³
         if last < 1:
             bend = size / (last * last * last)
         if few:
+            h += step
             if h == LOWEST or size < CLOSE or n > 20:
                 few = NO
-                low, high = LOWEST, top
+                low, high, held = LOWEST, top, False
+                over, under = math.inf, target
                 last = 1.0
                 continue
         else:
+            if pinched:
+                if not held:
+                    h = LOWEST
+                    continue
+                h = low if over <= under else high
+            elif not (explained and bisected):
+                h += step
             # so this step leaves K size³
             small = not bisected and size < 1e-3 and bend * size * size * size <= ROUNDING
-            if h != LOWEST and (small or size <= 1e-15 * max(1.0, abs(h))):
-                fate = TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
-                return h, count, fate
+            if pinched or explained or small or size <= ULP * unit:
+                _contact(state, h, YES, NO, row)
+                error = abs((1 - row[9]) * row[0] + row[4] - target) / target
+                if error < RESIDUAL or ((pinched or explained) and error < WORST):
+                    fate = TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
+                    return h, count, fate
+                if pinched:
+                    fate = TOO_LITTLE if high == top else UNSOLVED
+                    return h, count, fate
         last = size
-    return h, MOST, OK
+    return h, count, UNSOLVED
 
 
 @exact
@@ -768,16 +793,8 @@ def solve_states(
         row = _from(_pointer(rows), i * len(FIELDS))
         if given:
             count[i], fate[i] = 1, OK
+            _contact(state, h[i], YES, NO, row)
         else:
             scanned = len(scan) > 0
             guess = _guess(scan, math.log(target[i])) if scanned else _start(state, target[i])
-            h[i], count[i], fate[i] = _root(state, target[i], guess)
-        # where ln F is not smooth, a third-order step leaves more behind than it seems
-        for again in range(4):
-            _contact(state, h[i], YES, NO, row)
-            F = (1 - row[9]) * row[0] + row[4]
-            if given or again == 3 or fate[i] != OK or abs(F / target[i] - 1) < RESIDUAL:
-                break
-            F, F1, _ = _contact(state, h[i], NO, NO, row)
-            count[i] += 1
-            h[i] -= (F - target[i]) / F1
+            h[i], count[i], fate[i] = _root(state, target[i], guess, row)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import engine
 from .contact import Contact, interface
-from .equilibrium import COLUMNS, given_load, solve
+from .equilibrium import COLUMNS, NOT_SOLVED, TOO_DEEP, given_load, solve
 from .errors import InvalidValue, RangeWarning
 from .materials import BULK
 from .outputs.base import evaluate
@@ -45,8 +45,8 @@ def solve_states(
     Returns
     -------
     dict
-        Every column of `Equilibrium`, arrays (N,). A state without equilibrium is NaN with its
-        reason in ``status``.
+        Every column of `Equilibrium`, arrays (N,). A state without equilibrium, or at a
+        separation below −5 σ_s, is NaN with its reason in ``status``.
 
     Raises
     ------
@@ -118,6 +118,8 @@ FATES = np.array(
         "-3 sigma_s; check the unit of the load",
         "no equilibrium: the load is below the smallest load this model resolves; check the unit "
         "of the load",
+        NOT_SOLVED,
+        TOO_DEEP,
     ],
     dtype=object,
 )

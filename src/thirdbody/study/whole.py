@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from ..contact import Contact
-from ..equilibrium import Equilibrium, solve
+from ..equilibrium import Equilibrium, deepest, solve, why_deep
 from ..errors import InvalidValue
 from ..lubrication import FilmConditions
 from ..sweep import Plan
@@ -161,6 +161,10 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     contact = reader.make(Contact, "", parts)
     loaded = own.get("load") or ends(asked or {})
     load, loads = loaded or _pressed(film, contact)
+    if load == "separation" and asked is None and np.any(deep := loads < deepest(contact)):
+        raise InvalidValue(
+            *(f"load.separation = {d:g} m is refused: {why_deep(contact)}" for d in loads[deep][:5])
+        )
     states = None if asked is None else plan(reader, contact, load, loads, asked)
     return Study(
         title=own.get("title", ""),

@@ -892,6 +892,7 @@ class SeatedParticles(ParticleResponse):
 
     def fields(self, d: Array) -> dict[str, Array]:
         total = np.sum([part.columns(d) for part in self.parts], axis=0)
+        total = np.maximum(total, 0.0)  # rounding of the other regimes
         return {
             "F_sa": total[:, 0],
             "A_e": total[:, 1],
