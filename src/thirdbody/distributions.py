@@ -70,6 +70,13 @@ class Distribution(Value):
     def pdf(self, x: ArrayLike) -> Array:
         """Density φ_a(x) [1/m], zero outside the support."""
 
+    def pdf_below(self, depth: Array) -> Array:
+        """Density [1/m] at ``depth`` [m] below the largest diameter.
+
+        Where sizes lie close together a diameter says too few digits of its place among them.
+        """
+        return self.pdf(self.support[1] - depth)
+
     @abstractmethod
     def ppf(self, q: ArrayLike) -> Array:
         """Diameter [m] below which a fraction q of the particles lies."""
@@ -242,6 +249,11 @@ class TruncatedGaussian(Distribution):
         norm = math.sqrt(2 * math.pi) * self.std * self.retained_mass
         return np.where((x >= lo) & (x <= hi), np.exp(-0.5 * u * u) / norm, 0.0)
 
+    def pdf_below(self, depth: Array) -> Array:
+        u = ((self.support[1] - self.mean) - depth) / self.std
+        norm = math.sqrt(2 * math.pi) * self.std * self.retained_mass
+        return np.exp(-0.5 * u * u) / norm
+
     def ppf(self, q: ArrayLike) -> Array:
         lo, hi = self.support
         p0 = special.ndtr((lo - self.mean) / self.std)
@@ -336,6 +348,12 @@ class LogNormal(Distribution):
         u = np.log(safe / self.median) / self.s
         dens = np.exp(-0.5 * u * u) / (math.sqrt(2 * math.pi) * self.s * safe)
         return np.where((x >= lo) & (x <= hi), dens, 0.0)
+
+    def pdf_below(self, depth: Array) -> Array:
+        hi = self.support[1]
+        u = (math.log1p((hi - self.median) / self.median) + np.log1p(-depth / hi)) / self.s
+        norm = math.sqrt(2 * math.pi) * self.s * (hi - depth)
+        return np.exp(-0.5 * u * u) / norm
 
     def ppf(self, q: ArrayLike) -> Array:
         u = special.ndtri(np.asarray(q, dtype=float))

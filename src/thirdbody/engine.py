@@ -516,7 +516,7 @@ class States(_Batch):
                 "coverage": math.pi / 4 * factor * shape.moment(2),
                 **{"SIZE": size, "FACTOR": factor, "WIDTH": width},
                 "REACH": average.top + k.SEAT_REACH * width,
-                "LEAST": average.bottom - k.SEAT_REACH * width,
+                "LEAST": average.bottom,
                 **{"TOP": average.top, "BOTTOM": average.bottom},
                 **({"NEAR": -1.0} if rough else {"JOIN": average.join}),
                 **{"POWERS": average.powers, "FLOOR": average.floor},
@@ -569,13 +569,11 @@ class States(_Batch):
             rules = self._over_gaps(law, sides, panels, kinds)
             for i, (at, number) in ((3, (x, weight)), (7, few)):
                 kinds[:, i : i + 2] = self._rules.add_each(np.stack([number * at**3, at], axis=1))
-            deepest = np.minimum(x[..., 0] * rules["BOTTOM"], x[..., -1] * rules["BOTTOM"])
             yield {
                 "kinds": kinds,
                 "coverage": math.pi / 4 * factor * np.sum(weight * x**2, axis=-1),
                 **{"SIZE": size[:, 0], "FACTOR": factor, "WIDTH": width[:, 0]},
                 "REACH": x[..., -1] + k.SEAT_REACH * width[:, 0],
-                "LEAST": deepest - k.SEAT_REACH * width[:, 0],
                 **{"TOP": 1.0, **rules},
             }
 

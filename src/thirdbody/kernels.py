@@ -51,11 +51,11 @@ SIZE, FACTOR, OFFSET, WIDTH, REACH, LEAST, TOP, BOTTOM, JOIN, POWERS, FLOOR = *r
 PLACE, MODULUS = 23, 24
 NEAR = JOIN
 """size [m]; density × size²: the unit of area, and of load per Pa; gap − d [m]; width of a rough
-seat; gap above which nothing is carried; gap below which each carries its most, on the seat and
-on a plane; gap between the two series of a plane, or the widths of a seat beyond the gaps within
-which the fewer are as good, −1 where they only come close; leading powers of √(top − gap) of the
-seven columns; the seven columns below the least gap; where the part lies on series of rules (−1
-to 1), and its modulus, their unit of load."""
+seat; gap above which nothing is carried; gap below which each carries its most, on the seat (not
+asked where it has nodes) and on a plane; gap between the two series of a plane, or the widths of a
+seat beyond the gaps within which the fewer are as good, −1 where they only come close; leading
+powers of √(top − gap) of the seven columns; the seven columns below the least gap; where the part
+lies on series of rules (−1 to 1), and its modulus, their unit of load."""
 PART_VALUES = 25
 
 FAMILY, GAUSSIAN, DENSITY = range(3)
@@ -547,7 +547,7 @@ def _particles(state, d, every, few, total, out, each):
         gap = (d + part[OFFSET]) / size
         if gap >= part[REACH]:
             continue
-        if gap < part[LEAST]:
+        if gap < part[LEAST] and kind != ROUGH_NODES:
             for k in range(7):
                 out[k] = part[FLOOR + k] if every else 0.0
             if not every:

@@ -16,7 +16,7 @@ from scipy import special
 from ...distributions import Distribution, Monodisperse
 from ...errors import InvalidValue
 from ...materials import reduced_modulus
-from ...numerics import PiecewiseChebyshev, in_pieces, panel_rule, subdivide
+from ...numerics import PiecewiseChebyshev, gauss_legendre, in_pieces, panel_rule, subdivide
 from ...spots import ParticleSpots
 from ...values import choice, quantity
 from ..asperity.hermite import Hermite
@@ -337,10 +337,6 @@ class SizeAverage:
         gaps = [x * (1 - eps) for x in sizes.kinks for eps in (0.0, *particle.kinks)]
         gaps += [x * f for x in sizes.pieces for f in (0.25, 0.5) if x > 1e-4 * self.top]
         known = np.array(sorted({g for g in gaps if self.bottom < g < self.top}))
-        # the sizes are known to rounding, so their densities to rounding over their width
-        width = (self.top - low) / self.top
-        tolerance = 1e-13 + (2e-15 / width if width > 0 else 0.0)
-        self.tolerance = tolerance
         rise = np.sqrt(self.top - np.array([self.join, *known[known > self.join]]))
         self.rises = _distinct(np.array([0.0, *np.sort(rise)]))
         """Breakpoints in u above the join."""
@@ -355,7 +351,7 @@ class SizeAverage:
     @cached_property
     def upper(self) -> PiecewiseChebyshev:
         """P/u^powers as a function of u, above the join."""
-        return PiecewiseChebyshev(self._reduced, self.rises, tolerance=self.tolerance, kinds=KINDS)
+        return PiecewiseChebyshev(self._reduced, self.rises, tolerance=1e-13, kinds=KINDS)
 
     @cached_property
     def lower(self) -> PiecewiseChebyshev | None:
@@ -365,7 +361,7 @@ class SizeAverage:
         return PiecewiseChebyshev(
             lambda g: self.average(g, self.top - g),
             self.gaps_below,
-            tolerance=self.tolerance,
+            tolerance=1e-13,
             kinds=KINDS,
         )
 
@@ -394,16 +390,38 @@ class SizeAverage:
             return np.full_like(gap, sizes.mean), rise, (rise > 0).astype(float)
         low, high = sizes.support
         pieces = np.array(sizes.pieces)
-        # δ at which a size, or a regime of some size, sets in; x = δ/ε must be positive
-        of_sizes = np.where(gap > 0.5 * high, rise - (high - pieces), pieces - gap)
+        # sizes are counted from `zero`, the largest of them where they lie close together, so
+        # that their densities and how far they lie apart keep all digits; edges of panels
+        # likewise, or where sizes begin to be squeezed from the gap, as squeezes δ
+        close = low > 0.5 * high
+        zero = high if close else 0.0
+        gap_at = -rise if close else gap
+        start = rise <= high - low
+        above = np.where(gap > 0.5 * high, rise - (high - pieces), pieces - gap)
+        of_sizes = np.where(start, above, pieces - zero)
+        # where a regime of some size sets in: δ = εx, so x = g/(1 − ε), which must be positive
         eps = np.concatenate([particle.panels, splits])
-        of_regimes = gap * np.divide(eps, 1 - eps, out=np.zeros_like(eps), where=eps != 1)
-        deltas = np.concatenate([of_sizes, of_regimes], axis=1)
-        deltas = np.clip(deltas, np.maximum(of_sizes[:, :1], 0.0), rise)
-        root, weight = panel_rule(np.sort(np.sqrt(deltas), axis=1), nodes)
-        delta = root * root
-        diameter = np.clip(gap + delta, low, high)
-        return diameter, delta, sizes.pdf(diameter) * 2 * root * weight
+        whole = eps == 1
+        part = np.where(whole, 1.0, 1 - eps)
+        of_regimes = np.where(start, gap * eps, high * eps - rise if close else gap) / part
+        edges = np.concatenate([of_sizes, np.where(whole, -np.inf, of_regimes)], axis=1)
+        first = np.maximum(of_sizes[:, :1], np.where(start, 0.0, gap_at))
+        edges = np.sort(np.clip(edges, first, of_sizes[:, -1:]), axis=1)
+        # Gauss panels in √δ, in which the response is smooth where it sets in
+        root = np.sqrt(np.maximum(np.where(start, edges, edges - gap_at), 0.0))
+        sums = root[:, 1:] + root[:, :-1]
+        step = np.divide(np.diff(edges, axis=1), sums, out=np.zeros_like(sums), where=sums > 0)
+        x, weight = gauss_legendre(nodes)
+        from_edge = 0.5 * step[..., None] * (1 + x)
+        root = root[:, :-1, None]
+        place = edges[:, :-1, None] + from_edge * (2 * root + from_edge)
+        root = root + from_edge
+        weight = root * step[..., None] * weight
+        root, place, weight = (each.reshape(len(gap), -1) for each in (root, place, weight))
+        place = np.where(start, place + gap_at, place)
+        diameter = np.clip(zero + place, low, high)
+        density = sizes.pdf_below(-place) if close else sizes.pdf(diameter)
+        return diameter, root * root, density * weight
 
     def _average(self, gap: Array, rise: Array) -> Array:
         diameter, delta, weight = self.of_sizes(gap, rise)
