@@ -25,6 +25,7 @@ from .asperities import (
 )
 from .contact import Contact, Interface, together
 from .distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
+from .errors import NotCompiled
 from .heights import GaussianHeights
 from .laws.base import AbstractAsperityLaw
 from .laws.particle.rules import NEAR, SharedRules, near_rule, squeeze_rules
@@ -65,9 +66,16 @@ def available() -> bool:
 
     ``THIRDBODY_ENGINE=numpy`` in the environment switches it off.
     """
+    return not unavailable()
+
+
+def unavailable() -> str:
+    """Why there is no compiled engine, or nothing where there is one."""
     from importlib.util import find_spec
 
-    return os.environ.get("THIRDBODY_ENGINE") != "numpy" and find_spec("numba") is not None
+    if os.environ.get("THIRDBODY_ENGINE") == "numpy":
+        return "THIRDBODY_ENGINE=numpy switches the compiled engine off"
+    return "" if find_spec("numba") is not None else "numba is not installed"
 
 
 def threads() -> int:
@@ -291,7 +299,7 @@ class Interfaces(_Batch):
 
     Raises
     ------
-    TypeError
+    NotCompiled
         An interface that the kernel does not know: adhesion, or particles that are not a
         `Series`.
     """
@@ -299,7 +307,7 @@ class Interfaces(_Batch):
     def __init__(self, interfaces: Sequence[Interface]):
         particles = [bound.particles for bound in interfaces]
         if not all(p is None or isinstance(p, SeatedParticles) for p in particles):
-            raise TypeError("these particles are not for the compiled engine")
+            raise NotCompiled("particles that are not Series")
         most = max(len(p.parts) if isinstance(p, SeatedParticles) else 0 for p in particles)
         super().__init__(len(interfaces), most)
         for m, bound in enumerate(interfaces):
@@ -312,7 +320,7 @@ class Interfaces(_Batch):
         from . import kernels as k
 
         if not isinstance(asperities, AsperitySum) or pulls(asperities.reduced.law):
-            raise TypeError("these asperities are not for the compiled engine")
+            raise NotCompiled("asperities of several shapes, or that attract")
         reduced = asperities.reduced
         table = reduced.table  # type: ignore[attr-defined]
         if isinstance(reduced, GaussianSum):
@@ -366,18 +374,18 @@ class States(_Batch):
 
     Raises
     ------
-    TypeError
+    NotCompiled
         Inputs or models for which nodes are not shared: heights that are not Gaussian, a law
         that depends on what varies, particles whose shape or material varies, adhesion.
     """
 
     def __init__(self, contact: Contact, arrays: Mapping[str, Array], count: int):
         if any(name.startswith("asperity_law.") for name in arrays):
-            raise TypeError("the law varies")
+            raise NotCompiled("the asperity law varies")
         varied = contact.with_arrays(arrays)
         particles = None if bare(contact, arrays) else contact.particles
         if isinstance(particles, tuple) or (particles is not None and particles.law is not None):
-            raise TypeError("several populations")
+            raise NotCompiled("several populations")
         super().__init__(count, 0 if particles is None else len(particles.diameter.components))
         datum = 0.0 if particles is None else contact.particle_law.centre
         self._add_asperities(contact, varied, datum)
@@ -398,7 +406,7 @@ class States(_Batch):
         if target is None:
             given = (loads - centre) / sigma_s
             if given.min() < -GaussianSum.DEEPEST:
-                raise TypeError("nodes do not reach so deep")
+                raise NotCompiled("separations so deep that nodes do not reach them")
         h, iterations, fate, raw = self.solve(np.arange(len(loads)), target, given)
         h[fate != 0] = np.nan
         for values in raw.values():
@@ -416,7 +424,9 @@ class States(_Batch):
         rough, surfaces = varied.roughness, varied.surfaces
         law = _common_law(contact.asperity_law, rough, surfaces)
         if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity or pulls(law):
-            raise TypeError("these asperities are not for shared nodes")
+            raise NotCompiled(
+                "asperities of several shapes or heights that are not Gaussian, or that attract"
+            )
         w, units = scales(law, rough, surfaces)
         self.law, self.w = law, np.broadcast_to(w, len(self.kinds))
         step, across = GaussianSums.place(self.w)
@@ -453,9 +463,9 @@ class States(_Batch):
 
         law, particles = varied.particle_law, contact.particles
         if not (isinstance(law, ParticleSeries) and isinstance(particles, Particles)):
-            raise TypeError("these particles are not for shared nodes")
+            raise NotCompiled("particles that are not Series")
         if any(name.startswith("particle_law.law") for name in arrays):
-            raise TypeError("the law varies")
+            raise NotCompiled("the law of the particles varies")
         self.kinds[:, k.SHADOW] = COLUMNS.index(law.shadow) if law.shadow in COLUMNS else -1
         own = law.seat == "rough" and own_particles(contact, arrays)
         parts = self._squeezed if own else self._averaged
@@ -468,7 +478,7 @@ class States(_Batch):
             part["OFFSET"] = law.seat_offset(varied.roughness)
             self._set_values(k.VALUES + p * k.PART_VALUES, part)
         if np.any(coverage >= 1):
-            raise TypeError("some particles are jammed")  # said better, one contact at a time
+            raise NotCompiled("some particles are jammed")  # said better, one contact at a time
         if law.shadow == "covered":
             self.values[:, k.COVERAGE] = 2 * law.tip_radius * coverage
 
@@ -483,13 +493,13 @@ class States(_Batch):
         assert isinstance(particles, Particles)
         assert isinstance(changed, Particles)
         if any(name.startswith(MATERIALS) for name in arrays):
-            raise TypeError("the materials of the particles vary")
+            raise NotCompiled("the materials of the particles vary")
         sides = contact_sides(contact.surfaces, particles.material)
         shadow = self.kinds[0, k.SHADOW]
         rough = law.seat == "rough"
         ratio = size_factor(particles.diameter, arrays)
         if ratio is None:
-            raise TypeError("the shape of the size distribution varies")
+            raise NotCompiled("the shape of the size distribution varies")
         for share, sizes in particles.diameter.components:
             scale, shape = sizes.standardised()
             average = size_average(law.law, *sides, shape, law.tip_radius)
@@ -550,7 +560,7 @@ class States(_Batch):
             for (E, H), nu in itertools.product(sides, (0.1, 0.4))
         }
         if bound != {law.law}:
-            raise TypeError("the law of the particles depends on their material")
+            raise NotCompiled("the law of the particles depends on their material")
         sigma = column(law.zeta_std * varied.roughness.sigma)
         unvaried = contact_sides(contact.surfaces, particles.material)
         parts = [part.standardised()[1] for _, part in particles.diameter.components]
@@ -559,7 +569,7 @@ class States(_Batch):
             width = sigma / size
             x, weight = sizes(float(width.min()))
             if x[..., -1].max() > MOST_WIDTHS * width.min():
-                raise TypeError("the seat is too smooth for nodes")
+                raise NotCompiled("the seat is too smooth for nodes")
             panels = width / x[..., -1:]
             factor = changed.areal_density * share * size[:, 0] ** 2
             kinds = np.full((count, k.PART_KINDS), k.ABSENT)
@@ -652,7 +662,7 @@ def _each(number: Index, places: Callable[[int], tuple[int, ...]], count: int) -
 def _seat_rule(average: SizeAverage, octave: int) -> Array:
     """Weighted columns and gaps for seats of 2^octave to 2^(octave + 1) in the size."""
     if average.top - average.bottom > MOST_WIDTHS * 2.0**octave:
-        raise TypeError("the seat is too smooth for shared nodes")
+        raise NotCompiled("the seat is too smooth for shared nodes")
     gaps, weight, values = average.nodes(1.25 * 2.0**octave)
     return np.vstack([weight * values.T, gaps])
 
@@ -684,7 +694,7 @@ def _sizes(
         std = np.broadcast_to(varied.std, count)[:, None] / size
         yield 1.0, size, partial(_gaussian_sizes, std, np.broadcast_to(varied.n, count)[:, None])
     else:
-        raise TypeError("the shape of these sizes varies")
+        raise NotCompiled("the shape of these sizes varies")
 
 
 def _shape_rule(shape: Distribution, width: float, part: float = 1.0) -> tuple[Array, Array]:
@@ -742,15 +752,12 @@ def _common_law(
         rows += [[*one[:i], float(v), *one[i + 1 :]] for v in {values.min(), values.max()}]
     bound = {law.bound(R=R, E_star=E, H=H, nu=v) for R, E, H, v in rows}
     if len(bound) > 1:
-        raise TypeError("the law binds differently from state to state")
+        raise NotCompiled("the law binds differently from state to state")
     return bound.pop()
 
 
-def batch(bound: Interface) -> Interfaces | None:
-    """The interface for the compiled engine, or None where only the NumPy engine knows it."""
-    if not available():
-        return None
-    try:
-        return Interfaces([bound])
-    except TypeError:
-        return None
+def batch(bound: Interface) -> Interfaces:
+    """The interface for the compiled engine; `NotCompiled` where only the NumPy engine knows it."""
+    if why := unavailable():
+        raise NotCompiled(why)
+    return Interfaces([bound])

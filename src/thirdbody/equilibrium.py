@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import engine
 from .contact import Contact, Interface, interface
-from .errors import InvalidValue, NoEquilibrium, RangeWarning
+from .errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
 from .numerics import halley_root
 from .outputs.base import column, evaluate
 
@@ -99,6 +99,8 @@ class Equilibrium:
     """What each of several populations carries; empty for one."""
     outputs: Mapping[str, Number] = field(default_factory=dict)
     """Every column of the outputs that the contact carries, by name."""
+    engine: str = "numpy"
+    """What found the separations: "compiled", or "numpy: " and why the compiled engine did not."""
 
     @property
     def scales(self) -> dict[str, float]:
@@ -265,18 +267,22 @@ def solve(
     if branch not in ("loading", "unloading"):
         raise InvalidValue(f"branch = {branch!r} must be 'loading' or 'unloading'")
     bound = interface(contact)
-    raw = None
+    raw, path = None, "compiled"
     target = None if name == "d" else values
     if target is None:
         separation, status = values, np.full(len(values), "ok", dtype=object)
-        iterations = np.ones(len(values), dtype=int)
-    elif compiled := _compiled(bound, target):
-        separation, iterations, status, raw = compiled
+        iterations, path = np.ones(len(values), dtype=int), "numpy: the separations are given"
     else:
-        separation, iterations, status = LoadScan(bound).solve(target, branch)
+        try:
+            separation, iterations, status, raw = _compiled(bound, target)
+        except NotCompiled as why:
+            path = f"numpy: {why}"
+            separation, iterations, status = LoadScan(bound).solve(target, branch)
     # E·F*/E is not F* to the last digit: the given values are kept
     given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
-    result = _state(contact, bound, separation, status, iterations, target, scalar, given, raw=raw)
+    result = _state(
+        contact, bound, separation, status, iterations, target, scalar, given, raw=raw, path=path
+    )
     if scalar and result.status != "ok":
         raise NoEquilibrium(result.status)
     for sentence in result.warnings:
@@ -509,10 +515,11 @@ class LoadScan:
 
 def _compiled(
     bound: Interface, target: Array
-) -> tuple[Array, Index, NDArray[Any], dict[str, Array]] | None:
+) -> tuple[Array, Index, NDArray[Any], dict[str, Array]]:
     """Separations, evaluations, status and columns by the compiled engine, where it pays."""
-    if len(target) < engine.FEWEST or (batch := engine.batch(bound)) is None:
-        return None
+    if len(target) < engine.FEWEST:
+        raise NotCompiled(f"fewer than {engine.FEWEST} loads of one contact")
+    batch = engine.batch(bound)
     which = np.zeros(len(target), np.int64)
     h, iterations, fate, columns = batch.solve(which, target)
     d = bound.asperities.centre + bound.asperities.sigma_s * h
@@ -535,6 +542,7 @@ def _state(
     scalar: bool,
     F_star: Array | None = None,
     raw: dict[str, Array] | None = None,
+    path: str = "numpy",
 ) -> Equilibrium:
     """Every column at given separations, where ``raw`` does not bring them."""
     solved = np.isfinite(d)
@@ -557,7 +565,12 @@ def _state(
         outputs = {name: values[0].item() for name, values in outputs.items()}
     notes = (*_warnings(contact, bound, full, d), *more)
     return Equilibrium(
-        contact=contact, warnings=notes, populations=shares, outputs=outputs, **columns
+        contact=contact,
+        warnings=notes,
+        populations=shares,
+        outputs=outputs,
+        engine=path,
+        **columns,
     )
 
 

@@ -13,6 +13,7 @@ import json
 import math
 import re
 import warnings
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -183,7 +184,7 @@ class Task:
                 f"this worker runs thirdbody {__version__} and the sweep needs {self.version}; "
                 "install the same version everywhere"
             )
-        needed = dict.fromkeys((*self.columns, "status", "A_t", "shadow"))
+        needed = dict.fromkeys((*self.columns, "status", "engine", "A_t", "shadow"))
         solved: Arrays = {}
         for part, block in self.block.parts(CHUNK):
             columns = block.solve()
@@ -196,6 +197,7 @@ class Task:
             "unsolved": int(np.sum(solved["status"] != "ok")),
             "A_t": _largest(solved["A_t"]),
             "shadow": _largest(solved["shadow"]),
+            "engine": dict(Counter(solved["engine"].ravel().tolist())),
         }
         if self.reduction is not None:
             kept = {name: solved[name] for name in (*self.columns, "status")}
@@ -728,9 +730,10 @@ def sweep(
     xarray.Dataset
         One dimension for each listed input, for the load, and for the samples (``sample``) or
         pairs (``state``); every column of `Equilibrium` as a variable with ``units``,
-        ``long_name`` and ``symbol``; inputs, version and citations as attributes. A state without
-        equilibrium is NaN with its reason in ``status``. In ``out``, ``mode`` and ``status`` are
-        codes (``flag_values``, ``flag_meanings``), and the data are loaded when they are used.
+        ``long_name`` and ``symbol``; inputs, version, citations and ``engine``, how many states
+        each engine solved and why, as attributes. A state without equilibrium is NaN with its
+        reason in ``status``. In ``out``, ``mode`` and ``status`` are codes (``flag_values``,
+        ``flag_meanings``), and the data are loaded when they are used.
 
     Raises
     ------
