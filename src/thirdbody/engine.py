@@ -61,6 +61,10 @@ FEW_SIZES = 0.55
 """Share of the sizes with which a sum comes close enough to a root."""
 
 
+NOT_BALANCED = "the compiled engine does not balance this load"
+NOT_MONOTONE = "the load may rise with the separation; this is the loading branch"
+
+
 def available() -> bool:
     """Whether the compiled engine is installed and not switched off.
 
@@ -388,6 +392,10 @@ class States(_Batch):
             raise NotCompiled("several populations")
         super().__init__(count, 0 if particles is None else len(particles.diameter.components))
         datum = 0.0 if particles is None else contact.particle_law.centre
+        self.covered: Array | None = None
+        """Projected particle area per nominal area (N,)."""
+        self.steepest = np.zeros(count)
+        """Most that it changes with d on a plane seat [1/m]."""
         self._add_asperities(contact, varied, datum)
         if particles is not None:
             self._add_particles(contact, varied, arrays)
@@ -395,8 +403,11 @@ class States(_Batch):
         self.varied = varied
 
     def columns(self, load: str, loads: Array) -> dict[str, Any]:
-        """Every column of a result at the given pressure [Pa], F* [1] or d [m]."""
-        from .equilibrium import as_columns
+        """Every column of a result at the given pressure [Pa], F* [1] or d [m].
+
+        ``doubt`` says of each state why it is for the NumPy engine to judge, or nothing.
+        """
+        from .equilibrium import RESIDUAL, as_columns
         from .kernels import CENTRE, SIGMA_S
 
         centre, sigma_s = self.values[:, CENTRE], self.values[:, SIGMA_S]
@@ -416,7 +427,46 @@ class States(_Batch):
         columns = as_columns(
             raw, d, rough.y_s - centre, rough.sigma, E, target=target, F_star=given
         )
-        return columns | {"status": fate, "iterations": iterations}
+        doubt = np.full(len(loads), "", dtype=object)
+        if target is not None:
+            doubt[(fate == 0) & ~(columns["residual"] <= RESIDUAL)] = NOT_BALANCED
+            doubt[~self._monotone(target)] = NOT_MONOTONE
+        return columns | {"status": fate, "iterations": iterations, "doubt": doubt}
+
+    def _monotone(self, target: Array) -> NDArray[np.bool_]:
+        r"""Where no other separation can carry the load: sufficient, not necessary.
+
+        The load falls with d while the shadow takes less from the asperities than they and the
+        particles gain on approach, :math:`|\varsigma'|F_{ss} < (1-\varsigma)|F_{ss}'| +
+        |F_{sa}'|`. Gaussian heights have :math:`|F_{ss}'| > 0.3\,F_{ss}/\sigma_s` above −3 σ_s; a
+        seat of width s has :math:`|\varsigma'| \le c/(\sqrt{2\pi}s)` for a coverage c; on a plane
+        the projected area changes as the density of the sizes, and the footprint carries the
+        pressure of first yield, or is as small as where a sphere has that of the asperities.
+        """
+        from .equilibrium import RISE
+
+        law, varied, c = self.varied.particle_law, self.varied, self.covered
+        if c is None or not isinstance(law, ParticleSeries) or law.shadow in ("none", "covered"):
+            return np.ones(len(target), bool)
+        rough = varied.roughness
+        if law.seat == "rough":
+            steepest = c / (math.sqrt(2 * math.pi) * law.zeta_std * rough.sigma)
+            return np.broadcast_to(steepest * rough.sigma_s <= 0.3 * (1 - c), target.shape)
+        if law.shadow == "projected":
+            return self.steepest * rough.sigma_s <= 0.3 * (1 - c)
+        body = varied.particles.material  # type: ignore[union-attr]
+        pair = varied.surfaces.first, varied.surfaces.second
+        sides = [(reduced_modulus(s, body), softer_hardness(s, body)) for s in pair]
+        E = np.minimum(sides[0][0], sides[1][0])
+        H = np.minimum(sides[0][1], sides[1][1])
+        first, last = np.min(H / E), np.max(H / E)
+        for ratio in (float(first), float(last)):
+            bound = law.law.bound(R=law.tip_radius, E_star=1.0, H=ratio, nu=body.nu)
+            if bound.jumps:
+                return np.zeros(len(target), bool)
+            yields = float(bound.reduced("force", 1.0) / bound.reduced("area", 1.0))
+        p = target / (1 - c)
+        return (p <= 0.5 * yields * H) & (c * (0.5 * math.pi * p / E) ** 2 <= RISE)
 
     def _add_asperities(self, contact: Contact, varied: Contact, datum: float) -> None:
         from . import kernels as k
@@ -479,8 +529,9 @@ class States(_Batch):
             self._set_values(k.VALUES + p * k.PART_VALUES, part)
         if np.any(coverage >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
+        self.covered = 2 * law.tip_radius * coverage
         if law.shadow == "covered":
-            self.values[:, k.COVERAGE] = 2 * law.tip_radius * coverage
+            self.values[:, k.COVERAGE] = self.covered
 
     def _averaged(
         self, contact: Contact, varied: Contact, arrays: Mapping[str, Array]
@@ -506,6 +557,8 @@ class States(_Batch):
             size = scale * ratio
             factor = changed.areal_density * share * size**2
             width = law.zeta_std * varied.roughness.sigma / size if rough else 0.0 * size
+            if not rough:
+                self.steepest += 0.5 * math.pi * law.tip_radius * factor / size * _densest(shape)
             kinds = np.full((len(self.kinds), k.PART_KINDS), k.ABSENT)
             kinds[:, 0] = k.ROUGH_NODES if rough else k.PLANE
             kinds[:, k.PART_GUESS] = self._panels.add_inverse(average)
@@ -659,6 +712,15 @@ def _each(number: Index, places: Callable[[int], tuple[int, ...]], count: int) -
 
 
 @lru_cache(maxsize=128)
+def _densest(shape: Distribution) -> float:
+    """The most of x²φ(x), nearly; infinite where all are of one size."""
+    if isinstance(shape, Monodisperse):
+        return math.inf
+    x, _ = panel_rule(np.array(shape.pieces), 12)
+    return float(np.max(x**2 * shape.pdf(x)))
+
+
+@lru_cache(maxsize=128)
 def _seat_rule(average: SizeAverage, octave: int) -> Array:
     """Weighted columns and gaps for seats of 2^octave to 2^(octave + 1) in the size."""
     if average.top - average.bottom > MOST_WIDTHS * 2.0**octave:
@@ -760,4 +822,6 @@ def batch(bound: Interface) -> Interfaces:
     """The interface for the compiled engine; `NotCompiled` where only the NumPy engine knows it."""
     if why := unavailable():
         raise NotCompiled(why)
+    if not bound.monotone:
+        raise NotCompiled(NOT_MONOTONE)
     return Interfaces([bound])

@@ -218,7 +218,8 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
         given = loads[here]
         batch = engine.States(contact, _taken(arrays, here), len(given))
         columns = batch.columns(load, given)
-        words = {"status": FATES[columns["status"]], "engine": _all(len(given), "compiled")}
+        doubt = columns.pop("doubt")
+        words = {"status": FATES[columns["status"]], "engine": np.where(doubt, doubt, "compiled")}
         return here, columns | words, batch.own
 
     here, columns, size = part(slice(0, FIRST))  # refused, or compiled, once
@@ -226,7 +227,14 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
     starts = range(FIRST, len(loads), at_once)
     with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
         rest = pool.map(part, (slice(start, start + at_once) for start in starts))
-        return _joined(len(loads), chain([(here, columns)], (found[:2] for found in rest)))
+        out = _joined(len(loads), chain([(here, columns)], (found[:2] for found in rest)))
+    # what the compiled engine doubts is for the other one to judge
+    for why in (engine.NOT_BALANCED, engine.NOT_MONOTONE):
+        if len(which := np.flatnonzero(out["engine"] == why)):
+            again = _by_groups(contact, _taken(arrays, which), load, loads[which], why)
+            for name, column in again.items():
+                out[name][which] = column
+    return out
 
 
 def _all(count: int, word: str) -> NDArray[Any]:

@@ -50,7 +50,7 @@ LOOKED_AT = 200
 LOAD_UNITS = {"F_star": "1", "pressure": "Pa", "d": "m"}
 ABSENT = ("particles.diameter.mean", "particles.areal_density")
 MODES = ("", "p-s", "hybrid", "s-s")
-STATUSES = ("ok", "no_equilibrium_above", "no_equilibrium_below", "no_equilibrium")
+STATUSES = ("ok", "no_equilibrium_above", "no_equilibrium_below", "no_equilibrium", "jump")
 CODES = {
     "mode": ("none", *(mode.replace("-", "") for mode in MODES[1:])),
     "status": STATUSES,
@@ -621,7 +621,8 @@ def _codes(name: str, words: NDArray[Any]) -> NDArray[np.int8]:
     codes = np.zeros(words.shape, np.int8)
     for place in zip(*np.nonzero(words != "ok"), strict=True):
         text = str(words[place])
-        codes[place] = 1 if "beyond" in text else 2 if "below the" in text else 3
+        jump = text.startswith("jump")
+        codes[place] = 4 if jump else 1 if "beyond" in text else 2 if "below the" in text else 3
     return codes
 
 
