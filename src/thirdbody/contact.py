@@ -245,7 +245,10 @@ class Interface:
 
     @property
     def monotone(self) -> bool:
-        return self.particles is None or self.particles.monotone
+        """Whether the total load falls with d everywhere above −3 σ_s, found from a scan."""
+        from .equilibrium import load_scan
+
+        return load_scan(self).monotone
 
     @property
     def mean_plane(self) -> float:

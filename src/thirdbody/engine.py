@@ -25,6 +25,7 @@ from .asperities import (
 )
 from .contact import Contact, Interface, together
 from .distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
+from .errors import NotCompiled
 from .heights import GaussianHeights
 from .laws.base import AbstractAsperityLaw
 from .laws.particle.rules import NEAR, SharedRules, near_rule, squeeze_rules
@@ -60,14 +61,25 @@ FEW_SIZES = 0.55
 """Share of the sizes with which a sum comes close enough to a root."""
 
 
+NOT_BALANCED = "the compiled engine does not balance this load"
+NOT_MONOTONE = "the load may rise with the separation; this is the loading branch"
+
+
 def available() -> bool:
     """Whether the compiled engine is installed and not switched off.
 
     ``THIRDBODY_ENGINE=numpy`` in the environment switches it off.
     """
+    return not unavailable()
+
+
+def unavailable() -> str:
+    """Why there is no compiled engine, or nothing where there is one."""
     from importlib.util import find_spec
 
-    return os.environ.get("THIRDBODY_ENGINE") != "numpy" and find_spec("numba") is not None
+    if os.environ.get("THIRDBODY_ENGINE") == "numpy":
+        return "THIRDBODY_ENGINE=numpy switches the compiled engine off"
+    return "" if find_spec("numba") is not None else "numba is not installed"
 
 
 def threads() -> int:
@@ -291,7 +303,7 @@ class Interfaces(_Batch):
 
     Raises
     ------
-    TypeError
+    NotCompiled
         An interface that the kernel does not know: adhesion, or particles that are not a
         `Series`.
     """
@@ -299,7 +311,7 @@ class Interfaces(_Batch):
     def __init__(self, interfaces: Sequence[Interface]):
         particles = [bound.particles for bound in interfaces]
         if not all(p is None or isinstance(p, SeatedParticles) for p in particles):
-            raise TypeError("these particles are not for the compiled engine")
+            raise NotCompiled("particles that are not Series")
         most = max(len(p.parts) if isinstance(p, SeatedParticles) else 0 for p in particles)
         super().__init__(len(interfaces), most)
         for m, bound in enumerate(interfaces):
@@ -312,7 +324,7 @@ class Interfaces(_Batch):
         from . import kernels as k
 
         if not isinstance(asperities, AsperitySum) or pulls(asperities.reduced.law):
-            raise TypeError("these asperities are not for the compiled engine")
+            raise NotCompiled("asperities of several shapes, or that attract")
         reduced = asperities.reduced
         table = reduced.table  # type: ignore[attr-defined]
         if isinstance(reduced, GaussianSum):
@@ -366,20 +378,24 @@ class States(_Batch):
 
     Raises
     ------
-    TypeError
+    NotCompiled
         Inputs or models for which nodes are not shared: heights that are not Gaussian, a law
         that depends on what varies, particles whose shape or material varies, adhesion.
     """
 
     def __init__(self, contact: Contact, arrays: Mapping[str, Array], count: int):
         if any(name.startswith("asperity_law.") for name in arrays):
-            raise TypeError("the law varies")
+            raise NotCompiled("the asperity law varies")
         varied = contact.with_arrays(arrays)
         particles = None if bare(contact, arrays) else contact.particles
         if isinstance(particles, tuple) or (particles is not None and particles.law is not None):
-            raise TypeError("several populations")
+            raise NotCompiled("several populations")
         super().__init__(count, 0 if particles is None else len(particles.diameter.components))
         datum = 0.0 if particles is None else contact.particle_law.centre
+        self.covered: Array | None = None
+        """Projected particle area per nominal area (N,)."""
+        self.steepest = np.zeros(count)
+        """Most that it changes with d on a plane seat [1/m]."""
         self._add_asperities(contact, varied, datum)
         if particles is not None:
             self._add_particles(contact, varied, arrays)
@@ -387,9 +403,12 @@ class States(_Batch):
         self.varied = varied
 
     def columns(self, load: str, loads: Array) -> dict[str, Any]:
-        """Every column of a result at the given pressure [Pa], F* [1] or d [m]."""
-        from .equilibrium import as_columns
-        from .kernels import CENTRE, SIGMA_S, TOO_DEEP
+        """Every column of a result at the given pressure [Pa], F* [1] or d [m].
+
+        ``doubt`` says of each state why it is for the NumPy engine to judge, or nothing.
+        """
+        from .equilibrium import RESIDUAL, as_columns
+        from .kernels import CENTRE, OK, SIGMA_S, TOO_DEEP, UNSOLVED
 
         centre, sigma_s = self.values[:, CENTRE], self.values[:, SIGMA_S]
         E, rough = self.varied.E_ss, self.varied.roughness
@@ -407,7 +426,47 @@ class States(_Batch):
         columns = as_columns(
             raw, d, rough.y_s - centre, rough.sigma, E, target=target, F_star=given
         )
-        return columns | {"status": fate, "iterations": iterations}
+        doubt = np.full(len(loads), "", dtype=object)
+        if target is not None:
+            off = ~(columns["residual"] <= RESIDUAL)
+            doubt[(fate == UNSOLVED) | ((fate == OK) & off)] = NOT_BALANCED
+            doubt[~self._monotone(target)] = NOT_MONOTONE
+        return columns | {"status": fate, "iterations": iterations, "doubt": doubt}
+
+    def _monotone(self, target: Array) -> NDArray[np.bool_]:
+        r"""Where no other separation can carry the load: sufficient, not necessary.
+
+        The load falls with d while the shadow takes less from the asperities than they and the
+        particles gain on approach, :math:`|\varsigma'|F_{ss} < (1-\varsigma)|F_{ss}'| +
+        |F_{sa}'|`. Gaussian heights have :math:`|F_{ss}'| > 0.3\,F_{ss}/\sigma_s` above −3 σ_s; a
+        seat of width s has :math:`|\varsigma'| \le c/(\sqrt{2\pi}s)` for a coverage c; on a plane
+        the projected area changes as the density of the sizes, and the footprint carries the
+        pressure of first yield, or is as small as where a sphere has that of the asperities.
+        """
+        from .equilibrium import RISE
+
+        law, varied, c = self.varied.particle_law, self.varied, self.covered
+        if c is None or not isinstance(law, ParticleSeries) or law.shadow in ("none", "covered"):
+            return np.ones(len(target), bool)
+        rough = varied.roughness
+        if law.seat == "rough":
+            steepest = c / (math.sqrt(2 * math.pi) * law.zeta_std * rough.sigma)
+            return np.broadcast_to(steepest * rough.sigma_s <= 0.3 * (1 - c), target.shape)
+        if law.shadow == "projected":
+            return self.steepest * rough.sigma_s <= 0.3 * (1 - c)
+        body = varied.particles.material  # type: ignore[union-attr]
+        pair = varied.surfaces.first, varied.surfaces.second
+        sides = [(reduced_modulus(s, body), softer_hardness(s, body)) for s in pair]
+        E = np.minimum(sides[0][0], sides[1][0])
+        H = np.minimum(sides[0][1], sides[1][1])
+        first, last = np.min(H / E), np.max(H / E)
+        for ratio in (float(first), float(last)):
+            bound = law.law.bound(R=law.tip_radius, E_star=1.0, H=ratio, nu=body.nu)
+            if bound.jumps:
+                return np.zeros(len(target), bool)
+            yields = float(bound.reduced("force", 1.0) / bound.reduced("area", 1.0))
+        p = target / (1 - c)
+        return (p <= 0.5 * yields * H) & (c * (0.5 * math.pi * p / E) ** 2 <= RISE)
 
     def _add_asperities(self, contact: Contact, varied: Contact, datum: float) -> None:
         from . import kernels as k
@@ -415,7 +474,9 @@ class States(_Batch):
         rough, surfaces = varied.roughness, varied.surfaces
         law = _common_law(contact.asperity_law, rough, surfaces)
         if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity or pulls(law):
-            raise TypeError("these asperities are not for shared nodes")
+            raise NotCompiled(
+                "asperities of several shapes or heights that are not Gaussian, or that attract"
+            )
         w, units = scales(law, rough, surfaces)
         self.law, self.w = law, np.broadcast_to(w, len(self.kinds))
         step, across = GaussianSums.place(self.w)
@@ -452,9 +513,9 @@ class States(_Batch):
 
         law, particles = varied.particle_law, contact.particles
         if not (isinstance(law, ParticleSeries) and isinstance(particles, Particles)):
-            raise TypeError("these particles are not for shared nodes")
+            raise NotCompiled("particles that are not Series")
         if any(name.startswith("particle_law.law") for name in arrays):
-            raise TypeError("the law varies")
+            raise NotCompiled("the law of the particles varies")
         self.kinds[:, k.SHADOW] = COLUMNS.index(law.shadow) if law.shadow in COLUMNS else -1
         own = law.seat == "rough" and own_particles(contact, arrays)
         parts = self._squeezed if own else self._averaged
@@ -467,9 +528,10 @@ class States(_Batch):
             part["OFFSET"] = law.seat_offset(varied.roughness)
             self._set_values(k.VALUES + p * k.PART_VALUES, part)
         if np.any(coverage >= 1):
-            raise TypeError("some particles are jammed")  # said better, one contact at a time
+            raise NotCompiled("some particles are jammed")  # said better, one contact at a time
+        self.covered = 2 * law.tip_radius * coverage
         if law.shadow == "covered":
-            self.values[:, k.COVERAGE] = 2 * law.tip_radius * coverage
+            self.values[:, k.COVERAGE] = self.covered
 
     def _averaged(
         self, contact: Contact, varied: Contact, arrays: Mapping[str, Array]
@@ -482,19 +544,21 @@ class States(_Batch):
         assert isinstance(particles, Particles)
         assert isinstance(changed, Particles)
         if any(name.startswith(MATERIALS) for name in arrays):
-            raise TypeError("the materials of the particles vary")
+            raise NotCompiled("the materials of the particles vary")
         sides = contact_sides(contact.surfaces, particles.material)
         shadow = self.kinds[0, k.SHADOW]
         rough = law.seat == "rough"
         ratio = size_factor(particles.diameter, arrays)
         if ratio is None:
-            raise TypeError("the shape of the size distribution varies")
+            raise NotCompiled("the shape of the size distribution varies")
         for share, sizes in particles.diameter.components:
             scale, shape = sizes.standardised()
             average = size_average(law.law, *sides, shape, law.tip_radius)
             size = scale * ratio
             factor = changed.areal_density * share * size**2
             width = law.zeta_std * varied.roughness.sigma / size if rough else 0.0 * size
+            if not rough:
+                self.steepest += 0.5 * math.pi * law.tip_radius * factor / size * _densest(shape)
             kinds = np.full((len(self.kinds), k.PART_KINDS), k.ABSENT)
             kinds[:, 0] = k.ROUGH_NODES if rough else k.PLANE
             kinds[:, k.PART_GUESS] = self._panels.add_inverse(average)
@@ -549,7 +613,7 @@ class States(_Batch):
             for (E, H), nu in itertools.product(sides, (0.1, 0.4))
         }
         if bound != {law.law}:
-            raise TypeError("the law of the particles depends on their material")
+            raise NotCompiled("the law of the particles depends on their material")
         sigma = column(law.zeta_std * varied.roughness.sigma)
         unvaried = contact_sides(contact.surfaces, particles.material)
         parts = [part.standardised()[1] for _, part in particles.diameter.components]
@@ -558,7 +622,7 @@ class States(_Batch):
             width = sigma / size
             x, weight = sizes(float(width.min()))
             if x[..., -1].max() > MOST_WIDTHS * width.min():
-                raise TypeError("the seat is too smooth for nodes")
+                raise NotCompiled("the seat is too smooth for nodes")
             panels = width / x[..., -1:]
             factor = changed.areal_density * share * size[:, 0] ** 2
             kinds = np.full((count, k.PART_KINDS), k.ABSENT)
@@ -646,10 +710,19 @@ def _each(number: Index, places: Callable[[int], tuple[int, ...]], count: int) -
 
 
 @lru_cache(maxsize=128)
+def _densest(shape: Distribution) -> float:
+    """The most of x²φ(x), nearly; infinite where all are of one size."""
+    if isinstance(shape, Monodisperse):
+        return math.inf
+    x, _ = panel_rule(np.array(shape.pieces), 12)
+    return float(np.max(x**2 * shape.pdf(x)))
+
+
+@lru_cache(maxsize=128)
 def _seat_rule(average: SizeAverage, octave: int) -> Array:
     """Weighted columns and gaps for seats of 2^octave to 2^(octave + 1) in the size."""
     if average.top - average.bottom > MOST_WIDTHS * 2.0**octave:
-        raise TypeError("the seat is too smooth for shared nodes")
+        raise NotCompiled("the seat is too smooth for shared nodes")
     gaps, weight, values = average.nodes(1.25 * 2.0**octave)
     return np.vstack([weight * values.T, gaps])
 
@@ -681,7 +754,7 @@ def _sizes(
         std = np.broadcast_to(varied.std, count)[:, None] / size
         yield 1.0, size, partial(_gaussian_sizes, std, np.broadcast_to(varied.n, count)[:, None])
     else:
-        raise TypeError("the shape of these sizes varies")
+        raise NotCompiled("the shape of these sizes varies")
 
 
 def _shape_rule(shape: Distribution, width: float, part: float = 1.0) -> tuple[Array, Array]:
@@ -739,15 +812,14 @@ def _common_law(
         rows += [[*one[:i], float(v), *one[i + 1 :]] for v in {values.min(), values.max()}]
     bound = {law.bound(R=R, E_star=E, H=H, nu=v) for R, E, H, v in rows}
     if len(bound) > 1:
-        raise TypeError("the law binds differently from state to state")
+        raise NotCompiled("the law binds differently from state to state")
     return bound.pop()
 
 
-def batch(bound: Interface) -> Interfaces | None:
-    """The interface for the compiled engine, or None where only the NumPy engine knows it."""
-    if not available():
-        return None
-    try:
-        return Interfaces([bound])
-    except TypeError:
-        return None
+def batch(bound: Interface) -> Interfaces:
+    """The interface for the compiled engine; `NotCompiled` where only the NumPy engine knows it."""
+    if why := unavailable():
+        raise NotCompiled(why)
+    if not bound.monotone:
+        raise NotCompiled(NOT_MONOTONE)
+    return Interfaces([bound])

@@ -11,6 +11,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import engine
 from .asperities import ReducedSum
 from .contact import Contact, Interface, interface
-from .errors import InvalidValue, NoEquilibrium, RangeWarning
+from .errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
 from .numerics import halley_root
 from .outputs.base import column, evaluate
 
@@ -34,10 +35,12 @@ DEEPEST = -3.0
 CHUNK = 16_384
 """States solved together: their arrays stay in the processor's cache."""
 P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
+RESIDUAL, ULPS = 1e-9, 4
+"""Largest imbalance |F_t/F − 1| of a state that is "ok", unless so many ulp of d explain it."""
+RISE = 1e-6
+"""Rise of the load with d, over the load, that counts as one."""
+HALVINGS = 64
 MODES = np.array(["", S_S, HYBRID, P_S])
-NOT_SOLVED = (
-    "not solved: no separation was found at which the load is in balance; the load may jump there"
-)
 TOO_DEEP = (
     f"not solved: the separation is lower than {-ReducedSum.DEEPEST:g} sigma_s from the mean "
     "asperity height, where no asperity model holds; check its sign and its unit"
@@ -107,6 +110,8 @@ class Equilibrium:
     """What each of several populations carries; empty for one."""
     outputs: Mapping[str, Number] = field(default_factory=dict)
     """Every column of the outputs that the contact carries, by name."""
+    engine: str = "numpy"
+    """What found the separations: "compiled", or "numpy: " and why the compiled engine did not."""
 
     @property
     def scales(self) -> dict[str, float]:
@@ -226,8 +231,8 @@ def solve(
         Separation from the mean asperity height [m]: the load follows. Exactly one of the
         three is given.
     branch : {"loading", "unloading"}, optional
-        Where the load does not fall monotonically with d (`Horng2022`): the largest d that
-        carries the load, met on approach, or the smallest, left on retreat.
+        Where the load does not fall monotonically with d (see `roots`): the largest d that
+        carries the load, met on approach, or the smallest, left on retreat. A warning says so.
 
     Returns
     -------
@@ -240,8 +245,9 @@ def solve(
         No load, two loads, or a load that is not positive and finite; a single d below −5 σ_s
         from the mean asperity height, where no asperity model holds.
     NoEquilibrium
-        A single load that no separation above −3 σ_s carries. In an array such a state, and one
-        below −5 σ_s, is NaN with a sentence in ``status``.
+        A single load that no separation above −3 σ_s carries, or over which the load jumps
+        (`Horng2022` with particles of one size). In an array such a state, and one below −5 σ_s,
+        is NaN with a sentence in ``status``, which begins with "jump" for a jump.
 
     Warns
     -----
@@ -251,7 +257,8 @@ def solve(
     Notes
     -----
     Relative error 1e-10 against 30-digit quadrature for d from −4 to +12 σ_s; residual of the
-    balance 1e-12 or better over twelve decades of load.
+    balance 1e-12 or better over twelve decades of load. No state is "ok" with a residual above
+    1e-9, unless 4 ulp of d change the load by as much.
 
     References
     ----------
@@ -274,21 +281,36 @@ def solve(
     if branch not in ("loading", "unloading"):
         raise InvalidValue(f"branch = {branch!r} must be 'loading' or 'unloading'")
     bound = interface(contact)
-    raw = None
+    raw, path = None, "compiled"
     target = None if name == "d" else values
     if target is None:
         deep = values < deepest(contact)
         if scalar and deep.any():
             raise InvalidValue(f"d = {values[0]:g} m is refused: {why_deep(contact)}")
-        separation, status = np.where(deep, np.nan, values), np.where(deep, TOO_DEEP, "ok")
-        iterations = np.where(deep, 0, 1)
-    elif compiled := _compiled(bound, target):
-        separation, iterations, status, raw = compiled
+        separation = np.where(deep, np.nan, values)
+        status = np.where(deep, TOO_DEEP, "ok").astype(object)
+        iterations, path = np.where(deep, 0, 1), "numpy: the separations are given"
     else:
-        separation, iterations, status = LoadScan(bound).solve(target, branch)
+        try:
+            separation, iterations, status, raw = _compiled(bound, target)
+        except NotCompiled as why:
+            path = f"numpy: {why}"
+            separation, iterations, status = load_scan(bound).solve(target, branch)
     # E·F*/E is not F* to the last digit: the given values are kept
     given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
-    result = _state(contact, bound, separation, status, iterations, target, scalar, given, raw=raw)
+    result = _state(
+        contact,
+        bound,
+        separation,
+        status,
+        iterations,
+        target,
+        scalar,
+        given,
+        raw=raw,
+        path=path,
+        branch=branch,
+    )
     if scalar and result.status != "ok":
         raise NoEquilibrium(result.status)
     for sentence in result.warnings:
@@ -316,8 +338,10 @@ def roots(
 ) -> list[tuple[Equilibrium, bool]]:
     """Every separation that carries one load, from the largest down, and whether it is stable.
 
-    A root is stable where the load falls with d. More than one exists only for laws whose load
-    is not monotone in d (`Horng2022`); loading and unloading then differ (hysteresis).
+    A root is stable where the load falls with d. More than one exists where the load does not
+    fall with d everywhere: the printed `Horng2022`, or particles that shade more asperities than
+    they carry for, as particles softer than the nominal pressure do. Loading and unloading then
+    differ (hysteresis). A jump of the load is no root.
 
     Parameters
     ----------
@@ -332,7 +356,7 @@ def roots(
     Raises
     ------
     NoEquilibrium
-        No separation carries the load.
+        No separation carries the load: it is too large, too small, or in a jump.
 
     References
     ----------
@@ -353,17 +377,20 @@ def roots(
     """
     _, values, _ = given_load(contact, pressure, F_star, None)
     bound = interface(contact)
-    scan = LoadScan(bound)
+    scan = load_scan(bound)
     cells, falling = scan.all_cells(float(values[0]))
     if not len(cells):
         raise NoEquilibrium(scan.why_not(float(values[0])))
     target = np.full(len(cells), values[0])
-    found = []
+    found, passed = [], []  # type: list[tuple[float, int, bool]], list[str]
     for direction in (True, False):
         which = np.flatnonzero(falling == direction)
         if len(which):
-            d, iterations = scan.polish(target[which], cells[which], falling=direction)
-            found += [(x, n, direction) for x, n in zip(d, iterations, strict=True)]
+            d, iterations, jumps = scan.polish(target[which], cells[which], falling=direction)
+            passed += jumps.values()
+            found += [(d[i], iterations[i], direction) for i in range(len(d)) if i not in jumps]
+    if not found:
+        raise NoEquilibrium(passed[0])
     found.sort(key=lambda item: -item[0])
     ok = np.array(["ok"], dtype=object)
     return [
@@ -420,8 +447,22 @@ def pull_off(contact: Contact) -> tuple[float, float]:
     return -float(found.fun), float(found.x)
 
 
+def explained(F: Array, slope: Array, target: Array, ulp: float) -> NDArray[np.bool_]:
+    """Whether a load is carried: to `RESIDUAL` of it, or to what `ULPS` ulp of d change."""
+    steep = np.where(np.isfinite(slope), ULPS * ulp * np.abs(slope), 0.0)  # infinite at a jump
+    return np.abs(F - target) <= RESIDUAL * target + steep
+
+
 class LoadScan:
-    """The total load on a grid of separations, from the highest down, ready to bracket loads."""
+    """The total load on a grid of separations, from the highest down, ready to bracket loads.
+
+    Attributes
+    ----------
+    d, log_F : array (M,)
+        Falling separations and ln of the load there, from the highest that carries a load.
+    monotone : bool
+        The load grows by no more than `RISE` of itself while d grows.
+    """
 
     def __init__(self, bound: Interface):
         self.bound = bound
@@ -437,6 +478,9 @@ class LoadScan:
         if particles is not None:
             top = particles.reach
             grid.append(np.linspace(low, max(top, low), 65)[1:])
+            if len(marks := np.unique(particles.marks)):
+                marks = np.unique(np.clip(marks, low, max(top, low)))
+                grid.append(np.interp(np.arange(0, len(marks), 0.25), np.arange(len(marks)), marks))
             if particles.monotone:
                 # the last particle sets in like a power of its distance
                 grid.append(top - (top - low) * np.geomspace(1e-8, 1e-2, 13))
@@ -444,14 +488,37 @@ class LoadScan:
                 count = int(np.ceil((top - low) / particles.resolution))
                 grid.append(np.linspace(low, top, min(max(count, 2), 20_000)))
         d = np.unique(np.concatenate(grid))
-        F = bound.load(d)[:, 0]
+        F, slope, _ = bound.load(d).T
         if np.any(F < 0):
             # adhesion: the load sets in at a separation where it changes its sign
             d = np.append(d, self._onset(d, F) - sigma_s * np.geomspace(1e-9, 0.2, 30))
             d = np.unique(d)
+            F, slope, _ = bound.load(d).T
+        self.ulp = float(np.spacing(np.abs(d[[0, -1]]).max()))
+        if len(turns := self._turns(d, F, slope)):
+            d = np.unique(np.append(d, turns))
             F = bound.load(d)[:, 0]
-        useful = F > 0
-        self.d, self.log_F = d[useful][::-1], np.log(F[useful][::-1])
+        highest = np.flatnonzero(F > 0)[-1] + 1
+        with np.errstate(divide="ignore"):
+            self.d, self.log_F = d[:highest][::-1], np.log(np.maximum(F[:highest][::-1], 0.0))
+        most = np.maximum.accumulate(self.log_F)
+        self.monotone = bool(np.all(most - self.log_F <= RISE))
+
+    def _turns(self, d: Array, F: Array, slope: Array) -> Array:
+        """Separations where the load turns between falling and rising with d, or jumps up."""
+        low, high, size = d[:-1], d[1:], np.maximum(np.abs(F[:-1]), np.abs(F[1:]))
+        rises = slope * (d[-1] - d[0]) > RESIDUAL * np.abs(F)  # else rounding of what is flat
+        jumps = ~rises[:-1] & ~rises[1:] & (F[1:] - F[:-1] > RESIDUAL * size)
+        cells = np.flatnonzero((rises[:-1] != rises[1:]) | jumps)
+        low, high, by_load, first = low[cells], high[cells], jumps[cells], rises[:-1][cells]
+        F_low = F[:-1][cells]
+        for _ in range(HALVINGS if len(cells) else 0):
+            middle = 0.5 * (low + high)
+            F_m, slope_m, _ = self.bound.load(middle).T
+            right = np.where(by_load, F_m <= F_low, (slope_m > 0) == first)
+            low, high = np.where(right, middle, low), np.where(right, high, middle)
+            F_low = np.where(right, F_m, F_low)
+        return np.concatenate([low, high])
 
     def _onset(self, d: Array, F: Array) -> float:
         """The highest separation at which the load changes its sign."""
@@ -485,6 +552,13 @@ class LoadScan:
         cells = np.flatnonzero(above[1:] != above[:-1])
         return cells, above[1:][cells]
 
+    def separations(self, target: Array) -> Index:
+        """How many separations carry each load, those beside a jump of the load among them."""
+        with np.errstate(invalid="ignore"):
+            ends = np.sort(np.stack([self.log_F[:-1], self.log_F[1:]]), axis=0)
+        begun, ended = (np.searchsorted(np.sort(row), np.log(target)) for row in ends)
+        return begun - ended
+
     def why_not(self, target: float) -> str:
         """Why no separation carries this load."""
         E = self.bound.contact.E_ss
@@ -501,8 +575,13 @@ class LoadScan:
         )
 
     # ------------------------------------------------------------------ roots
-    def polish(self, target: Array, cells: Index, *, falling: bool = True) -> tuple[Array, Array]:
-        """Roots inside their cells, to rounding."""
+    def polish(
+        self, target: Array, cells: Index, *, falling: bool = True
+    ) -> tuple[Array, Array, dict[int, str]]:
+        """Roots inside their cells, to rounding; evaluations; and where the load jumps, how.
+
+        At a jump the separation is the next one that carries the load and more.
+        """
         high, low = self.d[cells], self.d[cells + 1]
         log_target = np.log(target)
         top, bottom = self.log_F[cells], self.log_F[cells + 1]
@@ -513,14 +592,50 @@ class LoadScan:
 
         def imbalance(d: Array, which: Index) -> tuple[Array, Array, Array]:
             F, F1, F2 = self.bound.load(d).T
-            slope = F1 / F
-            return np.log(F) - log_target[which], slope, F2 / F - slope**2
+            with np.errstate(divide="ignore", invalid="ignore"):
+                slope = F1 / F
+                return np.log(F) - log_target[which], slope, F2 / F - slope**2
 
-        d, _, iterations = halley_root(imbalance, low, high, start, falling=falling)
-        return d, iterations
+        d, residual, iterations = halley_root(imbalance, low, high, start, falling=falling)
+        # beside what is steep for floats, or jumps
+        rest = np.flatnonzero(~(np.abs(residual) <= 0.5 * RESIDUAL))
+        jumps = {}
+        if len(rest):
+            d[rest], found = self._beside(target[rest], low[rest], high[rest], falling)
+            jumps = {int(rest[i]): text for i, text in found.items()}
+        return d, iterations, jumps
+
+    def _beside(
+        self, target: Array, low: Array, high: Array, falling: bool
+    ) -> tuple[Array, dict[int, str]]:
+        """The float whose load is next to each load in its bracket, and where that is a jump."""
+        low, high = low.copy(), high.copy()
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            right = (self.bound.load(middle)[:, 0] >= target) == falling
+            low, high = np.where(right, middle, low), np.where(right, high, middle)
+        carries, less = (low, high) if falling else (high, low)
+        (F, slope, _), (F_less, slope_less, _) = (self.bound.load(x).T for x in (carries, less))
+        good = explained(F, slope, target, self.ulp)
+        other = explained(F_less, slope_less, target, self.ulp)
+        closer = other & (~good | (np.abs(F_less - target) < np.abs(F - target)))
+        E = self.bound.contact.E_ss
+        jumps = {
+            int(i): f"jump: the load {target[i]:.4g} Pa (F* = {target[i] / E:.3g}) lies in a jump "
+            f"of the load from F* = {F_less[i] / E:.3g} to {F[i] / E:.3g} at d = {carries[i]:.6g} "
+            "m, and no separation there carries it"
+            for i in np.flatnonzero(~good & ~other)
+        }
+        return np.where(closer, less, carries), jumps
 
     def solve(self, target: Array, branch: str) -> tuple[Array, Array, NDArray[Any]]:
         """Separation, number of evaluations and status of every load."""
+        d, iterations, status = self.met(target, branch)
+        d[status != "ok"] = np.nan
+        return d, iterations, status
+
+    def met(self, target: Array, branch: str) -> tuple[Array, Array, NDArray[Any]]:
+        """As `solve`; where the load jumps over a load, the separation at which it does."""
         d = np.full(len(target), np.nan)
         iterations = np.zeros(len(target), dtype=int)
         status = np.full(len(target), "ok", dtype=object)
@@ -528,33 +643,40 @@ class LoadScan:
         found = np.flatnonzero(cells >= 0)
         for start in range(0, len(found), CHUNK):
             part = found[start : start + CHUNK]
-            d[part], iterations[part] = self.polish(target[part], cells[part])
+            d[part], iterations[part], jumps = self.polish(target[part], cells[part])
+            status[part[list(jumps)]] = list(jumps.values())
         for i in np.flatnonzero(cells < 0):
             status[i] = self.why_not(float(target[i]))
         return d, iterations, status
 
 
+@lru_cache(maxsize=512)
+def load_scan(bound: Interface) -> LoadScan:
+    """The cached scan of an interface."""
+    return LoadScan(bound)
+
+
 def _compiled(
     bound: Interface, target: Array
-) -> tuple[Array, Index, NDArray[Any], dict[str, Array]] | None:
+) -> tuple[Array, Index, NDArray[Any], dict[str, Array]]:
     """Separations, evaluations, status and columns by the compiled engine, where it pays."""
-    if len(target) < engine.FEWEST or (batch := engine.batch(bound)) is None:
-        return None
+    if len(target) < engine.FEWEST:
+        raise NotCompiled(f"fewer than {engine.FEWEST} loads of one contact")
+    batch = engine.batch(bound)
     which = np.zeros(len(target), np.int64)
     h, iterations, fate, columns = batch.solve(which, target)
     d = bound.asperities.centre + bound.asperities.sigma_s * h
-    if not fate.any():
-        return d, iterations, np.full(len(d), "ok"), columns
-    from .kernels import UNSOLVED
-
-    failed, status = fate != 0, np.full(len(d), "ok", dtype=object)
-    scan = LoadScan(bound)
-    status[failed] = [
-        NOT_SOLVED if what == UNSOLVED else scan.why_not(float(F))
-        for what, F in zip(fate[failed], target[failed], strict=True)
-    ]
-    d[failed] = np.nan
-    return d, iterations, status, {name: values[~failed] for name, values in columns.items()}
+    status = np.full(len(d), "ok", dtype=object)
+    residual = np.abs((columns["F_ss"] + columns["F_sa"]) / target - 1)
+    rest = np.flatnonzero((fate != 0) | ~(residual <= RESIDUAL))
+    if not len(rest):
+        return d, iterations, status, columns
+    # the other engine says why, or what the load does there
+    d[rest], iterations[rest], status[rest] = load_scan(bound).solve(target[rest], "loading")
+    solved = np.isfinite(d)
+    for name, values in bound.fields(d[more := rest[solved[rest]]]).items():
+        columns[name][more] = values
+    return d, iterations, status, {name: values[solved] for name, values in columns.items()}
 
 
 def _state(
@@ -567,11 +689,15 @@ def _state(
     scalar: bool,
     F_star: Array | None = None,
     raw: dict[str, Array] | None = None,
+    path: str = "numpy",
+    branch: str = "",
 ) -> Equilibrium:
     """Every column at given separations, where ``raw`` does not bring them."""
     solved = np.isfinite(d)
     if raw is None:
         raw = bound.fields(d[solved])
+        if target is not None:
+            d, status, solved, raw = _only_carried(bound, d, status, target, raw)
     full = dict(raw)
     if not solved.all():
         full = {name: np.full(len(d), np.nan) for name in raw}
@@ -587,10 +713,39 @@ def _state(
     if scalar:
         columns = {name: values[0].item() for name, values in columns.items()}
         outputs = {name: values[0].item() for name, values in outputs.items()}
-    notes = (*_warnings(contact, bound, full, d), *more)
+    notes = (*_warnings(contact, bound, full, d), *_branches(bound, target, d, branch), *more)
     return Equilibrium(
-        contact=contact, warnings=notes, populations=shares, outputs=outputs, **columns
+        contact=contact,
+        warnings=notes,
+        populations=shares,
+        outputs=outputs,
+        engine=path,
+        **columns,
     )
+
+
+def _only_carried(
+    bound: Interface, d: Array, status: NDArray[Any], target: Array, raw: dict[str, Array]
+) -> tuple[Array, NDArray[Any], NDArray[np.bool_], dict[str, Array]]:
+    """The states without those whose load is not carried: no state is "ok" whose balance is not."""
+    solved = np.isfinite(d)
+    where, F = np.flatnonzero(solved), raw["F_ss"] + raw["F_sa"]
+    loose = np.flatnonzero(~(np.abs(F - target[where]) <= RESIDUAL * target[where]))
+    if len(loose):
+        at = where[loose]
+        slope = bound.load(d[at])[:, 1]
+        lost = loose[~explained(F[loose], slope, target[at], load_scan(bound).ulp)]
+        d, status = d.copy(), status.copy()
+        for i in lost:
+            status[where[i]] = (
+                f"no equilibrium: the load {target[where[i]]:.4g} Pa is balanced to "
+                f"{abs(F[i] / target[where[i]] - 1):.2g} of itself only, at d = "
+                f"{d[where[i]]:.6g} m"
+            )
+        d[where[lost]] = np.nan
+        raw = {name: np.delete(values, lost) for name, values in raw.items()}
+        solved = np.isfinite(d)
+    return d, status, solved, raw
 
 
 def _population_shares(
@@ -653,6 +808,22 @@ def as_columns(
     }
 
 
+def _branches(bound: Interface, target: Array | None, d: Array, branch: str) -> list[str]:
+    """A sentence where other separations carry these loads as well."""
+    if target is None or not branch or (scan := load_scan(bound)).monotone:
+        return []
+    count = scan.separations(target[np.isfinite(d)])
+    if not np.any(several := count > 1):
+        return []
+    loads = "the load" if len(d) == 1 else f"{np.count_nonzero(several)} of the {len(d)} loads"
+    most = f"{count.max()}" if len(d) == 1 else f"up to {count.max()}"
+    side = "largest" if branch == "loading" else "smallest"
+    return [
+        f"{most} separations carry {loads}, as the load does not fall everywhere with d: this is "
+        f"the {branch} branch, the {side} of them; roots gives all"
+    ]
+
+
 def _warnings(
     contact: Contact, bound: Interface, full: dict[str, Array], d: Array
 ) -> tuple[str, ...]:
@@ -682,7 +853,7 @@ def _warnings(
         out += about_particles(contact)
         if np.any(full["shadow"] >= 1):
             out.append("particles shadow the whole area: the area correction was cut at zero")
-        if not bound.monotone and np.any(d < 0):
+        if not bound.particles.monotone and np.any(d < 0):
             out.append("d < 0: the paper's particle integrals have no meaning there")
     return tuple(out)
 

@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import engine
 from .contact import Contact, interface
-from .equilibrium import COLUMNS, NOT_SOLVED, TOO_DEEP, given_load, solve
-from .errors import InvalidValue, RangeWarning
+from .equilibrium import COLUMNS, TOO_DEEP, given_load, solve
+from .errors import InvalidValue, NotCompiled, RangeWarning
 from .materials import BULK
 from .outputs.base import evaluate
 
@@ -46,7 +46,8 @@ def solve_states(
     -------
     dict
         Every column of `Equilibrium`, arrays (N,). A state without equilibrium, or at a
-        separation below −5 σ_s, is NaN with its reason in ``status``.
+        separation below −5 σ_s, is NaN with its reason in ``status``. ``engine`` says what found
+        each state, as in `Equilibrium`.
 
     Raises
     ------
@@ -118,7 +119,7 @@ FATES = np.array(
         "-3 sigma_s; check the unit of the load",
         "no equilibrium: the load is below the smallest load this model resolves; check the unit "
         "of the load",
-        NOT_SOLVED,
+        "not solved: no separation was found at which the load is in balance",
         TOO_DEEP,
     ],
     dtype=object,
@@ -136,10 +137,10 @@ def _joined(count: int, parts: Iterable[tuple[Any, Columns]]) -> Columns:
     """Columns of all states from those of some, in the order in which they come."""
     out: Columns = {}
     for which, columns in parts:
-        for name in COLUMNS:
+        for name in (*COLUMNS, "engine"):
             if name not in out:
                 # sentences are few and long
-                kind = object if name == "status" else columns[name].dtype
+                kind = object if name in ("status", "engine") else columns[name].dtype
                 out[name] = np.empty(count, dtype=kind)
             out[name][which] = columns[name]
     return out
@@ -175,11 +176,12 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
     """Every column: by nodes that states share where they can, the others one by one."""
     numeric = all(values.dtype.kind in "iuf" for values in arrays.values())
     if not (numeric and engine.available() and _differ(arrays, len(loads))):
-        return _by_groups(contact, arrays, _groups(arrays, len(loads)), load, loads)
+        return _by_groups(contact, arrays, load, loads)
     numbers = {name: values.astype(float) for name, values in arrays.items()}
     try:
         return _by_nodes(contact, numbers, load, loads)
-    except TypeError:
+    except NotCompiled as error:
+        why = str(error)
         odd = np.zeros(len(loads), bool)
         for name, values in numbers.items():
             if name.startswith(DEMANDING):
@@ -189,12 +191,12 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
         plain = {k: v[even] for k, v in numbers.items() if not k.startswith(DEMANDING)}
         try:
             parts.append((even, _by_nodes(contact, plain, load, loads[even])))
-        except TypeError:
+        except NotCompiled as error:
+            why = str(error)
             odd[:] = True
     if len(rest := np.flatnonzero(odd)):
         some = _taken(arrays, rest)
-        groups = _groups(some, len(rest))
-        parts.append((rest, _by_groups(contact, some, groups, load, loads[rest])))
+        parts.append((rest, _by_groups(contact, some, load, loads[rest], why)))
     return _joined(len(loads), parts)
 
 
@@ -207,7 +209,7 @@ def _own(contact: Contact, name: str) -> Any:
 
 
 def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
-    """Every column by the compiled engine; TypeError where it does not know these inputs."""
+    """Every column by the compiled engine; `NotCompiled` where it does not know these inputs."""
     own = not engine.bare(contact, arrays) and engine.own_particles(contact, arrays)
     order = None
     if own and np.ptp(fine := engine.fineness(arrays)) > ALIKE * fine.min():
@@ -219,24 +221,34 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
         given = loads[here]
         batch = engine.States(contact, _taken(arrays, here), len(given))
         columns = batch.columns(load, given)
-        return here, columns | {"status": FATES[columns["status"]]}, batch.own
+        doubt = columns.pop("doubt")
+        words = {"status": FATES[columns["status"]], "engine": np.where(doubt, doubt, "compiled")}
+        return here, columns | words, batch.own
 
     here, columns, size = part(slice(0, FIRST))  # refused, or compiled, once
     at_once = max(min(AT_ONCE, ROOM * FIRST // max(size, 1)), 1)
     starts = range(FIRST, len(loads), at_once)
     with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
         rest = pool.map(part, (slice(start, start + at_once) for start in starts))
-        return _joined(len(loads), chain([(here, columns)], (found[:2] for found in rest)))
+        out = _joined(len(loads), chain([(here, columns)], (found[:2] for found in rest)))
+    # what the compiled engine doubts is for the other one to judge
+    for why in (engine.NOT_BALANCED, engine.NOT_MONOTONE):
+        if len(which := np.flatnonzero(out["engine"] == why)):
+            again = _by_groups(contact, _taken(arrays, which), load, loads[which], why)
+            for name, column in again.items():
+                out[name][which] = column
+    return out
+
+
+def _all(count: int, word: str) -> NDArray[Any]:
+    return np.full(count, word, dtype=object)
 
 
 def _by_groups(
-    contact: Contact,
-    arrays: Arrays,
-    groups: NDArray[np.intp],
-    load: str,
-    loads: NDArray[np.float64],
+    contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64], why: str = ""
 ) -> Columns:
-    """Every column, one contact after another."""
+    """Every column, one contact after another; ``why`` not by nodes."""
+    groups = _groups(arrays, len(loads))
     order = np.argsort(groups, kind="stable")
     parts = []
     for which in np.split(order, np.flatnonzero(np.diff(groups[order])) + 1):
@@ -244,7 +256,8 @@ def _by_groups(
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RangeWarning)
             result = solve(state, **{load: loads[which]})  # type: ignore[arg-type]
-        parts.append((which, result.columns()))
+        path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
+        parts.append((which, result.columns() | {"engine": _all(len(which), path)}))
     return _joined(len(loads), parts)
 
 

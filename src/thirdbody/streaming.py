@@ -21,6 +21,7 @@ import shutil
 import sys
 import threading
 import warnings
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -95,7 +96,7 @@ def in_memory(
         for name, (dims, _, attrs) in layout.variables.items()
     }
     inputs = {name: variables.pop(name) for name in layout.inputs}
-    attrs = layout.attrs | {"warnings": "\n".join(all_notes(notes, _summary(summaries)))}
+    attrs = layout.attrs | _attributes(notes, _summary(summaries))
     return xr.Dataset(variables, coords=layout.coords | inputs, attrs=attrs)
 
 
@@ -125,12 +126,20 @@ def _reduced(reduction: Reduction, parts: Iterable[Arrays]) -> Arrays:
 
 def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     out: dict[str, Any] = {"states": 0, "unsolved": 0, "A_t": 0.0, "shadow": 0.0}
+    paths: Counter[str] = Counter()
     for one in summaries:
         out["states"] += one["states"]
         out["unsolved"] += one["unsolved"]
         out["A_t"] = max(out["A_t"], one["A_t"])
         out["shadow"] = max(out["shadow"], one["shadow"])
-    return out
+        paths.update(one.get("engine", {}))
+    return out | {"engine": dict(sorted(paths.items()))}
+
+
+def _attributes(notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
+    """What a run says of itself, a line each."""
+    paths = (f"{word} ({count} states)" for word, count in summary["engine"].items())
+    return {"warnings": "\n".join(all_notes(notes, summary)), "engine": "\n".join(paths)}
 
 
 # -------------------------------------------------------------------------- who solves
@@ -434,7 +443,7 @@ def _carry_out(
             states += summary["states"]
             report(states)
     total = _summary(done.values())
-    attrs = {"warnings": "\n".join(all_notes(notes, total))}
+    attrs: dict[str, Any] = dict(_attributes(notes, total))
     if direct:
         store.label(attrs)
     else:

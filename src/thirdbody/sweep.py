@@ -13,6 +13,7 @@ import json
 import math
 import re
 import warnings
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -49,7 +50,7 @@ LOOKED_AT = 200
 LOAD_UNITS = {"F_star": "1", "pressure": "Pa", "d": "m"}
 ABSENT = ("particles.diameter.mean", "particles.areal_density")
 MODES = ("", "p-s", "hybrid", "s-s")
-STATUSES = ("ok", "no_equilibrium_above", "no_equilibrium_below", "no_equilibrium")
+STATUSES = ("ok", "no_equilibrium_above", "no_equilibrium_below", "no_equilibrium", "jump")
 CODES = {
     "mode": ("none", *(mode.replace("-", "") for mode in MODES[1:])),
     "status": STATUSES,
@@ -183,7 +184,7 @@ class Task:
                 f"this worker runs thirdbody {__version__} and the sweep needs {self.version}; "
                 "install the same version everywhere"
             )
-        needed = dict.fromkeys((*self.columns, "status", "A_t", "shadow"))
+        needed = dict.fromkeys((*self.columns, "status", "engine", "A_t", "shadow"))
         solved: Arrays = {}
         for part, block in self.block.parts(CHUNK):
             columns = block.solve()
@@ -196,6 +197,7 @@ class Task:
             "unsolved": int(np.sum(solved["status"] != "ok")),
             "A_t": _largest(solved["A_t"]),
             "shadow": _largest(solved["shadow"]),
+            "engine": dict(Counter(solved["engine"].ravel().tolist())),
         }
         if self.reduction is not None:
             kept = {name: solved[name] for name in (*self.columns, "status")}
@@ -619,7 +621,8 @@ def _codes(name: str, words: NDArray[Any]) -> NDArray[np.int8]:
     codes = np.zeros(words.shape, np.int8)
     for place in zip(*np.nonzero(words != "ok"), strict=True):
         text = str(words[place])
-        codes[place] = 1 if "beyond" in text else 2 if "below the" in text else 3
+        jump = text.startswith("jump")
+        codes[place] = 4 if jump else 1 if "beyond" in text else 2 if "below the" in text else 3
     return codes
 
 
@@ -728,9 +731,10 @@ def sweep(
     xarray.Dataset
         One dimension for each listed input, for the load, and for the samples (``sample``) or
         pairs (``state``); every column of `Equilibrium` as a variable with ``units``,
-        ``long_name`` and ``symbol``; inputs, version and citations as attributes. A state without
-        equilibrium is NaN with its reason in ``status``. In ``out``, ``mode`` and ``status`` are
-        codes (``flag_values``, ``flag_meanings``), and the data are loaded when they are used.
+        ``long_name`` and ``symbol``; inputs, version, citations and ``engine``, how many states
+        each engine solved and why, as attributes. A state without equilibrium is NaN with its
+        reason in ``status``. In ``out``, ``mode`` and ``status`` are codes (``flag_values``,
+        ``flag_meanings``), and the data are loaded when they are used.
 
     Raises
     ------

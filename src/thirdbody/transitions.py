@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -11,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact import Contact, interface
-from .equilibrium import EPS_1, EPS_2, Equilibrium, LoadScan, solve
-from .errors import InvalidValue, RangeWarning
+from .equilibrium import EPS_1, EPS_2, load_scan
+from .errors import InvalidValue
 
 __all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]
 
@@ -176,37 +175,37 @@ def transitions(
         two_body = TurningPoint(none, none, none)
         return Transitions(Critical(None, "never p-s"), Critical(0.0, "always s-s"), two_body)
 
-    contact = contact.replace(outputs=())
-    scan = LoadScan(interface(contact))
+    bound = interface(contact.replace(outputs=()))
+    scan = load_scan(bound)
     carried = np.exp([scan.log_F[0], scan.log_F.max()]) / contact.E_ss
     low, high = max(low, 1.0001 * carried[0]), min(high, 0.9999 * carried[1])
     if low >= high:
         none = Critical(None, "none: no load of the window can be carried")
         return Transitions(none, none, TurningPoint(none, none, none))
 
-    def states(loads: Array) -> Equilibrium:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RangeWarning)
-            return solve(contact, F_star=loads)
+    def states(loads: Array) -> tuple[Array, Array, Array]:
+        """Shares of area and load of the particles, and A_t: where the load jumps, below it."""
+        d, _, _ = scan.met(loads * contact.E_ss, "loading")
+        raw = bound.fields(d)
+        F = raw["F_ss"] + raw["F_sa"]
+        return raw["A_sa"] / raw["A_t"], raw["F_sa"] / F, raw["A_t"]
 
     def share(loads: Array) -> Array:
-        result = states(loads)
-        return np.asarray(
-            result.particle_area_share if basis == "area" else result.particle_load_share
-        )
+        return states(loads)[0 if basis == "area" else 1]
+
+    def load_share(loads: Array) -> Array:
+        return states(loads)[1]
 
     loads = np.geomspace(low, high, 200)
-    first = states(loads)
-    area = np.asarray(first.particle_area_share)
-    load = np.asarray(first.particle_load_share)
+    area, load, A_t = states(loads)
     S = area if basis == "area" else load
     return Transitions(
         _first_critical(loads, S, share, 1 - eps_1),
         _second_critical(loads, S, share, eps_2),
         TurningPoint(
             _recurrence(loads, S, share, eps_2),
-            _equal_loads(loads, load, states),
-            _bend(loads, np.asarray(first.A_t), S, eps_1, eps_2),
+            _equal_loads(loads, load, load_share),
+            _bend(loads, A_t, S, eps_1, eps_2),
         ),
     )
 
@@ -260,8 +259,8 @@ def _recurrence(loads: Array, S: Array, share, threshold: float) -> Critical:
     return Critical(float(np.sqrt(a * b)), "found")
 
 
-def _equal_loads(loads: Array, load_share: Array, states) -> Critical:
-    above = load_share >= 0.5
+def _equal_loads(loads: Array, shares: Array, load_share) -> Critical:
+    above = shares >= 0.5
     changes = np.flatnonzero(above[1:] != above[:-1])
     if not len(changes):
         return Critical(None, "none")
@@ -269,7 +268,7 @@ def _equal_loads(loads: Array, load_share: Array, states) -> Critical:
     sign = 1.0 if above[i] else -1.0
 
     def share(loads: Array) -> Array:
-        return sign * np.asarray(states(loads).particle_load_share)
+        return sign * load_share(loads)
 
     return _crossing(loads[i], loads[i + 1], share, sign * 0.5, last=False)
 

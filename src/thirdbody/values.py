@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, field
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from .errors import InvalidValue
+from .errors import InvalidValue, NotCompiled
 
 if TYPE_CHECKING:
     import numpy as np
@@ -168,7 +168,7 @@ class Value:
         ------
         InvalidValue
             A name that is no field, or values outside their range.
-        TypeError
+        NotCompiled
             A field that is not a quantity.
         """
         fields = {item.name: item for item in dataclasses.fields(self)}  # type: ignore[arg-type]
@@ -184,7 +184,7 @@ class Value:
                 continue
             about = fields[head].metadata.get("quantity")
             if about is None:
-                raise TypeError(f"{type(self).__name__}.{head} is not a quantity")
+                raise NotCompiled(f"{type(self).__name__}.{head} is not a quantity")
             for extreme in (float(values.min()), float(values.max())):
                 if why := problem_with(about, extreme):
                     raise InvalidValue(f"{type(self).__name__}.{head} = {extreme!r} {why}")
@@ -192,7 +192,7 @@ class Value:
         for head, deeper in inner.items():
             part = getattr(self, head)
             if not isinstance(part, Value):
-                raise TypeError(f"{type(self).__name__}.{head} has no fields of its own")
+                raise NotCompiled(f"{type(self).__name__}.{head} has no fields of its own")
             now[head] = part.with_arrays(deeper)
         out = object.__new__(type(self))
         for name in fields:

@@ -345,6 +345,8 @@ class ParticleResponse(ABC):
     """The load falls with d everywhere."""
     resolution: float = np.inf
     """Step of d [m] that resolves the load, where it is not monotone."""
+    marks: Array | tuple[float, ...] = ()
+    """Separations d [m] between which load and shadow are smooth, where the law knows them."""
 
     @abstractmethod
     def load(self, d: Array) -> tuple[Array, Array]:
@@ -374,6 +376,7 @@ class ParticlesTogether(ParticleResponse):
         self.reach = max(each.reach for each in responses)
         self.monotone = all(each.monotone for each in responses)
         self.resolution = min(each.resolution for each in responses)
+        self.marks = np.concatenate([np.asarray(each.marks, float) for each in responses])
 
     def load(self, d: Array) -> tuple[Array, Array]:
         loads, shadows = zip(*(each.load(d) for each in self.responses), strict=True)

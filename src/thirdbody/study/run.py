@@ -54,6 +54,7 @@ def run_study(study: Study) -> dict[str, Any]:
         "scales": state.scales,
         "states": {"status": states.pop("status"), **states},
         "populations": _populations(state),
+        "engine": state.engine,
         "transitions": critical.to_dict(),
         "warnings": list(dict.fromkeys(sentences)),
         "citations": cite(study.contact).splitlines(),

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ...errors import NotCompiled
 from ...numerics import PiecewiseChebyshev, chebyshev_transform, gauss_legendre, in_pieces
 from ..base import REGIMES, AbstractAsperityLaw
 from .series import COLUMNS, Side
@@ -72,7 +73,7 @@ class InverseLaw:
 
     Raises
     ------
-    TypeError
+    NotCompiled
         A law that jumps, or does not begin with Hertz' contact, or whose mean pressure does not
         rise up to its last breakpoint and stay constant beyond.
     """
@@ -130,7 +131,7 @@ class InverseLaw:
             linear = ends / self.last * self.areas[1]
             good &= np.allclose(law.reduced("area", ends), linear, rtol=1e-12)
         if not good:
-            raise TypeError(f"{law.name} is not a law whose load tells its indentation")
+            raise NotCompiled(f"{law.name} is not a law whose load tells its indentation")
 
     def _solve(self, quantity: str, value: Array) -> Array:
         from scipy.optimize.elementwise import find_root

@@ -863,6 +863,17 @@ class Part:
         top = average.top if isinstance(average, SizeAverage) else average.high
         self.reach = scale * top - offset
 
+    @property
+    def marks(self) -> Array:
+        """Ends of the panels of the tables, as separations d [m]."""
+        average = self.average
+        if isinstance(average, SeatAverage):
+            gaps = average.table.edges
+        else:
+            below = average.lower.edges if average.lower is not None else np.empty(0)
+            gaps = np.concatenate([below, average.top - average.upper.edges**2])
+        return self.scale * gaps - self.offset
+
     def load(self, d: Array, shadow: int) -> Array:
         values = self.average.derivatives((d + self.offset) / self.scale, (0, shadow))
         return self.factor / self.scale ** np.arange(3) * values
@@ -894,6 +905,12 @@ class SeatedParticles(ParticleResponse):
         self.shadow = shadow
         self.reach = max(part.reach for part in parts)
         self._shadow_column = COLUMNS.index(shadow) if shadow in COLUMNS else 0
+
+    @property
+    def marks(self) -> Array:  # type: ignore[override]
+        if self.shadow not in COLUMNS:  # what does not change takes no load from asperities
+            return np.empty(0)
+        return np.concatenate([part.marks for part in self.parts])
 
     def load(self, d: Array) -> tuple[Array, Array]:
         total = np.sum([part.load(d, self._shadow_column) for part in self.parts], axis=0)
