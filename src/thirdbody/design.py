@@ -525,7 +525,8 @@ def _states(task: Task, best: Point) -> xarray.Dataset:
 
     found = task.metrics([best.numbers], best.materials, samples=False)
     columns: dict[str, Any] = {}
-    for name in (*found.keys() - {"coverage", "buried_share"}, "buried_share"):
+    first = (name for name in found if name not in ("coverage", "buried_share"))
+    for name in (*first, "buried_share"):
         told = METRICS.get(name) or about(name)
         attrs = {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
         columns[name] = (task.load, found[name].reshape(-1), attrs)

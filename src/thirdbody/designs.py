@@ -72,15 +72,17 @@ def sobol(size: int, width: int, seed: int, start: int, stop: int) -> Array:
     engine: Any = None
     if getattr(_last, "key", None) == key:
         engine = _last.engine
+    _last.key = None  # an interrupt may leave it between two points
     # skipping costs a few nanoseconds a point: go on where the last part ended when possible
     if engine is None or engine.num_generated > start:
         engine = qmc.Sobol(width, rng=seed, bits=max(30, math.ceil(math.log2(size))))
     if start > engine.num_generated:
         engine.fast_forward(start - engine.num_generated)
-    _last.key, _last.engine = key, engine
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="The balance properties")
-        return engine.random(stop - start)
+        points = engine.random(stop - start)
+    _last.key, _last.engine = key, engine
+    return points
 
 
 def latin(size: int, width: int, seed: int, start: int, stop: int) -> Array:

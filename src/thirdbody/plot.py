@@ -192,7 +192,7 @@ def _curves(data: xarray.Dataset | Equilibrium) -> list[Curve]:
     for index in itertools.product(*(range(data.sizes[name]) for name in others)):
         one = data.isel(dict(zip(others, index, strict=True)))
         values = [(name, one.coords[name].values[()]) for name in others]
-        names = {str(name) for name in (*one.data_vars, *one.coords)} - set(others)
+        names = [str(name) for name in (*one.data_vars, *one.coords) if name not in others]
         columns = {name: np.asarray(one[name].values) for name in names}
         shape = columns[load].shape
         columns = {name: column for name, column in columns.items() if column.shape == shape}

@@ -70,7 +70,7 @@ class Reduction:
         for name in [given] if isinstance(given, str) else given or ():
             home = next((dim for dim, inputs in dims.items() if name in (dim, *inputs)), None)
             if home is None:
-                known = ", ".join(n for dim, inputs in dims.items() for n in {dim, *inputs})
+                known = ", ".join(dict.fromkeys(n for dim in dims for n in (dim, *dims[dim])))
                 problems.append(f"reduce['over'] names {name!r}, which is not varied: {known}")
             else:
                 over.append(home)

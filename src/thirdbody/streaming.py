@@ -347,6 +347,15 @@ def _check(folder: Folder, study: dict[str, Any]) -> None:
         return
     old, new = _flat(found), _flat(json.loads(json.dumps(study)))
     differ = [key for key in {**old, **new} if old.get(key) != new.get(key)]
+    if differ == ["order"]:
+        there = json.dumps(old.get("order", "not told"), ensure_ascii=False)
+        here = json.dumps(new["order"], ensure_ascii=False)
+        raise InvalidValue(
+            f"{path} holds another study: the order of its inputs, which decides the samples that "
+            f"each is given, is {there} there and {here} here; write them in that order, or give "
+            "another folder"
+        )
+    differ = [key for key in differ if key != "order"]  # follows from the rest
     if differ:
         shown = "; ".join(
             f"{key} is {_say(old.get(key))} there and {_say(new.get(key))} here"
@@ -420,6 +429,8 @@ def _carry_out(
     direct = folder.format == "zarr" and plan.reduction is None
     if direct:
         if not folder.data.exists():
+            shutil.rmtree(path / "done")  # of data that are gone
+            (path / "done").mkdir()
             draft = path / ".states.part.zarr"
             shutil.rmtree(draft, ignore_errors=True)
             _Zarr.made(draft, layout)

@@ -73,6 +73,11 @@ class Listed:
     def size(self) -> int:
         return len(next(iter(self.values.values())))
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Its inputs, in order."""
+        return tuple(self.values)
+
     def cut(self, part: slice) -> Listed:
         cut = {name: values[part] for name, values in self.values.items()}
         return Listed(self.name, cut, self.start + part.start)
@@ -99,6 +104,11 @@ class Sampled:
     @property
     def size(self) -> int:
         return self.stop - self.start
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Its inputs, in order."""
+        return tuple(self.spans)
 
     def cut(self, part: slice) -> Sampled:
         ends = {"start": self.start + part.start, "stop": self.start + part.stop}
@@ -292,6 +302,8 @@ class Plan:
             "contact": self.contact.to_dict(),
             "load": self.load,
             "vary": {dim.name: dim.to_dict() for dim in self.dims},
+            # a mapping forgets its order, which decides the samples of an input and the blocks
+            "order": [name for dim in self.dims for name in dim.names],
             "columns": list(self.columns),
             "reduce": None if self.reduction is None else dataclasses.asdict(self.reduction),
             "chunk": self.chunk,
@@ -306,7 +318,7 @@ class Plan:
         variables: dict[str, tuple[tuple[str, ...], str, dict[str, Any]]] = {}
         coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]] = {}
         for dim in kept:
-            for name in dim.spans if isinstance(dim, Sampled) else dim.values:
+            for name in dim.names:
                 about = _attributes_of(self.contact, name)
                 if isinstance(dim, Listed):
                     coords[name] = ((dim.name,), _shown(dim.values[name]), about)
@@ -477,8 +489,7 @@ def make_plan(
         return Plan(contact, load, tuple(dims), kept, None, chunk)
     words = ("mode", "status", "iterations", *(() if columns else ("residual",)))
     kept = tuple(name for name in kept if name not in words)
-    inputs = {dim.name: tuple(dim.to_dict()) for dim in dims if isinstance(dim, Listed)}
-    reduction = Reduction.read(reduce, inputs | ({"sample": tuple(spans)} if spans else {}), kept)
+    reduction = Reduction.read(reduce, {dim.name: dim.names for dim in dims}, kept)
     dims.sort(key=lambda dim: dim.name in reduction.over)
     plan = Plan(contact, load, tuple(dims), kept, reduction, chunk)
     return _with_whole_cells(plan) if reduction.quantiles else plan

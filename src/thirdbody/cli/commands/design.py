@@ -11,7 +11,7 @@ import typer
 
 from ..options import AsJson, Settings, read_study
 from ..show import as_number, table_of, terminal
-from ..streams import warn, write_csv
+from ..streams import figure_format, warn, write_csv, write_figure
 
 if TYPE_CHECKING:
     from ...design import Best
@@ -37,11 +37,13 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The best size, concentration or roughness over a range of loads, under limits."""
-    from ...files import need_folders, whole
+    from ...files import need_folders
     from ...study.design import design_study
 
     asked = read_study(study, settings)
     need_folders(csv_file, figure)
+    if figure is not None:
+        figure_format(figure)  # refused before long work
     best = design_study(asked, progress=True)
     for sentence in best.warnings:
         warn(sentence)
@@ -52,10 +54,7 @@ def command(
     if figure is not None:
         from ...plot_design import tried
 
-        drawing = tried(best)
-        with whole(figure) as part:
-            drawing.savefig(part, format=figure.suffix.lstrip(".") or "png")
-        print(f"written: {figure}", file=sys.stderr)
+        write_figure(figure, tried(best))
     if as_json:
         told = {"title": asked.title, **best.to_dict()}
         print(json.dumps(told, indent=1, allow_nan=False))

@@ -11,7 +11,7 @@ import typer
 
 from ..options import AsJson, Settings, read_study
 from ..show import as_length, as_number, as_pressure, table_of, terminal
-from ..streams import warn, write_csv
+from ..streams import figure_format, warn, write_csv, write_figure
 
 __all__ = ["columns_of", "command"]
 
@@ -35,7 +35,8 @@ def command(
     from ...study import run_film
 
     asked = read_study(study, settings)
-    kind = "" if figure is None else _format_of(figure)
+    if figure is not None:
+        figure_format(figure)  # refused before long work
     result = run_film(asked)
     for sentence in result["warnings"][len(asked.notes) :]:
         warn(sentence)
@@ -47,26 +48,12 @@ def command(
     if csv_file is not None:
         write_csv(csv_file, *columns_of(result))
         print(f"written: {csv_file}", file=sys.stderr)
-    if figure is not None and drawn is not None:
-        from ...files import whole
-
-        with whole(figure) as part:
-            drawn.savefig(part, format=kind)
-        print(f"written: {figure}", file=sys.stderr)
+    if figure is not None:
+        write_figure(figure, drawn)
     if as_json:
         print(json.dumps(result, indent=1, allow_nan=False))
     else:
         _show(result)
-
-
-def _format_of(figure: Path) -> str:
-    """What a figure is written as, by the end of its name."""
-    from ...errors import InvalidValue
-
-    kind = figure.suffix.lstrip(".").lower() or "png"
-    if kind not in ("png", "svg", "pdf"):
-        raise InvalidValue(f"--figure {figure} must end in .png, .svg or .pdf")
-    return kind
 
 
 def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, str]]:
