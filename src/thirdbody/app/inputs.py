@@ -31,6 +31,7 @@ from .fields import (
 from .state import State, refuse_foreign_files
 from .text import from_toml, to_toml, with_micro
 from .uploads import keep
+from .widgets import put
 
 __all__ = ["FORMED", "Inputs"]
 
@@ -134,19 +135,20 @@ class Inputs:
         else:
             self.text(place, field)
 
-    def text(self, place: Place, field: Field, put: Callable[[Any], None] | None = None) -> Any:
+    def text(self, place: Place, field: Field, to: Callable[[Any], None] | None = None) -> Any:
         """An entry that is written: the study changes when typing pauses."""
-        set_to = put or (lambda value: self.state.set(*place, value))
+        set_to = to or (lambda value: self.state.set(*place, value))
         read, show = (
             (lambda text: text.strip() or None, lambda value: str(value or ""))
             if field.kind == "string"
             else (value_from, shown)
         )
         entry = ui.input(field.label, value=show(self.state.get(*place))).classes("w-full")
-        entry.props(f'dense debounce=350 hint="{_attribute(with_micro(field.about))}"')
-        entry.props(f'aria-label="{_attribute(dotted(place))}" data-path="{dotted(place)}"')
+        name = dotted(place)
+        put(entry.props("dense debounce=350"), {"hint": with_micro(field.about)})
+        put(entry, {"aria-label": name, "data-path": name})
         entry.on_value_change(lambda event: set_to(read(event.value or "")))
-        self.shown[dotted(place)] = Entry(entry, read, show)
+        self.shown[name] = Entry(entry, read, show)
         return entry
 
     def known(self, *place: str) -> None:
@@ -174,7 +176,8 @@ class Inputs:
             return "" if table is None else to_toml({name: table})
 
         entry = ui.textarea(value=show(self.state.get(name)), placeholder=BEGUN.get(name, ""))
-        entry.props(f'outlined autogrow debounce=500 data-path="{name}" aria-label="[{name}]"')
+        entry.props("outlined autogrow debounce=500")
+        put(entry, {"data-path": name, "aria-label": f"[{name}]"})
         entry.classes("w-full code").on_value_change(changed)
         keys = known_keys(self.state.study, name)[name]
         ui.label(f"Keys: {', '.join(keys)}.").classes("hint")
@@ -199,9 +202,9 @@ class Inputs:
 
         known = options if now in options else {now: str(now), **options}
         menu = ui.select(known, value=now, label=label, on_change=changed)
-        menu.props(f'dense options-dense hint="{_attribute(with_micro(hint))}"').classes("w-full")
+        put(menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)})
         if place is not None:
-            menu.props(f'data-path="{dotted(place)}"')
+            put(menu, {"data-path": dotted(place)})
             self.shown[dotted(place)] = Entry(menu)
         return menu
 
@@ -284,7 +287,7 @@ class Inputs:
     def _named(self, place: Place, field: Field, tag: str, word: str) -> None:
         """An entry of a table that is still a word, or left out."""
 
-        def put(value: Any) -> None:
+        def to(value: Any) -> None:
             table = self.state.get(*place)
             if value is None and not isinstance(table, dict):
                 return
@@ -292,7 +295,7 @@ class Inputs:
             new = {key: old for key, old in kept.items() if key != field.name}
             self.state.set(*place, new if value is None else new | {field.name: value})
 
-        self.text((*place, field.name), field, put)
+        self.text((*place, field.name), field, to)
 
     def surfaces(self) -> None:
         """Both bodies."""
@@ -533,7 +536,7 @@ class Inputs:
             place: Place = ("outputs", name)
             on = self.state.get(*place) is not None
             box = ui.switch(str(getattr(kind, "title", name)), value=on)
-            box.props(f'data-path="{dotted(place)}"')
+            put(box, {"data-path": dotted(place)})
             box.on_value_change(lambda e, p=place: self._switch(p, e.value))
             if on:
                 with ui.column().classes("w-full pl-4 gap-1"):
@@ -563,7 +566,7 @@ class Inputs:
                 ui.label(label).classes("grow break-all")
                 ui.label(with_micro(say(entry))).classes("hint")
                 drop = ui.button(icon="delete", on_click=lambda _, k=label: self._known(k, None))
-                drop.props(f'flat dense aria-label="remove {_attribute(label)}"')
+                put(drop.props("flat dense"), {"aria-label": f"remove {label}"})
         kinds = {
             "uniform": "between two values",
             "log-uniform": "between two values, over decades",
@@ -622,7 +625,3 @@ def about_of(problem: str) -> str:
     """The entry that a sentence is about: it begins with its place."""
     first = problem.split(" ", 1)[0].rstrip(":,")
     return first.split("[", 1)[0]
-
-
-def _attribute(text: str) -> str:
-    return text.replace('"', "'")

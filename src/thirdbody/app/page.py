@@ -48,6 +48,9 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .scroll-x .q-table { min-width: 620px; }
 .narrow { max-width: 34rem; }
 .code textarea { font-family: ui-monospace, monospace; font-size: 0.8rem; line-height: 1.35; }
+.listing {
+  font-family: ui-monospace, monospace; font-size: 0.8rem; white-space: pre; overflow-x: auto;
+}
 .js-plotly-plot .main-svg text { fill: currentColor !important; }
 .js-plotly-plot .main-svg { background: transparent !important; }
 .js-plotly-plot .hoverlayer text { fill: #222 !important; }

@@ -9,7 +9,7 @@ from typing import Any
 from fastapi import Request
 from nicegui import app, ui
 
-from .guard import Guard, allowed_hosts
+from .guard import Guard, Headers, allowed_hosts
 from .page import Start, page
 
 __all__ = ["serve"]
@@ -44,6 +44,7 @@ def serve(
         page(start, request)
 
     app.add_middleware(Guard, hosts=allowed_hosts(host))
+    app.add_middleware(Headers)
     app.on_startup(_warm)
     logging.getLogger("nicegui").setLevel(logging.ERROR)
     ui.run(

@@ -10,6 +10,7 @@ from nicegui import ui
 from ..errors import InvalidValue
 from .jobs import Job, Stopped
 from .text import with_micro
+from .widgets import put
 
 __all__ = ["Work"]
 
@@ -41,12 +42,12 @@ class Work:
         self.job: Job | None = None
         with ui.row().classes("w-full items-center gap-3"):
             self.start = ui.button(label, icon="play_arrow", on_click=self.run)
-            self.start.props(f'no-caps data-work="{task}"')
+            put(self.start.props("no-caps"), {"data-work": task})
             self.bar = ui.linear_progress(value=0.0, show_value=False).classes("grow")
-            self.bar.props(f'aria-label="progress of {task}"')
+            put(self.bar, {"aria-label": f"progress of {task}"})
             self.stop = ui.button("Cancel", icon="stop", on_click=self.cancel).props("flat no-caps")
-            self.stop.props(f'data-cancel="{task}"')
-        self.said = ui.label().classes("problem").props(f'role=alert data-said="{task}"')
+            put(self.stop, {"data-cancel": task})
+        self.said = put(ui.label().classes("problem"), {"role": "alert", "data-said": task})
         self._idle()
 
     def _idle(self) -> None:

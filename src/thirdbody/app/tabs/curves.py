@@ -9,8 +9,19 @@ import numpy as np
 from nicegui import ui
 
 from ...cli.show import as_number, as_pressure
-from ..figures import AXES, REGIME_FILLS, empty, figure, line, log_title, mark, mode_bands
+from ..figures import (
+    AXES,
+    REGIME_FILLS,
+    empty,
+    figure,
+    line,
+    log_title,
+    mark,
+    mode_bands,
+    plain,
+)
 from ..state import Answer, State
+from ..widgets import put
 from ..widgets import table as shown_table
 
 __all__ = ["TITLE", "build", "figures"]
@@ -85,7 +96,7 @@ def figures(
         ]
         for number, part in enumerate(state.populations):
             share = 100 * np.asarray(part.load_share)
-            parts.append(line(x, share, f"{part.name}: load", number + 2))
+            parts.append(line(x, share, f"{plain(part.name)}: load", number + 2))
         out["shares"] = figure(
             parts, y="share of particles [%]", title="What particles carry; mode as bands", **more
         )
@@ -132,7 +143,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     with grid:
         for name in ("area", "shares", "regimes", "separation"):
             plots[name] = ui.plotly(empty(360)).classes("w-full")
-            plots[name].props(f'data-figure="{name}"')
+            put(plots[name], {"data-figure": name})
     table = ui.column().classes("w-full scroll-x")
     later: dict[str, Any] = {"timer": None}
 

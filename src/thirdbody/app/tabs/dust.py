@@ -11,7 +11,7 @@ from nicegui import events, ui
 import thirdbody as tb
 
 from ...cli.show import as_number, as_percent
-from ..figures import empty, figure, line
+from ..figures import empty, figure, line, plain
 from ..guard import LARGEST_UPLOAD
 from ..inputs import Inputs
 from ..state import State
@@ -48,7 +48,7 @@ def size_figure(contact: tb.Contact) -> dict[str, Any]:
             low, high = 0.9 * low, 1.1 * high
         x = np.geomspace(max(low, 1e-3 * high), high, 240)
         density = np.asarray(sizes.pdf(x)) * x
-        name = dust.name or dust.material.name or f"population {number + 1}"
+        name = plain(dust.name or dust.material.name or f"population {number + 1}")
         for k, (values, how) in enumerate(((density, "number"), (density * x**3, "volume"))):
             top = values.max() if np.isfinite(values).all() and values.max() > 0 else 1.0
             traces.append(line(1e6 * x, values / top, f"{name}, by {how}", 2 * number + k))

@@ -20,6 +20,7 @@ from ..inputs import Inputs
 from ..state import State
 from ..text import with_micro
 from ..widgets import facts as named_values
+from ..widgets import put
 
 __all__ = ["START", "TITLE", "build", "film_figures", "solved"]
 
@@ -161,7 +162,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             words = ui.column().classes("w-full gap-0")
             for name in CURVES:
                 plots[name] = ui.plotly(empty(360)).classes("w-full")
-                plots[name].props(f'data-figure="{name}"')
+                put(plots[name], {"data-figure": name})
 
     def show() -> None:
         found, i = now["found"], now["i"]
@@ -199,7 +200,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         found, middle = solved(answer.study)
         kept = before is not None and before["states"]["speed"] == found["states"]["speed"]
         now.update(answer=answer, found=found, i=now["i"] if kept else middle)
-        slider.props(f"max={len(found['states']['speed']) - 1}")
+        put(slider, {"max": len(found["states"]["speed"]) - 1})
         slider.set_value(now["i"])
         words.clear()
         with words:

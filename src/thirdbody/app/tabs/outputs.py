@@ -13,6 +13,7 @@ from ...equilibrium import about
 from ..figures import AXES, figure, line, mark
 from ..inputs import Inputs
 from ..state import Answer, State
+from ..widgets import put
 from ..widgets import table as shown_table
 
 __all__ = ["TITLE", "build", "output_figures"]
@@ -88,7 +89,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             for name, drawn in made.items():
                 if name not in plots:
                     plots[name] = ui.plotly(drawn).classes("w-full")
-                    plots[name].props(f'data-figure="output {name}"')
+                    put(plots[name], {"data-figure": f"output {name}"})
                 else:
                     plots[name].update_figure(drawn)
         _table(state, table)
