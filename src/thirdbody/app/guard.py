@@ -66,7 +66,7 @@ class Guard:
         """Asked for under a name of its own, by nobody else than itself."""
         secure = scope.get("scheme", "http") in ("https", "wss")
         own = _origin(f"{'https' if secure else 'http'}://{headers.get('host', '')}")
-        if own is None or (self.hosts and own[1] not in self.hosts):
+        if self.hosts and (own is None or own[1] not in self.hosts):
             return False
         return "origin" not in headers or _origin(headers["origin"]) == own
 

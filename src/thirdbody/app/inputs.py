@@ -17,6 +17,7 @@ from ..study.counted import COUNTED
 from ..study.inputs import inputs_of
 from ..uncertainty import KINDS
 from ..units import say
+from .bounds import LARGEST_TABLE
 from .fields import (
     COUNTED_FIELDS,
     VARIANTS,
@@ -28,7 +29,7 @@ from .fields import (
     shown,
     value_from,
 )
-from .state import State, refuse_foreign_files
+from .state import State
 from .text import from_toml, to_toml, with_micro
 from .uploads import keep
 from .widgets import put
@@ -200,7 +201,9 @@ class Inputs:
             elif place is not None:
                 self.state.set(*place, event.value or None)
 
-        known = options if now in options else {now: str(now), **options}
+        if not isinstance(now, str):
+            now = shown(now)  # a mistake, which stands there as it is written
+        known = options if now in options else {now: now, **options}
         menu = ui.select(known, value=now, label=label, on_change=changed)
         put(menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)})
         if place is not None:
@@ -218,7 +221,7 @@ class Inputs:
         """A material of the library, or own values."""
         now = self.state.get(*place)
         own = isinstance(now, dict)
-        library = self._library()
+        library = self.state.library
         options = {OWN: OWN, **{name: name for name in library}}
 
         def then(value: Any) -> None:
@@ -233,20 +236,11 @@ class Inputs:
         if own:
             for each in fields_of(tb.Material):
                 self.field(place, each)
-        elif now in library:
+        elif isinstance(now, str) and now in library:
             known = library[now]
             ui.label(
                 f"E = {known.E / 1e9:.4g} GPa, ν = {known.nu:g}, H = {known.H / 1e9:.4g} GPa"
             ).classes("hint")
-
-    def _library(self) -> tb.MaterialLibrary:
-        """The materials that the study can name."""
-        own = self.state.get("materials")
-        try:
-            refuse_foreign_files({"materials": own}, self.state.folder)
-            return tb.materials.load(self.state.folder / own) if own else tb.materials
-        except (InvalidValue, TypeError):
-            return tb.materials
 
     def variant(
         self,
@@ -303,11 +297,20 @@ class Inputs:
             self.material(("surfaces", side), f"{side} surface")
 
         async def uploaded(event: events.UploadEventArguments) -> None:
-            self.change("materials", await keep(self.state.folder, event))
+            try:
+                self.change("materials", await keep(self.state.folder, event))
+            except InvalidValue as error:
+                ui.notify("; ".join(error.problems))
 
         about = "a file, dropped below"
         self.field((), Field(name="materials", kind="string", label="own materials", about=about))
-        upload = ui.upload(label="Own materials", auto_upload=True, on_upload=uploaded)
+        upload = ui.upload(
+            label="Own materials",
+            auto_upload=True,
+            max_file_size=LARGEST_TABLE,
+            on_upload=uploaded,
+            on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
+        )
         upload.props('flat bordered data-upload="materials" accept=".toml,text/plain"')
 
     def asperity_law(self) -> None:

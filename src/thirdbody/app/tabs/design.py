@@ -13,7 +13,7 @@ from ...errors import InvalidValue
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, shown, value_from
 from ..figures import GREY, empty, figure, line, plain
-from ..state import State
+from ..state import State, loads_as
 from ..text import with_micro
 from ..work import Work
 
@@ -148,7 +148,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
 
     which.on_value_change(ranged)
 
-    def table() -> dict[str, Any]:
+    async def table() -> dict[str, Any]:
         """What the form asks, as the table [design] of a study."""
         ends = {end: value_from(str(w.value or "")) for end, w in (("low", low), ("high", high))}
         wanted = {"of": of.value, "aim": aim.value, "over_loads": over.value}
@@ -160,13 +160,13 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             ]
         if (answer := state.answer) is not None:
             name = answer.load if answer.load != "d" else "F_star"
-            values = answer.loads if name == answer.load else np.asarray(answer.curves.F_star)
+            values = answer.loads if name == answer.load else await state.ask(loads_as, name)
             first, last = float(values.min()), float(values.max())
             asked[name] = {"from": first, "to": last, "points": LOADS}
         return asked
 
-    def ask() -> dict[str, Any]:
-        own = {} if which.value == WRITTEN else {"design": table()}
+    async def ask() -> dict[str, Any]:
+        own = {} if which.value == WRITTEN else {"design": await table()}
         return {"study": state.study | own, "folder": str(state.folder)}
 
     def show(result: dict[str, Any]) -> None:

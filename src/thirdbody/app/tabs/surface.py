@@ -74,7 +74,11 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     ).classes("hint")
 
     async def uploaded(event: events.UploadEventArguments) -> None:
-        name = await keep(state.folder, event)
+        try:
+            name = await keep(state.folder, event)
+        except InvalidValue as error:
+            work.said.set_text("; ".join(error.problems))
+            return
         now["file"] = str(state.folder / name)
         source.set_text(f"file: {name}")
         upload.reset()

@@ -10,7 +10,7 @@ from ...errors import InvalidValue
 from ..cross_section import section, to_svg
 from ..exports import FIGURES, figure_of, to_csv, to_json
 from ..python_text import to_python
-from ..state import State
+from ..state import Answer, State
 from ..text import LONGEST_STUDY, from_toml, to_link, to_toml
 from ..widgets import put
 
@@ -45,29 +45,25 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         except InvalidValue as error:
             said.set_text("; ".join(error.problems))
 
-    def send(name: str, kind: str) -> None:
-        answer = state.answer
-        if answer is None:
+    async def send(name: str, kind: str) -> None:
+        if state.answer is None:
             return
         try:
-            content = {
-                "study.toml": lambda: to_toml(state.study),
-                "study.py": lambda: to_python(answer.study, state.at),
-                "states.csv": lambda: to_csv(answer.study),
-                "states.json": lambda: to_json(answer.study),
-                "section.svg": lambda: to_svg(section(answer.contact, state.point())),
-            }[name]()
+            content = (
+                to_toml(state.study)
+                if name == "study.toml"
+                else await state.ask(_content, name, state.at)
+            )
             ui.download.content(content, name, kind)
         except InvalidValue as error:
             said.set_text("; ".join(error.problems))
 
-    def picture(suffix: str) -> None:
-        answer = state.answer
-        if answer is None:
+    async def picture(suffix: str) -> None:
+        if state.answer is None:
             return
         name = str(which.value)
         try:
-            ui.download.content(figure_of(answer, name, suffix), f"{name}.{suffix}")
+            ui.download.content(await state.ask(figure_of, name, suffix), f"{name}.{suffix}")
         except InvalidValue as error:
             said.set_text("; ".join(error.problems))
 
@@ -133,6 +129,17 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
                 ui.label(text).classes("problem")
 
     return draw
+
+
+def _content(answer: Answer, name: str, at: float) -> str:
+    """What goes into a file of this name."""
+    made: dict[str, Callable[[], str]] = {
+        "study.py": lambda: to_python(answer.study, at),
+        "states.csv": lambda: to_csv(answer.study),
+        "states.json": lambda: to_json(answer.study),
+        "section.svg": lambda: to_svg(section(answer.contact, answer.solve(at))),
+    }
+    return made[name]()
 
 
 def _origin() -> str:
