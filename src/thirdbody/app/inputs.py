@@ -154,7 +154,7 @@ class Inputs:
 
     def known(self, *place: str) -> None:
         """The entries of a table without a form of its own, as the reader knows them."""
-        for name, about in known_keys(self.state.study, place[0])[dotted(place)].items():
+        for name, about in known_keys(self.state.study, place[0]).get(dotted(place), {}).items():
             if about:
                 self.field(place, Field(name=name, kind="text", label=name, about=about))
 
@@ -180,7 +180,7 @@ class Inputs:
         entry.props("outlined autogrow debounce=500")
         put(entry, {"data-path": name, "aria-label": f"[{name}]"})
         entry.classes("w-full code").on_value_change(changed)
-        keys = known_keys(self.state.study, name)[name]
+        keys = known_keys(self.state.study, name).get(name, {})
         ui.label(f"Keys: {', '.join(keys)}.").classes("hint")
         self.shown[name] = Entry(entry, read, show, whole=True)
 
@@ -217,6 +217,11 @@ class Inputs:
         self.again()
 
     # ------------------------------------------------------------------ tables
+    def table(self, *place: str | int) -> dict[str, Any]:
+        """A table of the study; an empty one where something else stands."""
+        given = self.state.get(*place)
+        return given if isinstance(given, dict) else {}
+
     def material(self, place: Place, label: str) -> None:
         """A material of the library, or own values."""
         now = self.state.get(*place)
@@ -368,9 +373,10 @@ class Inputs:
 
     def population(self, place: Place) -> None:
         """One population: material, sizes, how many."""
-        table = self.state.get(*place) or {}
+        table = self.table(*place)
         self.material((*place, "material"), "material")
         kind = next((key for key in COUNTED if key in table), table.get("distribution"))
+        kind = kind if isinstance(kind, str) else None
         labels = options_of({name: None for name in SIZES}) | {
             "iso4406": "iso4406: oil cleanliness code",
             "as4059": "as4059: cleanliness class",
@@ -415,7 +421,7 @@ class Inputs:
 
     def _sized(self, place: Place, word: str) -> None:
         """Another way to give the sizes: what does not go with it goes."""
-        table = dict(self.state.get(*place) or {})
+        table = self.table(*place)
         kept = {key: table[key] for key in ("material", "name", "law") if key in table}
         amounts = {key: table[key] for key in ("areal_density", *AMOUNTS) if key in table}
         starts: dict[str, dict[str, Any]] = {
@@ -491,7 +497,7 @@ class Inputs:
 
     def load(self) -> None:
         """Which load, and its values."""
-        table = self.state.get("load") or {}
+        table = self.table("load")
         kind = next((name for name in VARIANTS["load"] if name in table), "pressure")
         starts = {
             "F_star": {"from": 5e-7, "to": 2.4e-4, "points": 200, "spacing": "log"},
@@ -547,7 +553,7 @@ class Inputs:
                         self.field(place, each)
 
     def _switch(self, place: Place, on: bool) -> None:
-        wanted = dict(self.state.get("outputs") or {})
+        wanted = dict(self.table("outputs"))
         if on:
             kind = VARIANTS["outputs"][str(place[1])]
             wanted[str(place[1])] = {}
@@ -562,7 +568,7 @@ class Inputs:
         """What is known of the inputs: a row each."""
         names = [e.name for e in inputs_of(self.state.study) if e.quantity and not e.idle]
         names += [f"load.{name}" for name in LOADS if self.state.get("load", name) is not None]
-        given = self.state.get("uncertainty", "inputs") or {}
+        given = self.table("uncertainty", "inputs")
         flat = _flat(given)
         for label, entry in flat.items():
             with ui.row().classes("w-full items-center no-wrap gap-2"):
@@ -604,11 +610,11 @@ class Inputs:
             ui.button("Add", icon="add", on_click=add).props('dense data-path="uncertain.add"')
 
     def _known(self, label: str, entry: dict[str, Any] | None) -> None:
-        flat = _flat(self.state.get("uncertainty", "inputs") or {})
+        flat = _flat(self.table("uncertainty", "inputs"))
         flat.pop(label, None)
         if entry is not None:
             flat[label] = entry
-        table = dict(self.state.get("uncertainty") or {})
+        table = self.table("uncertainty")
         self.change("uncertainty", table | {"inputs": flat} if flat else None)
 
 

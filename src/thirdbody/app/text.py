@@ -56,7 +56,8 @@ def without_paths(text: str) -> str:
     >>> without_paths("cannot read /tmp/page/a.x3p: it holds 3 / m^2")
     'cannot read a.x3p: it holds 3 / m^2'
     """
-    return re.sub(r"(?<![\w.:/])(?:[A-Za-z]:)?(?:[/\\][^\s/\\:'\",;]+)+(?=[/\\])[/\\]", "", text)
+    part = r"[^\s/\\:'\",;<>()]+"
+    return re.sub(rf"(?<![\w.:/<])(?:[A-Za-z]:)?(?:[/\\]{part})+[/\\](?={part})", "", text)
 
 
 def to_toml(study: dict[str, Any]) -> str:
