@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -164,7 +165,7 @@ def to_svg(drawn: Section, *, title: str = "Cross-section") -> str:
     out = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-112 -4 {W + 112:.0f} {H + 52:.1f}" '
         'role="img" class="section" font-family="sans-serif" font-size="15">',
-        f"<title>{title}</title>",
+        f"<title>{escape(title)}</title>",
         "<style>.ink{fill:currentColor}.edge{stroke:currentColor;fill:none}"
         f".spot{{stroke:{OKABE_ITO['vermilion']};stroke-width:5;stroke-linecap:round}}</style>",
         f'<polygon class="body rough" points="{body}" fill="#8a8f98" fill-opacity="0.55"/>',

@@ -21,6 +21,7 @@ from ..study.tables import FIELDS, TABLES
 from ..study.toml import value_of
 from ..units import quantity_to_si
 from ..values import allowed_range
+from .bounds import refuse_long_names
 from .text import in_ascii, with_micro, written
 
 __all__ = [
@@ -217,6 +218,10 @@ def value_from(text: str) -> Any:
     text = in_ascii(text.strip())
     if not text:
         return None
+    try:
+        refuse_long_names(text)
+    except InvalidValue:
+        return text
     if "," in text and text[0] not in '[{"':
         return [value_of(part) for part in text.split(",") if part.strip()]
     return value_of(text)

@@ -17,7 +17,7 @@ from .fields import engineering, number_of
 from .inputs import Inputs
 from .sizing import size_of, with_size
 from .state import State
-from .widgets import as_length
+from .widgets import as_length, put
 
 __all__ = ["Sliders", "at_position", "position_of"]
 
@@ -131,7 +131,7 @@ class Sliders:
         with ui.column().classes("slider gap-0") as box:
             made["label"] = ui.label(knob.label).classes("hint")
             made["slider"] = ui.slider(min=-STEPS // 2, max=STEPS // 2, step=1, value=0)
-            made["slider"].props(f'aria-label="{knob.label}" data-slider="{knob.place}"')
+            put(made["slider"], {"aria-label": knob.label, "data-slider": knob.place})
         made["box"] = box
 
         def moved(event: Any) -> None:

@@ -7,6 +7,7 @@ that makes this process misbehave cannot reach the page.
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import sys
@@ -17,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["TASKS", "compare", "design", "error_bars", "mode_map", "surface"]
+__all__ = ["TASKS", "compare", "design", "error_bars", "mode_map", "roughness", "surface"]
 
 Report = Callable[[float], None]
 SECONDS = 300
@@ -205,6 +206,28 @@ def design(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, A
     return design_study(asked).to_dict()
 
 
+def roughness(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
+    """The table [roughness] in numbers, where it names measured files, and what is told of them."""
+    from ..study import HEIGHTS
+
+    base = {"surfaces": {"first": "S45C", "second": "S45C"}, "load": {"F_star": 1e-5}}
+    found = _study(base | study, folder)
+    rough = found.contact.roughness
+    heights = rough.heights
+    word = next(name for name, kind in HEIGHTS.items() if type(heights) is kind)
+    numbers = _fields(rough)
+    table: dict[str, Any] = {k: v for k, v in numbers.items() if isinstance(v, float)}
+    table["heights"] = {"name": word} | _fields(heights)
+    if rough.ellipticity is not None:
+        table["ellipticity"] = _fields(rough.ellipticity)
+    return {"roughness": table, "notes": list(found.notes)}
+
+
+def _fields(value: Any) -> dict[str, Any]:
+    every = {item.name: getattr(value, item.name) for item in dataclasses.fields(value)}
+    return {name: own for name, own in every.items() if own is not None}
+
+
 def surface(*, file: str, options: dict[str, Any], report: Report) -> dict[str, Any]:
     """A measured surface: heights for a picture, moments, and their course with the cut-off."""
     from ..topography import from_topography
@@ -241,6 +264,7 @@ TASKS: dict[str, Callable[..., dict[str, Any]]] = {
     "error bars": error_bars,
     "design": design,
     "surface": surface,
+    "roughness": roughness,
 }
 
 

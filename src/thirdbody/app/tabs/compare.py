@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,7 @@ from nicegui import ui
 
 from ...cli.show import as_number, as_pressure
 from ..figures import AXES, empty, figure, line
-from ..state import State
+from ..state import Answer, State, loads_as
 from ..widgets import table as shown_table
 from ..work import Work
 
@@ -42,18 +42,18 @@ def law_figure(found: dict[str, Any], of: str) -> dict[str, Any]:
     )
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """One figure, and a table at the load nearest to the operating load."""
     found: dict[str, Any] = {}
 
-    def ask() -> dict[str, Any] | None:
+    async def ask() -> dict[str, Any] | None:
         answer = state.answer
         if answer is None:
             return None
         load = answer.load
         values = answer.loads
         if load == "d":
-            load, values = "F_star", np.asarray(answer.curves.F_star)
+            load, values = "F_star", await state.ask(loads_as, "F_star")
         values = np.sort(values[np.isfinite(values) & (values > 0)])
         if not len(values):
             work.said.set_text("no load of the study is positive")
@@ -66,10 +66,10 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             "loads": np.geomspace(values[0], values[-1], LOADS).tolist(),
         }
 
-    def show(result: dict[str, Any]) -> None:
+    async def show(result: dict[str, Any]) -> None:
         found["result"] = result
         found["answer"] = state.answer
-        draw()
+        await draw()
 
     work = Work("compare", "Compare all laws", ask, show)
     stale = ui.label().classes("hint")
@@ -82,7 +82,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     table = ui.column().classes("w-full scroll-x")
     plot.set_visibility(False)
 
-    def draw() -> None:
+    async def draw() -> None:
         if "result" not in found:
             return
         plot.set_visibility(True)
@@ -90,13 +90,16 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         plot.update_figure(law_figure(result, str(what.value)))
         changed = found["answer"] is not state.answer
         stale.set_text("The study has changed since: compare again." if changed else "")
-        point = state.point()
-        here = float(getattr(point, result["load"]))
+        here = await state.ask(_here, state.at, result["load"])
         at = int(np.argmin(np.abs(np.log(np.array(result["loads"]) / here))))
         _table(result, at, table)
 
     what.on_value_change(lambda: draw())
     return draw
+
+
+def _here(answer: Answer, at: float, load: str) -> float:
+    return float(getattr(answer.solve(at), load))
 
 
 def _plain(label: str) -> str:

@@ -10,9 +10,10 @@ from nicegui import ui
 
 from ...plot import OKABE_ITO
 from ...uncertainty import CRITICAL, about_result
-from ..figures import AXES, GREY, INKS, empty, figure, line, listed, mark
+from ..figures import AXES, GREY, INKS, empty, figure, line, listed, mark, plain
 from ..inputs import Inputs
 from ..state import State
+from ..widgets import put
 from ..work import Work
 
 __all__ = ["TITLE", "band_figure", "build", "critical_figure", "results_of", "tornado_figure"]
@@ -145,7 +146,7 @@ def tornado_figure(found: dict[str, Any]) -> dict[str, Any]:
             {
                 "type": "bar",
                 "orientation": "h",
-                "y": labels,
+                "y": [plain(label) for label in labels],
                 "x": [None if v is None or middle is None else v - middle for v in ends],
                 "base": middle,
                 "name": name,
@@ -238,7 +239,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     with box:
         for name in ("bands", "tornado"):
             plots[name] = ui.plotly(empty(380)).classes("w-full")
-            plots[name].props(f'data-figure="{name}"')
+            put(plots[name], {"data-figure": name})
     box.set_visibility(False)
 
     def draw() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 from nicegui import ui
@@ -11,7 +11,7 @@ import thirdbody as tb
 
 from ...cli.show import as_number, as_percent, as_pressure
 from ..cross_section import section, to_svg
-from ..state import State
+from ..state import Answer, State
 from ..widgets import as_length, facts
 
 __all__ = ["TITLE", "build", "told"]
@@ -19,9 +19,8 @@ __all__ = ["TITLE", "build", "told"]
 TITLE = "Interface"
 
 
-def told(state: State) -> list[tuple[str, str]]:
+def told(point: tb.Equilibrium) -> list[tuple[str, str]]:
     """The state under the operating load, in the words of the command line."""
-    point = state.point()
     at = [
         ("load", f"{as_pressure(_one(point.pressure))} (F* = {as_number(_one(point.F_star))})"),
         ("separation h", as_length(_one(point.h))),
@@ -44,7 +43,7 @@ def told(state: State) -> list[tuple[str, str]]:
     return at
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """The drawing, what it shows, and another draw."""
     seed = {"now": 0}
     with ui.row().classes("w-full items-center justify-between"):
@@ -59,29 +58,37 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     table = ui.row().classes("facts w-full")
     status = ui.label().classes("problem")
 
-    def draw() -> None:
-        assert state.answer is not None
-        point = state.point()
-        bad = str(point.status) != "ok"
-        status.set_text(str(point.status) if bad else "")
-        status.set_visibility(bad)
+    async def draw() -> None:
+        bad, found = await state.ask(_drawn, state.at, seed["now"])
+        status.set_text(bad)
+        status.set_visibility(bool(bad))
         if bad:
             return
-        drawn = section(state.answer.contact, point, seed=seed["now"])
-        picture.set_content(to_svg(drawn, title="Cross-section of the interface, to scale"))
-        caption.set_text(_caption(drawn))
+        svg, says, names, numbers = found
+        picture.set_content(svg)
+        caption.set_text(says)
         legend.clear()
         with legend:
-            _legend(drawn)
+            _legend(names)
         table.clear()
         with table:
-            facts(told(state))
+            facts(numbers)
 
-    def another() -> None:
+    async def another() -> None:
         seed["now"] += 1
-        draw()
+        await draw()
 
     return draw
+
+
+def _drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
+    """What is wrong with the state; else the drawing, what it shows, whose, and the state."""
+    point = answer.solve(at)
+    if str(point.status) != "ok":
+        return str(point.status), None
+    drawn = section(answer.contact, point, seed=seed)
+    svg = to_svg(drawn, title="Cross-section of the interface, to scale")
+    return "", (svg, _caption(drawn), drawn.names, told(point))
 
 
 def _caption(drawn: Any) -> str:
@@ -98,13 +105,13 @@ def _caption(drawn: Any) -> str:
     )
 
 
-def _legend(drawn: Any) -> None:
+def _legend(names: tuple[str, ...]) -> None:
     from ...plot import OKABE_ITO
     from ..cross_section import COLOURS
 
-    for number, name in enumerate(drawn.names):
+    for number, name in enumerate(names):
         _swatch(f"background:{COLOURS[number % len(COLOURS)]}", name)
-    if drawn.names:
+    if names:
         _swatch(f"border:3px solid {OKABE_ITO['vermilion']}", "loaded")
         _swatch("border:1px dashed currentColor", "free")
     _swatch(f"background:{OKABE_ITO['vermilion']};height:5px", "asperity contact")

@@ -18,7 +18,7 @@ from ..guard import LARGEST_UPLOAD
 from ..state import State
 from ..text import with_micro
 from ..uploads import keep
-from ..widgets import as_length, facts
+from ..widgets import as_length, facts, put
 from ..work import Work
 
 __all__ = ["TITLE", "build", "options_from"]
@@ -74,7 +74,11 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     ).classes("hint")
 
     async def uploaded(event: events.UploadEventArguments) -> None:
-        name = await keep(state.folder, event)
+        try:
+            name = await keep(state.folder, event)
+        except InvalidValue as error:
+            work.said.set_text("; ".join(error.problems))
+            return
         now["file"] = str(state.folder / name)
         source.set_text(f"file: {name}")
         upload.reset()
@@ -101,8 +105,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             ("channel", "of a file with several"),
             ("resolution", "of the instrument"),
         ):
-            entry = ui.input(name).props(f'dense hint="{hint}" data-path="surface.{name}"')
-            texts[name] = entry.classes("w-52")
+            entry = ui.input(name).props("dense").classes("w-52")
+            texts[name] = put(entry, {"hint": hint, "data-path": f"surface.{name}"})
         forms = {"": "tilt", "none": "none", "curvature": "curvature"}
         texts["detrend"] = ui.select(forms, value="", label="form removed")
         texts["detrend"].props("dense").classes("w-36")
@@ -148,12 +152,12 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         with ui.row():
             for label, name in (("Use these numbers", "surface"), ("Use the file", "file")):
                 button = ui.button(label, icon="input", on_click=lambda _, n=name: take(n))
-                button.props(f'no-caps data-take="{name}"')
+                put(button.props("no-caps"), {"data-take": name})
         plots: dict[str, Any] = {}
         with ui.element("div").classes("figures w-full"):
             for name in ("heights", "rms_gradient", "R", "eta"):
                 plots[name] = ui.plotly(empty(360)).classes("w-full")
-                plots[name].props(f'data-figure="surface-{name}"')
+                put(plots[name], {"data-figure": f"surface-{name}"})
     box.set_visibility(False)
 
     def take(what: str) -> None:
