@@ -468,6 +468,75 @@ def test_measured_files_agree_with_surfacetopography(measured, library):
         assert math.sqrt(m.m4 / 1.5) == pytest.approx(want[2], rel=1e-6)
 
 
+def rms_by_points(h, dx, dy, wrap):
+    """RMS height, gradient and mean curvature: each difference whose own points are known."""
+    nx, ny = h.shape
+
+    def at(i, j):
+        if wrap:
+            return h[i % nx, j % ny]
+        return h[i, j] if 0 <= i < nx and 0 <= j < ny else math.nan
+
+    gradients, curvatures = ([], []), []
+    for i in range(nx):
+        for j in range(ny):
+            # forward differences in the cells of the grid, which the last row does not begin
+            if wrap or (i + 1 < nx and j + 1 < ny):
+                gradients[0].append((at(i + 1, j) - at(i, j)) / dx)
+                gradients[1].append((at(i, j + 1) - at(i, j)) / dy)
+            along = (at(i + 1, j) - 2 * at(i, j) + at(i - 1, j)) / dx**2
+            across = (at(i, j + 1) - 2 * at(i, j) + at(i, j - 1)) / dy**2
+            curvatures.append((along + across) / 2)
+
+    def mean_square(values):
+        known = [v * v for v in values if not math.isnan(v)]
+        return math.fsum(known) / len(known)
+
+    heights = [v for v in h.ravel().tolist() if not math.isnan(v)]
+    middle = math.fsum(heights) / len(heights)
+    return (
+        math.sqrt(mean_square([v - middle for v in heights])),
+        math.sqrt(mean_square(gradients[0]) + mean_square(gradients[1])),
+        math.sqrt(mean_square(curvatures)),
+    )
+
+
+@pytest.mark.parametrize("wrap", [False, True])
+@pytest.mark.parametrize("gap", ["none", "block", "points", "edge"])
+def test_missing_points_as_defined(gap, wrap):
+    """Against sums over points; SurfaceTopography agrees too where none is missing."""
+    rng = np.random.default_rng(8)
+    h = 1e-7 * rng.standard_normal((24, 30)) * np.linspace(0.2, 3, 30)
+    if gap == "block":
+        h[6:14, 15:28] = np.nan
+    elif gap == "points":
+        h[rng.random(h.shape) < 0.15] = np.nan
+    elif gap == "edge":
+        h[0, 3:20] = h[:9, -1] = np.nan
+    s = from_topography(h, spacing=(1e-7, 2e-7), periodic=wrap, detrend="none", cutoff=0)
+    found = s.rms_height, s.rms_slope, s.rms_curvature
+    assert found == pytest.approx(rms_by_points(h, 1e-7, 2e-7, wrap), rel=1e-12)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.1])
+def test_surfacetopography_averages_other_points_beside_gaps(library, share):
+    rng = np.random.default_rng(9)
+    h = 1e-7 * rng.standard_normal((40, 50))
+    h[rng.random(h.shape) < share] = np.nan
+    theirs = library.Topography(np.ma.masked_invalid(h), (4e-6, 5e-6), unit="m")
+    s = from_topography(h, spacing=1e-7, detrend="none", cutoff=0)
+    assert s.rms_height == pytest.approx(theirs.rms_height_from_area(), rel=1e-12)
+    found = np.array([s.rms_slope, s.rms_curvature])
+    off = found / [theirs.rms_gradient(), theirs.rms_curvature_from_area()] - 1
+    if share == 0:
+        assert np.all(np.abs(off) < 1e-12)
+    else:
+        assert np.all((np.abs(off) > 1e-6) & (np.abs(off) < 0.1))
+        slopes, _ = theirs.derivative(1, interpolation="linear")
+        ours = np.isfinite(h[1:, :-1] - h[:-1, :-1]).sum()
+        assert np.ma.count(slopes) < ours
+
+
 def test_measured_files_go_through_solve(measured, tmp_path):
     path = tmp_path / "study.toml"
     path.write_text(STUDY.replace('"example"', json.dumps(str(measured))))

@@ -40,6 +40,11 @@ NEGLIGIBLE = 85.0
 """Exponent beyond which a tail (1e-37) is left out."""
 COMPLETE = 45.0
 """Exponent up to which what is left out does not show (1e-17)."""
+SHARPEST = 0.08
+"""Least δ of a Johnson curve that is tried: below it more than 1e-3 of the heights lie within
+rounding of an end."""
+ASKED = 1e-8
+"""Relative error of the moments of Johnson heights that is accepted."""
 
 
 class Heights(Value):
@@ -253,12 +258,33 @@ class JohnsonHeights(Heights):
     kurtosis: float = quantity("κ", "1", "kurtosis of asperity heights", default=3.0)
 
     def _problems(self) -> list[str]:
-        if self.kurtosis > self.skewness**2 + 1:
+        if not self.kurtosis > self.skewness * self.skewness + 1:
+            return [
+                f"JohnsonHeights.kurtosis = {self.kurtosis:g} with skewness = {self.skewness:g} is "
+                "impossible: kurtosis must exceed skewness² + 1 (a Gaussian has 3, not 0)"
+            ]
+        if self._complete():
             return []
         return [
-            f"JohnsonHeights.kurtosis = {self.kurtosis:g} with skewness = {self.skewness:g} is "
-            "impossible: kurtosis must exceed skewness² + 1 (a Gaussian has 3, not 0)"
+            f"JohnsonHeights: no member of the family was found with skewness {self.skewness:g} "
+            f"and kurtosis {self.kurtosis:g}; they are too extreme (a Gaussian has 0 and 3; near "
+            "skewness² + 1 the heights take hardly more than two values)"
         ]
+
+    def _complete(self) -> bool:
+        """Whether a member is found, and its density sums to the moments asked for.
+
+        It does not where heights pile up within rounding of an end, or where a tail counts that
+        sums leave out.
+        """
+        try:
+            with np.errstate(all="ignore"):
+                z, weight = panel_rule(np.array(self.pieces), 24)
+                found = (weight * self.pdf(z)) @ z[:, None] ** np.arange(5)
+        except InvalidValue:
+            return False
+        asked = np.array([1.0, 0.0, 1.0, self.skewness, self.kurtosis])
+        return bool(np.all(np.abs(found - asked) <= ASKED * np.maximum(1, np.abs(asked))))
 
     @property
     def family(self) -> str:
@@ -279,7 +305,9 @@ class JohnsonHeights(Heights):
 
     @property
     def pieces(self) -> tuple[float, ...]:
-        z = self._height(np.linspace(-13, 13, 27))
+        # towards an end of S_B the density changes over steps of δ in n
+        step = min(1.0, 3 * self.parameters[1]) if self.family == "SB" else 1.0
+        z = self._height(np.linspace(-13, 13, math.ceil(26 / step) + 1))
         return tuple(np.unique(z))
 
     @property
@@ -335,27 +363,33 @@ def _johnson(skewness: float, kurtosis: float) -> tuple[str, tuple[float, float,
     if sk2 < 1e-20 and abs(kurtosis - 3) < 1e-10:
         return "SN", (0.0, 1.0, 0.0, 1.0)
     # the log-normal line: sk² = (W − 1)(W + 2)²
-    W = brentq(lambda w: (w - 1) * (w + 2) ** 2 - sk2, 1.0, 2 + sk2) if sk2 > 0 else 1.0
-    line = W**4 + 2 * W**3 + 3 * W**2 - 3
+    most = 1 + 2 * sk2 ** (1 / 3)
+    W = brentq(lambda w: (w - 1) * (w + 2) ** 2 - sk2, 1.0, most) if sk2 > 0 else 1.0
+    line = W * W * (W * W + 2 * W + 3) - 3
     if sk2 > 0 and abs(kurtosis - line) < 1e-9 * line:
         delta = 1 / math.sqrt(math.log(W))
         lam = 1 / math.sqrt(W * (W - 1))
         return "SL", (0.0, delta, -lam * math.sqrt(W), lam)
-    n = np.linspace(-12, 12, 4001)
+    # steps that a curve of the least δ needs: the error is exp(−2π²δ/step), 1e-28
+    n = np.linspace(-12, 12, 1001)
     weight = np.exp(-0.5 * n * n) / math.sqrt(2 * math.pi) * (n[1] - n[0])
 
     def shape(v: Array) -> tuple[float, float, float, float]:
         mean = float(weight @ v)
         c = v - mean
         var = float(weight @ c**2)
-        return mean, var, float(weight @ c**3) / var**1.5, float(weight @ c**4) / var**2
+        c /= math.sqrt(var) if 0 < var < math.inf else math.nan
+        return mean, var, float(weight @ c**3), float(weight @ c**4)
 
     family = "SU" if kurtosis > line else "SB"
     g = _SHAPES[family]
 
     def misfit(p: Array) -> Array:
-        _, _, s, k = shape(g(1.0, (n - p[0]) * math.exp(-p[1])))
-        return np.array([s - skewness, k - kurtosis])
+        with np.errstate(all="ignore"):
+            _, _, s, k = shape(g(1.0, (n - p[0]) * np.exp(-p[1])))
+        # no way to go: one value only, more than a number holds, or piled up at the ends
+        lost = not math.isfinite(k) or p[1] < math.log(SHARPEST)
+        return np.full(2, 1e9) if lost else np.array([s - skewness, k / kurtosis - 1])
 
     best: Any = None
     for gamma in (0.0, -2.0 * np.sign(skewness), -5.0 * np.sign(skewness), 0.5):
@@ -368,10 +402,7 @@ def _johnson(skewness: float, kurtosis: float) -> tuple[str, tuple[float, float,
         if best.cost < 1e-24:
             break
     if best is None or best.cost > 1e-16:
-        raise InvalidValue(
-            f"JohnsonHeights: no member of the family was found with skewness {skewness:g} and "
-            f"kurtosis {kurtosis:g}; they are too extreme (a Gaussian has 0 and 3)"
-        )
+        raise InvalidValue(f"no S_U or S_B has skewness {skewness:g} and kurtosis {kurtosis:g}")
     gamma, delta = float(best.x[0]), math.exp(best.x[1])
     mean, var, _, _ = shape(g(1.0, (n - gamma) / delta))
     lam = 1 / math.sqrt(var)
@@ -409,10 +440,15 @@ class HistogramHeights(Heights):
         out = []
         if len(e) != len(c) + 1 or not len(c):
             out.append(f"HistogramHeights has {len(e)} edges and {len(c)} counts; n + 1 and n")
-        elif not (np.all(np.isfinite(e)) and np.all(np.diff(e) > 0)):
+        elif not (np.all(np.isfinite(e)) and np.all(e[1:] > e[:-1])):
             out.append("HistogramHeights.edges must be finite and increase")
         elif not (np.all(np.isfinite(c)) and np.all(c >= 0) and c[0] > 0 and c[-1] > 0):
             out.append("HistogramHeights.counts must be >= 0, the first and last above 0")
+        else:
+            with np.errstate(all="ignore"):
+                ends, density = self._bins
+            if not (np.all(ends[1:] > ends[:-1]) and np.all(np.isfinite(density))):
+                out.append("HistogramHeights spans more than numbers hold; check edges and counts")
         return out
 
     @property
@@ -420,10 +456,10 @@ class HistogramHeights(Heights):
         """Standardised edges and densities."""
         e, c = np.array(self.edges), np.array(self.counts)
         mass = c / c.sum()
-        mean = mass @ (0.5 * (e[1:] + e[:-1]))
-        second = mass @ ((e[1:] ** 2 + e[1:] * e[:-1] + e[:-1] ** 2) / 3)
-        std = math.sqrt(second - mean**2)
-        z = (e - mean) / std
+        # about the mean, so that a far origin of the heights costs no digits
+        e = (e - e[0]) / (e[-1] - e[0])
+        e -= mass @ (0.5 * (e[1:] + e[:-1]))
+        z = e / np.sqrt(mass @ ((e[1:] ** 2 + e[1:] * e[:-1] + e[:-1] ** 2) / 3))
         return z, mass / np.diff(z)
 
     @property

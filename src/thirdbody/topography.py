@@ -686,7 +686,9 @@ def from_topography(
 
     Notes
     -----
-    RMS height, gradient and curvature as sampled agree with SurfaceTopography's to 1e-12.
+    RMS height, gradient and curvature as sampled agree with SurfaceTopography's to 1e-12 where no
+    point is missing. Where some are, a difference counts here as soon as its own points are known;
+    SurfaceTopography leaves out those beside a gap too, so that the two average other points.
 
     References
     ----------
