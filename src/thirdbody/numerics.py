@@ -81,6 +81,7 @@ def chebyshev_transform(n: int) -> tuple[Array, Array]:
     return np.cos(theta), transform
 
 
+EPS = float(np.finfo(float).eps)
 MOST_PANELS = 200
 """So many panels that still ask to be halved are noise, not structure."""
 
@@ -133,6 +134,9 @@ class PiecewiseChebyshev:
                     [size[:, np.equal(kinds, kind)].max(axis=1) for kind in kinds], axis=1
                 )
             exact = (tail <= tolerance * size) | (size <= 1e-13 * largest) | (size < 1e-300)
+            # a short panel far from zero: its abscissae, and so its values, are rounded
+            rounding = 2 * EPS * np.max(np.abs(ends), axis=1) / half
+            exact |= tail <= rounding[:, None] * np.max(np.abs(coefs[:, 1:]), axis=1)
             good = np.all(exact, axis=1) | (depth == max_depth) | (len(pending) > MOST_PANELS)
             done += [(*pending[i], coefs[i]) for i in np.flatnonzero(good)]
             pending = [
