@@ -266,6 +266,9 @@ def gaussian_sums(law: AbstractAsperityLaw, step: int) -> GaussianSums:
 class DensitySum(ReducedSum):
     """Any other heights: panels split where the law or the density changes its formula."""
 
+    NEAREST = 1e-9
+    """Distance [σ_s] to the last asperity of bounded heights below which a load is not resolved."""
+
     def __init__(self, law: AbstractAsperityLaw, heights: Heights, w: float):
         super().__init__(law, heights, w)
         pieces = np.array(self.heights.pieces)
@@ -277,6 +280,11 @@ class DensitySum(ReducedSum):
         knots = {z - t for z in self.heights.kinks for t in marks}
         inside = sorted(k for k in knots if -self.DEEPEST < k < self.highest)
         span = np.array([-self.DEEPEST, *inside, self.highest])
+        if self.heights.highest in self.heights.kinks:
+            # the last asperity sets in like a power of its distance: light loads by themselves
+            rise = np.array(sorted({*(self.highest - span), self.NEAREST}))
+            rise = subdivide(rise, width=np.inf, ratio=2.0)[::-1]
+            span = np.append(span[0], self.highest - rise[1:])
         span = subdivide(span, width=4.0)
         self.table = PiecewiseChebyshev(self._sum, span, tolerance=1e-13, max_depth=30, kinds=KINDS)
 
