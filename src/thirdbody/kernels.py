@@ -83,6 +83,8 @@ OK, TOO_MUCH, TOO_LITTLE = range(3)
 """What became of a state."""
 LOWEST, START, MOST = -3.0, 1.0, 100
 """Lowest separation searched [σ_s], the first guess, and the most evaluations of the load."""
+FLAT = 1e-100
+"""Slope of ln F below which there is no step: its square would be zero."""
 ROUNDING = 1e-16
 """Error [σ_s] that a third-order step may leave behind."""
 RESIDUAL = 2e-13
@@ -708,7 +710,7 @@ def _root(state, target, h):
             high = h
         step = 0.5 * (low + high) - h
         bisected = True
-        if F > 0 and F1 < 0:
+        if F > 0 and F1 < -FLAT * F:
             slope = F1 / F
             curve = F2 / F - slope * slope
             trial = _step(math.log(F / target), slope, curve)
