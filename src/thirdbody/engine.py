@@ -761,9 +761,15 @@ def _shape_rule(shape: Distribution, width: float, part: float = 1.0) -> tuple[A
     """Diameters and number weights of a fixed shape."""
     if isinstance(shape, Monodisperse):
         return np.full((1, 1), shape.mean), np.ones((1, 1))
-    edges = subdivide(np.array(shape.pieces), width=1.5 * width)
-    x, weight = panel_rule(edges, math.ceil(12 * part))
-    return x[None], (weight * shape.pdf(x))[None]
+    low, high = shape.support
+    if low <= 0.5 * high:
+        edges = subdivide(np.array(shape.pieces), width=1.5 * width)
+        x, weight = panel_rule(edges, math.ceil(12 * part))
+        return x[None], (weight * shape.pdf(x))[None]
+    # sizes close together are counted from the largest, so that their densities keep all digits
+    edges = subdivide(high - np.array(shape.pieces)[::-1], width=1.5 * width)
+    depth, weight = panel_rule(edges, math.ceil(12 * part))
+    return high - depth[None, ::-1], (weight * shape.pdf_below(depth))[None, ::-1]
 
 
 def _gaussian_sizes(std: Array, n: Array, width: float, part: float = 1.0) -> tuple[Array, Array]:

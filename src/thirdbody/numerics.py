@@ -81,7 +81,8 @@ def chebyshev_transform(n: int) -> tuple[Array, Array]:
     return np.cos(theta), transform
 
 
-EPS = float(np.finfo(float).eps)
+NOISE = 1e-8
+"""Of the size of a function: the most that rounding may leave in its last coefficients."""
 MOST_PANELS = 200
 """So many panels that still ask to be halved are noise, not structure."""
 
@@ -119,6 +120,7 @@ class PiecewiseChebyshev:
         nodes, transform = chebyshev_transform(n)
         pending = [(a, b) for a, b in zip(breakpoints[:-1], breakpoints[1:], strict=True) if b > a]
         done: list[tuple[float, float, Array]] = []
+        before = np.zeros((len(pending), 1))
         for depth in range(max_depth + 1):
             if not pending:
                 break
@@ -134,11 +136,13 @@ class PiecewiseChebyshev:
                     [size[:, np.equal(kinds, kind)].max(axis=1) for kind in kinds], axis=1
                 )
             exact = (tail <= tolerance * size) | (size <= 1e-13 * largest) | (size < 1e-300)
-            # a short panel far from zero: its abscissae, and so its values, are rounded
-            rounding = 2 * EPS * np.max(np.abs(ends), axis=1) / half
-            exact |= tail <= rounding[:, None] * np.max(np.abs(coefs[:, 1:]), axis=1)
+            if depth:
+                # of a panel halved, one half at least loses most of its tail, unless it is noise
+                noise = (tail >= 0.1 * before) & (tail <= NOISE * size)
+                exact |= np.repeat(noise.reshape(-1, 2, noise.shape[1]).all(axis=1), 2, axis=0)
             good = np.all(exact, axis=1) | (depth == max_depth) | (len(pending) > MOST_PANELS)
             done += [(*pending[i], coefs[i]) for i in np.flatnonzero(good)]
+            before = np.repeat(tail[~good], 2, axis=0)
             pending = [
                 half_panel
                 for i in np.flatnonzero(~good)

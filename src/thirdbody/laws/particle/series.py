@@ -396,14 +396,17 @@ class SizeAverage:
         close = low > 0.5 * high
         zero = high if close else 0.0
         gap_at = -rise if close else gap
-        start = rise <= high - low
+        start = rise <= 2 * (high - low)
         above = np.where(gap > 0.5 * high, rise - (high - pieces), pieces - gap)
         of_sizes = np.where(start, above, pieces - zero)
         # where a regime of some size sets in: δ = εx, so x = g/(1 − ε), which must be positive
         eps = np.concatenate([particle.panels, splits])
         whole = eps == 1
         part = np.where(whole, 1.0, 1 - eps)
-        of_regimes = np.where(start, gap * eps, high * eps - rise if close else gap) / part
+        of_regimes = gap / part - zero
+        if close:
+            of_regimes = np.where(gap > 0.5 * high, (high * eps - rise) / part, of_regimes)
+        of_regimes = np.where(start, gap * eps / part, of_regimes)
         edges = np.concatenate([of_sizes, np.where(whole, -np.inf, of_regimes)], axis=1)
         first = np.maximum(of_sizes[:, :1], np.where(start, 0.0, gap_at))
         edges = np.sort(np.clip(edges, first, of_sizes[:, -1:]), axis=1)
