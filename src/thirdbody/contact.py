@@ -52,7 +52,6 @@ class Contact(Value):
         What one particle does; `Series` on the rough seat by default.
     outputs : AbstractOutput or tuple of them, optional
         What else its states tell: friction, temperature, conductance, wear (`thirdbody.outputs`).
-        Contacts that carry load alike are equal whatever their outputs.
 
     Examples
     --------
@@ -69,7 +68,7 @@ class Contact(Value):
     asperity_law: AbstractAsperityLaw = field(default_factory=ZMC)
     particles: Particles | tuple[Particles, ...] | None = None
     particle_law: AbstractParticleLaw = field(default_factory=Series)
-    outputs: tuple[AbstractOutput, ...] = field(default=(), compare=False)
+    outputs: tuple[AbstractOutput, ...] = ()
 
     def __post_init__(self) -> None:
         if self.particle_law is None:
@@ -300,7 +299,11 @@ def together(F: Array, areas: Sequence[Array], part: Mapping[str, Array]) -> dic
     }
 
 
-@lru_cache(maxsize=512)
 def interface(contact: Contact) -> Interface:
-    """The cached `Interface` of a contact."""
+    """The cached `Interface` of a contact: one for all that carry load alike, whatever else."""
+    return _interface(contact.replace(outputs=()) if contact.outputs else contact)
+
+
+@lru_cache(maxsize=512)
+def _interface(contact: Contact) -> Interface:
     return Interface(contact)

@@ -25,7 +25,7 @@ from .asperities import (
 )
 from .contact import Contact, Interface, together
 from .distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
-from .errors import NotCompiled
+from .errors import InvalidValue, NotCompiled
 from .heights import GaussianHeights
 from .laws.base import AbstractAsperityLaw
 from .laws.particle.rules import NEAR, SharedRules, near_rule, squeeze_rules
@@ -427,9 +427,9 @@ class States(_Batch):
             raw, d, rough.y_s - centre, rough.sigma, E, target=target, F_star=given
         )
         doubt = np.full(len(loads), "", dtype=object)
+        balanced = (columns["residual"] <= RESIDUAL) & np.isfinite(raw["A_t"])
+        doubt[(fate == UNSOLVED) | ((fate == OK) & ~balanced)] = NOT_BALANCED
         if target is not None:
-            off = ~(columns["residual"] <= RESIDUAL)
-            doubt[(fate == UNSOLVED) | ((fate == OK) & off)] = NOT_BALANCED
             doubt[~self._monotone(target)] = NOT_MONOTONE
         return columns | {"status": fate, "iterations": iterations, "doubt": doubt}
 
@@ -816,7 +816,10 @@ def _common_law(
     rows = [one]
     for i, values in enumerate(given):
         rows += [[*one[:i], float(v), *one[i + 1 :]] for v in {values.min(), values.max()}]
-    bound = {law.bound(R=R, E_star=E, H=H, nu=v) for R, E, H, v in rows}
+    try:
+        bound = {law.bound(R=R, E_star=E, H=H, nu=v) for R, E, H, v in rows}
+    except InvalidValue as error:  # of no state perhaps; said better, one contact at a time
+        raise NotCompiled("the law does not know all of these inputs") from error
     if len(bound) > 1:
         raise NotCompiled("the law binds differently from state to state")
     return bound.pop()

@@ -102,6 +102,7 @@ class Equilibrium:
     particle_load_share: Number = _column("F_sa/F_t", "1", "load share of particles")
     particle_area_share: Number = _column("A_sa,t*", "1", "area share of particles")
     mode: str | NDArray[np.str_] = _column("mode", "", "contact mode")
+    """p-s, hybrid or s-s by area; empty where nothing touches, and in a state without a number."""
     status: str | NDArray[np.str_] = _column("status", "", "ok, or why there is no state")
     residual: Number = _column("r", "1", "relative imbalance |F_t/F − 1|")
     iterations: int | NDArray[np.int_] = _column("n", "", "evaluations of the load")
@@ -693,11 +694,10 @@ def _state(
     branch: str = "",
 ) -> Equilibrium:
     """Every column at given separations, where ``raw`` does not bring them."""
-    solved = np.isfinite(d)
     if raw is None:
-        raw = bound.fields(d[solved])
-        if target is not None:
-            d, status, solved, raw = _only_carried(bound, d, status, target, raw)
+        raw = bound.fields(d[np.isfinite(d)])
+    d, status, raw = _only_carried(bound, d, status, target, raw)
+    solved = np.isfinite(d)
     full = dict(raw)
     if not solved.all():
         full = {name: np.full(len(d), np.nan) for name in raw}
@@ -725,27 +725,30 @@ def _state(
 
 
 def _only_carried(
-    bound: Interface, d: Array, status: NDArray[Any], target: Array, raw: dict[str, Array]
-) -> tuple[Array, NDArray[Any], NDArray[np.bool_], dict[str, Array]]:
+    bound: Interface, d: Array, status: NDArray[Any], target: Array | None, raw: dict[str, Array]
+) -> tuple[Array, NDArray[Any], dict[str, Array]]:
     """The states without those whose load is not carried: no state is "ok" whose balance is not."""
-    solved = np.isfinite(d)
-    where, F = np.flatnonzero(solved), raw["F_ss"] + raw["F_sa"]
-    loose = np.flatnonzero(~(np.abs(F - target[where]) <= RESIDUAL * target[where]))
-    if len(loose):
-        at = where[loose]
-        slope = bound.load(d[at])[:, 1]
-        lost = loose[~explained(F[loose], slope, target[at], load_scan(bound).ulp)]
-        d, status = d.copy(), status.copy()
-        for i in lost:
-            status[where[i]] = (
-                f"no equilibrium: the load {target[where[i]]:.4g} Pa is balanced to "
-                f"{abs(F[i] / target[where[i]] - 1):.2g} of itself only, at d = "
-                f"{d[where[i]]:.6g} m"
-            )
-        d[where[lost]] = np.nan
-        raw = {name: np.delete(values, lost) for name, values in raw.items()}
-        solved = np.isfinite(d)
-    return d, status, solved, raw
+    where = np.flatnonzero(np.isfinite(d))
+    F, at = raw["F_ss"] + raw["F_sa"], d[where]
+    known = np.isfinite(F + raw["A_t"])
+    good = known.copy()
+    if target is not None:
+        load = target[where]
+        good &= np.abs(F - load) <= RESIDUAL * load
+        if len(loose := np.flatnonzero(known & ~good)):
+            slope, ulp = bound.load(at[loose])[:, 1], load_scan(bound).ulp
+            good[loose] = explained(F[loose], slope, load[loose], ulp)
+    if good.all():
+        return d, status, raw
+    d, status = d.copy(), status.astype(object)
+    for i in np.flatnonzero(~good):
+        law = bound.contact.asperity_law
+        why = "the laws give no number" + f" ({law.name}: {law.beyond})" * bool(law.beyond)
+        if known[i]:
+            why = f"{F[i]:.6g} Pa do not balance the load {load[i]:.6g} Pa"
+        status[where[i]] = f"no equilibrium: {why} at d = {at[i]:.6g} m"
+    d[where[~good]] = np.nan
+    return d, status, {name: values[good] for name, values in raw.items()}
 
 
 def _population_shares(

@@ -552,9 +552,9 @@ def _is_number(value: Any) -> bool:
 
 
 def _upper_end(bound: Interface, scan: LoadScan) -> float:
-    """The largest d that carries `LEAST_LOAD`."""
-    d, _, status = scan.solve(np.array([LEAST_LOAD * bound.contact.E_ss]), "loading")
-    if status[0] != "ok":
+    """The largest d that carries `LEAST_LOAD`, or more where the load jumps over it."""
+    d, _, status = scan.met(np.array([LEAST_LOAD * bound.contact.E_ss]), "loading")
+    if np.isnan(d[0]):
         raise InvalidValue(f"no table: {status[0]}; give high [m]")
     return float(d[0])
 

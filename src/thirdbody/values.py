@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import types
 from collections.abc import Mapping
 from dataclasses import MISSING, field
+from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from .errors import InvalidValue, NotCompiled
@@ -94,9 +96,10 @@ class Value:
     __slots__ = ()
     _classes: ClassVar[dict[str, type[Value]]] = {}
 
-    def __init_subclass__(cls, **kwargs: Any) -> None:
+    def __init_subclass__(cls, *, stand_in: bool = False, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
-        Value._classes[cls.__name__] = cls
+        if not stand_in:
+            Value._classes[cls.__name__] = cls
 
     def __post_init__(self) -> None:
         problems: list[str] = []
@@ -156,7 +159,8 @@ class Value:
     def with_arrays(self, changes: Mapping[str, NDArray[np.float64]]) -> Self:
         """A stand-in that holds an array (N,) in some of its quantities, one value a state.
 
-        Properties that are plain formulas then give arrays. Values are checked against the range
+        Properties that are plain formulas then give arrays. It is no value: it has no hash and
+        equals itself alone, so that no cache takes it. Values are checked against the range
         of their quantity; what concerns several fields at once is left to the caller.
 
         Parameters
@@ -194,7 +198,7 @@ class Value:
             if not isinstance(part, Value):
                 raise NotCompiled(f"{type(self).__name__}.{head} has no fields of its own")
             now[head] = part.with_arrays(deeper)
-        out = object.__new__(type(self))
+        out = object.__new__(_stand_in(type(self)))  # type: ignore[arg-type]
         for name in fields:
             object.__setattr__(out, name, now.get(name, getattr(self, name)))
         return out
@@ -213,6 +217,14 @@ class Value:
         if kind not in Value._classes:
             raise InvalidValue(f"type = {kind!r} is not a class of this library")
         return Value._classes[kind](**{k: _revive(v) for k, v in data.items() if k != "type"})
+
+
+@cache
+def _stand_in(kind: type[Value]) -> type[Any]:
+    """The class of stand-ins of a class: all of it but its equality and its hash."""
+    body = {"__slots__": (), "__eq__": object.__eq__, "__hash__": None}
+    name = f"{kind.__name__}OfArrays"
+    return types.new_class(name, (kind,), {"stand_in": True}, lambda space: space.update(body))
 
 
 def _replaced(where: str, part: Any, changes: dict[str, Any]) -> Any:
