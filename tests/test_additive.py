@@ -3,7 +3,6 @@
 import csv
 import json
 import os
-import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -98,10 +97,9 @@ def test_slopes_hold_the_concentration(best):
 
 
 def test_command(tmp_path):
-    """One JSON object, a table of every point, a figure, and nothing else; within 30 s."""
+    """One JSON object, a table of every point, a figure, and nothing else."""
     command = [sys.executable, "-m", "thirdbody", "design", EXAMPLE, "--json"]
     command += ["--csv", tmp_path / "p.csv", "--figure", tmp_path / "p.png"]
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(
         [str(part) for part in command],
         capture_output=True,
@@ -109,14 +107,12 @@ def test_command(tmp_path):
         check=True,
         env=os.environ,
     )
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    # processor time: others may keep the machine busy
-    assert after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime < 30
     told = json.loads(done.stdout)
     assert told["feasible"] is True
     assert told["objectives"]["mu"] < 0.17
     rows = list(csv.DictReader((tmp_path / "p.csv").open(encoding="utf-8")))
-    assert len(rows) == len(told["points"]["mu"])
+    # what a user waits for; benchmarks/waiting.py measures it
+    assert len(rows) == len(told["points"]["mu"]) < 1000
     assert {row["feasible"] for row in rows} == {"True", "False"}
     assert sorted(path.name for path in tmp_path.iterdir()) == ["p.csv", "p.png"]
     assert "the best particles.concentration is an end of its range" in done.stderr

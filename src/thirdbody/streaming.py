@@ -300,6 +300,7 @@ def run(
     study = {**plan.to_dict(), "format": format}
     _check(folder, study)
     if folder.finished is not None:
+        shutil.rmtree(folder.path / "parts", ignore_errors=True)  # of a run killed at the very end
         if progress is True:
             print(f"{folder.path} is finished: nothing to do", file=sys.stderr)
         return folder
@@ -417,8 +418,9 @@ def _carry_out(
 ) -> None:
     """What is left of the study, under the lock."""
     path = folder.path
+    shutil.rmtree(path / ".states.part.zarr", ignore_errors=True)  # of a killed run
     for draft in (*path.glob("**/*.partial"), *path.glob("**/.*.part*")):
-        draft.unlink(missing_ok=True)  # of a killed run
+        draft.unlink(missing_ok=True)
     text = json.dumps(study, indent=1, ensure_ascii=False, sort_keys=True)
     name = _digest(text)
     if not (path / "study.json").exists():
