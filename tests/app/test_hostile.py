@@ -304,7 +304,7 @@ def surface(tmp_path):
     k = np.fft.fftfreq(128)[:, None] ** 2 + np.fft.rfftfreq(128) ** 2
     heights = np.fft.irfft2(np.fft.rfft2(rng.normal(size=(128, 128))) * np.exp(-k / 0.002))
     np.savetxt(tmp_path / "part.txt", 1e-7 * heights / heights.std())
-    table = {"topography": "part.txt", "unit": "m", "spacing": "0.5 um", "cutoff": "8 um"}
+    table = {"topography": "part.txt", "unit": "m", "spacing": "0.5 um", "cutoff": "4 um"}
     return example() | {"roughness": table}
 
 
@@ -350,7 +350,8 @@ def test_messages_name_no_folder_of_the_server(surface, tmp_path):
 # ---------------------------------------------------------------- folders
 @pytest.mark.skipif(sys.platform == "win32", reason="needs signals and locks of files")
 def test_folders_end_with_the_server_or_at_the_next_start(tmp_path):
-    surroundings = os.environ | {"TMPDIR": str(tmp_path)}
+    kept = {k: v for k, v in os.environ.items() if k != "PYTEST_CURRENT_TEST"}
+    surroundings = kept | {"TMPDIR": str(tmp_path)}
     command = [sys.executable, "-m", "thirdbody", "app", "--no-browser", "--port", "0"]
 
     @contextlib.contextmanager
@@ -364,15 +365,16 @@ def test_folders_end_with_the_server_or_at_the_next_start(tmp_path):
             server.wait()
             server.stderr.close()
 
-    def visited(address):
+    def visited(server, address):
         import urllib.error
         import urllib.request
 
-        while True:
+        while server.poll() is None:
             try:
                 return urllib.request.urlopen(address, timeout=30).status
             except (urllib.error.URLError, ConnectionError):
                 time.sleep(0.2)
+        return "ended"
 
     def roots():
         return sorted(tmp_path.glob("thirdbody-app-*"))
@@ -380,11 +382,11 @@ def test_folders_end_with_the_server_or_at_the_next_start(tmp_path):
     foreign = tmp_path / "thirdbody-app-without-lock"
     foreign.mkdir()
     with served() as (server, address):
-        assert visited(address) == 200
+        assert visited(server, address) == 200
         (left,) = [root for root in roots() if root != foreign]
         assert [each for each in left.iterdir() if each.is_dir()]
         with served() as (other, there):
-            assert visited(there) == 200
+            assert visited(other, there) == 200
             assert left.exists()
             other.send_signal(signal.SIGTERM)
             other.wait(30)
@@ -393,7 +395,7 @@ def test_folders_end_with_the_server_or_at_the_next_start(tmp_path):
         server.wait()
     assert left.exists()
     with served() as (server, address):
-        assert visited(address) == 200
+        assert visited(server, address) == 200
         assert not left.exists()
         assert foreign.exists()
         server.send_signal(signal.SIGINT)

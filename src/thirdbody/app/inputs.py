@@ -259,6 +259,7 @@ class Inputs:
         """A word of a registry and the entries that go with it."""
         now = self.state.get(*place)
         word = now.get(tag) if isinstance(now, dict) else now
+        word = word if isinstance(word, str) else shown(word)
         words = options_of(registry)
         if blank is not None:
             words = {"": blank, **words}
