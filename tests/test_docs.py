@@ -128,6 +128,98 @@ def test_every_equation_of_the_paper_has_its_place():
     assert {int(n) for n in re.findall(r"item (\d+)", text)} <= items
 
 
+BOOK = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES]
+
+
+def reached(dotted):
+    """Whether a dotted name leads somewhere from the package: attribute, field or module."""
+    here, path = tb, "thirdbody"
+    for step in dotted.split("."):
+        path = f"{path}.{step}"
+        if step in getattr(here, "__dataclass_fields__", {}):
+            return True  # what a field holds is an instance's
+        if not hasattr(here, step):
+            try:
+                here = importlib.import_module(path)
+            except ImportError:
+                return False
+        else:
+            here = getattr(here, step)
+    return True
+
+
+def test_the_check_of_names_sees_a_wrong_one():
+    assert reached("asperity.ZMC.force")
+    assert not reached("asperity.ZMC.forse")
+    assert not reached("nothing")
+
+
+@pytest.mark.parametrize("page", BOOK, ids=lambda page: page.name)
+def test_names_of_the_page_exist(page):
+    named = re.findall(r"`(?:tb|thirdbody)\.([A-Za-z_]\w*(?:\.\w+)*)", page.read_text("utf-8"))
+    assert [name for name in named if not reached(name)] == []
+
+
+COMMAND = re.compile(r"(?:^|`)(?:\.venv/bin/)?thirdbody +(?!as\b)([a-z][\w-]*)([^`\n]*)", re.M)
+
+
+def mistakes_in(text):
+    """Commands and options that the command line does not have."""
+    import typer
+
+    from thirdbody.cli import app
+
+    commands = typer.main.get_command(app).commands
+    out = []
+    for name, rest in COMMAND.findall(text):
+        if name not in commands:
+            out.append(name)
+            continue
+        known = {word for item in commands[name].params for word in (*item.opts, "--help")}
+        known |= {word for item in commands[name].params for word in item.secondary_opts}
+        used = re.findall(r"(?<!\S)--?[a-z][\w-]*", rest.partition(" #")[0].partition(" |")[0])
+        out += [f"{name} {word}" for word in used if word not in known]
+    return out
+
+
+def test_the_check_of_commands_sees_a_wrong_one():
+    assert mistakes_in("`thirdbody solve a.toml --json`") == []
+    assert mistakes_in("thirdbody solve a.toml --jsn\n`thirdbody slove`") == [
+        "solve --jsn",
+        "slove",
+    ]
+
+
+@pytest.mark.parametrize("page", BOOK, ids=lambda page: page.name)
+def test_commands_of_the_page_exist(page):
+    assert mistakes_in(page.read_text("utf-8")) == []
+
+
+def test_hooks_of_the_guides_exist():
+    """Names in the tables and sentences of the pages on extending are those of the classes."""
+    from thirdbody import spots
+    from thirdbody.laws import base
+    from thirdbody.outputs import base as outputs
+
+    known = {
+        name
+        for module in (base, outputs, spots)
+        for kind in vars(module).values()
+        if isinstance(kind, type)
+        for name in (*dir(kind), *getattr(kind, "__annotations__", ()))
+    }
+    for name in ("add-a-law.md", "add-an-output.md"):
+        text = (DOCS / name).read_text("utf-8")
+        hooks = [
+            w
+            for row in re.findall(r"^\| (`.*?) \|", text, re.M)
+            for w in re.findall(r"`(\w+)", row)
+        ]
+        hooks += re.findall(r"(?:set|override the property|implements?|give) `(\w+)", text)
+        assert len(hooks) > 3, name
+        assert [hook for hook in hooks if hook not in known] == [], name
+
+
 def test_the_reference_lists_every_public_name():
     text = (DOCS / "reference.md").read_text("utf-8")
     listed = set()

@@ -1,5 +1,6 @@
 """What stands around the code: lint, types, versions, links, and the examples in the pages."""
 
+import ast
 import importlib.util
 import json
 import os
@@ -53,6 +54,49 @@ def test_format():
 def test_types():
     status, text = run(*tool("mypy"), "--cache-dir", os.devnull)
     assert status == 0, text
+
+
+# ---------------------------------------------------------------- the table of files
+def files_by_row():
+    """The names of each row of the table in CONTRIBUTING, in order."""
+    text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    table = text.split("| in `src/thirdbody` | holds |\n|---|---|\n")[1].split("\n\n")[0]
+    return [re.findall(r"`([^`]+)`", line.split("|")[1]) for line in table.splitlines()]
+
+
+def test_the_table_of_files_is_the_tree():
+    folder = Path(tb.__file__).parent
+    named = [name for row in files_by_row() for name in row]
+    assert len(named) == len(set(named))
+    there = {path.name for path in folder.glob("*.py")} - {"__init__.py", "__main__.py"}
+    there |= {f"{path.name}/" for path in folder.iterdir() if path.is_dir()} - {"__pycache__/"}
+    assert set(named) == there
+
+
+def imported_at_the_top(file, package):
+    """Modules of the package that a file imports when it is itself imported."""
+    where = (*package.split("."), *file.relative_to(Path(tb.__file__).parent).parts[:-1])
+    for node in ast.parse(file.read_text("utf-8")).body:
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = where[: len(where) - node.level + 1]
+            base += tuple(node.module.split(".")) if node.module else ()
+            yield from ((*base, alias.name)[1] for alias in node.names if len(base) < 2)
+            yield from base[1:2]
+
+
+def test_imports_point_up_the_table_of_files():
+    row = {re.sub(r"(\.py|/)$", "", n): i for i, names in enumerate(files_by_row()) for n in names}
+    folder = Path(tb.__file__).parent
+    seen = 0
+    for file in sorted(folder.rglob("*.py")):
+        here = file.relative_to(folder).parts[0].removesuffix(".py")
+        if here not in row:
+            continue  # the package itself, which gathers all
+        for name in imported_at_the_top(file, "thirdbody"):
+            if name in row:
+                assert row[name] <= row[here], f"{file.relative_to(folder)} imports {name}"
+                seen += 1
+    assert seen > 300
 
 
 # ---------------------------------------------------------------- import

@@ -1,9 +1,12 @@
-"""A new asperity law is one file and one import line."""
+"""A new asperity law is one file and one import line; the page that says so is followed here."""
 
+import dataclasses
 import importlib
 import math
+import re
 import sys
 import textwrap
+from pathlib import Path
 
 import numpy as np
 import oracle
@@ -11,6 +14,7 @@ import pytest
 from twins import base, material
 
 import thirdbody as tb
+from thirdbody.study import load_study
 
 ONE_FILE = '''
 """Perfectly plastic asperities: every contact is cut geometrically at the hardness."""
@@ -48,13 +52,20 @@ class Truncated(AbstractAsperityLaw):
 '''
 
 
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "add-a-law.md").read_text("utf-8")
+FILE, IMPORT, USE = re.findall(r"^```python\n(.*?)^```$", PAGE, re.S | re.M)
+(TABLE,) = re.findall(r"^```toml\n(.*?)^```$", PAGE, re.S | re.M)
+
+
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    """A temporary package with the law in one file and the import in another."""
+    """A temporary package with two laws, one a file, and their imports in another."""
     folder = tmp_path / "extra_laws"
     folder.mkdir()
     (folder / "truncated.py").write_text(textwrap.dedent(ONE_FILE), "utf-8")
-    (folder / "__init__.py").write_text("from .truncated import Truncated\n", "utf-8")
+    (folder / "abrupt.py").write_text(FILE, "utf-8")
+    (folder / "__init__.py").write_text(f"from .truncated import Truncated\n{IMPORT}", "utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
     before = dict(tb.asperity.REGISTRY)
     yield importlib.import_module("extra_laws")
@@ -112,5 +123,64 @@ def test_a_new_law_works_everywhere(package):
     assert tb.sweep(on_rough, F_star=loads)["A_t"].shape == (6,)
 
 
+def test_the_law_of_the_page_works_everywhere(package, tmp_path):
+    """The page's own file, import line, contact and study table."""
+    interface = oracle.Interface()
+    rough = interface.rough
+    plain = base(interface)
+    given = {item.name: getattr(plain, item.name) for item in dataclasses.fields(plain)}
+    given.pop("asperity_law")
+    code = USE.replace("...", "**given").strip()
+    names = {"tb": tb, "given": given, "Abrupt": package.Abrupt}
+    exec(code, names)
+    contact = names["contact"]
+    assert contact.asperity_law == package.Abrupt(k=0.4)
+
+    # A = πRω on both sides of yield: A_t = πηRσ_s F_1(h), exactly
+    d = 1.3e-7
+    state = tb.solve(contact, d=d)
+    h = d / rough.sigma_s
+    F_1 = oracle.normal(h) - h * oracle.normal_above(h)
+    assert state.A_t == pytest.approx(
+        math.pi * rough.eta * rough.R * rough.sigma_s * F_1, rel=1e-10
+    )
+    assert tb.solve(contact, F_star=state.F_star).d == pytest.approx(d, rel=1e-9)
+
+    example = (ROOT / "examples" / "two_body_reference.toml").read_text("utf-8")
+    assert "[asperity_law]" not in example
+    study = tmp_path / "study.toml"
+    study.write_text(f"{example}\n{TABLE}", "utf-8")
+    assert load_study(study).contact.asperity_law == package.Abrupt(k=0.4)
+
+
+def test_a_particle_law_sets_the_origin_of_d():
+    """The hook that the page names moves the asperities, here by 0.7 σ."""
+    (hook,) = re.findall(r"own origin\s+for `d`, override the property `(\w+)`", PAGE)
+    horng = tb.particle.Horng2022
+
+    def at(law):
+        interface = oracle.Interface()
+        dusty = base(interface).replace(
+            particles=tb.Particles(
+                material=material(oracle.SILICA),
+                diameter=tb.TruncatedGaussian(mean=3e-7, std=2.4e-8),
+                areal_density=1e10,
+            ),
+            particle_law=law,
+        )
+        return lambda d: float(tb.solve(dusty, d=d).F_ss_star), dusty.roughness.sigma
+
+    one, sigma = at(horng(datum=0.0))
+    registry = dict(tb.particle.REGISTRY)
+    try:
+        moved = type("Moved", (horng,), {"name": "test-moved", hook: property(lambda law: 0.7)})
+        other, _ = at(moved(datum=0.0))
+        assert other(4e-7) == pytest.approx(one(4e-7 - 0.7 * sigma), rel=1e-9)
+    finally:
+        tb.particle.REGISTRY.clear()
+        tb.particle.REGISTRY.update(registry)
+
+
 def test_the_registry_is_left_clean():
-    assert "test-truncated" not in tb.asperity.REGISTRY
+    assert not {"test-truncated", "abrupt"} & set(tb.asperity.REGISTRY)
+    assert "test-moved" not in tb.particle.REGISTRY
