@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from abc import abstractmethod
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -135,6 +136,15 @@ def _ratio(value: float, scale: float) -> float:
     return float(f"{value / scale:.14g}")
 
 
+def _ratios(edges: tuple[float, ...]) -> tuple[float, ...]:
+    """Edges over the last, to 14 digits where these tell them apart; (1,) if they are one size."""
+    exact = tuple(edge / edges[-1] for edge in edges)
+    short = tuple(_ratio(edge, edges[-1]) for edge in edges)
+    if short[0] == short[-1]:
+        return short[-1:]
+    return short if all(a < b for a, b in pairwise(short)) else exact
+
+
 def _clip(a: ArrayLike, b: ArrayLike, support: tuple[float, float]) -> tuple[Array, Array]:
     a, b = np.broadcast_arrays(np.asarray(a, dtype=float), np.asarray(b, dtype=float))
     lo, hi = np.clip(a, *support), np.clip(b, *support)
@@ -178,6 +188,10 @@ class Monodisperse(Distribution):
 
     def standardised(self) -> tuple[float, Distribution]:
         return self.mean, Monodisperse(mean=1.0)
+
+
+ONE_SIZE = Monodisperse(mean=1.0)
+"""The shape of sizes that 14 digits do not tell apart."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -530,7 +544,9 @@ class Histogram(Distribution):
         return Histogram(edges=tuple(factor * e for e in self.edges), counts=self.counts)
 
     def standardised(self) -> tuple[float, Distribution]:
-        edges = tuple(_ratio(edge, self.edges[-1]) for edge in self.edges)
+        edges = _ratios(self.edges)
+        if len(edges) == 1:
+            return self.edges[-1], ONE_SIZE
         return self.edges[-1], Histogram(edges=edges, counts=self.counts)
 
 
@@ -659,7 +675,9 @@ class PowerLaw(Distribution):
         return PowerLaw(edges=edges, counts=self.counts, slopes=self.slopes)
 
     def standardised(self) -> tuple[float, Distribution]:
-        edges = tuple(_ratio(edge, self.edges[-1]) for edge in self.edges)
+        edges = _ratios(self.edges)
+        if len(edges) == 1:
+            return self.edges[-1], ONE_SIZE
         return self.edges[-1], PowerLaw(edges=edges, counts=self.counts, slopes=self.slopes)
 
 
@@ -709,7 +727,8 @@ class Uniform(Distribution):
         return Uniform(low=factor * self.low, high=factor * self.high)
 
     def standardised(self) -> tuple[float, Distribution]:
-        return self.high, Uniform(low=_ratio(self.low, self.high), high=1.0)
+        edges = _ratios((self.low, self.high))
+        return self.high, ONE_SIZE if len(edges) == 1 else Uniform(low=edges[0], high=1.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

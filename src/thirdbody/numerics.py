@@ -81,8 +81,9 @@ def chebyshev_transform(n: int) -> tuple[Array, Array]:
     return np.cos(theta), transform
 
 
-NOISE = 1e-8
-"""Of the size of a function: the most that rounding may leave in its last coefficients."""
+EPS, NOISE = float(np.finfo(float).eps), 1e-8
+"""Of the size of a function: the most that rounding may leave in its last coefficients, where
+the places at which it is taken are not themselves rounded by more of a panel."""
 MOST_PANELS = 200
 """So many panels that still ask to be halved are noise, not structure."""
 
@@ -138,7 +139,8 @@ class PiecewiseChebyshev:
             exact = (tail <= tolerance * size) | (size <= 1e-13 * largest) | (size < 1e-300)
             if depth:
                 # of a panel halved, one half at least loses most of its tail, unless it is noise
-                noise = (tail >= 0.1 * before) & (tail <= NOISE * size)
+                places = EPS * np.max(np.abs(ends), axis=1) / half
+                noise = (tail >= 0.1 * before) & (tail <= np.fmax(NOISE, places)[:, None] * size)
                 exact |= np.repeat(noise.reshape(-1, 2, noise.shape[1]).all(axis=1), 2, axis=0)
             good = np.all(exact, axis=1) | (depth == max_depth) | (len(pending) > MOST_PANELS)
             done += [(*pending[i], coefs[i]) for i in np.flatnonzero(good)]
