@@ -370,7 +370,7 @@ class Assessment:
 
     # ------------------------------------------------------------------ HTML
     def html(self) -> str:
-        """The page as one file: figures inside, nothing loaded, the same bytes every time."""
+        """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
         from .html import document, figure, section, text_table, words
 
         title = self.title or "Assessment"

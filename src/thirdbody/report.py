@@ -123,7 +123,7 @@ class Report:
         return self.study.contact
 
     def html(self) -> str:
-        """The page as one file: figures inside, nothing loaded, the same bytes every time."""
+        """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
         title = self.result["title"] or "Contact of rough surfaces"
         parts = [
             f"<h1>{escape(title)}</h1>",

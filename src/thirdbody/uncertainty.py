@@ -854,7 +854,8 @@ def propagate(
     samples : int, optional
         Samples N for each load, at least 64, rounded up to a power of two.
     seed : int, optional
-        The same seed gives the same bands, to the last digit.
+        The same seed gives the same bands, to the last digit with the same versions of
+        thirdbody, NumPy, SciPy and numba on the same type of processor.
     outputs : sequence of str, optional
         Columns of `Equilibrium`, "plastic_share" (A_p/A_t), critical loads "F_cr1", "F_cr2",
         "F_tpca.A", "F_tpca.B", and margins "F/F_cr1", "F/F_cr2". All that the contact has by

@@ -203,7 +203,8 @@ def test_all_roots_of_the_window_reading(x_a, F):
         assert unloading.d == pytest.approx(min(want), abs=1e-15)
         assert {stable for _, stable in found} == {True, False}
     else:
-        assert unloading.d == loading.d
+        # found from two sides, each to the balance, 1e-13
+        assert unloading.d == pytest.approx(loading.d, rel=1e-12)
 
 
 def test_window_reading_has_loads_with_one_and_with_three_roots():

@@ -16,7 +16,7 @@ __all__ = ["to_python"]
 
 
 def to_python(study: Study, at: float | None = None) -> str:
-    """A script that solves the study, with the same numbers to the last digit.
+    """A script that solves the study, with the same numbers, on this machine to the last digit.
 
     Parameters
     ----------

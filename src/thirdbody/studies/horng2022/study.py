@@ -104,7 +104,7 @@ def reproduce(
 
     Writes 20 panels, each as PNG, SVG and CSV, the ledger ``claims.json``, and ``index.html``,
     one page with everything in it. A file appears whole or not at all, and the same library
-    writes the same bytes again.
+    writes the same bytes again, with the same versions on the same type of processor.
 
     Parameters
     ----------
