@@ -348,11 +348,11 @@ class Interfaces(_Batch):
             average = part.average
             if isinstance(average, SeatAverage):
                 kind, functions, plane = k.ROUGH, [average.table], average.average
-                width, least = average.width, average.table.edges[0]
+                width, least, reach = average.width, average.table.edges[0], average.high
             else:
                 # without small gaps the second function is not asked for
                 kind, functions = k.PLANE, [average.upper, average.lower or average.upper]
-                plane, width, least = average, 0.0, average.bottom
+                plane, width, least, reach = average, 0.0, average.bottom, average.top
             kinds = [kind]
             for function in functions:
                 kinds += self._panels.add_average(function, shadow)
@@ -361,7 +361,7 @@ class Interfaces(_Batch):
             at = k.VALUES + p * k.PART_VALUES
             self.values[m, at : at + k.PLACE] = (
                 *(part.scale, part.factor, part.offset, width),
-                *((part.reach + part.offset) / part.scale, least),
+                *(reach, least),
                 *(plane.top, plane.bottom, plane.join, *plane.powers, *plane.floor),
             )
 
