@@ -395,7 +395,7 @@ def critical_loads(
     contact, vary = _bare(contact, vary)
     if contact.two_body:
         raise InvalidValue("a contact without particles has no critical loads")
-    if not interface(contact).monotone:
+    if not _falls(contact):
         raise InvalidValue(
             "critical loads of many contacts need a load that falls with the separation, which "
             f"{type(contact.particle_law).__name__} does not promise; name other outputs, or call "
@@ -414,6 +414,12 @@ def critical_loads(
         )
         for name in CRITICAL
     }
+
+
+def _falls(contact: Contact) -> bool:
+    """Whether the load falls with the separation, here and as far as the law of particles tells."""
+    bound = interface(contact)
+    return bound.monotone and (bound.particles is None or bound.particles.monotone)
 
 
 class Shares:
@@ -1003,7 +1009,7 @@ def about_result(name: str) -> dict[str, str]:
 def _outputs(asked: Sequence[str] | None, contact: Contact) -> list[str]:
     """The outputs, each once, that the contact has."""
     about_loads = (*CRITICAL, *MARGINS)
-    without = contact.two_body or not interface(contact).monotone
+    without = contact.two_body or not _falls(contact)
     known = [*OUTPUTS, *(name for each in contact.outputs for name in each.columns)]
     if asked is None:
         return [name for name in known if not (without and name in about_loads)]
