@@ -563,6 +563,34 @@ def test_markers_of_data_that_are_gone_count_no_more(tmp_path):
     same(tb.sweep(DUSTY, **asked), tb.sweep(DUSTY, **GRID, chunk=9))
 
 
+@FORMATS
+@pytest.mark.parametrize("finished", [True, False])
+def test_damaged_data_are_told_and_made_again(tmp_path, format, finished):
+    asked = dict(**GRID, chunk=9, out=tmp_path, format=format)
+    tb.sweep(DUSTY, **asked).close()
+    data = tmp_path / ("states.zarr" if format == "zarr" else "states.nc")
+    (data / "zarr.json" if format == "zarr" else data).write_text("nothing of use")
+    if not finished:
+        (tmp_path / "finished.json").unlink()
+    if finished or format == "zarr":
+        with pytest.raises(tb.InvalidValue, match=r"states\.\w+ is damaged \(.+\); remove it"):
+            tb.sweep(DUSTY, **asked)
+        shutil.rmtree(data) if format == "zarr" else data.unlink()
+    with tb.sweep(DUSTY, **asked) as stored:
+        same(stored, tb.sweep(DUSTY, **GRID, chunk=9))
+
+
+@pytest.mark.parametrize("lost", ["A_t", "A_t/zarr.json"])
+def test_a_store_without_one_of_its_arrays_is_told(tmp_path, lost):
+    asked = dict(**GRID, chunk=9, out=tmp_path)
+    tb.sweep(DUSTY, **asked).close()
+    (tmp_path / "finished.json").unlink()
+    lost = tmp_path / "states.zarr" / lost
+    shutil.rmtree(lost) if lost.is_dir() else lost.unlink()
+    with pytest.raises(tb.InvalidValue, match=r"states\.zarr is damaged"):
+        tb.sweep(DUSTY, **asked)
+
+
 def test_an_interrupted_design_goes_on_with_the_right_points(monkeypatch):
     """Ctrl-C between a point and its number, and the same call again in the same process."""
     whole = sobol(64, 3, 7, 0, 64)

@@ -28,7 +28,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +46,7 @@ if TYPE_CHECKING:
 __all__ = ["Folder", "in_memory", "run"]
 
 Result = tuple[Arrays, dict[str, Any]]
+Read = TypeVar("Read")
 
 FORMATS = {"zarr": ("zarr",), "netcdf": ("h5netcdf", "h5py")}
 """Formats and the packages they need."""
@@ -223,8 +224,23 @@ class Folder:
         found = _json(self.path / "finished.json")
         return found if found and self.data.exists() else None
 
+    def whole(self, read: Callable[[], Read]) -> Read:
+        """What reads the data; InvalidValue where something has damaged them."""
+        try:
+            return read()
+        except PermissionError:
+            raise
+        except (OSError, ValueError, KeyError) as error:
+            why = (str(error) or type(error).__name__).splitlines()[0]
+            raise InvalidValue(
+                f"{self.data} is damaged ({why}); remove it, and the same command makes it again"
+            ) from None
+
     def open(self) -> xarray.Dataset:
         """The data, loaded when they are used."""
+        return self.whole(self._open)
+
+    def _open(self) -> xarray.Dataset:
         import xarray as xr
 
         if self.format == "zarr":
@@ -437,7 +453,7 @@ def _carry_out(
             shutil.rmtree(draft, ignore_errors=True)
             _Zarr.made(draft, layout)
             draft.rename(folder.data)
-        store = _Zarr(folder.data, layout)
+        store = folder.whole(lambda: _Zarr(folder.data, layout))
     else:
         (path / "parts").mkdir(exist_ok=True)
     done = folder.done(name)
@@ -512,7 +528,7 @@ class _Zarr:
 
         self.path, self.layout = path, layout
         self.group = zarr.open_group(path, mode="r+")
-        self.arrays = dict(self.group.arrays())
+        self.arrays = {name: self.group[name] for name in layout.variables}
 
     @staticmethod
     def made(path: Path, layout: Layout) -> _Zarr:
