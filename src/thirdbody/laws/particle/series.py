@@ -146,16 +146,36 @@ class Side:
         index = order[np.searchsorted(self.law.breakpoints, y, side="right")]
         return np.where((y >= self.cap) & self.plateau, REGIMES.index("plastic"), index)
 
-    def indentation(self, force: float) -> float:
-        """Inverse of `force` below the limit, for one material."""
+    def around(self, y: float) -> tuple[float, float]:
+        """Loads just below and at y = δ/δ_1, for one material; equal where the law is smooth."""
+        below, at = self.unit * self.reduced_force(np.array([np.nextafter(y, 0), y]))
+        return (float(at), float(at)) if math.isclose(below, at, rel_tol=1e-9) else (below, at)
 
+    def indentation(self, force: float) -> float:
+        """Where `force` below the limit is first reached, for one material; also in a jump."""
         from scipy.optimize import brentq
 
         def excess(log_delta: float) -> float:
             return float(self.force(np.array([math.exp(log_delta)]))[0]) - force
 
         top = math.log(2 * self.kinks[-1] * self.delta_1)
-        return math.exp(brentq(excess, top - 600, top, xtol=1e-15, rtol=1e-15))
+        bottom = top - 600
+        for y in self.kinks:
+            below, at = self.around(y)
+            edge = math.log(y * self.delta_1)
+            if below == at:
+                continue
+            if force <= below:
+                top = edge - 1e-15 * abs(edge)
+                break
+            if force <= at:
+                return float(y * self.delta_1)
+            bottom = edge + 1e-15 * abs(edge)
+        if excess(top) <= 0:
+            return math.exp(top)
+        if excess(bottom) >= 0:
+            return math.exp(bottom)
+        return math.exp(brentq(excess, bottom, top, xtol=1e-15, rtol=1e-15))
 
 
 class SqueezedParticle:
@@ -163,11 +183,18 @@ class SqueezedParticle:
 
     Solves :math:`F_1(\delta_1) = F_2(\delta-\delta_1)`; a particle of size x carries
     :math:`x^2` times the load and the area found here. A sphere has the tip radius R = 1/2.
+    A side whose load jumps up stays there until the other has caught up; one whose load jumps
+    down lets go where loading first reaches the jump.
 
     Attributes
     ----------
     kinks : array
         Values of ε where the response changes its formula; beyond the last it is constant.
+    held : list of (float, float, int, float)
+        From ε to ε side 0 or 1 stays at the indentation δ at which its load jumps up, while the
+        load rises by the jump.
+    let_go : list of (float, int, float)
+        From ε on side 0 or 1 is past the indentation δ at which its load jumps down.
     """
 
     def __init__(self, law: AbstractAsperityLaw, first: Body, second: Body, R: float = 0.5):
@@ -176,16 +203,27 @@ class SqueezedParticle:
         self.equal = first == second
         one, two = self.sides
         kinks = set()
-        for side, other in ((one, two), (two, one)):
+        self.held: list[tuple[float, float, int, float]] = []
+        self.let_go: list[tuple[float, int, float]] = []
+        for number, (side, other) in enumerate(((one, two), (two, one))):
+            limit = float(other.limit[0])
             for y in side.kinks:
                 delta = y * side.delta_1
-                force = float(side.force(np.array([delta]))[0])
                 if self.equal:
                     kinks.add(2 * delta)
-                elif force < float(other.limit[0]) * (1 - 1e-12):
-                    kinks.add(delta + other.indentation(force))
-                elif force < float(other.limit[0]) * (1 + 1e-12):
-                    kinks.add(delta + other.kinks[-1] * other.delta_1)
+                    continue
+                below, at = side.around(y)
+                ends = []
+                for force in sorted({below, max(below, at)}):
+                    if force < limit * (1 - 1e-12):
+                        ends.append(delta + other.indentation(force))
+                    elif force < limit * (1 + 1e-12):
+                        ends.append(delta + other.kinks[-1] * other.delta_1)
+                kinks.update(ends)
+                if at > below and ends:
+                    self.held.append((ends[0], ends[1] if len(ends) > 1 else np.inf, number, delta))
+                elif at < below and ends:
+                    self.let_go.append((ends[0], number, delta))
         self.kinks = np.array(sorted(kinks))
         if self.kinks[-1] > DEEPEST_SQUEEZE:
             raise InvalidValue(
@@ -207,9 +245,22 @@ class SqueezedParticle:
         from scipy.optimize.elementwise import find_root
 
         one, two = self.sides
+
+        def excess(t: Array, e: Array) -> Array:
+            return one.force(t * e) - two.force((1 - t) * e)
+
+        low, high = np.zeros_like(eps), np.ones_like(eps)
+        for since, number, delta in self.let_go:
+            share = delta / eps if number == 0 else 1 - delta / eps
+            above = (eps > since) == (number == 0)  # the jump lies below the share of side 0
+            low = np.where(above, np.maximum(low, share + 1e-15), low)
+            high = np.where(above, high, np.minimum(high, share - 1e-15))
+        if self.let_go:
+            good = (low < high) & (excess(low, eps) <= 0) & (excess(high, eps) >= 0)
+            low, high = np.where(good, low, 0.0), np.where(good, high, 1.0)
         root = find_root(
-            lambda t, e: one.force(t * e) - two.force((1 - t) * e),
-            (np.zeros_like(eps), np.ones_like(eps)),
+            excess,
+            (low, high),
             args=(eps,),
             tolerances={"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0},
         )
@@ -217,8 +268,7 @@ class SqueezedParticle:
 
     def _tabulate_split(self) -> PiecewiseChebyshev:
         v = np.log(self.kinks)
-        if len(v) == 1:  # elastic up to the great circle: one share
-            v = np.append(v - 1, v)
+        v = np.append(v[0] - 1, v)  # elastic up to the first: one share
         return PiecewiseChebyshev(lambda x: self._solve_split(np.exp(x))[:, None], v)
 
     def _area_crossings(self) -> list[float]:
@@ -243,7 +293,7 @@ class SqueezedParticle:
         """δ_1 and δ_2 over x."""
         if self._split_table is None:
             return 0.5 * eps, 0.5 * eps
-        low, high = self.kinks[0], self.kinks[-1]
+        low, high = 0.5 * self.kinks[0], self.kinks[-1]
         share = self._split_table(np.log(np.clip(eps, low, high)))[:, 0]
         one = share * eps
         # beyond the last kink the softer side takes the rest; two equal limits share it
@@ -256,13 +306,22 @@ class SqueezedParticle:
             else:
                 gained = rest if limits[0] < limits[1] else 0.0 * rest
             one = np.where(past, share * high + gained, one)
-        return one, eps - one
+        two = eps - one
+        for begin, end, number, delta in self.held:
+            here = (eps > begin) & (eps < min(end, high))
+            stays = delta * (1 - 1e-15)  # not past its jump, whatever rounding does
+            one = np.where(here, stays if number == 0 else eps - stays, one)
+            two = np.where(here, stays if number == 1 else eps - stays, two)
+        return one, two
 
     def force(self, eps: Array, one: Array) -> Array:
         """Load over x² at ε, of which ``one`` is the first side's."""
         force = self.sides[0].force(one)
         if self.equal:
             return force
+        for begin, end, number, _ in self.held:
+            if number == 0 and np.any(here := (eps > begin) & (eps < end)):
+                force = np.where(here, self.sides[1].force(eps - one), force)
         limit = min(float(side.limit[0]) for side in self.sides)
         return np.where(eps > self.kinks[-1], limit, force)
 
