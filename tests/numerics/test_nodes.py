@@ -63,18 +63,29 @@ def test_particles_squeezed_flat_with_spreads_of_their_own():
     alike(states, contact, vary, (0, 13, 31), pressure=5e6)
 
 
-def test_loads_that_do_not_change_with_the_separation():
-    """On a plane, far above the asperities, yet under the lowest gap that particles feel."""
+def test_wide_spreads_of_their_own_by_regime():
+    """The elastic area comes from the seats of few gaps, so the sum over sizes must tell them."""
     pytest.importorskip("numba")
-    diameter = tb.Histogram(edges=(3.33e-6, 5.33e-6, 6.66e-6, 9.99e-6), counts=(1, 3, 2))
-    hard = tb.Material(E=2.75e9, nu=0.29, H=5.24e9)
-    first, second = tb.Material(E=581e9, nu=0.15, H=21e9), tb.Material(E=365e9, nu=0.38, H=217e6)
-    contact = case(diameter, "plane", hard, (first, second), density=9.56e7)
-    contact = contact.replace(roughness=tb.Roughness(sigma=6.83e-8, R=1.26e-6))
-    vary = {"particles.areal_density": 9.56e7 * np.linspace(0.8, 1.2, 30)}
-    states = tb.solve_states(contact, pressure=4e7, vary=vary)
+    size = 15 * SIGMA
+    sizes = tb.TruncatedGaussian(mean=size, std=0.4 * size)
+    contact = case(sizes, density=0.01 / size**2)
+    contact = contact.replace(**{"particle_law.zeta_std": 0.4})
+    vary = {"particles.diameter.std": size * np.linspace(0.3, 0.45, 24)}
+    states = tb.solve_states(contact, F_star=1e-5, vary=vary)
+    alike(states, contact, vary, (0, 12, 23), F_star=1e-5)
+
+
+@pytest.mark.parametrize("load", [1e-6, 1e-4])
+def test_loads_that_do_not_change_with_the_separation(load):
+    """Far above the asperities, yet under the lowest gap that particles feel, nothing changes."""
+    pytest.importorskip("numba")
+    surfaces = (STEEL, STEEL.replace(H=3e9))
+    contact = case(tb.Uniform(low=3e-6, high=5e-6), "plane", surfaces=surfaces, density=2e6)
+    contact = contact.replace(roughness=tb.Roughness(sigma=30e-9, R=1e-6))
+    vary = {"particles.areal_density": np.linspace(1e6, 2e6, 24)}
+    states = tb.solve_states(contact, F_star=load, vary=vary)
     assert np.all(np.isfinite(states["d"]))
-    alike(states, contact, vary, (0, 29), pressure=4e7)
+    alike(states, contact, vary, (0, 23), F_star=load)
 
 
 # ------------------------------------------------------------------------- close sizes
