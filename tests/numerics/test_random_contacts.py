@@ -3,6 +3,7 @@
 Ten thousand contacts are drawn and held by a command; `random_contacts` says which.
 """
 
+from contextlib import contextmanager
 from unittest import mock
 
 import numpy as np
@@ -110,8 +111,18 @@ def _columns(name, change):
 
 
 def _off(self, target, cells, **kwargs):
-    d, iterations = POLISH(self, target, cells, **kwargs)
-    return d * (1 + 1e-6), iterations
+    d, *others = POLISH(self, target, cells, **kwargs)
+    return d * (1 + 1e-6), *others
+
+
+@contextmanager
+def _told_ok(name, function):
+    """A method of `LoadScan` goes wrong, and no imbalance is too large to be told ok."""
+    with (
+        mock.patch.object(equilibrium, "RESIDUAL", np.inf),
+        mock.patch.object(equilibrium.LoadScan, name, function),
+    ):
+        yield
 
 
 POLISH = equilibrium.LoadScan.polish
@@ -124,11 +135,11 @@ WRONG = {
     "sum of loads": _columns("F_sa_star", lambda F: 1.001 * F),
     "shares in [0, 1]": _columns("particle_area_share", lambda S: S + 1.0),
     "mode": _columns("mode", lambda words: np.full(len(words), "")),
-    "residual": lambda: mock.patch.object(equilibrium.LoadScan, "polish", _off),
-    "round trip": lambda: mock.patch.object(equilibrium.LoadScan, "polish", _off),
-    "engines": lambda: mock.patch.object(equilibrium.LoadScan, "polish", _off),
-    "first root on approach": lambda: mock.patch.object(
-        equilibrium.LoadScan, "cells", lambda self, F, branch: np.full(len(F), len(self.d) - 2)
+    "residual": lambda: _told_ok("polish", _off),
+    "round trip": lambda: _told_ok("polish", _off),
+    "engines": lambda: _told_ok("polish", _off),
+    "first root on approach": lambda: _told_ok(
+        "cells", lambda self, F, branch: np.full(len(F), len(self.d) - 2)
     ),
     "shadow": _wrong("shadow", lambda s: s - 2.0),
     "units": lambda: mock.patch.dict(random_contacts.LENGTHS, {"1/m^2": -1}),

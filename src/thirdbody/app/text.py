@@ -53,7 +53,7 @@ def in_ascii(text: str) -> str:
 def without_paths(text: str) -> str:
     """A message without the folders of the machine that serves the page.
 
-    >>> without_paths("cannot read /tmp/page/a.x3p: it holds 3 / m^2")
+    >>> without_paths("cannot read /srv/page/a.x3p: it holds 3 / m^2")
     'cannot read a.x3p: it holds 3 / m^2'
     """
     part = r"[^\s/\\:'\",;<>()]+"
