@@ -26,8 +26,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 import naive
 
 import thirdbody as tb
-from thirdbody import asperities, engine
-from thirdbody import contact as contacts
+from thirdbody.contact import asperity_sums as asperities
+from thirdbody.contact import interface as contacts
+from thirdbody.equilibrium.compiled import batch as engine
 from thirdbody.errors import NotCompiled
 
 Array = NDArray[np.float64]

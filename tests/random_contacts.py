@@ -31,11 +31,12 @@ from unittest import mock
 import numpy as np
 
 import thirdbody as tb
-from thirdbody import engine
-from thirdbody.contact import interface
-from thirdbody.distributions import Distribution
-from thirdbody.equilibrium import COLUMNS, DEEPEST
-from thirdbody.values import Value
+from thirdbody.contact.interface import interface
+from thirdbody.equilibrium.columns import COLUMNS
+from thirdbody.equilibrium.compiled import batch as engine
+from thirdbody.equilibrium.load_scan import DEEPEST
+from thirdbody.populations.distributions import Distribution
+from thirdbody.quantities.value import Value
 
 Array = np.ndarray
 EPS = float(np.finfo(float).eps)

@@ -17,7 +17,8 @@ from subjects import FIRST, HEIGHTS, SUBJECTS
 from subjects import contact as two_body
 
 import thirdbody as tb
-from thirdbody import definition, equilibrium
+from thirdbody import definition
+from thirdbody.equilibrium import solve as equilibrium
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 

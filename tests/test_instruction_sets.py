@@ -159,7 +159,11 @@ def test_states_and_laws(name, usual, tmp_path):
     hold(json.loads(done.stdout), usual)
 
 
-FAST = ("tests/laws/test_heights.py", "tests/test_sizes.py", "tests/test_study.py")
+FAST = (
+    "tests/laws/test_heights.py",
+    "tests/populations/test_sizes.py",
+    "tests/study/test_study.py",
+)
 
 
 @pytest.mark.slow

@@ -157,7 +157,7 @@ def test_figures_are_small():
 
 def test_nomenclature_names_every_column():
     text = (ROOT / "docs" / "nomenclature.md").read_text("utf-8")
-    from thirdbody.equilibrium import COLUMNS
+    from thirdbody.equilibrium.columns import COLUMNS
 
     own_words = {"status", "residual", "iterations"}
     missing = [name for name in COLUMNS if f"`{name}`" not in text and name not in own_words]

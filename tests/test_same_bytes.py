@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from numpy.testing import assert_allclose
 
-from thirdbody.designs import sobol
+from thirdbody.numerics.sampling import sobol
 
 FOLDER = Path(__file__).parents[1] / "examples"
 EXAMPLES = sorted(path.stem for path in FOLDER.glob("*.toml"))

@@ -19,9 +19,9 @@ from scipy.optimize import brentq
 from scipy.optimize.elementwise import find_root
 from scipy.special import ndtr
 
-from .distributions import Monodisperse
 from .laws.base import REGIMES
-from .materials import reduced_modulus
+from .populations.distributions import Monodisperse
+from .populations.materials import reduced_modulus
 
 __all__ = ["Side", "Tip", "asperities", "particles", "separation", "squeezed", "state"]
 

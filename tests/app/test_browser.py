@@ -33,7 +33,7 @@ from hostile import PAYLOADS, several, wrong  # noqa: E402
 from thirdbody.app.examples import example  # noqa: E402
 from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
 from thirdbody.app.widgets import as_length  # noqa: E402
-from thirdbody.cli.show import as_number, as_percent, as_pressure  # noqa: E402
+from thirdbody.quantities.say import as_number, as_percent, as_pressure  # noqa: E402
 
 PATIENCE = 30_000
 FILM = Path(__file__).parents[2] / "examples" / "oil_film.toml"

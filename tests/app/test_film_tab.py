@@ -11,7 +11,7 @@ from thirdbody.study import check, run_film
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
 from thirdbody.app.tabs.film import MOST, START, film_figures, solved
-from thirdbody.film_words import point
+from thirdbody.views.film_words import point
 
 STUDY = Path(__file__).parents[2] / "examples" / "oil_film.toml"
 

@@ -316,7 +316,7 @@ def test_a_measured_file_is_read_by_a_process_of_its_own(surface, more, tmp_path
     def refused(*args, **options):
         raise AssertionError("an instrument file is read in this process")
 
-    monkeypatch.setattr("thirdbody.study.topography.from_topography", refused)
+    monkeypatch.setattr("thirdbody.populations.measured.topography.from_topography", refused)
     state = State(study, tmp_path)
     assert not state.problems
     assert json.loads(exports.to_json(state.answer.study)) == json.loads(json.dumps(own))

@@ -188,7 +188,7 @@ def test_derivative_holds_the_jump_of_ceb():
     """∫F₁′φ alone misses a part that is not small."""
     from battery import ETA, by_parts, edges
 
-    from thirdbody.contact import interface
+    from thirdbody.contact.interface import interface
 
     law = FIRST["ceb"].law
     bare = contact(law)

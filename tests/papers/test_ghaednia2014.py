@@ -12,10 +12,10 @@ from scipy.integrate import quad
 
 import thirdbody as tb
 from thirdbody import InvalidValue
-from thirdbody.studies import ghaednia2013, ghaednia2014
-from thirdbody.studies.ghaednia2014 import PRESSURES, READINGS, STUDY, conductance_ratio, contact
-from thirdbody.studies.ledger import NO_SOURCE, OWN, REPORTED, SEEN
-from thirdbody.studies.panels import table_of
+from thirdbody.papers import ghaednia2013, ghaednia2014
+from thirdbody.papers.ghaednia2014 import PRESSURES, READINGS, STUDY, conductance_ratio, contact
+from thirdbody.papers.ledger import NO_SOURCE, OWN, REPORTED, SEEN
+from thirdbody.papers.panels import table_of
 
 STATED = ("elastic", "elastic-plastic", "stack")
 

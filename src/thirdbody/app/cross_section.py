@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 import thirdbody as tb
 
-from ..plot import OKABE_ITO
+from ..views.plot.style import OKABE_ITO
 
 __all__ = ["Section", "section", "to_svg"]
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..plot import MODE_COLOURS, OKABE_ITO, REGIMES
+from ..views.plot.style import MODE_COLOURS, OKABE_ITO, REGIMES
 
 __all__ = [
     "AXES",

@@ -10,13 +10,13 @@ from nicegui import events, ui
 
 import thirdbody as tb
 
+from ..analysis.uncertainty.inputs import KINDS
 from ..errors import InvalidValue
+from ..quantities.units import say
 from ..study import LOADS
 from ..study.concentration import AMOUNT
 from ..study.counted import COUNTED
 from ..study.inputs import inputs_of
-from ..uncertainty import KINDS
-from ..units import say
 from .bounds import LARGEST_TABLE
 from .fields import (
     COUNTED_FIELDS,

@@ -9,8 +9,8 @@ import numpy as np
 
 import thirdbody as tb
 
+from ..quantities.value import Value
 from ..study import Study
-from ..values import Value
 
 __all__ = ["to_python"]
 

@@ -12,7 +12,7 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ..cli.show import as_number, as_pressure
+from ..quantities.say import as_number, as_pressure
 from .fields import engineering, number_of
 from .inputs import Inputs
 from .sizing import size_of, with_size

@@ -7,7 +7,7 @@ from typing import Any
 
 from nicegui import ui
 
-from ..cli import show
+from ..quantities import say as show
 from .text import with_micro
 
 __all__ = ["as_length", "facts", "put", "table"]

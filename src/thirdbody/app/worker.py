@@ -157,8 +157,9 @@ def error_bars(
     """
     import thirdbody as tb
 
+    from ..analysis.uncertainty.critical_loads import CRITICAL
+    from ..analysis.uncertainty.inputs import library_ranges
     from ..errors import InvalidValue
-    from ..uncertainty import CRITICAL, library_ranges
 
     asked = _study(study, folder)
     known = asked.uncertainty
@@ -199,7 +200,7 @@ def error_bars(
 
 def design(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
     """The best inputs over a range of loads, as the table [design] asks."""
-    from ..study.design import design_study
+    from ..study.analyses import design_study
 
     asked = _study(study, folder)
     report(0.05)
@@ -230,7 +231,7 @@ def _fields(value: Any) -> dict[str, Any]:
 
 def surface(*, file: str, options: dict[str, Any], report: Report) -> dict[str, Any]:
     """A measured surface: heights for a picture, moments, and their course with the cut-off."""
-    from ..topography import from_topography
+    from ..populations.measured.topography import from_topography
 
     found = from_topography(file if file == "example" else Path(file), **options)
     report(0.4)

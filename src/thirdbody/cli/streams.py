@@ -20,7 +20,7 @@ import typer
 from typer.core import TyperGroup
 
 from ..errors import InvalidValue, NoEquilibrium, NoTransition
-from ..interrupt import INTERRUPTED, interruptible
+from .interrupt import INTERRUPTED, interruptible
 
 __all__ = [
     "INTERRUPTED",
@@ -79,7 +79,7 @@ def warn(message: Warning | str, *_: Any, **__: Any) -> None:
 
 def write_csv(path: Path, columns: dict[str, list[Any]], units: Mapping[str, str]) -> None:
     """A file with a line of names and units, and a row a state."""
-    from ..files import write_text
+    from ..quantities.files import write_text
 
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -100,7 +100,7 @@ def write_figure(figure: Path, drawing: Any) -> None:
     """A matplotlib figure as a file, the same bytes every time."""
     from matplotlib import rc_context
 
-    from ..files import whole
+    from ..quantities.files import whole
 
     kind = figure_format(figure)
     no_date = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)

@@ -20,16 +20,16 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 import numpy as np
 
 from ..errors import InvalidValue
-from ..numerics import panel_rule
-from ..values import Value
+from ..numerics.quadrature import panel_rule
+from ..quantities.value import Value
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from ..materials import Material, MaterialPair
-    from ..particles import Particles
-    from ..spots import ParticleSpots
-    from ..surfaces import Roughness
+    from ..populations.materials import Material, MaterialPair
+    from ..populations.particles import Particles
+    from ..populations.roughness import Roughness
+    from .spots import ParticleSpots
 
     Array = NDArray[np.float64]
     Number = float | Array

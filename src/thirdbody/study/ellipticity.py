@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ..ellipticity import FACES, Ellipticity
 from ..errors import InvalidValue
-from ..units import say
+from ..populations.ellipticity import FACES, Ellipticity
+from ..quantities.units import say
 from .fields import about_of
 from .one_value import number, refused
 from .reader import Key, Reader, plain

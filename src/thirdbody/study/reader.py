@@ -11,8 +11,8 @@ from typing import Annotated, Any, NamedTuple
 from pydantic import ConfigDict, PlainValidator, WrapValidator, create_model
 
 from ..errors import InvalidValue
-from ..materials import MaterialLibrary, materials
-from ..units import say
+from ..populations.materials import MaterialLibrary, materials
+from ..quantities.units import say
 from .fields import UNITS_OF_LISTS, about_of, filled_in, needed_fields
 from .mistakes import Known, retold
 from .one_value import number, numbers, switch, text, word, word_or_number

@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
-from ..contact import Contact
-from ..equilibrium import Equilibrium, deepest, solve, why_deep
+from ..analysis.sweep.plan import Plan
+from ..analysis.uncertainty.inputs import Uncertainty
+from ..contact.contact import Contact
+from ..equilibrium.columns import Equilibrium
+from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue
-from ..lubrication import FilmConditions
-from ..sweep import Plan
-from ..uncertainty import Uncertainty
+from ..systems.film_conditions import FilmConditions
 from .overrides import override
 from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names

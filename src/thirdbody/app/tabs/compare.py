@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...cli.show import as_number, as_pressure
+from ...quantities.say import as_number, as_pressure
 from ..figures import AXES, empty, figure, line
 from ..state import Answer, State, loads_as
 from ..widgets import table as shown_table

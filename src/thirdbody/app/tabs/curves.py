@@ -8,18 +8,8 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...cli.show import as_number, as_pressure
-from ..figures import (
-    AXES,
-    REGIME_FILLS,
-    empty,
-    figure,
-    line,
-    log_title,
-    mark,
-    mode_bands,
-    plain,
-)
+from ...quantities.say import as_number, as_pressure
+from ..figures import AXES, REGIME_FILLS, empty, figure, line, log_title, mark, mode_bands, plain
 from ..state import Answer, State
 from ..widgets import put
 from ..widgets import table as shown_table

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...equilibrium import COLUMNS, about
+from ...equilibrium.columns import COLUMNS, about
 from ...errors import InvalidValue
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, shown, value_from

@@ -10,8 +10,8 @@ from nicegui import events, ui
 
 import thirdbody as tb
 
-from ...cli.show import as_number, as_percent
 from ...errors import InvalidValue
+from ...quantities.say import as_number, as_percent
 from ..bounds import LARGEST_TABLE
 from ..figures import empty, figure, line, plain
 from ..inputs import Inputs

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...plot import OKABE_ITO
-from ...uncertainty import CRITICAL, about_result
+from ...analysis.uncertainty.critical_loads import CRITICAL
+from ...analysis.uncertainty.propagation import about_result
+from ...views.plot.style import OKABE_ITO
 from ..figures import AXES, GREY, INKS, empty, figure, line, listed, mark, plain
 from ..inputs import Inputs
 from ..state import State

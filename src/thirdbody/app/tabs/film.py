@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...film_words import point, summary
-from ...lubrication import Entrainment, FilmConditions, Oil
-from ...plot_film import OF_PARTICLES, bands_of
 from ...study import Study, run_film
 from ...study.film import SHAPES, SPEED
+from ...systems.film_conditions import Entrainment, FilmConditions
+from ...systems.film_formulas import Oil
+from ...views.film_words import point, summary
+from ...views.plot.film import OF_PARTICLES, bands_of
 from ..fields import Field, fields_of, number_field
 from ..figures import GREY, empty, figure, line, log_title, mark
 from ..inputs import Inputs

@@ -9,7 +9,7 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ...cli.show import as_number, as_percent, as_pressure
+from ...quantities.say import as_number, as_percent, as_pressure
 from ..cross_section import section, to_svg
 from ..state import Answer, State
 from ..widgets import as_length, facts
@@ -106,7 +106,7 @@ def _caption(drawn: Any) -> str:
 
 
 def _legend(names: tuple[str, ...]) -> None:
-    from ...plot import OKABE_ITO
+    from ...views.plot.style import OKABE_ITO
     from ..cross_section import COLOURS
 
     for number, name in enumerate(names):

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...cli.show import as_number
-from ...equilibrium import about
+from ...equilibrium.columns import about
+from ...quantities.say import as_number
 from ..figures import AXES, figure, line, mark
 from ..inputs import Inputs
 from ..state import Answer, State

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from nicegui import events, ui
 
-from ...cli.show import as_number
 from ...errors import InvalidValue
-from ...units import to_si
+from ...quantities.say import as_number
+from ...quantities.units import to_si
 from ..fields import value_from
 from ..figures import empty, figure, line, mark
 from ..guard import LARGEST_UPLOAD

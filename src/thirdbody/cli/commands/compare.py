@@ -9,8 +9,9 @@ from typing import Annotated, Any
 import typer
 
 from ...errors import InvalidValue, NoEquilibrium
+from ...quantities.say import as_number, as_pressure
 from ..options import Settings, StudyFile, not_a_folder, read_study
-from ..show import as_number, as_pressure, table_of, terminal
+from ..show import table_of, terminal
 from ..streams import warn
 
 __all__ = ["command"]
@@ -38,9 +39,9 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The interface of a study under every asperity law, against the law the study names."""
-    from ... import asperity
-    from ...compare import compare as compare_laws
-    from ...compare import save
+    from ...analysis.compare import compare as compare_laws
+    from ...laws import asperity
+    from ...views.comparison import save
 
     problems = []
     if at not in PLACES:

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ...quantities.say import as_number
 from ..options import AsJson, Settings, read_study
-from ..show import as_number, table_of, terminal
+from ..show import table_of, terminal
 from ..streams import figure_format, warn, write_csv, write_figure
 
 if TYPE_CHECKING:
-    from ...design import Best
+    from ...analysis.design.design import Best
     from ...study import Study
 
 __all__ = ["command"]
@@ -37,8 +38,8 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The best size, concentration or roughness over a range of loads, under limits."""
-    from ...files import need_folders
-    from ...study.design import design_study
+    from ...quantities.files import need_folders
+    from ...study.analyses import design_study
 
     asked = read_study(study, settings)
     need_folders(csv_file, figure)
@@ -52,7 +53,7 @@ def command(
         write_csv(csv_file, columns, dict.fromkeys(columns, ""))
         print(f"written: {csv_file}", file=sys.stderr)
     if figure is not None:
-        from ...plot_design import tried
+        from ...views.plot.design import tried
 
         write_figure(figure, tried(best))
     if as_json:

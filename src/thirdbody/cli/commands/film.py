@@ -9,8 +9,9 @@ from typing import Annotated, Any
 
 import typer
 
+from ...quantities.say import as_length, as_number, as_pressure
 from ..options import AsJson, Settings, read_study
-from ..show import as_length, as_number, as_pressure, table_of, terminal
+from ..show import table_of, terminal
 from ..streams import figure_format, warn, write_csv, write_figure
 
 __all__ = ["columns_of", "command"]
@@ -42,7 +43,7 @@ def command(
         warn(sentence)
     drawn = None
     if figure is not None:
-        from ...plot_film import stribeck
+        from ...views.plot.film import stribeck
 
         drawn = stribeck(result["states"], result["regime_speeds"])
     if csv_file is not None:
@@ -58,7 +59,7 @@ def command(
 
 def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, str]]:
     """Columns of the states, then what passes and what the oil brings, and their units."""
-    from ...lubrication import COLUMNS
+    from ...systems.mixed_film import COLUMNS
 
     columns = dict(result["states"])
     units = {name: COLUMNS[name]["unit"] if name in COLUMNS else "1" for name in columns}
@@ -78,7 +79,7 @@ def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, 
 
 def _show(result: dict[str, Any]) -> None:
     """The result for a reader: the point or the curve, then in words."""
-    from ...film_words import point, summary
+    from ...views.film_words import point, summary
 
     console = terminal()
     console.print(f"{result['title'] or 'Study'} (thirdbody {result['version']})")
@@ -105,7 +106,7 @@ def _show(result: dict[str, Any]) -> None:
 
 def _curve(result: dict[str, Any]) -> Any:
     """A row a speed; of many speeds some, evenly spread."""
-    from ...film_words import share
+    from ...views.film_words import share
 
     states = result["states"]
     shares = {"film_share": "on film", "ss_share": "on asperities"}

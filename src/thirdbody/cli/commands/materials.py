@@ -30,7 +30,7 @@ def command(
     ] = False,
 ) -> None:
     """The materials of the library, with range and source: thirdbody materials bearing steel."""
-    from ...materials import materials
+    from ...populations.materials import materials
 
     if as_json and as_table:
         raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")

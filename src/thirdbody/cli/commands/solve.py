@@ -11,8 +11,9 @@ from typing import Annotated, Any
 import typer
 
 from ...errors import NoEquilibrium
+from ...quantities.say import as_length, as_number, as_percent, as_pressure
 from ..options import AsJson, Settings, StudyFile, read_study
-from ..show import as_length, as_number, as_percent, as_pressure, table_of, terminal
+from ..show import table_of, terminal
 from ..streams import warn, write_csv
 
 __all__ = ["command", "summary"]
@@ -56,7 +57,7 @@ def command(
 
 def _columns(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, str]]:
     """Columns of the states, then those of each of several populations, and their units."""
-    from ...equilibrium import about
+    from ...equilibrium.columns import about
 
     columns = dict(result["states"])
     units = {name: about(name)["unit"] for name in columns}
@@ -134,7 +135,7 @@ def _population_columns(populations: list[dict[str, Any]]) -> Columns:
 
 def _output_table(states: dict[str, Any]) -> Any:
     """A row for each number of an output, at a few of the loads."""
-    from ...equilibrium import COLUMNS, about
+    from ...equilibrium.columns import COLUMNS, about
 
     total = len(states["status"])
     count = min(total, MOST_LOADS)

@@ -10,8 +10,9 @@ from typing import Annotated, Any
 import typer
 
 from ...errors import InvalidValue
+from ...quantities.say import as_length, as_number
 from ..options import AsJson, not_a_folder
-from ..show import as_length, as_number, finite, table_of, terminal
+from ..show import finite, table_of, terminal
 from ..streams import warn, write_csv
 
 __all__ = ["command"]
@@ -55,8 +56,8 @@ def command(
     ] = None,
 ) -> None:
     """Moments and asperities of a measured surface, and what they owe to the cut-off."""
-    from ...topography import from_topography
-    from ...units import to_si
+    from ...populations.measured.topography import from_topography
+    from ...quantities.units import to_si
 
     problems: list[str] = []
 
@@ -96,8 +97,8 @@ def command(
 def _write_surface(folder: Path, found: Any, result: dict[str, Any]) -> list[Path]:
     import matplotlib as mpl
 
-    from ...files import whole, write_text
-    from ...plot import surface as draw
+    from ...quantities.files import whole, write_text
+    from ...views.plot.topography import surface as draw
 
     folder.mkdir(parents=True, exist_ok=True)
     out = [folder / f"surface.{suffix}" for suffix in ("png", "svg", "json")]

@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 
 from ...errors import InvalidValue
+from ...quantities.say import as_length, as_pressure
 from ..options import Settings, StudyFile, read_study
-from ..show import as_length, as_pressure
 
 __all__ = ["command"]
 
@@ -47,8 +47,9 @@ def command(
     settings: Settings = None,
 ) -> None:
     """Pressure and real area of a study's contact against separation, for other solvers."""
-    from ...table import FORMATS, rounded_up
-    from ...units import to_si
+    from ...equilibrium.table.make import table
+    from ...equilibrium.table.writers import FORMATS, rounded_up
+    from ...quantities.units import to_si
 
     suffixes = {suffix: name for name, (_, suffix) in FORMATS.items()}
     name = form or suffixes.get(out.suffix.lower())
@@ -72,8 +73,12 @@ def command(
     if problems or name is None:
         raise InvalidValue(*problems)
     asked = read_study(study, settings)
-    made = asked.contact.table(
-        low=ends["low"], high=ends["high"], tolerance=tolerance, coordinate=coordinate
+    made = table(
+        asked.contact,
+        low=ends["low"],
+        high=ends["high"],
+        tolerance=tolerance,
+        coordinate=coordinate,
     )
     write, _ = FORMATS[name]
     write(made, out, **({} if units is None else {"units": units}))

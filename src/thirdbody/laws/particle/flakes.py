@@ -6,14 +6,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ...errors import InvalidValue
-from ...values import quantity
+from ...quantities.value import quantity
 from ..base import ParticleResponse
 from .series import Series
 
 if TYPE_CHECKING:
-    from ...materials import MaterialPair
-    from ...particles import Particles
-    from ...surfaces import Roughness
+    from ...populations.materials import MaterialPair
+    from ...populations.particles import Particles
+    from ...populations.roughness import Roughness
 
 __all__ = ["Flakes"]
 

@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...errors import InvalidValue
-from ...materials import reduced_modulus
-from ...values import choice, quantity
+from ...populations.materials import reduced_modulus
+from ...quantities.value import choice, quantity
 from ..base import AbstractParticleLaw, ParticleResponse
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...distributions import Distribution
-    from ...materials import MaterialPair
-    from ...particles import Particles
-    from ...surfaces import Roughness
+    from ...populations.distributions import Distribution
+    from ...populations.materials import MaterialPair
+    from ...populations.particles import Particles
+    from ...populations.roughness import Roughness
 
     Array = NDArray[np.float64]
 
