@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 import thirdbody as tb
 from thirdbody.contact.evaluation import Solved, spots_of
 from thirdbody.contact.interface import interface
+from thirdbody.contact.output import column
 from thirdbody.quantities.value import Value
 
 UNITS = pint.UnitRegistry()
@@ -103,7 +104,7 @@ def test_change_of_units(scales, pressure, x_a):
     here = solved(case, pressure=pressure)
     there = solved(in_other_units(case, scales), pressure=pressure * factor("Pa", scales))
     for name, value in here.outputs.items():
-        unit = tb.outputs.base.column(name).unit
+        unit = column(name).unit
         other = there.outputs[name] / factor(unit, scales)
         assert other == pytest.approx(value, rel=1e-6, abs=1e-300, nan_ok=True), (name, unit)
 

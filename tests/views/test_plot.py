@@ -199,7 +199,7 @@ def test_mode_map_solves_all_loads_of_a_size_at_once(monkeypatch):
         solved.append(len(F_star))
         return solve(contact, F_star=F_star)
 
-    monkeypatch.setattr(plot, "solve", counting)
+    monkeypatch.setattr("thirdbody.views.plot.maps.solve", counting)
     plot.mode_map(make_contact(), ratio=np.geomspace(0.1, 5, 6), F_star=np.geomspace(1e-7, 1e-4, 7))
     assert solved == [7] * 6
 

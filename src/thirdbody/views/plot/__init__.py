@@ -1,7 +1,7 @@
 """Figures of contacts, sweeps, uncertainty, films, designs and surfaces."""
 
 from .curves import area, modes, regimes, separation, shares
-from .mode_map import mode_map
+from .maps import mode_map
 from .style import MODE_COLOURS, OKABE_ITO
 from .topography import surface
 from .uncertainty import bands, tornado
