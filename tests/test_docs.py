@@ -25,6 +25,7 @@ from thirdbody import reference
 from thirdbody.papers import seats
 from thirdbody.papers.horng2022 import READINGS, Curves
 
+pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
 PAGES = sorted(DOCS.glob("*.md"))

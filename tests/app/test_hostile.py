@@ -348,6 +348,7 @@ def test_messages_name_no_folder_of_the_server(surface, tmp_path):
 
 
 # ---------------------------------------------------------------- folders
+@pytest.mark.check
 @pytest.mark.skipif(sys.platform == "win32", reason="needs signals and locks of files")
 def test_folders_end_with_the_server_or_at_the_next_start(tmp_path):
     kept = {k: v for k, v in os.environ.items() if k != "PYTEST_CURRENT_TEST"}
