@@ -40,6 +40,8 @@ from thirdbody.app.widgets import facts
 from thirdbody.errors import InvalidValue
 from thirdbody.study import check, run_study
 
+pytestmark = pytest.mark.check
+
 
 def test_no_attribute_is_put_together_as_text():
     """A value inside the string that `props` parses could end there and begin another."""
@@ -348,7 +350,6 @@ def test_messages_name_no_folder_of_the_server(surface, tmp_path):
 
 
 # ---------------------------------------------------------------- folders
-@pytest.mark.check
 @pytest.mark.skipif(sys.platform == "win32", reason="needs signals and locks of files")
 def test_folders_end_with_the_server_or_at_the_next_start(tmp_path):
     kept = {k: v for k, v in os.environ.items() if k != "PYTEST_CURRENT_TEST"}
