@@ -78,8 +78,10 @@ def pytest_runtest_makereport():
 
 
 def pytest_collection_modifyitems(items):
-    """Long studies first, so that no worker is left alone with one at the end."""
-    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
+    """Files with long studies first, so that no worker is left alone with one at the end; whole,
+    so that what the tests of a file share is made once."""
+    long = {item.path for item in items if item.get_closest_marker("slow")}
+    items.sort(key=lambda item: item.path not in long)
 
 
 @pytest.fixture(scope="session")

@@ -133,6 +133,7 @@ def other_cases():
     yield "ellipticity", tb.Contact(surfaces=pair, roughness=rough, asperity_law=law)
 
 
+QUICK = {f"{subject.label} gaussian" for subject in SUBJECTS}
 CASES = dict(itertools.chain(two_body_cases(), particle_cases(), other_cases()))
 
 
@@ -151,10 +152,12 @@ def compared(contact):
 
 
 def chosen():
-    """Every fifth combination of particles in the quick run, the others among the slow tests."""
+    """Quick: every law, every kind of heights, and every seventh combination of particles, which
+    is every size, seat and shadow several times. The others are among the slow tests."""
     for i, name in enumerate(CASES):
-        marks = pytest.mark.slow if name.startswith(("series ", "flakes ")) and i % 5 else ()
-        yield pytest.param(name, marks=marks)
+        grains = name.startswith(("series ", "flakes ")) and i % 7
+        heights = name.startswith("ceb ") and name not in QUICK
+        yield pytest.param(name, marks=pytest.mark.slow if grains or heights else ())
 
 
 @pytest.mark.parametrize("name", list(chosen()))

@@ -25,6 +25,7 @@ from thirdbody import reference
 from thirdbody.papers import seats
 from thirdbody.papers.horng2022 import READINGS, Curves
 
+pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
 PAGES = sorted(DOCS.glob("*.md"))
@@ -81,7 +82,7 @@ def test_code_of_the_page_runs(page, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_anchors_and_documents_exist(page):
-    """Links to headings, and {doc} and toctree entries, which plain Markdown does not check."""
+    """Links to headings, {doc} and toctree entries and included files: not checked by Markdown."""
     text = page.read_text("utf-8")
     for file, anchor in re.findall(r"\]\(([\w./-]*)#([\w-]+)\)", text):
         target = (page.parent / file) if file else page
@@ -90,6 +91,8 @@ def test_anchors_and_documents_exist(page):
             re.sub(r"[^\w\- ]", "", t.lower()).replace(" ", "-").replace("_", "-") for t in titles
         }
         assert anchor in slugs, f"{page.name}: no heading #{anchor} in {target.name}"
+    for file in re.findall(r"^```\{(?:literal)?include\} (\S+)$", text, re.M):
+        assert (page.parent / file).is_file(), f"{page.name}: {file}"
     entries = re.findall(r"\{doc\}`(?:[^`<]*<)?([^`>]+)>?`", text)
     for body in re.findall(r"^```\{toctree\}\n(.*?)^```$", text, re.S | re.M):
         entries += [line for line in body.splitlines() if line and not line.startswith(":")]

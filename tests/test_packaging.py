@@ -1,9 +1,7 @@
-"""What stands around the code: lint, types, versions, links, and the examples in the pages."""
+"""What stands around the code: versions, links, scripts, and the examples in the pages."""
 
 import ast
-import importlib.util
 import json
-import os
 import re
 import subprocess
 import sys
@@ -12,12 +10,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from floors import floors
 
 import thirdbody as tb
 
+pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
-SOURCES = [name for name in ("src", "tests", "benchmarks") if (ROOT / name).is_dir()]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 
 
@@ -30,30 +29,6 @@ def blocks(page, language):
     """The fenced blocks of one language ("" for plain ones), in order."""
     fences = re.findall(r"^```(\w*)\n(.*?)^```$", page.read_text("utf-8"), re.S | re.M)
     return [code for name, code in fences if name == language]
-
-
-def tool(name):
-    """The command that runs a development tool, or a skip that says how to get it."""
-    if importlib.util.find_spec(name) is None:
-        pytest.skip(f"{name} is not installed; pip install -e '.[test]'")
-    return (sys.executable, "-m", name)
-
-
-# ---------------------------------------------------------------- tools
-def test_lint():
-    status, text = run(*tool("ruff"), "check", "--no-cache", *SOURCES)
-    assert status == 0, text
-
-
-def test_format():
-    status, text = run(*tool("ruff"), "format", "--check", "--no-cache", *SOURCES)
-    assert status == 0, text
-
-
-@pytest.mark.slow
-def test_types():
-    status, text = run(*tool("mypy"), "--cache-dir", os.devnull)
-    assert status == 0, text
 
 
 # ---------------------------------------------------------------- the table of files
@@ -117,8 +92,10 @@ def test_public_names_exist():
 
 # ---------------------------------------------------------------- versions
 def test_one_version_everywhere():
-    version = PYPROJECT["project"]["version"]
-    assert tb.__version__ == version
+    assert "version" in PYPROJECT["project"]["dynamic"]
+    attribute = PYPROJECT["tool"]["setuptools"]["dynamic"]["version"]["attr"]
+    assert attribute == "thirdbody.version.__version__"
+    version = tb.__version__
     citation = (ROOT / "CITATION.cff").read_text("utf-8")
     assert re.search(r"^version: (.*)$", citation, re.M)[1] == version
     assert f"## [{version}]" in (ROOT / "CHANGELOG.md").read_text("utf-8")
@@ -344,14 +321,23 @@ def test_consequences_in_the_errata():
 
 
 # ---------------------------------------------------------------- scripts
+def test_every_need_has_an_oldest_release():
+    lines = floors()
+    assert len(lines) > 12
+    for line in lines:
+        assert re.fullmatch(r"[\w-]+==\d[\w.]*", line), line
+
+
 def test_scripts_are_well_formed():
     status, text = run("bash", "-n", str(ROOT / ".ci" / "run"))
     assert status == 0, text
-    assert "make test" in (ROOT / ".ci" / "run").read_text("utf-8")
+    lines = (ROOT / ".ci" / "run").read_text("utf-8")
+    assert "make test" in lines
+    assert "make --keep-going check" in lines
 
 
 def test_make_knows_its_targets():
-    for target in ("demo", "test", "bench", "format", "clean"):
+    for target in ("demo", "test", "check", "oldest", "coverage", "bench", "format", "clean"):
         try:
             status, text = run("make", "-n", target)
         except FileNotFoundError:

@@ -13,6 +13,7 @@ from numpy.testing import assert_allclose
 
 from thirdbody.numerics.sampling import sobol
 
+pytestmark = pytest.mark.check
 FOLDER = Path(__file__).parents[1] / "examples"
 EXAMPLES = sorted(path.stem for path in FOLDER.glob("*.toml"))
 SEEDS = (0, 3, 7, 11)

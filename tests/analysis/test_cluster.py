@@ -19,6 +19,7 @@ distributed = pytest.importorskip(
 )
 pytest.importorskip("zarr", reason="needs the extra: pip install 'thirdbody[sweep]'")
 
+pytestmark = pytest.mark.check
 EXAMPLE = Path(__file__).parents[2] / "examples" / "sweep.toml"
 STEEL = tb.materials["S45C"]
 CONTACT = tb.Contact(

@@ -482,6 +482,7 @@ def sampled(tmp_path):
     return file
 
 
+@pytest.mark.check
 @ONLY_POSIX
 @pytest.mark.parametrize(
     ("format", "step"),
@@ -508,6 +509,7 @@ def test_killed_at_any_moment_and_again_equals_unbroken(tmp_path, sampled, forma
     assert int(killed) > 60 / step
 
 
+@pytest.mark.check
 @ONLY_POSIX
 @pytest.mark.parametrize("format", ["zarr", pytest.param("netcdf", marks=pytest.mark.slow)])
 def test_killed_twice_and_resumed_under_other_hash_seeds_equals_unbroken(tmp_path, sampled, format):

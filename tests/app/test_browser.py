@@ -35,6 +35,7 @@ from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
 from thirdbody.app.widgets import as_length  # noqa: E402
 from thirdbody.quantities.say import as_number, as_percent, as_pressure  # noqa: E402
 
+pytestmark = pytest.mark.check
 PATIENCE = 30_000
 FILM = Path(__file__).parents[2] / "examples" / "oil_film.toml"
 AT = 2e-5

@@ -40,6 +40,8 @@ from thirdbody.app.widgets import facts
 from thirdbody.errors import InvalidValue
 from thirdbody.study import check, run_study
 
+pytestmark = pytest.mark.check
+
 
 def test_no_attribute_is_put_together_as_text():
     """A value inside the string that `props` parses could end there and begin another."""

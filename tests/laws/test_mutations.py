@@ -14,6 +14,7 @@ from subjects import CASE, FIRST
 
 from thirdbody.laws.asperity import AbstractAsperityLaw, Branch, Jump, elliptic
 
+pytestmark = pytest.mark.check
 Law = AbstractAsperityLaw
 CHECKS = tuple(check for check in battery.CHECKS if check is not battery.same_as_plain)
 ROUND = {name: FIRST[name].law for name in ("gw", "ceb", "zmc", "hermite", "ke", "jg")}
