@@ -7,8 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 import thirdbody as tb
+from thirdbody.contact.particle_averages import SizeAverage
 from thirdbody.laws.particle.one_particle import squeezed_particle
-from thirdbody.laws.particle.sums import SizeAverage
 from thirdbody.numerics.chebyshev import PiecewiseChebyshev
 from thirdbody.numerics.quadrature import gauss_legendre
 

@@ -16,7 +16,8 @@ from thirdbody.equilibrium.compiled.squeeze_rules import (
     squeeze_rules,
 )
 from thirdbody.laws.asperity import ZMC, Hermite
-from thirdbody.laws.particle.one_particle import COLUMNS, Side, SqueezedParticle
+from thirdbody.laws.base import COLUMNS
+from thirdbody.laws.particle.one_particle import Side, SqueezedParticle
 
 pytest.importorskip("numba", reason="nodes are compiled")
 

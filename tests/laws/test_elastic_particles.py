@@ -14,6 +14,7 @@ from scipy.integrate import quad
 
 import thirdbody as tb
 from thirdbody.contact.interface import interface
+from thirdbody.contact.particle_sums import particle_sum
 from thirdbody.laws.asperity import GW, JG, Hermite
 from thirdbody.laws.particle import Series
 
@@ -52,7 +53,7 @@ def population(**more):
 def test_elastic_particles_of_gaussian_size(gap, F):
     """Per particle over E* x_a², x_a = 1, σ_a = 1/4; sizes without a cut."""
     dust = population()
-    response = ELASTIC.response(PAIR, SMOOTH, dust)
+    response = particle_sum(ELASTIC, PAIR, SMOOTH, dust)
     load = response.fields(np.array([gap]))["F_sa"][0] / dust.areal_density
     # the cut at zero is of no weight above a gap, but is normalised away
     assert load * dust.diameter.retained_mass == pytest.approx(F, rel=1e-10)
@@ -128,7 +129,7 @@ def test_sums_agree_with_the_single_ball_at_any_gap(seat, sizes):
     nodes, weights = np.polynomial.legendre.leggauss(12)
     x = np.array([1.0]) if sizes == "one" else 1 + 0.1 * nodes
     share = np.array([1.0]) if sizes == "one" else 0.5 * weights
-    response = law.response(PAIR, rough, dust)
+    response = particle_sum(law, PAIR, rough, dust)
 
     def at(gap):
         state = law.single(x, gap, surfaces=PAIR, particle=UNIT)

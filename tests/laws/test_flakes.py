@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import thirdbody as tb
+from thirdbody.contact.particle_sums import particle_sum
 from thirdbody.laws.asperity import GW, ZMC
 from thirdbody.laws.particle import Flakes, Series
 
@@ -53,7 +54,7 @@ def test_one_flake(tau, gap, F, A, F_elastic):
 def test_aspect_one_is_a_sphere_to_the_last_bit(options):
     d = np.linspace(-300e-9, 500e-9, 101)
     one, two = (
-        law.response(SURFACES, ROUGH, FLAKES)
+        particle_sum(law, SURFACES, ROUGH, FLAKES)
         for law in (Flakes(aspect=1, **options), Series(**options))
     )
     for ours, sphere in zip(one.load(d), two.load(d), strict=True):
@@ -113,7 +114,7 @@ def test_population_is_the_average_over_thickness():
     law = Flakes(aspect=3.0, seat="plane")
     sizes = FLAKES.diameter
     gap = 60e-9
-    field = law.response(SURFACES, ROUGH, FLAKES).fields(np.array([gap]))
+    field = particle_sum(law, SURFACES, ROUGH, FLAKES).fields(np.array([gap]))
     edges = np.linspace(max(gap, sizes.support[0]), sizes.support[1], 1001)
     nodes, weights = np.polynomial.legendre.leggauss(6)
     half = 0.5 * np.diff(edges)[:, None]
@@ -126,7 +127,7 @@ def test_population_is_the_average_over_thickness():
 
 
 def test_load_is_the_integral_of_its_slope():
-    response = Flakes(aspect=3.0).response(SURFACES, ROUGH, FLAKES)
+    response = particle_sum(Flakes(aspect=3.0), SURFACES, ROUGH, FLAKES)
     d, h = np.linspace(-100e-9, 350e-9, 30), 2e-10
     up, down = (response.load(d + s * h)[0][:, 0] for s in (1, -1))
     slope = response.load(d)[0][:, 1]
@@ -137,7 +138,9 @@ def test_flakes_cover_more_than_balls():
     ball, flake = (contact(Flakes(aspect=a, shadow="covered")) for a in (1.0, 3.0))
     shadows = [tb.solve(c, pressure=1e7).shadow for c in (ball, flake)]
     assert_allclose(shadows, FLAKES.coverage * np.array([1, 9]), rtol=1e-12)
-    low = Flakes(aspect=3.0, seat="plane", shadow="projected").response(SURFACES, ROUGH, FLAKES)
+    low = particle_sum(
+        Flakes(aspect=3.0, seat="plane", shadow="projected"), SURFACES, ROUGH, FLAKES
+    )
     assert_allclose(low.fields(np.array([1e-9]))["shadow"], 9 * FLAKES.coverage, rtol=1e-12)
 
 

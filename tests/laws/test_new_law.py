@@ -1,4 +1,4 @@
-"""A new asperity law is one file and one import line; the page that says so is followed here."""
+"""A new law is one file and one import line; the page that says so is followed here."""
 
 import dataclasses
 import importlib
@@ -11,9 +11,14 @@ from pathlib import Path
 import numpy as np
 import oracle
 import pytest
+from numpy.testing import assert_allclose
+from scipy.special import ndtr
 from twins import base, material
 
 import thirdbody as tb
+from thirdbody import definition
+from thirdbody.laws.base import AbstractParticleLaw
+from thirdbody.populations.materials import reduced_modulus
 from thirdbody.study import load_study
 
 ONE_FILE = '''
@@ -54,24 +59,28 @@ class Truncated(AbstractAsperityLaw):
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "add-a-law.md").read_text("utf-8")
-FILE, IMPORT, USE = re.findall(r"^```python\n(.*?)^```$", PAGE, re.S | re.M)
-(TABLE,) = re.findall(r"^```toml\n(.*?)^```$", PAGE, re.S | re.M)
+FILE, IMPORT, USE, PEGS, PEGS_IMPORT, PEGS_USE = re.findall(
+    r"^```python\n(.*?)^```$", PAGE, re.S | re.M
+)
+TABLE, PEGS_TABLE = re.findall(r"^```toml\n(.*?)^```$", PAGE, re.S | re.M)
 
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    """A temporary package with two laws, one a file, and their imports in another."""
+    """A temporary package with three laws, one a file, and their imports in another."""
     folder = tmp_path / "extra_laws"
     folder.mkdir()
     (folder / "truncated.py").write_text(textwrap.dedent(ONE_FILE), "utf-8")
     (folder / "abrupt.py").write_text(FILE, "utf-8")
-    (folder / "__init__.py").write_text(f"from .truncated import Truncated\n{IMPORT}", "utf-8")
+    (folder / "pegs.py").write_text(PEGS, "utf-8")
+    lines = f"from .truncated import Truncated\n{IMPORT}{PEGS_IMPORT}"
+    (folder / "__init__.py").write_text(lines, "utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
-    before = dict(tb.asperity.REGISTRY)
+    before = [(kind, dict(kind)) for kind in (tb.asperity.REGISTRY, tb.particle.REGISTRY)]
     yield importlib.import_module("extra_laws")
-    for name in list(tb.asperity.REGISTRY):
-        if name not in before:
-            del tb.asperity.REGISTRY[name]
+    for registry, known in before:
+        for name in registry.keys() - known.keys():
+            del registry[name]
     for name in [name for name in sys.modules if name.startswith("extra_laws")]:
         del sys.modules[name]
 
@@ -153,6 +162,130 @@ def test_the_law_of_the_page_works_everywhere(package, tmp_path):
     assert load_study(study).contact.asperity_law == package.Abrupt(k=0.4)
 
 
+def pegs(law, **more):
+    """A contact of unlike surfaces with pegs of spread sizes between them, and its numbers."""
+    sizes = tb.TruncatedGaussian(mean=3e-7, std=4e-8)
+    steel, soft = tb.materials["S45C"], tb.Material(E=110e9, nu=0.33, H=1.5e9)
+    dust = tb.Particles(material=tb.materials["SiO2"], diameter=sizes, areal_density=2e11)
+    return tb.Contact(
+        surfaces=tb.MaterialPair(steel, soft),
+        roughness=tb.Roughness(sigma=1e-7, R=2.8e-6),
+        particles=dust,
+        particle_law=law.replace(**more),
+    )
+
+
+def by_quadrature(contact, d):
+    """F_sa [Pa], area on surface 1 by regime, area on surface 2: sums of the formulas of a peg."""
+    dust, pair, rough = contact.particles, contact.surfaces, contact.roughness
+    E = [reduced_modulus(body, dust.material) for body in (pair.first, pair.second)]
+    H = [min(body.H, dust.material.H) for body in (pair.first, pair.second)]
+    stiffness, full = E[0] * E[1] / (E[0] + E[1]), math.pi / 4
+    kink = full * min(H) / stiffness
+    assert H[0] > H[1]  # surface 1 stays elastic
+
+    def peg(eps):
+        load = np.clip(stiffness * eps, 0.0, full * min(H))
+        area, none = np.where(eps > 0, full, 0.0), np.zeros_like(eps)
+        return np.stack([load, area, none, none, area])
+
+    if contact.particle_law.seat == "plane":
+        found = definition.over_sizes(
+            dust.diameter, lambda x: x**2 * peg(1 - d / x), splits=[d, d / (1 - kink)]
+        )
+    else:
+        gap, width = d + rough.y_s, rough.sigma
+
+        def on_seats(x, eps):
+            z = (gap - x * (1 - eps)) / width
+            return x**3 * np.exp(-0.5 * z**2) / (math.sqrt(2 * math.pi) * width) * peg(eps)
+
+        def embedded(x):
+            return x**2 * ndtr((x * (1 - kink) - gap) / width) * peg(kink + 0 * x)
+
+        found = definition.over_sizes(dust.diameter, on_seats, [0.0, kink])
+        found = found + definition.over_sizes(dust.diameter, embedded)
+    return dust.areal_density * found
+
+
+@pytest.mark.parametrize("shadow", ["footprint", "projected", "covered", "none"])
+@pytest.mark.parametrize("seat", ["plane", "rough"])
+def test_the_particle_law_of_the_page_is_summed(package, seat, shadow):
+    contact = pegs(package.Pegs(), seat=seat, shadow=shadow)
+    d = 2.6e-7
+    F_sa, A_e, A_ep, A_p, A_sa2 = by_quadrature(contact, d)
+    state = tb.solve(contact, d=d)
+    assert state.F_sa_star * contact.E_ss == pytest.approx(F_sa, rel=1e-9)
+    assert A_ep == A_p == 0.0
+    assert (state.A_sa, state.A_sa2) == pytest.approx((A_e, A_sa2), rel=1e-9)
+    # both ends are as wide as the peg
+    coverage = contact.particles.coverage
+    want = {"covered": coverage, "none": 0.0}.get(shadow, A_e)
+    assert state.shadow == pytest.approx(want, rel=1e-9)
+    bare = tb.solve(contact.replace(particles=None), d=d)
+    assert state.F_ss_star == pytest.approx((1 - want) * bare.F_ss_star, rel=1e-9)
+
+
+def test_the_particle_law_of_the_page_works_everywhere(package, tmp_path):
+    """The page's own file, import line, contact and study table."""
+    plain = pegs(package.Pegs())
+    given = {item.name: getattr(plain, item.name) for item in dataclasses.fields(plain)}
+    given.pop("particle_law")
+    names = {"tb": tb, "given": given, "Pegs": package.Pegs}
+    exec(PEGS_USE.replace("...", "**given").strip(), names)
+    contact = names["contact"]
+    assert contact.particle_law == package.Pegs(seat="plane")
+    assert tb.Contact.from_dict(contact.to_dict()) == contact
+    assert "teaching example" in tb.cite(contact)
+
+    one = package.Pegs().one(surfaces=contact.surfaces, particle=contact.particles.material)
+    single = contact.particle_law.single(
+        2e-7, [1.9e-7, 2.1e-7], surfaces=contact.surfaces, particle=contact.particles.material
+    )
+    squeeze = min(1e-8 / 2e-7, one.kinks[0])
+    assert_allclose(single["force"], [one.stiffness * squeeze * 2e-7**2, 0.0], rtol=1e-12)
+    assert single["regime"].tolist() == ["elastic", "none"]
+
+    loads = np.geomspace(1e-7, 1e-3, 40)
+    counted = contact.replace(outputs=(tb.outputs.Counts(),))
+    for case in (contact, counted.replace(**{"particle_law.seat": "rough"})):
+        states = tb.solve(case, F_star=loads)
+        np.testing.assert_allclose(states.F_star, loads, rtol=1e-9)
+        assert np.all(states.residual < 1e-12)
+        again = tb.solve(case, d=states.d)
+        for name in ("F_sa_star", "A_t", "A_e", "A_p", "shadow"):
+            np.testing.assert_allclose(getattr(again, name), getattr(states, name), rtol=1e-9)
+    sigma = np.linspace(0.9e-7, 1.2e-7, 30)
+    found = tb.solve_states(contact, F_star=1e-5, vary={"roughness.sigma": sigma})
+    alone = tb.solve(contact.replace(**{"roughness.sigma": sigma[7]}), F_star=1e-5)
+    assert found["A_t"][7] == pytest.approx(alone.A_t, rel=1e-9)
+
+    example = (ROOT / "examples" / "soft_ptfe_particles.toml").read_text("utf-8")
+    without = re.sub(r"^\[particle_law\]\n(?:[^\[\n].*\n|\n)*", "", example, flags=re.M)
+    study = tmp_path / "study.toml"
+    study.write_text(f"{without}\n{PEGS_TABLE}", "utf-8")
+    assert load_study(study).contact.particle_law == package.Pegs(seat="plane")
+
+
+def test_pegs_of_equal_numbers_share_their_sums(package):
+    from thirdbody.contact.particle_averages import size_average
+
+    contact = pegs(package.Pegs())
+    sizes = contact.particles.diameter.standardised()[1]
+    one, two = (
+        size_average(law.one(surfaces=contact.surfaces, particle=contact.particles.material), sizes)
+        for law in (package.Pegs(), package.Pegs(seat="plane", shadow="none"))
+    )
+    assert one is two
+
+
+def test_a_law_without_seat_and_sum_says_so(package):
+    kind = type("Nowhere", (AbstractParticleLaw,), {"name": "test-nowhere", "one": None})
+    kind = dataclasses.dataclass(frozen=True)(kind)
+    with pytest.raises(tb.InvalidValue, match="test-nowhere has no sum"):
+        tb.solve(pegs(kind()), F_star=1e-5)
+
+
 def test_a_particle_law_sets_the_origin_of_d():
     """The hook that the page names moves the asperities, here by 0.7 σ."""
     (hook,) = re.findall(r"own origin\s+for `d`, override the property `(\w+)`", PAGE)
@@ -183,4 +316,4 @@ def test_a_particle_law_sets_the_origin_of_d():
 
 def test_the_registry_is_left_clean():
     assert not {"test-truncated", "abrupt"} & set(tb.asperity.REGISTRY)
-    assert "test-moved" not in tb.particle.REGISTRY
+    assert not {"test-moved", "test-nowhere", "pegs"} & set(tb.particle.REGISTRY)

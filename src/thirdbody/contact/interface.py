@@ -12,9 +12,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..laws.particle.sums import together_in
 from .asperity_sums import asperity_sum
 from .contact import Contact
+from .particle_sums import particle_sum, together_in
 
 Array = NDArray[np.float64]
 
@@ -32,7 +32,7 @@ class Interface:
             laws[0].centre if laws else 0.0,
         )
         self.populations = [
-            law.response(contact.surfaces, contact.roughness, each)
+            particle_sum(law, contact.surfaces, contact.roughness, each)
             for law, each in zip(laws, contact.populations, strict=True)
         ]
         self.particles = together_in(self.populations) if self.populations else None

@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self
 import numpy as np
 from scipy import special
 
+from ..contact.particle_averages import size_average
+from ..contact.particle_sums import Part
 from ..errors import InvalidValue
 from ..laws.asperity import JG, AbstractAsperityLaw, Hermite
-from ..laws.particle.one_particle import contact_sides
-from ..laws.particle.sums import Part, size_average
+from ..laws.particle.one_particle import contact_sides, squeezed_particle
 from ..numerics.quadrature import panel_rule
 from ..populations.distributions import Monodisperse
 from ..populations.materials import MaterialPair
@@ -444,7 +445,7 @@ class ParticleFilm:
         if model.size_effect is None:
             for weight, sizes in self.sizes.components:
                 scale, shape = sizes.standardised()
-                average = size_average(model.law, *self.sides, shape)
+                average = size_average(squeezed_particle(model.law, *self.sides), shape)
                 density = weight * model.particles.areal_density
                 self.seats.append(Part(average, scale, density, offset=0.0))
 

@@ -25,11 +25,11 @@ from ...contact.asperity_sums import (
 )
 from ...contact.contact import Contact
 from ...contact.interface import Interface, together
+from ...contact.particle_averages import SeatAverage, SizeAverage, size_average
+from ...contact.particle_sums import SeatedParticles
 from ...errors import InvalidValue, NotCompiled
-from ...laws.base import AbstractAsperityLaw
-from ...laws.particle.one_particle import COLUMNS, contact_sides
+from ...laws.base import COLUMNS, AbstractAsperityLaw
 from ...laws.particle.series import Series as ParticleSeries
-from ...laws.particle.sums import SeatAverage, SeatedParticles, SizeAverage, size_average
 from ...numerics.chebyshev import PiecewiseChebyshev
 from ...numerics.quadrature import panel_rule, subdivide
 from ...populations.distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
@@ -543,7 +543,7 @@ class States(_Batch):
         assert isinstance(changed, Particles)
         if any(name.startswith(MATERIALS) for name in arrays):
             raise NotCompiled("the materials of the particles vary")
-        sides = contact_sides(contact.surfaces, particles.material)
+        one = law.one(surfaces=contact.surfaces, particle=particles.material)
         shadow = self.kinds[0, k.SHADOW]
         rough = law.seat == "rough"
         ratio = size_factor(particles.diameter, arrays)
@@ -551,7 +551,7 @@ class States(_Batch):
             raise NotCompiled("the shape of the size distribution varies")
         for share, sizes in particles.diameter.components:
             scale, shape = sizes.standardised()
-            average = size_average(law.law, *sides, shape, law.tip_radius)
+            average = size_average(one, shape)
             size = scale * ratio
             factor = changed.areal_density * share * size**2
             width = law.zeta_std * varied.roughness.sigma / size if rough else 0.0 * size
@@ -613,7 +613,7 @@ class States(_Batch):
         if bound != {law.law}:
             raise NotCompiled("the law of the particles depends on their material")
         sigma = column(law.zeta_std * varied.roughness.sigma)
-        unvaried = contact_sides(contact.surfaces, particles.material)
+        unvaried = law.one(surfaces=contact.surfaces, particle=particles.material)
         parts = [part.standardised()[1] for _, part in particles.diameter.components]
         each = _sizes(particles.diameter, changed.diameter, arrays, count)
         for shape, (share, size, sizes) in zip(parts, each, strict=True):
@@ -625,7 +625,7 @@ class States(_Batch):
             factor = changed.areal_density * share * size[:, 0] ** 2
             kinds = np.full((count, k.PART_KINDS), k.ABSENT)
             kinds[:, 0] = k.ROUGH_NODES
-            average = size_average(law.law, *unvaried, shape, law.tip_radius)
+            average = size_average(unvaried, shape)
             kinds[:, k.PART_GUESS] = self._panels.add_inverse(average)
             few = sizes(float(width.min()), FEW_SIZES)
             rules = self._over_gaps(law, sides, panels, kinds)

@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...errors import NotCompiled
-from ...laws.base import REGIMES, AbstractAsperityLaw
-from ...laws.particle.one_particle import COLUMNS, Side
+from ...laws.base import COLUMNS, REGIMES, AbstractAsperityLaw
+from ...laws.particle.one_particle import Side
 from ...numerics.chebyshev import PiecewiseChebyshev, chebyshev_transform
 from ...numerics.products import in_pieces
 from ...numerics.quadrature import gauss_legendre

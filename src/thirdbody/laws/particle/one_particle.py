@@ -12,8 +12,7 @@ import numpy as np
 from ...errors import InvalidValue
 from ...numerics.chebyshev import PiecewiseChebyshev
 from ...populations.materials import reduced_modulus
-from ..base import REGIMES, AbstractAsperityLaw
-from ..spots import ParticleSpots
+from ..base import REGIMES, AbstractAsperityLaw, OneParticle, Squeezed
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -25,14 +24,7 @@ if TYPE_CHECKING:
     Index = NDArray[np.intp]
     Body = tuple[float, float, float]
 
-__all__ = ["SqueezedParticle"]
-
-COLUMNS = ("force", "elastic", "elastoplastic", "plastic", "second", "footprint", "projected")
-"""What one particle contributes: load, area on surface 1 by regime, area on surface 2, larger of
-the two areas, projected area πx²/4."""
-
-KINDS = (0, 1, 1, 1, 1, 1, 1)
-"""Which columns are measured against each other: load, areas."""
+__all__ = ["SqueezedParticle", "contact_sides"]
 
 
 class Side:
@@ -163,7 +155,7 @@ class Side:
         return math.exp(brentq(excess, bottom, top, xtol=1e-15, rtol=1e-15))
 
 
-class SqueezedParticle:
+class SqueezedParticle(OneParticle):
     r"""One particle of unit size squeezed by ε = δ/x between two flats.
 
     Solves :math:`F_1(\delta_1) = F_2(\delta-\delta_1)`; a particle of size x carries
@@ -183,7 +175,11 @@ class SqueezedParticle:
     """
 
     def __init__(self, law: AbstractAsperityLaw, first: Body, second: Body, R: float = 0.5):
+        self.key = (law, first, second, R)
         self.sides = (Side(law, *first, R), Side(law, *second, R))
+        self.tip_radius, self.breadth = R, 2 * R
+        self.yields = (float(self.sides[0].delta_1), float(self.sides[1].delta_1))
+        self.hardness = (float(self.sides[0].H), float(self.sides[1].H))
         self.great_circle = R * math.pi / 2
         self.equal = first == second
         one, two = self.sides
@@ -220,11 +216,12 @@ class SqueezedParticle:
         self._split_table = None if self.equal else self._tabulate_split()
         if not self.equal:
             self.kinks = np.array(sorted({*self.kinks, *self._area_crossings()}))
-        ratio = 4.0
-        splits = [self.kinks[:1]]
-        for a, b in zip(self.kinks[:-1], self.kinks[1:], strict=True):
-            splits.append(np.geomspace(a, b, max(2, math.ceil(math.log(b / a, ratio)) + 1))[1:])
-        self.panels = np.concatenate(splits)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, SqueezedParticle) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
 
     def _solve_split(self, eps: Array) -> Array:
         from scipy.optimize.elementwise import find_root
@@ -310,41 +307,14 @@ class SqueezedParticle:
         limit = min(float(side.limit[0]) for side in self.sides)
         return np.where(eps > self.kinks[-1], limit, force)
 
-    def __call__(self, eps: Array) -> Array:
-        """The seven `COLUMNS` per x² at ε > 0: (N, 7)."""
-        eps = np.asarray(eps, dtype=float)
-        one, two = self.indentations(eps)
-        a1, a2 = self.sides[0].area(one), self.sides[1].area(two)
-        regime = self.sides[0].regime(one)
-        out = np.empty((len(eps), len(COLUMNS)))
-        out[:, 0] = self.force(eps, one)
-        for i in range(3):
-            out[:, 1 + i] = np.where(regime == i, a1, 0.0)
-        out[:, 4] = a2
-        out[:, 5] = np.maximum(a1, a2)
-        out[:, 6] = self.great_circle
-        out[eps <= 0] = 0.0
-        return out
-
-    def spots(self, x: Array, delta: Array, *, share: Array | None, number: Array) -> ParticleSpots:
-        """Particles of sizes x squeezed by δ (M, n), so many of each."""
-        eps = np.divide(delta, x, out=np.zeros_like(x), where=x > 0).ravel()
-        depths = self.indentations(eps)
-        pairs = list(zip(self.sides, depths, strict=True))
-        areas = [np.where(eps > 0, side.area(one), 0.0).reshape(x.shape) for side, one in pairs]
-        regimes = [side.regime(one).reshape(x.shape) for side, one in pairs]
-        one, two = (x * part.reshape(x.shape) for part in depths)
-        return ParticleSpots(
-            share=share,
-            number=number,
-            load=x**2 * np.where(eps > 0, self.force(eps, depths[0]), 0.0).reshape(x.shape),
-            x=x,
-            radius=self.sides[0].R * x,
-            depths=(one, two),
-            areas=(x**2 * areas[0], x**2 * areas[1]),
-            regimes=(regimes[0], regimes[1]),
-            yields=(float(self.sides[0].delta_1), float(self.sides[1].delta_1)),
-            hardness=(float(self.sides[0].H), float(self.sides[1].H)),
+    def at(self, eps: Array) -> Squeezed:
+        one, two = depths = self.indentations(eps)
+        first, second = self.sides
+        return Squeezed(
+            load=self.force(eps, one),
+            depths=depths,
+            areas=(first.area(one), second.area(two)),
+            regimes=(first.regime(one), second.regime(two)),
         )
 
 

@@ -1,4 +1,4 @@
-"""Sums over the sizes and the seats of particles."""
+"""Averages of one particle over sizes and over seats, tabulated once and shared."""
 
 from __future__ import annotations
 
@@ -11,22 +11,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import special
 
-from ...errors import InvalidValue
-from ...numerics.chebyshev import PiecewiseChebyshev
-from ...numerics.products import in_pieces
-from ...numerics.quadrature import gauss_legendre, panel_rule, subdivide
-from ...populations.distributions import Distribution, Monodisperse
-from ..base import AbstractAsperityLaw, ParticleResponse, ParticlesTogether
-from ..spots import ParticleSpots
-from .one_particle import COLUMNS, KINDS, SqueezedParticle, squeezed_particle
+from ..errors import InvalidValue
+from ..laws.base import COLUMNS, KINDS, OneParticle
+from ..laws.spots import ParticleSpots
+from ..numerics.chebyshev import PiecewiseChebyshev
+from ..numerics.products import in_pieces
+from ..numerics.quadrature import gauss_legendre, panel_rule, subdivide
+from ..populations.distributions import Distribution, Monodisperse
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
-    Body = tuple[float, float, float]
 
-__all__ = ["together_in"]
+__all__ = ["SeatAverage", "SizeAverage", "seat_average", "size_average"]
 
 
 class SizeAverage:
@@ -34,20 +32,21 @@ class SizeAverage:
 
     .. math:: P(g) = \int_g^\infty \varphi_a(x)\, x^2\,\hat q\!\left(\frac{x-g}{x}\right) dx
 
-    Tabulated once per shape of the distribution and material triple as Chebyshev series between
+    Tabulated once per particle and shape of the distribution as Chebyshev series between
     the gaps where a size or a regime sets in: in the gap itself for small gaps, and in
     :math:`u=\sqrt{x_{max}-g}` near the largest size, where P sets in like a power of u.
     Lengths are those of the standardised distribution.
     """
 
-    def __init__(self, particle: SqueezedParticle, sizes: Distribution):
+    def __init__(self, particle: OneParticle, sizes: Distribution):
         self.particle, self.sizes = particle, sizes
         low, self.top = sizes.support
         last = particle.kinks[-1]
         self.bottom = low * (1 - last) if last <= 1 else self.top * (1 - last)
         # leading powers of u as the last particle loses contact
         edge = 0 if isinstance(sizes, Monodisperse) else 2
-        self.powers = np.array([2.0 + edge] * 6 + [float(edge)])
+        load, area = (2 * power + edge for power in particle.onset)
+        self.powers = np.array([load] + [area] * 5 + [float(edge)])
         self.join = self.bottom
         if 0.5 * self.top - self.bottom > 1e-12 * self.top:  # a sliver is rounding
             self.join = 0.5 * self.top
@@ -258,15 +257,9 @@ def _cut(edges: Array, width: float) -> Array:
 
 
 @lru_cache(maxsize=256)
-def size_average(
-    law: AbstractAsperityLaw,
-    first: Body,
-    second: Body,
-    sizes: Distribution,
-    R: float = 0.5,
-) -> SizeAverage:
-    """The cached size average; sides are (E*, H, ν)."""
-    return SizeAverage(squeezed_particle(law, first, second, R), sizes)
+def size_average(particle: OneParticle, sizes: Distribution) -> SizeAverage:
+    """The cached size average: one for equal particles of equal sizes."""
+    return SizeAverage(particle, sizes)
 
 
 class SeatAverage:
@@ -374,41 +367,6 @@ def seat_average(average: SizeAverage, width: float) -> SeatAverage:
     return SeatAverage(average, width)
 
 
-class Part:
-    """Particles of one shape of size distribution: an average, scaled; gap = d + offset."""
-
-    def __init__(
-        self, average: SizeAverage | SeatAverage, scale: float, density: float, *, offset: float
-    ):
-        self.average, self.scale, self.offset = average, scale, offset
-        self.density = density
-        self.factor = density * scale**2
-        top = average.top if isinstance(average, SizeAverage) else average.high
-        self.reach = scale * top - offset
-
-    @property
-    def marks(self) -> Array:
-        """Ends of the panels of the tables, as separations d [m]."""
-        average = self.average
-        if isinstance(average, SeatAverage):
-            gaps = average.table.edges
-        else:
-            below = average.lower.edges if average.lower is not None else np.empty(0)
-            gaps = np.concatenate([below, average.top - average.upper.edges**2])
-        return self.scale * gaps - self.offset
-
-    def load(self, d: Array, shadow: int) -> Array:
-        values = self.average.derivatives((d + self.offset) / self.scale, (0, shadow))
-        return self.factor / self.scale ** np.arange(3) * values
-
-    def columns(self, d: Array) -> Array:
-        return self.factor * self.average((d + self.offset) / self.scale)
-
-    def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
-        found = self.average.spots((d + self.offset) / self.scale, splits)
-        return found.of_size(self.scale, self.density)
-
-
 NORMAL_REACH = 9.0
 """Standard deviations of the seat beyond which nothing is counted."""
 SEAT_NODES = (14, 10)
@@ -416,61 +374,3 @@ SEAT_NODES = (14, 10)
 SPOT_NODES, SPOT_WIDTHS, SIZE_NODES = (14, 12), 2.0, 10
 """The same for spots, whose sums need 1e-9 of the load; width of their panels; nodes of sizes."""
 WIDEST = 1e5
-
-
-class SeatedParticles(ParticleResponse):
-    """The sum over the components of the size distribution."""
-
-    def __init__(self, parts: list[Part], shadow: str, coverage: float):
-        self.parts, self.coverage = parts, coverage
-        self.shadow = shadow
-        self.reach = max(part.reach for part in parts)
-        self._shadow_column = COLUMNS.index(shadow) if shadow in COLUMNS else 0
-
-    @property
-    def marks(self) -> Array:  # type: ignore[override]
-        if self.shadow not in COLUMNS:  # what does not change takes no load from asperities
-            return np.empty(0)
-        return np.concatenate([part.marks for part in self.parts])
-
-    def load(self, d: Array) -> tuple[Array, Array]:
-        total = np.sum([part.load(d, self._shadow_column) for part in self.parts], axis=0)
-        force, shadow = total[:, 0], total[:, 1]
-        return force, self._shadow(shadow)
-
-    def _shadow(self, values: Array) -> Array:
-        if self.shadow in COLUMNS:
-            return values
-        fixed = np.zeros_like(values)
-        if self.shadow == "covered":
-            fixed[..., 0] = self.coverage
-        return fixed
-
-    def fields(self, d: Array) -> dict[str, Array]:
-        total = np.sum([part.columns(d) for part in self.parts], axis=0)
-        total = np.maximum(total, 0.0)  # rounding of the other regimes
-        return {
-            "F_sa": total[:, 0],
-            "A_e": total[:, 1],
-            "A_ep": total[:, 2],
-            "A_p": total[:, 3],
-            "A_sa2": total[:, 4],
-            "shadow": self._shadow(total[:, self._shadow_column][:, None])[:, 0],
-        }
-
-    def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
-        return [part.spots(d, splits) for part in self.parts]
-
-
-def together_in(responses: Sequence[ParticleResponse]) -> ParticleResponse:
-    """Populations side by side, as one sum where their shadows follow one rule."""
-    if len(responses) == 1:
-        return responses[0]
-    seated = [each for each in responses if isinstance(each, SeatedParticles)]
-    if len(seated) < len(responses) or len({each.shadow for each in seated}) > 1:
-        return ParticlesTogether(responses)
-    return SeatedParticles(
-        [part for each in seated for part in each.parts],
-        seated[0].shadow,
-        sum(each.coverage for each in seated),
-    )
