@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 import thirdbody as tb
 
+from ..quantities.say import value_of
 from ..views.plot.style import OKABE_ITO
 
 __all__ = ["Section", "section", "to_svg"]
@@ -218,7 +219,7 @@ def _grain(drawn: Section, grain: Grain, X: Any, Y: Any, scale: float) -> str:
 def _measures(drawn: Section, X: Any, Y: Any, H: float, scale: float) -> list[str]:
     """The mean plane, the separation, and a bar for scale."""
     length = _round_length(drawn.width / 6)
-    bar = f"{length * 1e9:.0f} nm" if length < 1e-6 else f"{length * 1e6:g} µm"
+    bar = value_of(length, "m")
     x, mean, flat = -16.0, Y(0.0), Y(drawn.h)
     y = H + 30
     return [
