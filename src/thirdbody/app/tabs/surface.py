@@ -70,7 +70,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     ui.label(
         "Maps and profiles of instruments (x3p, sur, opd, al3d, npy, txt, ...), up to "
         f"{LARGEST_UPLOAD // 2**20} MB. The file stays on this machine; it is read in a process "
-        f"of its own, which is stopped after {SECONDS:.0f} s."
+        f"of its own, which is stopped after {value_of(SECONDS, 's')}."
     ).classes("hint")
 
     async def uploaded(event: events.UploadEventArguments) -> None:
