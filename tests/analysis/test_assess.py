@@ -137,7 +137,7 @@ def test_two_bodies_have_no_modes_to_change():
 
 def test_a_nominal_value_outside_its_range_is_told():
     page = tb.assess(DUSTY, {"roughness.R": (3e-6, 4e-6)}, pressure=5e6, samples=64)
-    assert any("2.8 um of roughness.R lies outside" in note for note in page.notes)
+    assert any("2.8 µm of roughness.R lies outside" in note for note in page.notes)
 
 
 def test_only_the_load_uncertain():

@@ -318,12 +318,28 @@ def test_the_command_tells_point_and_curve():
     assert "121.6 nm" in done.stdout
     assert "0.04828" in done.stdout
     assert "S45C: 0 % of the particles are narrower than the gap of 115.4 nm" in done.stdout
-    assert "warning: outputs.friction: 12% of the particles' load" in done.stderr
+    assert "warning: outputs.friction: 12 % of the particles' load" in done.stderr
     done = run(EXAMPLE, "--set", "film.speed.points=5")
-    assert "boundary up to 0.02275 m/s and a full film from 14.9 m/s" in done.stdout.replace(
-        "\n", " "
-    )
+    assert (
+        "boundary up to 0.02275 m/s, where solids carry 99 % of the load, and a full film from "
+        "14.9 m/s, where solids carry 1 % of the load."
+    ) in " ".join(done.stdout.split())
     assert "below 1 sigma roughness hinders the flow" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("most", "few", "said"),
+    [
+        (1, 0.01, "Lubrication is a full film from 14.9 m/s, where solids carry 1 % of the load."),
+        (0.99, 0, "Lubrication is boundary up to 0.02275 m/s, where solids carry 99 % of the"),
+        (1, 0, "The regime is the same at every speed."),
+    ],
+)
+def test_a_regime_that_is_never_reached_is_not_told(most, few, said):
+    more = ["--set", f"film.most={most}", "--set", f"film.few={few}"]
+    done = run(EXAMPLE, "--set", "film.speed.points=3", *more)
+    assert done.exit_code == 0
+    assert said in " ".join(done.stdout.split())
 
 
 def test_json_csv_and_figure(tmp_path):

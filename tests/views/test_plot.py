@@ -107,8 +107,8 @@ def test_a_sweep_over_pressure_and_a_word():
     ("name", "value", "text"),
     [
         (MEAN, 2.5e-6, "$x_a$ = 2.5 µm"),
-        ("particles.areal_density", 3e10, r"$\eta_a$ = $3 \times 10^{10}$ m$^{-2}$"),
-        ("particles.areal_density", 1e11, r"$\eta_a$ = $10^{11}$ m$^{-2}$"),
+        ("particles.areal_density", 3e10, r"$\eta_a$ = 3×10¹⁰ m⁻²"),
+        ("particles.areal_density", 1e11, r"$\eta_a$ = 1×10¹¹ m⁻²"),
         ("surfaces.first.nu", 0.3, "surfaces.first.nu = 0.3"),
     ],
 )

@@ -16,6 +16,7 @@ from typer.testing import CliRunner
 import thirdbody as tb
 from thirdbody import cli
 from thirdbody.contact.output import AbstractOutput, Column
+from thirdbody.quantities.say import number, percent
 from thirdbody.study import load_study
 from thirdbody.views.html import figure, symbols, text_table, words
 from thirdbody.views.report import Report, Row, laws_of, report, rows_of, source_of
@@ -139,10 +140,10 @@ def test_the_answer_is_that_of_the_solver(dusty):
         assert f"({state.mode})" in sentence
         assert f"{100 * state.particle_load_share:.3g} % of the load" in sentence
         assert f"{1e9 * state.h:.4g} nm apart" in sentence
-        assert f"touch on {100 * state.A_t:.3g} %" in sentence
+        assert f"real contact area is {percent(state.A_t)}" in sentence
     critical = tb.transitions(found.contact)
-    assert f"F_cr1 = {critical.F_cr1.value:.4g}" in third
-    assert f"F_cr2 = {critical.F_cr2.value:.4g}" in third
+    assert f"F_cr1 = {number(critical.F_cr1.value)}" in third
+    assert f"F_cr2 = {number(critical.F_cr2.value)}" in third
 
 
 def test_under_one_load_the_answer_says_how_far_the_mode_is_from_changing(tmp_path, no_figures):
@@ -155,7 +156,7 @@ def test_under_one_load_the_answer_says_how_far_the_mode_is_from_changing(tmp_pa
     assert f"a factor {5e6 / critical:.3g} above F_cr1" in third
     assert "cases" not in third  # nothing is uncertain
     state = tb.solve(found.contact, pressure=5e6)
-    assert f"{100 * state.A_p / state.A_t:.3g} % of which is plastic" in found.sentences()[1]
+    assert f"{100 * state.A_p / state.A_t:.3g} % of it plastic" in found.sentences()[1]
     assert found.assessment is None
     assert "states no ranges for S45C and SiO2" in Page(found.html()).whole
 
@@ -353,8 +354,8 @@ def test_every_kind_of_load(tmp_path, load):
 def test_surfaces_apart(tmp_path):
     text = DUSTY.partition("[outputs.counts]")[0] + '[load]\nseparation = ["3 um", "30 um"]\n'
     found = report(load_study(written(tmp_path, text)))
-    assert found.sentences()[0].startswith("At 0 Pa (F* = 0) nothing touches: the mean planes")
-    assert "30.09 um apart" in found.sentences()[0]
+    assert found.sentences()[0].startswith("At 0 Pa (F* = 0) there is no contact: the mean planes")
+    assert "30.09 µm apart" in found.sentences()[0]
     assert found.slopes is None
     assert not re.search(r"\b(nan|inf|None)\b", Page(found.html()).whole)
 

@@ -10,7 +10,16 @@ import numpy as np
 
 from ..contact.citations import cite
 from ..contact.contact import Contact
-from ..quantities.say import listed, percent, value_of
+from ..equilibrium.words import (
+    critical_load,
+    critical_name,
+    happens,
+    load_of,
+    mode_of,
+    not_met,
+    two_bodies,
+)
+from ..quantities.say import listed, number, percent, span, times, value_of
 from .inputs import declared
 from .inputs import inputs as all_inputs
 from .uncertainty.critical_loads import CRITICAL
@@ -25,18 +34,6 @@ FAR, COARSE, FINE = 10.0, 41, 81
 """Factor within which a change of mode is sought in an input, and the values tried."""
 RARE = 1e-4
 """Probability below which a value counts as outside the range of an input."""
-MEANS = {
-    "p-s": "nearly all real contact is on particles",
-    "hybrid": "real contact is on particles and on asperities",
-    "s-s": "nearly all real contact is on asperities",
-    "none": "no equilibrium",
-}
-ABOVE = {
-    "F_cr1": "asperities come into contact (p-s to hybrid)",
-    "F_cr2": "particles have little of the contact left (hybrid to s-s)",
-    "F_tpca.A": "largest particle share",
-    "F_tpca.B": "asperities and particles carry equal loads",
-}
 
 
 class Change(NamedTuple):
@@ -143,11 +140,13 @@ class Assessment:
             for mode, share in found.mode_probability.items()
             if share > 0
         ]
-        words = f"At {self._load()} the contact is {self.mode}: {MEANS[self.mode or 'none']}"
+        load = load_of(found.nominal["pressure"], found.nominal["F_star"])
         if found.contact.two_body:
-            return f"{words}, because there are no particles."
+            return f"At {load} {two_bodies()}."
         agree = "" if likely == self.mode else f" The likeliest mode is {likely}."
-        return f"{words}. Probability of each mode: {', '.join(parts)}.{agree}"
+        return (
+            f"At {load} {mode_of(self.mode)}. Probability of each mode: {', '.join(parts)}.{agree}"
+        )
 
     def sections(self) -> list[Section]:
         """The page from top to bottom."""
@@ -159,11 +158,6 @@ class Assessment:
             parts.append(Section("What would change the mode", sentences=self._ways()))
         parts.append(Section("What this rests on", sentences=self._basis()))
         return parts
-
-    def _load(self) -> str:
-        found = self.propagation
-        pressure = found.nominal["pressure"]
-        return f"{value_of(pressure, 'Pa')} (F* = {found.nominal['F_star']:.4g})"
 
     def _band(self, name: str) -> tuple[float, ...]:
         where = [self.propagation.probabilities.index(q) for q in BAND]
@@ -181,28 +175,25 @@ class Assessment:
             exists = status.get("found", 0.0)
             rows.append(
                 (
-                    name,
-                    _load(nominal),
-                    value_of(nominal * E, "Pa") if 0 < nominal < math.inf else "-",
-                    _load(low),
-                    _load(high),
-                    percent(exists, 0.0),
-                    ABOVE[name],
+                    critical_name(name),
+                    critical_load(nominal),
+                    critical_load(nominal, E_ss=E),
+                    critical_load(low),
+                    critical_load(high),
+                    percent(exists),
+                    happens(name),
                 )
             )
         for name in ("F_cr1", "F_cr2"):
             nominal, (low, _, high) = found.nominal[f"F/{name}"], self._band(f"F/{name}")
             if not 0 < nominal < math.inf:
-                where = "above" if nominal else "below"
-                sentences.append(
-                    f"{name} is not met: at every load searched this contact is {where} it."
-                )
+                sentences.append(not_met(name, found.nominal[name]))
                 continue
-            band = f"{low:.3g} to {high:.3g} times"
+            band = f"{number(low, 3)} to {times(high)}"
             if low == 0 or math.isinf(high):
-                band = f"at most {high:.3g} times" if low == 0 else f"at least {low:.3g} times"
+                band = f"at most {times(high)}" if low == 0 else f"at least {times(low)}"
             sentences.append(
-                f"The load is {nominal:.3g} times {name}, where {ABOVE[name]}; in nine of ten "
+                f"The load is {times(nominal)} {name}, where {happens(name)}; in nine of ten "
                 f"cases it is {band} that load."
             )
         head = ("critical load", "F*", "pressure", "5 %", "95 %", "exists", "where")
@@ -222,7 +213,7 @@ class Assessment:
             rows.append((about_result(name)["meaning"], *(_amount(x, name) for x in each), error))
         head = ("result", "nominal", "5 %", "50 %", "95 %", "error of the bands")
         lost = 1 - found.solved
-        told = (f"{percent(lost, 0.0)} of the samples have no equilibrium.",) if lost else ()
+        told = (f"{percent(lost)} of the samples have no equilibrium.",) if lost else ()
         return Section("State", head, tuple(rows), told)
 
     def _inputs(self) -> Section:
@@ -239,8 +230,8 @@ class Assessment:
                     value_of(value, unit),
                     *(value_of(known.at(end), unit) for end in (0.05, 0.95)),
                     *(_amount(end, self.decisive) for end in (low, high)),
-                    "< 0.1 %" if part < 1e-3 else percent(part, 0.0),
-                    "-" if math.isnan(slope) else "0" if abs(slope) < 1e-4 else f"{slope:.3g}",
+                    percent(part, least=1e-3),
+                    number(0.0 if abs(slope) < 1e-4 else slope, 3),
                 )
             )
         strongest = list(self.matter)[:3]
@@ -252,7 +243,7 @@ class Assessment:
         if math.isfinite(first):
             sentences.append(
                 f"A better value of {strongest[0]} pays most: it alone makes about "
-                f"{percent(first, 0.0)} of the spread of {self.decisive}"
+                f"{percent(first)} of the spread of {self.decisive}"
                 + (" (of its logarithm)." if self.decisive in CRITICAL else ".")
             )
         head = (
@@ -278,7 +269,7 @@ class Assessment:
                 other = modes[0] if critical < F else modes[1]
                 load = value_of(critical * found.contact.E_ss, "Pa")
                 out.append(
-                    f"The load would have to {word} to {load} ({critical / F:.3g} times "
+                    f"The load would have to {word} to {load} ({times(critical / F)} "
                     f"the operating load) for {other}."
                 )
         for change in self.changes:
@@ -286,16 +277,16 @@ class Assessment:
             word = "falling" if change.value < value else "rising"
             where = "outside its range"
             if change.beyond >= RARE:
-                where = f"it is there or beyond in {percent(change.beyond, 0.0)} of cases"
+                where = f"it is there or beyond in {percent(change.beyond)} of cases"
             out.append(
-                f"{change.input} {word} from {value_of(value, unit)} to "
-                f"{value_of(change.value, unit)} makes it {change.mode}: {where}."
+                f"{change.input} {word} from {span(value, change.value, unit)} makes it "
+                f"{change.mode}: {where}."
             )
         changed = {change.input for change in self.changes}
         still = [label for label in found.inputs if label not in changed and label != found.load]
         if still:
             out.append(
-                f"{listed(still)}: no change of mode within a factor of {FAR:g}, the other "
+                f"{listed(still)}: no change of mode within a factor of {number(FAR)}, the other "
                 "inputs as they are."
             )
         return tuple(out)
@@ -356,25 +347,15 @@ def _law_of(found: Propagation) -> str:
 
 def _amount(value: float, name: str) -> str:
     if name in CRITICAL:
-        return _load(value)
+        return critical_load(value)
     unit = about_result(name)["unit"]
-    return percent(value, 0.0) if unit == "1" and name in OUTPUTS else value_of(value, unit)
-
-
-def _load(value: float) -> str:
-    if math.isnan(value):
-        return "-"
-    if not 0 < value < math.inf:
-        return "below 1e-8" if value == 0 else "above 1e-2"
-    return f"{value:.3g}"
+    return percent(value) if unit == "1" and name in OUTPUTS else value_of(value, unit)
 
 
 def _error(error: float, name: str) -> str:
-    if not math.isfinite(error):
-        return "-"
-    if name not in OUTPUTS:
-        return f"{error:.1g}"
-    return f"{100 * error:.1g} %" if OUTPUTS[name]["unit"] == "1" else f"{error:.1g} m"
+    unit = about_result(name)["unit"]
+    share = unit == "1" and name in OUTPUTS and name not in CRITICAL
+    return percent(error, digits=1) if share else value_of(error, unit, 1)
 
 
 def _unit(contact: Contact, label: str) -> str:

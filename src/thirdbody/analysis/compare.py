@@ -32,6 +32,7 @@ from ..equilibrium.columns import COLUMNS, Equilibrium
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, RangeWarning
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
+from ..quantities.say import percent
 
 if TYPE_CHECKING:
     import xarray
@@ -319,8 +320,8 @@ def _outside(contact: Contact, state: Equilibrium) -> list[str]:
         return out
     share = _share_beyond(contact, bound, float(np.nanmin(d)), limit, body)
     if share > TELLING:
-        shown = f"{100 * share:.0f}" if share > 0.095 else f"{100 * share:.1g}"
-        out.append(f"at the highest load {shown} % of the asperities' area is {bound.beyond}")
+        part = percent(share, digits=2 if share > 0.095 else 1)
+        out.append(f"at the highest load {part} of the asperities' area is {bound.beyond}")
     return out
 
 

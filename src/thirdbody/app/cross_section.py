@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 import thirdbody as tb
 
+from ..quantities.say import value_of
 from ..views.plot.style import OKABE_ITO
 
 __all__ = ["Section", "section", "to_svg"]
@@ -218,7 +219,7 @@ def _grain(drawn: Section, grain: Grain, X: Any, Y: Any, scale: float) -> str:
 def _measures(drawn: Section, X: Any, Y: Any, H: float, scale: float) -> list[str]:
     """The mean plane, the separation, and a bar for scale."""
     length = _round_length(drawn.width / 6)
-    bar = f"{length * 1e9:.0f} nm" if length < 1e-6 else f"{length * 1e6:g} µm"
+    bar = value_of(length, "m")
     x, mean, flat = -16.0, Y(0.0), Y(drawn.h)
     y = H + 30
     return [
@@ -228,7 +229,7 @@ def _measures(drawn: Section, X: Any, Y: Any, H: float, scale: float) -> list[st
         f'<path class="ink" d="M{x - 5} {flat + 9:.1f}L{x} {flat:.1f}L{x + 5} {flat + 9:.1f}z'
         f'M{x - 5} {mean - 9:.1f}L{x} {mean:.1f}L{x + 5} {mean - 9:.1f}z"/>',
         f'<text class="ink" x="{x - 12}" y="{0.5 * (mean + flat) + 5:.1f}" text-anchor="end">'
-        f"{drawn.h * 1e9:.4g} nm</text>",
+        f"{value_of(drawn.h, 'm')}</text>",
         f'<line class="edge" x1="0" x2="{scale * length:.1f}" y1="{y}" y2="{y}" stroke-width="4"/>',
         f'<text class="ink" x="{10 + scale * length:.1f}" y="{y + 5}">{bar}, both axes</text>',
     ]

@@ -12,6 +12,7 @@ import thirdbody as tb
 
 from ..analysis.uncertainty.inputs import KINDS
 from ..errors import InvalidValue
+from ..quantities.say import number, value_of
 from ..quantities.units import say
 from ..study import LOADS
 from ..study.concentration import AMOUNT
@@ -244,7 +245,8 @@ class Inputs:
         elif isinstance(now, str) and now in library:
             known = library[now]
             ui.label(
-                f"E = {known.E / 1e9:.4g} GPa, ν = {known.nu:g}, H = {known.H / 1e9:.4g} GPa"
+                f"E = {value_of(known.E, 'Pa')}, ν = {number(known.nu)}, "
+                f"H = {value_of(known.H, 'Pa')}"
             ).classes("hint")
 
     def variant(
@@ -459,9 +461,9 @@ class Inputs:
 
     def particles(self) -> None:
         """Every population, one more, one less."""
-        for number, place in enumerate(self.populations()):
+        for i, place in enumerate(self.populations()):
             with ui.row().classes("w-full items-center justify-between"):
-                ui.label(f"Population {number + 1}").classes("subhead")
+                ui.label(f"Population {i + 1}").classes("subhead")
                 remove = ui.button(icon="delete", on_click=lambda _, p=place: self._remove(p))
                 remove.props('flat dense aria-label="remove this population"')
             self.population(place)

@@ -7,19 +7,7 @@ from typing import Any
 
 from nicegui import ui
 
-from ..quantities import say as show
-from .text import with_micro
-
-__all__ = ["as_length", "facts", "put", "table"]
-
-
-def as_length(value: float | None) -> str:
-    """A length as the page shows it.
-
-    >>> as_length(2.8e-6)
-    '2.8 µm'
-    """
-    return with_micro(show.as_length(value))
+__all__ = ["facts", "put", "table"]
 
 
 def put(element: Any, props: Mapping[str, Any]) -> Any:

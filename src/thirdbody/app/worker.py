@@ -95,12 +95,13 @@ def mode_map(
     """Contact mode over x_a/σ and F*: index into p-s, hybrid, s-s (−1: none) and load share."""
     import thirdbody as tb
 
+    from ..equilibrium.words import MODES
     from ..errors import InvalidValue, ThirdBodyError
 
     contact = _bare(_study(study, folder).contact)
     (dust,) = contact.populations
     mean = float(dust.diameter.mean_diameter)
-    names = ["p-s", "hybrid", "s-s"]
+    names = list(MODES)
     index, share = [], []
     for number, size in enumerate(sizes):
         row, part = [-1] * len(loads), [math.nan] * len(loads)

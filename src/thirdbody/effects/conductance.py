@@ -11,6 +11,7 @@ import numpy as np
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column, missing
 from ..populations.materials import Material
+from ..quantities.say import percent
 from ..quantities.value import choice, quantity
 from .single.heat import (
     absolute_slope,
@@ -93,8 +94,9 @@ def _warnings(output: AbstractOutput, state: Solved, particles: str) -> list[str
     out = []
     if particles == "conduct" and (share := _wide(state)) > 0.01:
         out.append(
-            f"outputs.{output.name}: particles with {share:.0%} of the particle load touch on more "
-            "than half their radius, where their resistance is overestimated by 7 % and more"
+            f"outputs.{output.name}: particles with {percent(share, digits=2)} of the particle "
+            "load touch on more than half their radius, where their resistance is overestimated "
+            "by 7 % and more"
         )
     return out
 

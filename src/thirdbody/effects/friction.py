@@ -10,6 +10,7 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column
+from ..quantities.say import percent
 from ..quantities.value import choice, quantity
 from .single.ploughing import coefficient, rear_support
 from .single.severity import severity, threshold
@@ -466,6 +467,6 @@ class Friction(AbstractOutput):
         if share <= 0.01:
             return []
         return [
-            f"outputs.friction: {share:.0%} of the particles' load is on particles that sit deeper "
-            "than their radius, where the ploughing formula ends"
+            f"outputs.friction: {percent(share, digits=2)} of the particles' load is on particles "
+            "that sit deeper than their radius, where the ploughing formula ends"
         ]

@@ -11,6 +11,7 @@ from ..contact.output import AbstractOutput, Column
 from ..laws.base import REGIMES
 from ..numerics.quadrature import panel_rule
 from ..populations.materials import reduced_modulus
+from ..quantities.say import percent
 from ..quantities.value import choice
 from .friction import TIE, changes
 
@@ -242,6 +243,6 @@ class StaticFriction(AbstractOutput):
         if share <= 0.01:
             return []
         return [
-            f"outputs.static_friction: {share:.0%} of the particles' load is on plastic contacts, "
-            "to which Kogut–Etsion give no friction at all; use law='full stick'"
+            f"outputs.static_friction: {percent(share, digits=2)} of the particles' load is on "
+            "plastic contacts, to which Kogut–Etsion give no friction at all; use law='full stick'"
         ]

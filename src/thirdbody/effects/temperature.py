@@ -10,6 +10,7 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column, missing
+from ..quantities.say import percent
 from ..quantities.value import choice, quantity
 from .single.heat import (
     body_conductance,
@@ -340,8 +341,9 @@ class FlashTemperature(AbstractOutput):
         if share < 0.01:
             return []
         return [
-            f"outputs.flash_temperature: particles with {share:.0%} of the particle load touch on "
-            "more than half their radius, where their resistance is overestimated by 7 % and more"
+            f"outputs.flash_temperature: particles with {percent(share, digits=2)} of the particle "
+            "load touch on more than half their radius, where their resistance is overestimated "
+            "by 7 % and more"
         ]
 
 

@@ -32,6 +32,7 @@ import numpy as np
 
 from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule, subdivide
+from ..quantities.say import percent
 from ..quantities.value import Value, problem_with, quantity
 from .distributions import Distribution
 
@@ -298,8 +299,8 @@ class Ellipticity(Value):
         lost = 1 - len(tips) / len(given)
         if lost > MOST_SADDLES:
             raise InvalidValue(
-                f"{100 * lost:.0f} % of {len(given)} summits lack two positive curvatures; the "
-                "surface is not resolved at its summits: take a longer cut-off, or a map"
+                f"{percent(lost, digits=2)} of {len(given)} summits lack two positive curvatures; "
+                "the surface is not resolved at its summits: take a longer cut-off, or a map"
             )
         ratio, radius = tips[:, 0] / tips[:, 1], 1 / np.sqrt(tips[:, 0] * tips[:, 1]) / R
         root_load = np.array([elliptic_hertz(float(each)).root_R_F for each in ratio])

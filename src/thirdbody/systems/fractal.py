@@ -23,6 +23,7 @@ from ..numerics.quadrature import panel_rule
 from ..populations.distributions import Monodisperse
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
+from ..quantities.say import percent
 from ..quantities.value import Value, quantity
 
 if TYPE_CHECKING:
@@ -398,11 +399,11 @@ class Stack(Value):
         if hard:
             message = "the hardness sets the area: p/A reached H"
         elif converged:
-            message = f"the last of {len(areas)} scales changed the area by {change:.1%}"
+            message = f"the last of {len(areas)} scales changed the area by {percent(change)}"
         else:
             message = (
                 f"not converged: the last of {len(areas)} scales changed the area by "
-                f"{100 * change:.1f} %"
+                f"{percent(change)}"
             )
         return Convergence(areas, converged, bool(hard), message)
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..analysis.compare import csv_text
 from ..errors import InvalidValue
+from ..quantities.say import number
 
 if TYPE_CHECKING:
     import os
@@ -143,9 +144,7 @@ def _regimes(ax: Axes, table: xarray.Dataset, at: int) -> None:
     ax.set_yticks(rows, one.law.values)
     ax.invert_yaxis()
     ax.set_xlim(0, 100)
-    exponent = int(np.floor(np.log10(float(one.F_star))))
-    lead = float(one.F_star) / 10.0**exponent
-    at_load = rf"$F^* = {lead:.2g}\times10^{{{exponent}}}$"
+    at_load = f"$F^*$ = {number(float(one.F_star), 2)}"
     ax.set_xlabel(f"Part of the real area at {at_load} [%]")
     ax.tick_params(axis="y", length=0)
     ax.legend(

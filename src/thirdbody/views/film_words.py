@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..quantities.say import percent, value_of
+from ..quantities.say import number, percent, value_of
 
-__all__ = ["point", "share", "summary"]
+__all__ = ["bodies", "point", "share", "summary"]
 
 
 def point(result: dict[str, Any], i: int) -> dict[str, str]:
@@ -21,11 +21,11 @@ def point(result: dict[str, Any], i: int) -> dict[str, str]:
         "load on asperities": share(at["ss_share"]),
         "load on particles": share(at["sa_share"]),
         "real contact area": share(at["A_t"]),
-        "friction coefficient": _number(at["mu"]),
-        "of it the film": _number(at["mu_film"]),
-        "of it asperities": _number(at["mu_ss"]),
-        "of it particles": _number(at["mu_sa"]),
-        "viscosity in the film": f"{at['viscosity']:.4g} Pa s",
+        "friction coefficient": _coefficient(at["mu"]),
+        "of it the film": _coefficient(at["mu_film"]),
+        "of it asperities": _coefficient(at["mu_ss"]),
+        "of it particles": _coefficient(at["mu_sa"]),
+        "viscosity in the film": value_of(at["viscosity"], "Pa s"),
         "regime": at["regime"],
     }
     if not result["passing"]:
@@ -35,29 +35,45 @@ def point(result: dict[str, Any], i: int) -> dict[str, str]:
     if brought := result["entrainment"]:
         rows["largest particle dragged in"] = value_of(brought["largest"][i], "m")
         for part, density in zip(result["passing"], brought["areal_density"], strict=True):
-            rows[f"{part['name']}: particles that enter"] = f"{density[i]:.4g} 1/m^2"
+            rows[f"{part['name']}: particles that enter"] = value_of(density[i], "1/m^2")
     return rows
+
+
+def bodies(result: dict[str, Any]) -> str:
+    """The bodies, their load and its Hertz pressure."""
+    film = result["inputs"]["film"]
+    which = "mean" if film["pressure"] == "mean" else "largest"
+    return (
+        f"{film['conjunction']['type'].lower()} contact under {value_of(film['load'], 'N')}, "
+        f"{which} Hertz pressure {value_of(result['states']['pressure'][0], 'Pa')}"
+    )
 
 
 def summary(result: dict[str, Any]) -> list[str]:
     """Where regimes change, what passes, and why there is no friction, a sentence each."""
     states, film = result["states"], result["inputs"]["film"]
     slow, fast = (result["regime_speeds"][name] for name in ("boundary", "full"))
-    told = [f"boundary up to {slow:.4g} m/s"] * (slow is not None)
-    told += [f"a full film from {fast:.4g} m/s"] * (fast is not None)
-    most, few = percent(film["most"], 0.0), percent(film["few"], 0.0)
+    regimes = []
+    if slow is not None:
+        regimes.append(
+            f"boundary up to {value_of(slow, 'm/s')}, where solids carry {percent(film['most'])} "
+            "of the load"
+        )
+    if fast is not None:
+        regimes.append(
+            f"a full film from {value_of(fast, 'm/s')}, where solids carry {percent(film['few'])} "
+            "of the load"
+        )
     out = [
-        f"Lubrication is {' and '.join(told)}: there solids carry {most} and {few} of the load."
-        if len(told) == 2
-        else f"Lubrication is {told[0]}."
-        if told
+        f"Lubrication is {', and '.join(regimes)}."
+        if regimes
         else "The regime is the same at every speed."
     ]
     ends = sorted({0, len(states["speed"]) - 1})
     for part in result["passing"]:
         at = [
             f"{share(part['share'][i])} of the particles are narrower than the gap of "
-            f"{value_of(states['h'][i], 'm')} at {states['speed'][i]:.4g} m/s"
+            f"{value_of(states['h'][i], 'm')} at {value_of(states['speed'][i], 'm/s')}"
             for i in ends
         ]
         out.append(f"{part['name']}: {'; '.join(at)}.")
@@ -66,15 +82,13 @@ def summary(result: dict[str, Any]) -> list[str]:
     return out
 
 
-def share(value: float) -> str:
+def share(value: float | None) -> str:
     """A share; nobody reads those below a millionth."""
-    return "< 0.0001 %" if 0 < value < 1e-6 else percent(value, 0.0)
+    return percent(value, least=1e-6)
 
 
-def _number(value: float | None) -> str:
-    if value is None:
-        return "-"
-    return "< 1e-9" if 0 < value < 1e-9 else value_of(value, "1")
+def _coefficient(value: float | None) -> str:
+    return number(value, least=1e-9)
 
 
 def _lacking(result: dict[str, Any]) -> list[str]:

@@ -9,6 +9,8 @@ from collections.abc import Collection, Iterable
 from html import escape
 from typing import Any
 
+from ..quantities.say import UNITS, powers
+
 __all__ = [
     "breaking",
     "document",
@@ -21,23 +23,6 @@ __all__ = [
     "words",
 ]
 
-SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-UNITS = {
-    "um": "µm",
-    "1/m^2": "m⁻²",
-    "1/m": "m⁻¹",
-    "m^3": "m³",
-    "m^2": "m²",
-    "kg/m^3": "kg/m³",
-    "W/m^2": "W/m²",
-    "W/m/K": "W/(m K)",
-    "W/m^2/K": "W/(m² K)",
-    "J/kg/K": "J/(kg K)",
-    "J/m^2": "J/m²",
-    "ohm*m": "Ω m",
-    "ohm*m^2": "Ω m²",
-}
-"""Units that a page writes otherwise than a terminal."""
 STYLE = """
 :root{color-scheme:light dark;--ink:#1c1c1c;--paper:#fff;--soft:#555;--line:#ddd;--rule:#999;
 --head:#f4f4f4;--link:#00517f}
@@ -148,10 +133,7 @@ def words(text: str) -> str:
     """Plain text as a page shows it: subscripts, powers of ten, units; 1.2e-05 is 1.2×10⁻⁵."""
     for plain, set_ in UNITS.items():
         text = re.sub(rf"(?<=\d ){re.escape(plain)}(?![\w^/*])", set_, text)
-    text = re.sub(
-        r"(?<=\d)e([+-]\d+)\b", lambda m: f"×10{str(int(m[1])).translate(SUPERSCRIPTS)}", text
-    )
-    return symbols(text)
+    return symbols(powers(text))
 
 
 def breaking(name: str) -> str:

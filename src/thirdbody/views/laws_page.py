@@ -8,6 +8,7 @@ from typing import Any
 from ..analysis.compare import _usual
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
 from ..populations.materials import MaterialPair, materials
+from ..quantities.say import number
 
 __all__ = ["laws_page"]
 
@@ -117,9 +118,9 @@ def _jumps(law: AbstractAsperityLaw) -> str:
             if abs(step) > 5e-5
         ]
         if found:
-            out.append(f"{y:g}: {', '.join(found)}")
+            out.append(f"{number(y)}: {', '.join(found)}")
     return "; ".join(out) if out else "none"
 
 
 def _signed(value: float) -> str:
-    return f"{value:+.3g}".replace("-", "−")
+    return f"{'+' if value >= 0 else ''}{number(value, 3)}"

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ..analysis.assess import assess
-from ..analysis.assessment import ABOVE, Assessment
+from ..analysis.assessment import Assessment
 from ..analysis.inputs import declared
 from ..analysis.inputs import inputs as numbers_of
 from ..analysis.sensitivity import Sensitivity, sensitivity
@@ -25,10 +25,33 @@ from ..contact.output import AbstractOutput
 from ..equilibrium.columns import Equilibrium, about
 from ..equilibrium.solve import solve
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint
+from ..equilibrium.words import (
+    CRITICAL,
+    carried,
+    critical_load,
+    happens,
+    load_of,
+    mode_of,
+    mode_path,
+    not_met,
+    two_bodies,
+    unsolved,
+)
 from ..errors import NoEquilibrium, RangeWarning, ThirdBodyError
 from ..laws.base import Law
 from ..populations.materials import NUMBERS, Material, materials
-from ..quantities.say import listed, percent, value_of
+from ..quantities.say import (
+    NOT_KNOWN,
+    listed,
+    number,
+    percent,
+    plural,
+    signed,
+    span,
+    times,
+    unit_of,
+    value_of,
+)
 from ..quantities.value import Value
 from ..study import Study, run_film, run_study
 from .assess_page import pictures as pictures_of
@@ -57,18 +80,7 @@ STANDING = {
     "abstract": "read in the abstract of the source",
     "from memory": "from memory: the source was not at hand",
 }
-MODES = {
-    "p-s": "particles hold the surfaces apart (p-s)",
-    "hybrid": "particles and asperities carry together (hybrid)",
-    "s-s": "asperities carry nearly alone (s-s)",
-    None: "there is no contact",
-}
-CRITICAL = ("F_cr1", "F_cr2", "F_tpca A", "F_tpca B", "F_tpca C")
-WHERE = ABOVE | {
-    "F_tpca A": ABOVE["F_tpca.A"],
-    "F_tpca B": ABOVE["F_tpca.B"],
-    "F_tpca C": "strongest bend of the area over the load",
-}
+CRITICAL_HEADS = ("critical load", "F*", "pressure", "status", "what happens there")
 STATES = ("F_star", "pressure", "h", "d_star", "A_t", "A_ss")
 SHARED = ("A_sa", "particle_load_share", "particle_area_share", "mode")
 """Columns of the table of states, and those that particles add."""
@@ -168,8 +180,7 @@ class Report:
                 self._distance(first),
             )
         low, high = (f"At {self._load(i)} {self._carries(i)}" for i in (first, last))
-        gap = "the mean planes of the surfaces are {} apart and touch on {} of the area"
-        near, far = (gap.format(*self._gap(i)) for i in (first, last))
+        near, far = (self._apart(i) for i in (first, last))
         return f"{low}: {near}.", f"{high}: {far}.", self._path(known)
 
     def _answer(self) -> list[str]:
@@ -180,26 +191,28 @@ class Report:
 
     def _load(self, i: int) -> str:
         states = self.result["states"]
-        return f"{shown(states['pressure'][i], 'Pa')} (F* = {number(states['F_star'][i])})"
+        return load_of(states["pressure"][i], states["F_star"][i])
 
     def _carries(self, i: int) -> str:
         states = self.result["states"]
         if not states["A_t"][i]:
-            return "nothing touches"
+            return mode_of(None)
         if self.contact.two_body:
-            return "the asperities carry the whole load, there being no particles"
-        mode = MODES[states["mode"][i]]
-        share = share_of(states["particle_load_share"][i])
-        parts = [
-            f"{part['name']} {share_of(part['load_share'][i])}"
-            for part in self.result["populations"]
-        ]
-        each = f" ({', '.join(parts)})" if parts else ""
-        return f"{mode}, with {share} of the load on particles{each}"
+            return two_bodies()
+        parts = {part["name"]: part["load_share"][i] for part in self.result["populations"]}
+        share = carried(states["particle_load_share"][i], parts)
+        return f"{mode_of(states['mode'][i])}, and {share}"
 
     def _gap(self, i: int) -> tuple[str, str]:
         states = self.result["states"]
-        return shown(states["h"][i], "m"), share_of(states["A_t"][i])
+        area = f"{percent(states['A_t'][i])} of the nominal area"
+        return value_of(states["h"][i], "m"), area
+
+    def _apart(self, i: int) -> str:
+        gap, area = self._gap(i)
+        apart = f"the mean planes of the surfaces are {gap} apart"
+        touching = self.result["states"]["A_t"][i] > 0
+        return f"{apart} and the real contact area is {area}" if touching else apart
 
     def _closeness(self, i: int) -> str:
         states = self.result["states"]
@@ -208,9 +221,9 @@ class Report:
             return f"The mean planes of the surfaces are {gap} apart"
         plastic = states["A_p"][i] / states["A_t"][i]
         return (
-            f"The surfaces touch on {area} of the nominal area, {share_of(plastic)} of which is "
-            f"plastic, and their mean planes are {gap} apart "
-            f"({states['h'][i] / self.contact.roughness.sigma:.3g} times the roughness)"
+            f"The real contact area is {area}, {percent(plastic)} of it plastic, and the mean "
+            f"planes of the surfaces are {gap} apart "
+            f"({times(states['h'][i] / self.contact.roughness.sigma)} the roughness)"
         )
 
     def _distance(self, i: int) -> str:
@@ -222,7 +235,8 @@ class Report:
         if self.contact.two_body:
             return self._first_input()
         if not found:
-            return "No critical load was found in the range searched, F* from 1e-08 to 1e-02."
+            entries = {name: self._entry(name) for name in ("F_cr1", "F_cr2")}
+            return " ".join(not_met(name, **entry) for name, entry in entries.items())
         name = min(found, key=lambda key: abs(math.log(F / found[key])))
         side = "above" if found[name] < F else "below"
         ratio = max(F / found[name], found[name] / F)
@@ -231,28 +245,23 @@ class Report:
             odds = self.assessment.propagation.mode_probability
             likely = max(odds, key=lambda mode: odds[mode])
             band = f"; with the inputs as uncertain as stated, the mode is {likely} in "
-            band += f"{share_of(odds[likely])} of cases"
+            band += f"{percent(odds[likely])} of cases"
         return (
-            f"The load is a factor {ratio:.3g} {side} {name} = {number(found[name])} "
-            f"({shown(found[name] * self.contact.E_ss, 'Pa')}), where {WHERE[name]}{band}."
+            f"The load is a factor {number(ratio, 3)} {side} {name} = {number(found[name])} "
+            f"({value_of(found[name] * self.contact.E_ss, 'Pa')}), where {happens(name)}{band}."
         )
 
     def _path(self, known: Sequence[int]) -> str:
         states = self.result["states"]
         if self.contact.two_body:
             return self._first_input()
-        modes = [states["mode"][i] or "no contact" for i in known]
-        path = [mode for i, mode in enumerate(modes) if i == 0 or mode != modes[i - 1]]
         found = [
-            f"{name} = {number(F)} ({shown(F * self.contact.E_ss, 'Pa')})"
+            f"{name} = {number(F)} ({value_of(F * self.contact.E_ss, 'Pa')})"
             for name, F in self._found("F_cr1", "F_cr2").items()
         ]
-        modes_met = (
-            f"In between the mode goes {' → '.join(path)}"
-            if len(path) > 1
-            else f"The mode is {path[0]} at all these loads"
-        )
-        return f"{modes_met}; critical loads are {listed(found)}." if found else f"{modes_met}."
+        path = mode_path(states["mode"][i] for i in known)
+        loads = "the critical load is" if len(found) == 1 else "critical loads are"
+        return f"{path}; {loads} {listed(found)}." if found else f"{path}."
 
     def _first_input(self) -> str:
         if self.slopes is None:
@@ -260,8 +269,8 @@ class Report:
         order = _order(self.slopes, "A_t")
         slope = float(self.slopes.elasticity["A_t"][order[0]])
         return (
-            f"Of the inputs, {order[0]} moves the area most: 1 % more of it makes {slope:+.2g} % "
-            "of area."
+            f"Of the inputs, {order[0]} moves the area most: 1 % more of it makes "
+            f"{signed(slope, 2, '%')} of area."
         )
 
     def _found(self, *names: str) -> dict[str, float]:
@@ -278,12 +287,7 @@ class Report:
     def _warnings(self) -> list[str]:
         texts = [*self.result["warnings"], *(self.film or {"warnings": []})["warnings"]]
         texts = list(dict.fromkeys(texts))
-        states = self.result["states"]["status"]
-        texts += [
-            f"{states.count(status)} of {len(states)} states unsolved: {status}"
-            for status in dict.fromkeys(states)
-            if status != "ok"
-        ]
+        texts += unsolved(self.result["states"]["status"])
         if not texts:
             return []
         items = "".join(f"<li>{words(text)}</li>" for text in texts)
@@ -315,7 +319,7 @@ class Report:
         mark = "Bar" if loads > FEW else "Triangles" if loads > 1 else "Triangle"
         legend = (
             "F* = F/(A_n E_ss), with E_ss = "
-            f"{shown(self.contact.E_ss, 'Pa')}. {mark} on the axis: the "
+            f"{value_of(self.contact.E_ss, 'Pa')}. {mark} on the axis: the "
             f"load{'s' if loads > 1 else ''} of the study; dotted lines: critical loads."
         )
         pictures = "\n".join(figure(svg_of(ax.figure), caption) for ax, caption in out)
@@ -385,7 +389,7 @@ class Report:
         meanings = "; ".join(f"{about(name)['symbol']}: {about(name)['meaning']}" for name in names)
         out = [table(head, cells), f"<p class=soft>{symbols(meanings)}.</p>"]
         if total > MOST_ROWS:
-            out.append(f"<p>{MOST_ROWS} of {total} states, evenly spread.</p>")
+            out.append(f"<p>{MOST_ROWS} of {plural(total, 'state')}, evenly spread.</p>")
         if self.result["populations"]:
             out += ["<h3>What each population carries</h3>", self._populations(total)]
         return out
@@ -396,8 +400,8 @@ class Report:
         head = ["pressure", *(f"{part['name']}: {of}" for part in parts for of in ("load", "area"))]
         rows = [
             [
-                shown(states["pressure"][i], "Pa"),
-                *(share_of(part[f"{of}_share"][i]) for part in parts for of in ("load", "area")),
+                value_of(states["pressure"][i], "Pa"),
+                *(percent(part[f"{of}_share"][i]) for part in parts for of in ("load", "area")),
             ]
             for i in _some(total, MOST_ROWS)
         ]
@@ -409,12 +413,11 @@ class Report:
         rows = []
         for name in CRITICAL:
             entry = self._entry(name)
-            F = entry["value"]
-            pressure = "-" if F is None else shown(F * self.contact.E_ss, "Pa")
-            value = "-" if F is None else number(F)
-            rows.append([name, value, pressure, entry["status"], WHERE[name]])
-        head = ["critical load", "F*", "pressure", "status", "what happens there"]
-        return [section("Critical loads", [text_table(head, rows, head[3:])], name="critical")]
+            value, status = entry["value"], entry["status"]
+            loads = (critical_load(value, status, E_ss) for E_ss in (None, self.contact.E_ss))
+            rows.append([name, *loads, status, happens(name)])
+        text = text_table(CRITICAL_HEADS, rows, CRITICAL_HEADS[3:])
+        return [section("Critical loads", [text], name="critical")]
 
     def _outputs(self) -> list[str]:
         outputs = self.contact.outputs
@@ -422,19 +425,19 @@ class Report:
             return []
         states = self.result["states"]
         which = _some(len(states["status"]), MOST_COLUMNS)
-        loads = [shown(states["pressure"][i], "Pa") for i in which]
+        loads = [value_of(states["pressure"][i], "Pa") for i in which]
         head = ["", "symbol", "unit", *(f"<th class=n>{words(load)}</th>" for load in loads)]
         out = []
         for output in outputs:
             rows = []
             for name, (symbol, unit, meaning) in output.columns.items():
                 prefixed = unit in ("m", "Pa")
-                values = (shown(states[name][i], unit if prefixed else "1") for i in which)
+                values = (value_of(states[name][i], unit if prefixed else "1") for i in which)
                 rows.append(
                     [
                         f"<td class=words>{words(meaning)}</td>",
                         symbols(symbol),
-                        "" if prefixed else unit_words(unit),
+                        "" if prefixed else unit_of(unit),
                         *(f"<td class=n>{words(value)}</td>" for value in values),
                     ]
                 )
@@ -445,16 +448,12 @@ class Report:
         """The lubricated contact: in words, over speed, and at a few speeds."""
         if self.film is None:
             return []
-        from .film_words import point, summary
+        from .film_words import bodies, point, summary
         from .plot.film import stribeck
 
         states, given = self.film["states"], self.film["inputs"]["film"]
         total = len(states["speed"])
-        body = given["conjunction"]["type"].lower()
-        lead = (
-            f"A {body} contact under {number(given['load'])} N, with a Hertz pressure of "
-            f"{shown(states['pressure'][0], 'Pa')}, in oil of {number(given['oil']['eta'])} Pa s. "
-        )
+        lead = f"A {bodies(self.film)}, in oil of {value_of(given['oil']['eta'], 'Pa s')}. "
         pressed = "the load of the study" if self.study.own_load else "this Hertz pressure"
         lead += f"Everything else on this page leaves the oil out, under {pressed}."
         out = [f"<p>{words(text)}</p>" for text in (lead, *summary(self.film))]
@@ -464,7 +463,7 @@ class Report:
             out.append(f"<div class=figures>{figure(drawn, caption)}</div>")
         which = _some(total, MOST_COLUMNS)
         columns = [point(self.film, i) for i in which]
-        head = ["at a speed of", *(f"{number(states['speed'][i])} m/s" for i in which)]
+        head = ["at a speed of", *(value_of(states["speed"][i], "m/s") for i in which)]
         rows = [[name, *(column[name] for column in columns)] for name in columns[0]]
         return [section("The oil film", [*out, text_table(head, rows)], name="film")]
 
@@ -507,8 +506,8 @@ class Report:
             unit = {"F_star": "1", "pressure": "Pa", "d": "m"}.get(label)
             unit = unit or declared(self.contact, label.split("+")[0])["unit"]
             each = (float(self.slopes.elasticity[name][label]) for name in (of, *others))
-            slopes = (f"{slope:+.3f}" if math.isfinite(slope) else "-" for slope in each)
-            rows.append([label, shown(float(value), unit), *slopes])
+            slopes = (signed(slope, 3) for slope in each)
+            rows.append([label, value_of(float(value), unit), *slopes])
         sentence = (
             f"At {self._load(self.at)}, {listed(order[:MATTER])} matter most to the "
             f"{about(of)['meaning']}. The numbers tell by how many per cent a result changes when "
@@ -527,7 +526,7 @@ class Report:
         for label, body in alike(self._bodies()):
             source, standing = source_of(body)
             values = [
-                f"{about['symbol']} = {shown(getattr(body, key), about['unit'])}"
+                f"{about['symbol']} = {value_of(getattr(body, key), about['unit'])}"
                 for key, about in NUMBERS.items()
                 if getattr(body, key) is not None
             ]
@@ -579,10 +578,10 @@ class Report:
             else "between 0.6 and 1, the load decides whether asperities yield"
         )
         why = (
-            f"The plasticity index of Greenwood and Williamson, ψ = (E*/H)√(σ_s/R), is {psi:.3g}: "
-            f"{verdict}. How laws differ, and which suits which surface, tell the pages “Choose a "
-            "law” and “Choose a seat” of the documentation; the command compare puts other laws "
-            "beside this one."
+            "The plasticity index of Greenwood and Williamson, ψ = (E*/H)√(σ_s/R), is "
+            f"{number(psi, 3)}: {verdict}. How laws differ, and which suits which surface, tell "
+            "the pages “Choose a law” and “Choose a seat” of the documentation; the command "
+            "compare puts other laws beside this one."
         )
         head = ["for", "law", "chosen by", "valid", "provenance", "source"]
         return [
@@ -608,35 +607,13 @@ class Report:
 
 
 # -------------------------------------------------------------------------- numbers in words
-def shown(value: float | None, unit: str) -> str:
-    """A number with a readable unit: 3e-7 m is "300 nm"."""
-    if value is None or not math.isfinite(value):
-        return "-"
-    if unit in ("m", "Pa") and (value == 0 or 1e-11 < abs(value) < 1e13):
-        return value_of(value, unit)
-    return f"{value:.4g}" + (f" {unit}" if unit != "1" else "")
-
-
-def unit_words(unit: str) -> str:
-    """A unit as the page writes it."""
-    return "" if unit == "1" else words(f"1 {unit}").removeprefix("1 ")
-
-
-def number(value: float) -> str:
-    return shown(value, "1")
-
-
-def share_of(value: float | None) -> str:
-    return "-" if value is None else percent(value, 0.0)
-
-
 def column_value(name: str, value: Any) -> str:
     """A cell of the table of states."""
     if isinstance(value, str) or value is None:
-        return value or "-"
+        return value or ("-" if name == "mode" else NOT_KNOWN)
     if name.endswith("_share"):
-        return share_of(value)
-    return shown(value, about(name)["unit"])
+        return percent(value)
+    return value_of(value, about(name)["unit"])
 
 
 def _some(total: int, most: int) -> list[int]:
@@ -720,7 +697,7 @@ def _rows(value: Value, path: str) -> Iterator[Row]:
         default = _is_default(item, part)
         if about := item.metadata.get("quantity"):
             if part is not None:
-                text = shown(part, about["unit"])
+                text = value_of(part, about["unit"])
                 yield Row(name, about["symbol"], text, about["meaning"], default)
         elif about := item.metadata.get("choice"):
             yield Row(name, "", str(part), about["meaning"], default)
@@ -738,7 +715,7 @@ def _rows(value: Value, path: str) -> Iterator[Row]:
                     label = each.name if isinstance(each, AbstractOutput) else place
                     yield from _rows(each, f"{name}.{label}.")
             if all(isinstance(each, (int, float)) for each in part):
-                text = f"{len(part)} values, {number(min(part))} to {number(max(part))}"
+                text = f"{len(part)} values, {span(min(part), max(part), '1')}"
                 yield Row(name, "", text, item.name.replace("_", " "), default)
 
 
@@ -813,7 +790,7 @@ def report(study: Study, *, file: str = "") -> Report:
     ... pressure = "5 MPa"
     ... ''')
     >>> print(report(load_study(file)).sentences()[0])
-    At 5 MPa (F* = 4.468e-05) the asperities carry the whole load, there being no particles.
+    At 5 MPa (F* = 4.468×10⁻⁵) asperities carry the whole load, because there are no particles.
     """
     result = run_study(study)
     states = result["states"]

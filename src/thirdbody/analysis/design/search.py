@@ -17,6 +17,7 @@ from ...contact.interface import interface
 from ...equilibrium.states import solve_states
 from ...errors import InvalidValue
 from ...numerics.sampling import Span, sobol
+from ...quantities.say import percent
 from ..inputs import Input, inputs
 from ..uncertainty.inputs import Drawn
 
@@ -262,7 +263,7 @@ class Task:
         broken |= {
             f"A_t < {MOST_AREA}": np.max(metric["A_t"][:, 0], axis=1) / MOST_AREA - 1,
             f"coverage < {MOST_COVERED}": metric["coverage"][:, 0] / MOST_COVERED - 1,
-            f"load on particles deeper than their radius < {MOST_BURIED:.0%}": (
+            f"load on particles deeper than their radius < {percent(MOST_BURIED)}": (
                 np.max(metric["buried_share"], axis=1) / MOST_BURIED - 1
             ),
         }

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...quantities.say import as_number, as_pressure
+from ...quantities.say import number, percent, signed, value_of
 from ..figures import AXES, empty, figure, line
 from ..state import Answer, State, loads_as
 from ..widgets import table as shown_table
@@ -33,10 +33,10 @@ def law_figure(found: dict[str, Any], of: str) -> dict[str, Any]:
     """One curve a law; the study's own is the thickest."""
     label, ylog, scale = SHOWN[of]
     traces = []
-    for number, law in enumerate(found["laws"]):
-        y = np.array([np.nan if v is None else scale * v for v in found["columns"][of][number]])
+    for row, law in enumerate(found["laws"]):
+        y = np.array([np.nan if v is None else scale * v for v in found["columns"][of][row]])
         own = law == found["own"]
-        traces.append(line(found["loads"], y, law, number, line={"width": 4 if own else 1.8}))
+        traces.append(line(found["loads"], y, law, row, line={"width": 4 if own else 1.8}))
     return figure(
         traces, x=AXES[found["load"]], y=label, title="Asperity laws", ylog=ylog, height=460
     )
@@ -109,22 +109,22 @@ def _plain(label: str) -> str:
 def _table(found: dict[str, Any], at: int, place: Any) -> None:
     columns = found["columns"]
     rows = []
-    for number, law in enumerate(found["laws"]):
+    for row, law in enumerate(found["laws"]):
 
-        def cell(name: str, number: int = number) -> float | None:
-            return columns[name][number][at] if name in columns else None
+        def cell(name: str, row: int = row) -> float | None:
+            return columns[name][row][at] if name in columns else None
 
         difference = cell("A_t_difference")
         pressure = cell("mean_pressure")
         rows.append(
             {
                 "law": law,
-                "A_t": as_number(cell("A_t")),
-                "difference": "" if not difference else f"{difference:+.1f} %",
-                "pressure": as_pressure(pressure),
-                "d": as_number(cell("d_star")),
-                "plastic": _percent(cell("plastic_share")),
-                "note": columns.get("note", [""] * len(found["laws"]))[number] or "",
+                "A_t": number(cell("A_t")),
+                "difference": "" if not difference else signed(difference, 1, "%"),
+                "pressure": value_of(pressure, "Pa"),
+                "d": number(cell("d_star")),
+                "plastic": percent(cell("plastic_share")),
+                "note": columns.get("note", [""] * len(found["laws"]))[row] or "",
             }
         )
     heads = {
@@ -138,10 +138,6 @@ def _table(found: dict[str, Any], at: int, place: Any) -> None:
     }
     place.clear()
     with place:
-        said = as_pressure(columns["pressure"][at]) if "pressure" in columns else ""
+        said = value_of(columns["pressure"][at], "Pa") if "pressure" in columns else ""
         ui.label(f"At {said}" if said else "").classes("hint")
         shown_table("laws", heads, rows)
-
-
-def _percent(value: float | None) -> str:
-    return "-" if value is None else f"{100 * value:.1f} %"

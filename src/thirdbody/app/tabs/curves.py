@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...quantities.say import as_number, as_pressure
+from ...equilibrium.words import BANDS, critical_load, happens
 from ..figures import AXES, REGIME_FILLS, empty, figure, line, log_title, mark, mode_bands, plain
 from ..state import Answer, State
 from ..widgets import put
@@ -144,11 +144,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         for name, made in found.items():
             plots[name].update_figure(made)
         plots["shares"].set_visibility(not answer.contact.two_body)
-        modes.set_text(
-            ""
-            if answer.contact.two_body
-            else "bands: p-s particles alone, hybrid, s-s asperities alone"
-        )
+        modes.set_text("" if answer.contact.two_body else BANDS)
 
     async def finish() -> None:
         later["timer"] = None
@@ -186,17 +182,17 @@ def _table(state: State, place: Any) -> None:
     if found is None or answer.contact.two_body:
         return
     entries = {
-        "F_cr1: asperities come into contact": found.F_cr1,
-        "F_cr2: particles have little of the contact left": found.F_cr2,
-        "turning point A: largest particle share": found.F_tpca.A,
-        "turning point B: equal loads": found.F_tpca.B,
-        "turning point C: strongest bend of the area": found.F_tpca.C,
+        "F_cr1": found.F_cr1,
+        "F_cr2": found.F_cr2,
+        "F_tpca A": found.F_tpca.A,
+        "F_tpca B": found.F_tpca.B,
+        "F_tpca C": found.F_tpca.C,
     }
     rows = [
         {
-            "name": name,
-            "F": as_number(one.value),
-            "p": as_pressure(None if one.value is None else one.value * answer.contact.E_ss),
+            "name": f"{name}: {happens(name)}",
+            "F": critical_load(one.value, one.status),
+            "p": critical_load(one.value, one.status, answer.contact.E_ss),
             "status": one.status,
         }
         for name, one in entries.items()

@@ -10,6 +10,7 @@ from nicegui import ui
 
 from ...equilibrium.columns import COLUMNS, about
 from ...errors import InvalidValue
+from ...quantities.say import number
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, shown, value_from
 from ..figures import GREY, empty, figure, line, plain
@@ -180,7 +181,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             return str(value) if isinstance(value, str) else str(engineering(value, unit))
 
         best = [f"{name} = {told(name, value)}" for name, value in result["values"].items()]
-        best += [f"{name} = {value:.4g}" for name, value in result["objectives"].items()]
+        best += [f"{name} = {number(value)}" for name, value in result["objectives"].items()]
         words = [f"Best: {', '.join(best)}."]
         if not result["feasible"]:
             words = [f"Nothing that was tried obeys the limits: {result['reason']}."]

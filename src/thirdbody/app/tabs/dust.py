@@ -11,13 +11,13 @@ from nicegui import events, ui
 import thirdbody as tb
 
 from ...errors import InvalidValue
-from ...quantities.say import as_number, as_percent
+from ...quantities.say import percent, value_of
 from ..bounds import LARGEST_TABLE
 from ..figures import empty, figure, line, plain
 from ..inputs import Inputs
 from ..state import Answer, State
 from ..uploads import keep
-from ..widgets import as_length, facts
+from ..widgets import facts
 
 __all__ = ["TITLE", "build", "dust_facts", "size_figure"]
 
@@ -30,12 +30,15 @@ def dust_facts(dust: tb.Particles) -> list[tuple[str, str]]:
     low, middle, high = (float(sizes.ppf(q)) for q in (0.05, 0.5, 0.95))
     each = sizes.moment(3) * np.pi / 6 * dust.areal_density
     return [
-        ("particles per area", f"{as_number(dust.areal_density)} 1/m²"),
-        ("mean distance", as_length(dust.areal_density**-0.5)),
-        ("mean diameter", as_length(float(sizes.mean_diameter))),
-        ("5 %, 50 %, 95 % by number", ", ".join(map(as_length, (low, middle, high)))),
-        ("covered area", as_percent(dust.coverage)),
-        ("volume per area", f"{as_number(each)} m"),
+        ("particles per area", value_of(dust.areal_density, "1/m^2")),
+        ("mean distance", value_of(dust.areal_density**-0.5, "m")),
+        ("mean diameter", value_of(float(sizes.mean_diameter), "m")),
+        (
+            "5 %, 50 %, 95 % by number",
+            ", ".join(value_of(size, "m") for size in (low, middle, high)),
+        ),
+        ("covered area", percent(dust.coverage)),
+        ("volume per area", value_of(each, "m")),
     ]
 
 

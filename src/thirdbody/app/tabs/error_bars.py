@@ -10,6 +10,7 @@ from nicegui import ui
 
 from ...analysis.uncertainty.critical_loads import CRITICAL
 from ...analysis.uncertainty.propagation import about_result
+from ...quantities.say import number, percent
 from ...views.plot.style import OKABE_ITO
 from ..figures import AXES, GREY, INKS, empty, figure, line, listed, mark, plain
 from ..inputs import Inputs
@@ -60,7 +61,7 @@ def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
                 "y": listed(band[:, high]),
                 "fill": "tonexty",
                 "fillcolor": f"rgba(0,114,178,{0.22 + 0.2 * k})",
-                "name": f"{100 * (q[high] - q[low]):.3g} % of cases",
+                "name": f"{percent(q[high] - q[low])} of cases",
             }
         )
     if len(order) % 2:
@@ -100,7 +101,7 @@ def critical_figure(found: dict[str, Any]) -> dict[str, Any]:
                 "x": [None if None in pair else pair[1] - pair[0] for pair in ends],
                 "width": 0.3 + 0.3 * k,
                 "marker": {"color": f"rgba(0,114,178,{0.3 + 0.3 * k})"},
-                "name": f"{100 * (q[-1 - k] - q[k]):.3g} % of cases",
+                "name": f"{percent(q[-1 - k] - q[k])} of cases",
             }
         )
     for place, name, symbol, ink in (
@@ -226,8 +227,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         low, middle, high = result["band_at"][0], result["nominal_at"], result["band_at"][-1]
         start = result["of"] if result["critical"] else "At the operating load"
         said.set_text(
-            f"{start}: {middle:.4g}, in nine of ten cases between {low:.4g} and "
-            f"{high:.4g} ({result['samples']} samples)."
+            f"{start}: {number(middle)}, in nine of ten cases between {number(low)} and "
+            f"{number(high)} ({result['samples']} samples)."
             if None not in (low, middle, high)
             else f"{result['of']} is not known at every end of the inputs."
         )

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
+from ...quantities.say import value_of
 from ...study import Study, run_film
 from ...study.film import SHAPES, SPEED
 from ...systems.film_conditions import Entrainment, FilmConditions
 from ...systems.film_formulas import Oil
 from ...views.film_words import point, summary
 from ...views.plot.film import OF_PARTICLES, bands_of
-from ..fields import Field, fields_of, number_field
+from ..fields import Field, engineering, fields_of, number_field
 from ..figures import GREY, empty, figure, line, log_title, mark
 from ..inputs import Inputs
 from ..state import Answer, State
@@ -175,11 +176,11 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             plots[name].update_figure(made)
         known = found["states"]["mu"][i] is not None
         plots["film friction"].set_visibility(known)
-        said.set_text(f"speed {found['states']['speed'][i]:.4g} m/s")
+        said.set_text(f"speed {value_of(found['states']['speed'][i], 'm/s')}")
         facts.clear()
         with facts:
             said_of = point(found, i)
-            named_values(((name, with_micro(value)) for name, value in said_of.items()), "film: ")
+            named_values(said_of.items(), "film: ")
 
     def moved() -> None:
         i = int(slider.value or 0)
@@ -278,7 +279,7 @@ def _removed(inputs: Inputs, state: State) -> None:
     """The study without a film; it keeps a load."""
     answer = state.answer
     if state.get("load") is None and answer is not None:
-        pressure = f"{float(answer.study.values[0]) / 1e6:.4g} MPa"
+        pressure = engineering(float(answer.study.values[0]), "Pa")
         state.replace({**state.study, "load": {"pressure": pressure}})
     inputs.change("film", None)
 

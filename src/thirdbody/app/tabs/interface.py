@@ -9,10 +9,11 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ...quantities.say import as_number, as_percent, as_pressure
+from ...equilibrium.words import NO_CONTACT, load_of
+from ...quantities.say import number, percent, value_of
 from ..cross_section import section, to_svg
 from ..state import Answer, State
-from ..widgets import as_length, facts
+from ..widgets import facts
 
 __all__ = ["TITLE", "build", "told"]
 
@@ -22,24 +23,24 @@ TITLE = "Interface"
 def told(point: tb.Equilibrium) -> list[tuple[str, str]]:
     """The state under the operating load, in the words of the command line."""
     at = [
-        ("load", f"{as_pressure(_one(point.pressure))} (F* = {as_number(_one(point.F_star))})"),
-        ("separation h", as_length(_one(point.h))),
-        ("separation d", f"{as_length(_one(point.d))} ({as_number(_one(point.d_star))} σ)"),
-        ("real contact area", as_percent(_one(point.A_t))),
+        ("load", load_of(_one(point.pressure), _one(point.F_star))),
+        ("separation h", value_of(_one(point.h), "m")),
+        ("separation d", f"{value_of(_one(point.d), 'm')} ({number(_one(point.d_star))} σ)"),
+        ("real contact area", percent(_one(point.A_t))),
     ]
     if not point.contact.two_body:
         at += [
-            ("mode", str(point.mode) or "no contact"),
-            ("particles carry", as_percent(_one(point.particle_load_share))),
-            ("of the real area", as_percent(_one(point.particle_area_share))),
+            ("mode", str(point.mode) or NO_CONTACT),
+            ("particles carry", percent(_one(point.particle_load_share))),
+            ("of the real area", percent(_one(point.particle_area_share))),
         ]
         counted = tb.solve(
             point.contact.replace(outputs=(tb.outputs.Counts(),)), d=_one(point.d)
         ).outputs
         every = sum(dust.areal_density for dust in point.contact.populations)
-        at.append(("particles loaded", as_percent(_one(counted["n_sa"]) / every)))
+        at.append(("particles loaded", percent(_one(counted["n_sa"]) / every)))
     for part in point.populations:
-        at.append((f"{part.name} carries", as_percent(_one(part.load_share))))
+        at.append((f"{part.name} carries", percent(_one(part.load_share))))
     return at
 
 
@@ -100,7 +101,7 @@ def _caption(drawn: Any) -> str:
         return said
     loaded = sum(grain.loaded for grain in drawn.grains)
     return said + (
-        f"Particles are those of a slab {as_length(drawn.depth)} deep: {loaded} of "
+        f"Particles are those of a slab {value_of(drawn.depth, 'm')} deep: {loaded} of "
         f"{len(drawn.grains)} are larger than the gap above their seat and carry load."
     )
 
@@ -109,8 +110,8 @@ def _legend(names: tuple[str, ...]) -> None:
     from ...views.plot.style import OKABE_ITO
     from ..cross_section import COLOURS
 
-    for number, name in enumerate(names):
-        _swatch(f"background:{COLOURS[number % len(COLOURS)]}", name)
+    for i, name in enumerate(names):
+        _swatch(f"background:{COLOURS[i % len(COLOURS)]}", name)
     if names:
         _swatch(f"border:3px solid {OKABE_ITO['vermilion']}", "loaded")
         _swatch("border:1px dashed currentColor", "free")

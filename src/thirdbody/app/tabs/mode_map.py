@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...views.plot.style import MODES
+from ...equilibrium.words import MODES
 from ..figures import MODE_FILLS, empty, figure
 from ..sizing import size_of, with_size
 from ..state import Answer, State

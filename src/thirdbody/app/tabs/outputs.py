@@ -9,7 +9,7 @@ import numpy as np
 from nicegui import ui
 
 from ...equilibrium.columns import about
-from ...quantities.say import as_number
+from ...quantities.say import number
 from ..figures import AXES, figure, line, mark
 from ..inputs import Inputs
 from ..state import Answer, State
@@ -34,10 +34,10 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
         for unit, columns in units.items():
             traces = []
             values = []
-            for number, column in enumerate(columns):
+            for i, column in enumerate(columns):
                 y = np.asarray(state.outputs[column], dtype=float)
                 values.append(y)
-                traces.append(line(x, y, column, number) | {"meta": about(column)["meaning"]})
+                traces.append(line(x, y, column, i) | {"meta": about(column)["meaning"]})
             every = np.concatenate(values)
             every = every[np.isfinite(every) & (every != 0)]
             wide = len(every) > 0 and every.min() > 0 and every.max() > 30 * every.min()
@@ -100,7 +100,7 @@ def _found(answer: Answer, at: float) -> tuple[dict[str, dict[str, Any]], list[d
         {
             "name": name,
             "meaning": about(name)["meaning"],
-            "value": as_number(None if not np.isfinite(value) else float(value)),
+            "value": number(float(value)),
             "unit": about(name)["unit"],
         }
         for name, value in answer.solve(at).outputs.items()

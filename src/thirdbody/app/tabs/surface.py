@@ -10,7 +10,7 @@ import numpy as np
 from nicegui import events, ui
 
 from ...errors import InvalidValue
-from ...quantities.say import as_number
+from ...quantities.say import number, value_of
 from ...quantities.units import to_si
 from ..fields import value_from
 from ..figures import empty, figure, line, mark
@@ -18,7 +18,7 @@ from ..guard import LARGEST_UPLOAD
 from ..state import State
 from ..text import with_micro
 from ..uploads import keep
-from ..widgets import as_length, facts, put
+from ..widgets import facts, put
 from ..work import Work
 
 __all__ = ["TITLE", "build", "options_from"]
@@ -70,7 +70,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     ui.label(
         "Maps and profiles of instruments (x3p, sur, opd, al3d, npy, txt, ...), up to "
         f"{LARGEST_UPLOAD // 2**20} MB. The file stays on this machine; it is read in a process "
-        f"of its own, which is stopped after {SECONDS:.0f} s."
+        f"of its own, which is stopped after {value_of(SECONDS, 's')}."
     ).classes("hint")
 
     async def uploaded(event: events.UploadEventArguments) -> None:
@@ -126,14 +126,14 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             plots[name].update_figure(cutoff_figure(result, name))
         used = result["used"]
         words = {
-            "σ": as_length(used["sigma"]),
-            "R": as_length(used["R"]),
-            "η": f"{as_number(used['eta'])} 1/m²",
-            "α": as_number(used["alpha"]),
-            "σ_s": as_length(used["sigma_s"]),
-            "cut-off": as_length(used["cutoff"]) if used["cutoff"] else "as sampled",
-            "skewness": as_number(result["skewness"]),
-            "kurtosis": as_number(result["kurtosis"]),
+            "σ": value_of(used["sigma"], "m"),
+            "R": value_of(used["R"], "m"),
+            "η": value_of(used["eta"], "1/m^2"),
+            "α": number(used["alpha"]),
+            "σ_s": value_of(used["sigma_s"], "m"),
+            "cut-off": value_of(used["cutoff"], "m") if used["cutoff"] else "as sampled",
+            "skewness": number(result["skewness"]),
+            "kurtosis": number(result["kurtosis"]),
         }
         table.clear()
         with table:
@@ -217,11 +217,11 @@ def cutoff_figure(found: dict[str, Any], name: str) -> dict[str, Any]:
     x = np.array([np.nan if v is None else v for v in curve["cutoff"]], dtype=float)
     known = x > 0
     traces = []
-    for number, column in enumerate(columns):
+    for i, column in enumerate(columns):
         y = np.array([np.nan if v is None else v for v in curve[column]], dtype=float)
         words = "counted" if column.endswith("_counted") else "from moments"
         traces.append(
-            line(x[known] * 1e6, y[known], words, number, mode="lines+markers", marker={"size": 7})
+            line(x[known] * 1e6, y[known], words, i, mode="lines+markers", marker={"size": 7})
         )
     made = figure(traces, x="cut-off [µm]", y=label, title=label.split(" [")[0], ylog=True)
     if found["used"]["cutoff"]:

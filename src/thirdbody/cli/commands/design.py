@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ...quantities.say import as_number
+from ...quantities.say import number
 from ..options import AsJson, Settings, read_study
 from ..show import table_of, terminal
 from ..streams import figure_format, warn, write_csv, write_figure
@@ -74,18 +74,18 @@ def _page(asked: Study, best: Best) -> None:
     table = table_of(("", "value", "within 5 % from", "to"), right=True)
     for name, value in best.values.items():
         band = best.tolerance.get(name)
-        shown = [as_number(end) for end in band] if band else ["", ""]
-        table.add_row(name, value.name if band is None else as_number(value), *shown)
+        shown = [number(end) for end in band] if band else ["", ""]
+        table.add_row(name, value.name if band is None else number(value), *shown)
     out.print(table)
     for label, value in best.objectives.items():
-        out.print(f"{label} = {as_number(value)}")
+        out.print(f"{label} = {number(value)}")
     out.print(f"limits in force: {'; '.join(best.active) or 'none'}")
     _against_load(out, best)
     if best.slopes:
         out.print("change of a metric for a relative change of an input, at the middle load")
         table = table_of(("", *next(iter(best.slopes.values()))), right=True)
         for column, slopes in best.slopes.items():
-            table.add_row(f"d {column}/d ln", *map(as_number, slopes.values()))
+            table.add_row(f"d {column}/d ln", *map(number, slopes.values()))
         out.print(table)
     if several:
         out.print(f"{front.sum()} of {len(front)} points are beaten by none in every objective")
@@ -106,9 +106,9 @@ def _against_load(out: Any, best: Best) -> None:
     count = best.states.sizes[load]
     for i in sorted({0, count // 2, count - 1}):
         one = best.states.isel({load: i})
-        table.add_row(as_number(float(one[load])), *(_shown(one[name].item()) for name in names))
+        table.add_row(number(float(one[load])), *(_shown(one[name].item()) for name in names))
     out.print(table)
 
 
 def _shown(value: Any) -> str:
-    return value if isinstance(value, str) else as_number(float(value))
+    return value if isinstance(value, str) else number(float(value))

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ...quantities.say import as_length, as_number, as_pressure
+from ...quantities.say import number, value_of
 from ..options import AsJson, Settings, read_study
 from ..show import table_of, terminal
 from ..streams import figure_format, warn, write_csv, write_figure
@@ -79,20 +79,17 @@ def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, 
 
 def _show(result: dict[str, Any]) -> None:
     """The result for a reader: the point or the curve, then in words."""
-    from ...views.film_words import point, summary
+    from ...views.film_words import bodies, point, summary
 
     console = terminal()
     console.print(f"{result['title'] or 'Study'} (thirdbody {result['version']})")
-    film, states = result["inputs"]["film"], result["states"]
+    states = result["states"]
     console.print(
-        f"{film['conjunction']['type'].lower()} contact under {as_number(film['load'])} N, "
-        f"{'mean' if film['pressure'] == 'mean' else 'largest'} Hertz pressure "
-        f"{as_pressure(states['pressure'][0])}, sigma = "
-        f"{as_length(result['inputs']['roughness']['sigma'])}"
+        f"{bodies(result)}, sigma = {value_of(result['inputs']['roughness']['sigma'], 'm')}"
     )
     total = len(states["speed"])
     if total == 1:
-        table = table_of((f"at {as_number(states['speed'][0])} m/s", ""))
+        table = table_of((f"at {value_of(states['speed'][0], 'm/s')}", ""))
         for name, value in point(result, 0).items():
             table.add_row(name, value)
         console.print(table)
@@ -120,11 +117,11 @@ def _curve(result: dict[str, Any]) -> Any:
     for row in range(rows):
         i = round(row * (total - 1) / max(rows - 1, 1))
         table.add_row(
-            as_number(states["speed"][i]),
-            as_length(states["h_T"][i]),
-            as_number(states["lambda_ratio"][i]),
+            number(states["speed"][i]),
+            value_of(states["h_T"][i], "m"),
+            number(states["lambda_ratio"][i]),
             *(share(states[name][i]) for name in shares),
-            *[as_number(states["mu"][i])] * known,
+            *[number(states["mu"][i])] * known,
             states["regime"][i],
         )
     return table

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ...errors import InvalidValue
-from ...quantities.say import as_length, as_pressure
+from ...quantities.say import value_of
 from ..options import Settings, StudyFile, read_study
 
 __all__ = ["command"]
@@ -82,10 +82,10 @@ def command(
     )
     write, _ = FORMATS[name]
     write(made, out, **({} if units is None else {"units": units}))
-    first, last = (as_pressure(float(made.p(end))) for end in made.h[[0, -1]])
+    first, last = (value_of(float(made.p(end)), "Pa") for end in made.h[[0, -1]])
     print(
-        f"written: {out} ({name}): {coordinate} from {as_length(made.h[0])} to "
-        f"{as_length(made.h[-1])}, p from {first} to {last}; relative errors at most "
+        f"written: {out} ({name}): {coordinate} from {value_of(made.h[0], 'm')} to "
+        f"{value_of(made.h[-1], 'm')}, p from {first} to {last}; relative errors at most "
         f"{rounded_up(made.error.p)} of p, {rounded_up(made.error.A)} of A_t, "
         f"{rounded_up(made.error.dp_dh)} of dp/d{coordinate}",
         file=sys.stderr,

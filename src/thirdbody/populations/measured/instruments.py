@@ -16,7 +16,7 @@ from typing import Any, NamedTuple, NoReturn
 import numpy as np
 
 from ...errors import InvalidValue
-from ...quantities.say import say_length
+from ...quantities.say import value_of
 from ...quantities.units import to_si
 
 __all__ = ["MOST_POINTS", "Raw", "is_number", "read"]
@@ -279,7 +279,7 @@ def _limit(made: Any, factor: float) -> tuple[float | None, str]:
         if radius is None:
             return None, ""
         found = made.scanning_probe_reliability_cutoff(radius / factor)
-        told = f"by the tip radius of {say_length(radius)} that the file states"
+        told = f"by the tip radius of {value_of(radius, 'm')} that the file states"
         if found is None:
             return None, f"{told}, the tip follows the surface at every scale sampled"
         return float(found) * factor, f"{told} and the curvature of the peaks"

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...errors import InvalidValue
-from ...quantities.say import say_length
+from ...quantities.say import value_of
 from ...quantities.value import Value, quantity
 from ..heights import GaussianHeights, Heights, HistogramHeights
 from ..roughness import Roughness
@@ -246,9 +246,9 @@ class Summits:
             )
         if self.count < FEW_SUMMITS:
             raise InvalidValue(
-                f"{self.count} summits at a cut-off of {say_length(self.cutoff)} are too few for a "
-                f"distribution of heights; it takes {FEW_SUMMITS}: use Gaussian heights, a shorter "
-                "cut-off or a larger map"
+                f"{self.count} summits at a cut-off of {value_of(self.cutoff, 'm')} are too few "
+                f"for a distribution of heights; it takes {FEW_SUMMITS}: use Gaussian heights, a "
+                "shorter cut-off or a larger map"
             )
         counts, edges = np.histogram(self.heights, bins="fd")
         return HistogramHeights(edges=tuple(edges), counts=tuple(counts))

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ...errors import InvalidValue
-from ...quantities.say import say_length
+from ...quantities.say import percent, signed, value_of
 from ...quantities.units import to_si
 from ..ellipticity import Ellipticity
 from ..heights import Heights
@@ -278,7 +278,7 @@ class Topography:
         else:
             m0, m2, m4 = self._state(cutoff)[:3]
         if not (m2 > 0 and m4 > 0 and m0 > 0):
-            raise InvalidValue(f"{self.source} is smooth at a cut-off of {say_length(cutoff)}")
+            raise InvalidValue(f"{self.source} is smooth at a cut-off of {value_of(cutoff, 'm')}")
         return SpectralMoments(m0=m0, m2=m2, m4=m4)
 
     def _state(self, cutoff: float) -> tuple[float, float, float, Summits, Array]:
@@ -308,9 +308,9 @@ class Topography:
         if cutoff == 0 or least * (1 - 1e-9) <= cutoff <= most:
             return float(cutoff)
         raise InvalidValue(
-            f"cutoff = {say_length(cutoff)} must be between {say_length(least)} ({LEAST_CUTOFF} "
-            f"points) and {say_length(most)} (half of the shorter side) of {self.source}, or 0 for "
-            "the heights as sampled"
+            f"cutoff = {value_of(cutoff, 'm')} must be between {value_of(least, 'm')} "
+            f"({LEAST_CUTOFF} points) and {value_of(most, 'm')} (half of the shorter side) of "
+            f"{self.source}, or 0 for the heights as sampled"
         )
 
     @property
@@ -411,7 +411,7 @@ class Topography:
         ratio = summits.sigma_s / moments.sigma
         if not (1 - 0.8968 / 1.5) ** 0.5 < ratio < 1:
             raise InvalidValue(
-                f"the summits of {self.source} at a cut-off of {say_length(summits.cutoff)} "
+                f"the summits of {self.source} at a cut-off of {value_of(summits.cutoff, 'm')} "
                 f"have σ_s = {ratio:.3g} σ, and a Roughness has from 0.634 to 1; "
                 "use Gaussian heights or another cut-off"
             )
@@ -478,8 +478,8 @@ class Topography:
         """The shortest cut-off at which the data stand for the surface [m], and why."""
         step, longest = max(self.spacing), min(self.size) / LONGEST
         reasons = {
-            f"{RESOLVED} points ({say_length(step)} apart) carry the shortest wave, so that m4 by "
-            "differences is right within 10 %": RESOLVED * step
+            f"{RESOLVED} points ({value_of(step, 'm')} apart) carry the shortest wave, so that m4 "
+            "by differences is right within 10 %": RESOLVED * step
         }
         if self.limit is not None:
             reasons[f"the instrument's limit, {self.limit_reason}"] = self.limit
@@ -491,7 +491,7 @@ class Topography:
         reason = max(reasons, key=lambda text: reasons[text])
         if reasons[reason] <= longest:
             return reasons[reason], reason
-        limited = f"a {LONGEST}th of the shorter side, although {say_length(reasons[reason])} "
+        limited = f"a {LONGEST}th of the shorter side, although {value_of(reasons[reason], 'm')} "
         return max(longest, LEAST_CUTOFF * step), limited + f"would be asked for: {reason}"
 
     @cached_property
@@ -536,13 +536,13 @@ class Topography:
         if self.cutoff < least * (1 - 1e-9):
             at = "the heights as sampled" if self.cutoff == 0 else f"a cut-off {self._at()}"
             out.append(
-                f"{at} is below the recommended cut-off of {say_length(least)}: "
+                f"{at} is below the recommended cut-off of {value_of(least, 'm')}: "
                 f"{self.recommended[1]}"
             )
         if self.missing > 0:
             out.append(
-                f"{100 * self.missing:.2g} % of the points have no datum; the filter and the "
-                "differences pass over them, the spectrum has them filled harmonically"
+                f"{percent(self.missing, digits=2)} of the points have no datum; the filter and "
+                "the differences pass over them, the spectrum has them filled harmonically"
             )
         if self.dim == 1:
             out.append(
@@ -557,9 +557,10 @@ class Topography:
             )
         count = self.summits.count
         if self.dim == 2 and count < 10 * FEW_SUMMITS:
+            error = percent(1 / math.sqrt(max(count, 1)), digits=2)
             out.append(
                 f"{count} summits on the map at a cut-off {self._at()}: "
-                f"their mean numbers are uncertain by some {100 / math.sqrt(max(count, 1)):.0f} %"
+                f"their mean numbers are uncertain by some {error}"
             )
         if abs(self.skewness) > 0.5 or abs(self.kurtosis - 3) > 1:
             out.append(
@@ -569,7 +570,7 @@ class Topography:
         return tuple(out)
 
     def _at(self) -> str:
-        return f"of {say_length(self.cutoff)}"
+        return f"of {value_of(self.cutoff, 'm')}"
 
     def _bandwidth(self) -> list[str]:
         """Which answers move with the cut-off, and how far."""
@@ -582,16 +583,16 @@ class Topography:
             for name, symbol in names.items()
         }
         moving = [
-            f"{symbol} by {100 * change:+.0f} %"
+            f"{symbol} by {signed(100 * change, 0, '%')}"
             for symbol, change in changes.items()
             if abs(change) > PER_OCTAVE
         ]
         if not moving:
             return []
         return [
-            f"the answer depends on the cut-off: from {say_length(middle / 2**0.5)} to "
-            f"{say_length(middle * 2**0.5)}, one octave about the one used, {', '.join(moving)}; "
-            "quote them with their cut-off"
+            f"the answer depends on the cut-off: from {value_of(middle / 2**0.5, 'm')} to "
+            f"{value_of(middle * 2**0.5, 'm')}, one octave about the one used, {', '.join(moving)}"
+            "; quote them with their cut-off"
         ]
 
     def to_dict(self) -> dict[str, Any]:
@@ -756,8 +757,9 @@ def from_topography(
         )
     if surface.rms_height > max(surface.size):
         raise InvalidValue(
-            f"{raw.name}: an RMS height of {say_length(surface.rms_height)} on a side of "
-            f"{say_length(max(surface.size))} is no surface; check the units of heights and sides"
+            f"{raw.name}: an RMS height of {value_of(surface.rms_height, 'm')} on a side of "
+            f"{value_of(max(surface.size), 'm')} is no surface; check the units of heights and "
+            "sides"
         )
     if cutoff is not None:
         surface = replace(surface, given_cutoff=surface._cutoff(cutoff))
@@ -779,8 +781,8 @@ def _check(heights: Array, name: str) -> None:
     known = np.isfinite(heights).mean()
     if known < 0.5:
         raise InvalidValue(
-            f"{name} has no datum at {100 * (1 - known):.0f} % of its points; cut out a part that "
-            "was measured"
+            f"{name} has no datum at {percent(1 - known, digits=2)} of its points; cut out a part "
+            "that was measured"
         )
 
 

@@ -31,18 +31,18 @@ from matplotlib.ticker import PercentFormatter
 
 from ...equilibrium.columns import Equilibrium
 from ...equilibrium.transitions import Transitions
+from ...equilibrium.words import MODES
 from ...errors import InvalidValue
+from ...quantities.say import number
 from .style import (
     AXIS_LABELS,
     MODE_COLOURS,
-    MODES,
     REGIMES,
     Curve,
     _axes,
     _column,
     _curves,
     _dress,
-    _scientific,
     _share_axis,
     _styles,
     _tint,
@@ -325,7 +325,7 @@ def modes(
 
     Notes
     -----
-    p-s: particles alone hold the surfaces apart; s-s: asperities alone carry; hybrid: both.
+    p-s: nearly all real contact is on particles; s-s: on asperities; hybrid: on both.
 
     References
     ----------
@@ -384,7 +384,7 @@ def modes(
         # the side on which both curves lie at 0 or 100 %
         side = -1 if "cr1" in name else 1
         ax.annotate(
-            f"{name} = {_scientific(load)}" if against == "F_star" else name,
+            f"{name} = {number(load, 2)}" if against == "F_star" else name,
             (load, 0.5),
             xytext=(3 * side, 0),
             textcoords="offset points",

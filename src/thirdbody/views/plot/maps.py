@@ -11,9 +11,10 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 from ...equilibrium.solve import solve
+from ...equilibrium.words import MODES
 from ...errors import InvalidValue
 from ...populations.particles import Particles
-from .style import MODE_COLOURS, MODES, _axes, _dress
+from .style import MODE_COLOURS, _axes, _dress
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -15,6 +14,7 @@ from matplotlib.ticker import PercentFormatter
 
 from ...equilibrium.columns import Equilibrium
 from ...errors import InvalidValue
+from ...quantities.say import value_of
 
 if TYPE_CHECKING:
     import xarray
@@ -44,7 +44,6 @@ def _tint(colour: str, strength: float) -> tuple[float, float, float]:
     return (r, g, b)
 
 
-MODES = ("p-s", "hybrid", "s-s")
 MODE_COLOURS = {
     "p-s": _tint(OKABE_ITO["vermilion"], 0.65),
     "hybrid": _tint(OKABE_ITO["yellow"], 0.45),
@@ -97,32 +96,12 @@ class Curve(NamedTuple):
 
 
 # ------------------------------------------------------------------ reading the argument
-def _engineering(value: float, unit: str) -> str:
-    """A value with a readable unit, for legends: 3e-7 m is ``300 nm``."""
-    if value == 0:
-        return "0"
-    prefixes = {
-        "m": ((1e-3, "mm"), (1e-6, "µm"), (0.0, "nm")),
-        "Pa": ((1e9, "GPa"), (1e6, "MPa"), (0.0, "Pa")),
-    }
-    scales = {"mm": 1e3, "µm": 1e6, "nm": 1e9, "GPa": 1e-9, "MPa": 1e-6, "Pa": 1.0}
-    if unit in prefixes:
-        name = next(name for start, name in prefixes[unit] if abs(value) >= start * (1 - 1e-9))
-        return f"{value * scales[name]:.4g} {name}"
-    if unit in ("1/m^2", "1/m²"):
-        exponent = math.floor(math.log10(abs(value)) + 1e-9)
-        lead = value / 10.0**exponent
-        times = "" if abs(lead - 1) < 1e-3 else rf"{lead:.3g} \times "
-        return rf"${times}10^{{{exponent}}}$ m$^{{-2}}$"
-    return f"{value:.4g}" + ("" if unit in ("", "1") else f" {unit}")
-
-
 def _legend_entry(name: str, value: Any) -> str:
     symbol, unit = SYMBOLS.get(name, (name, "1"))
     if isinstance(value, (str, np.str_)):
         return f"{symbol}: {value}"
     if isinstance(value, (float, int, np.floating, np.integer)):
-        return f"{symbol} = {_engineering(float(value), unit)}"
+        return f"{symbol} = {value_of(float(value), unit)}"
     return f"{symbol} = {value}"
 
 
@@ -205,8 +184,3 @@ def _column(curve: Curve, name: str) -> NDArray[np.float64]:
             f"plot: {name!r} is not in the data; it holds {', '.join(sorted(curve.columns))}"
         )
     return np.asarray(curve.columns[name], dtype=float)
-
-
-def _scientific(value: float) -> str:
-    exponent = math.floor(math.log10(value))
-    return rf"${value / 10.0**exponent:.1f}\times10^{{{exponent}}}$"

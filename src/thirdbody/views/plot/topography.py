@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from .style import OKABE_ITO, _dress, _scientific, _tint
+from ...quantities.say import number
+from .style import OKABE_ITO, _dress, _tint
 
 if TYPE_CHECKING:
     from ...populations.measured.topography import Topography
@@ -115,9 +116,9 @@ def _few_ticks(ax: Axes) -> None:
         if high / low < 100:
             axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 6 * low else range(1, 10)))
             if 1e-3 <= low and high < 1e4:
-                axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+                axis.set_major_formatter(FuncFormatter(lambda value, _: number(value)))
             else:
-                axis.set_major_formatter(FuncFormatter(lambda value, _: _scientific(value)))
+                axis.set_major_formatter(FuncFormatter(lambda value, _: number(value, 2)))
 
 
 def _spectrum_panel(topography: Topography, ax: Axes) -> None:

@@ -11,7 +11,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import EngFormatter, PercentFormatter
 
 from ...errors import InvalidValue
-from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _engineering, _share_axis, _tint
+from ...quantities.say import percent, value_of
+from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _share_axis, _tint
 
 if TYPE_CHECKING:
     from ...analysis.uncertainty.propagation import Propagation
@@ -81,7 +82,7 @@ def bands(
             band[:, high],
             color=_tint(OKABE_ITO["blue"], 0.22 + 0.33 * k / max(pairs - 1, 1)),
             linewidth=0,
-            label=f"{100 * part:.3g} % of cases",
+            label=f"{percent(part)} of cases",
         )
     if len(order) % 2:
         middle = order[pairs]
@@ -177,7 +178,7 @@ def tornado(
             )
             outer = max(value, middle) if side > 0 else min(value, middle)
             ax.annotate(
-                _engineering(end, _unit_of(data, label)),
+                value_of(end, _unit_of(data, label)),
                 (outer, row),
                 xytext=(3 * side, 0),
                 textcoords="offset points",
