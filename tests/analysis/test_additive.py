@@ -12,6 +12,7 @@ import pytest
 from scipy.stats import norm
 
 import thirdbody as tb
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.study import load_study
 from thirdbody.study.analyses import arguments, design_study
 
@@ -44,7 +45,7 @@ def test_no_point_of_a_grid_is_better(best):
         "particles.diameter.std": 0.1 * size,
         "particles.areal_density": density,
     }
-    every = [tb.solve_states(study.contact, pressure=p, vary=vary) for p in (1e6, 2e6, 5e6, 1e7)]
+    every = [state_columns(study.contact, pressure=p, vary=vary) for p in (1e6, 2e6, 5e6, 1e7)]
     friction = np.mean([state["mu"] for state in every], axis=0)
     plastic = np.max([state["A_p"] / state["A_t"] for state in every], axis=0)
     covered = density * np.pi / 4 * size**2 * (1 + 0.1**2 * CUT)

@@ -10,6 +10,7 @@ from thirdbody.analysis.design.design import design
 from thirdbody.analysis.design.equal_share import equal_share_size
 from thirdbody.analysis.design.front import front, hypervolume
 from thirdbody.analysis.design.problem import Limit, Objective, Suspension
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.numerics.sampling import Span
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
@@ -87,7 +88,7 @@ def test_two_numbers_and_a_material_beat_a_grid():
     for material in (SILICA, STEEL):
         area, plastic = [], []
         for F in (1e-5, 1e-4):
-            states = tb.solve_states(
+            states = state_columns(
                 contact().replace(**{"particles.material": material}),
                 F_star=F,
                 vary={
@@ -341,7 +342,7 @@ def test_particles_that_differ_in_number_share_their_spots():
     """Outputs of states of many densities at once, and of each alone."""
     case = contact(outputs=tb.outputs.Friction(tau_ss=580e6, tau_sa=200e6))
     density, p = np.array([0, 1e8, 1e10, 5e10, 0, 1e8]), np.array([1e6, 1e6, 5e6, 5e6, 2e6, 4e6])
-    states = tb.solve_states(case, pressure=p, vary={"particles.areal_density": density})
+    states = state_columns(case, pressure=p, vary={"particles.areal_density": density})
     for i in range(len(p)):
         one = tb.solve(case.replace(**{"particles.areal_density": density[i]}), pressure=p[i])
         for name in ("mu", "mu_sa", "mu_ss", "rolling_share"):

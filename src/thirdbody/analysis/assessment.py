@@ -10,6 +10,7 @@ import numpy as np
 
 from ..contact.citations import cite
 from ..contact.contact import Contact
+from ..quantities import notebook
 from ..quantities.say import listed, percent, value_of
 from .inputs import declared
 from .inputs import inputs as all_inputs
@@ -132,6 +133,14 @@ class Assessment:
             "notes": list(self.notes),
             "citations": cite(found.contact).splitlines(),
         }
+
+    def _repr_html_(self) -> str:
+        """The page for notebooks: a table for each part."""
+        out = []
+        for part in self.sections():
+            rows = [notebook.Row(each[0], each[1:]) for each in (part.head, *part.rows) if each]
+            out.append(notebook.card(part.title, rows, part.sentences))
+        return f"<div>{''.join(out)}</div>"
 
     # ------------------------------------------------------------------ words and tables
     def headline(self) -> str:

@@ -22,10 +22,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.contact import Contact
-from ..equilibrium.columns import EPS_1, EPS_2, Equilibrium
+from ..equilibrium.columns import EPS_1, EPS_2, Equilibrium, quantity_of
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue
+from ..quantities import notebook
 from .differences import STEPS, Entry, Places
 from .inputs import NUMBERS, Input, _room, input_of, inputs
 
@@ -125,6 +126,19 @@ class Sensitivity:
             numbers = (f"{round(x, 4) + 0.0:{w}.4f}" for x, w in zip(rows[to], wide, strict=True))
             lines.append([to.ljust(width), *numbers])
         return "\n".join("  ".join(line) for line in lines)
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: the elasticities, an input a row; of several loads the first."""
+        rows = [notebook.Row("input", list(self.elasticity))]
+        rows += [
+            notebook.Row(
+                to,
+                [notebook.words_of(np.ravel(row[to])[0]) for row in self.elasticity.values()],
+                "" if (told := quantity_of(self.contact, to)) is None else told["meaning"],
+            )
+            for to in self.inputs
+        ]
+        return notebook.card("Elasticities d ln c/d ln p", rows)
 
 
 def _plain(value: Any) -> Any:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import types
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, field
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
@@ -20,6 +20,8 @@ from ..errors import InvalidValue, NotCompiled
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+    from .notebook import Row
 
 __all__ = ["Value", "choice", "quantity"]
 
@@ -125,6 +127,12 @@ class Value:
         """Mistakes that concern several fields at once; subclasses override."""
         return []
 
+    def _repr_html_(self) -> str:
+        """A table for notebooks: symbol, value with unit, and words of every field."""
+        from .notebook import card
+
+        return card(type(self).__name__, _rows(self))
+
     def replace(self, **changes: Any) -> Self:
         """A copy with some fields changed; dots reach inside: ``**{"diameter.mean": 1e-7}``."""
         now: dict[str, Any] = {}
@@ -217,6 +225,32 @@ class Value:
         if kind not in Value._classes:
             raise InvalidValue(f"type = {kind!r} is not a class of this library")
         return Value._classes[kind](**{k: _revive(v) for k, v in data.items() if k != "type"})
+
+
+def _rows(value: Value) -> Iterator[Row]:
+    """Fields of a value, those of the values in it below a heading each."""
+    from .notebook import Row, words_of
+
+    inner: list[tuple[str, Value]] = []
+    for item in dataclasses.fields(value):  # type: ignore[arg-type]
+        part = getattr(value, item.name)
+        if isinstance(part, Value):
+            inner.append((item.name, part))
+        elif isinstance(part, tuple) and any(isinstance(each, Value) for each in part):
+            inner += [(f"{item.name}.{i}", each) for i, each in enumerate(part)]
+        elif part is None or (isinstance(part, (str, tuple)) and not part):
+            continue
+        elif about := item.metadata.get("quantity"):
+            yield Row(about["symbol"], [words_of(part, about["unit"])], about["meaning"])
+        else:
+            meaning = item.metadata.get("choice", {}).get("meaning", "")
+            yield Row(item.name, [words_of(part)], meaning)
+    for name, part in inner:
+        yield Row(name, [], type(part).__name__)
+        yield from (
+            row if row.values else row._replace(symbol=f"{name}.{row.symbol}")
+            for row in _rows(part)
+        )
 
 
 @cache

@@ -24,9 +24,10 @@ from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.columns import COLUMNS, about
 from ...equilibrium.solve import given_load
-from ...equilibrium.states import FEWEST, solve_states
+from ...equilibrium.states import FEWEST, state_columns
 from ...errors import InvalidValue
 from ...numerics.sampling import sobol
+from ...quantities import notebook
 from ..inputs import NUMBERS
 from .critical_loads import CRITICAL, _bare, _falls, critical_loads
 from .inputs import Drawn, Uncertain, drawn_inputs
@@ -149,6 +150,20 @@ class Propagation:
             "citations": cite(self.contact),
         }
         return xarray.Dataset(data, coords=coordinates, attrs=attributes)
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: quantiles of every output; of several loads at the first."""
+        rows = [notebook.Row("", [f"{100 * q:g} %" for q in self.probabilities])]
+        for name, band in self.bands.items():
+            told = about_result(name)
+            first = np.reshape(band, (-1, len(self.probabilities)))[0]
+            values = [notebook.words_of(value, told["unit"]) for value in first]
+            rows.append(notebook.Row(name, values, told["meaning"]))
+        for mode, share in self.mode_probability.items():
+            values = [notebook.words_of(np.ravel(share)[0])]
+            values += [""] * (len(self.probabilities) - 1)
+            rows.append(notebook.Row(mode, values, "probability of the contact mode"))
+        return notebook.card(f"Propagation, {self.samples} samples", rows)
 
     # ------------------------------------------------------------------ one input at a time
     def tornado(
@@ -533,7 +548,7 @@ def columns_at(
     else:
         contact, vary = _bare(contact, vary)
     loads = vary.pop(load, np.full(count, value))
-    return solve_states(contact, **{load: loads}, vary=vary or None)
+    return state_columns(contact, **{load: loads}, vary=vary or None)
 
 
 def _evaluated(
