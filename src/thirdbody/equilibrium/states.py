@@ -16,7 +16,8 @@ from ..contact.evaluation import evaluate
 from ..contact.interface import interface
 from ..errors import InvalidValue, NotCompiled, RangeWarning
 from ..populations.materials import BULK
-from .columns import COLUMNS, dataset
+from ..quantities.value import warn_of_slip
+from .columns import COLUMNS, dataset, quantity_of
 from .compiled import batch as engine
 from .solve import TOO_DEEP, given_load, solve
 
@@ -110,6 +111,10 @@ def _given(
     arrays = {name: np.atleast_1d(values) for name, values in arrays.items()}
     if loads.ndim > 1:
         raise InvalidValue(f"inputs have {loads.ndim} dimensions; give numbers or 1-D arrays")
+    for name, values in arrays.items():
+        if values.dtype.kind in "iuf" and (told := quantity_of(contact, name)):
+            for extreme in dict.fromkeys((float(values.min()), float(values.max()))):
+                warn_of_slip(name, told, extreme, stacklevel=3)
     return load, loads, arrays
 
 
