@@ -190,13 +190,17 @@ def test_notebooks_show_the_first_and_the_last_of_many_states():
 
 def test_notebooks_show_bands():
     found = tb.propagate(
-        contact(), {"roughness.sigma": (9e-8, 1.1e-7)}, pressure=5e6, samples=64, outputs=["A_t"]
+        contact(),
+        vary={"roughness.sigma": (9e-8, 1.1e-7)},
+        pressure=5e6,
+        samples=64,
+        outputs=["A_t"],
     )
     assert {"A_t", "5 %", "50 %", "95 %"} <= set(Text(found._repr_html_()).words)
 
 
 def test_notebooks_show_the_page_of_an_assessment():
-    found = tb.assess(contact(), {"roughness.sigma": (8e-8, 1.2e-7)}, pressure=5e6, samples=64)
+    found = tb.assess(contact(), vary={"roughness.sigma": (8e-8, 1.2e-7)}, pressure=5e6, samples=64)
     words = Text(found._repr_html_()).words
     assert found.headline() in words
     for part in found.sections():

@@ -183,8 +183,8 @@ def sensitivity(
     *,
     of: str | Sequence[str],
     to: str | Sequence[str] | None = None,
-    F_star: ArrayLike | None = None,
     pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
 ) -> Sensitivity:
     r"""Derivatives of columns and critical loads with respect to inputs of the contact.
@@ -205,7 +205,7 @@ def sensitivity(
         names joined by "+", which move by one factor. Every number and the load when left out,
         with E, ν and H of two equal surfaces, and equal hardnesses, joined: which body is the
         softer changes there, so that the slopes on both sides differ.
-    F_star, pressure, d : float or array (N,)
+    pressure, F_star, d : float or array (N,)
         The load as in `solve`, held while an input moves; at most one, none for critical loads
         alone. F* is held in units of E_ss, which moves with the moduli.
 

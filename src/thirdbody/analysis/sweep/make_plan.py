@@ -28,8 +28,8 @@ ABSENT = ("particles.diameter.mean", "particles.areal_density")
 def make_plan(
     contact: Contact,
     *,
-    F_star: Any = None,
     pressure: Any = None,
+    F_star: Any = None,
     d: Any = None,
     vary: Mapping[str, Any] | None = None,
     design: str = "grid",
