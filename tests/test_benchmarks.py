@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.equilibrium.states import state_columns
 
 pytest.importorskip("numba")
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")]
@@ -39,7 +40,7 @@ def test_what_is_measured_is_solved(run, seat):
     found = []
     row = run.row(
         seat,
-        lambda: found.append(tb.solve_states(contact, F_star=many, vary=vary)),
+        lambda: found.append(state_columns(contact, F_star=many, vary=vary)),
         COUNT,
         repeats=1,
     )

@@ -19,6 +19,7 @@ from subjects import contact as two_body
 import thirdbody as tb
 from thirdbody import definition
 from thirdbody.equilibrium import solve as equilibrium
+from thirdbody.equilibrium.states import state_columns
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 
@@ -78,7 +79,7 @@ def by_states(contact, d, want):
     """Thirty-two states of other roughness beside it."""
     sigma = contact.roughness.sigma * np.linspace(1.0, 1.3, 32)
     load = want["F_ss"] + want["F_sa"]
-    return columns(tb.solve_states(contact, pressure=load, vary={"roughness.sigma": sigma}), 0)
+    return columns(state_columns(contact, pressure=load, vary={"roughness.sigma": sigma}), 0)
 
 
 PATHS = {"tables": by_tables, "compiled": by_compiled_tables, "states": by_states}

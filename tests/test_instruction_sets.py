@@ -33,6 +33,7 @@ STATES = """
 import json, sys, warnings
 import numpy as np
 import thirdbody as tb
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.study import load_study
 warnings.simplefilter("ignore")
 out = {"laws": {}, "heights": {}, "sizes": {}, "states": {}, "separations": {}}
@@ -65,7 +66,7 @@ for path in sys.argv[1:]:
     # by the compiled engine
     H = np.linspace(4e9, 6e9, 64)
     vary = {"surfaces.first.H": H, "surfaces.second.H": H}
-    states = tb.solve_states(contact, pressure=np.geomspace(1e4, 1e8, 64), vary=vary)
+    states = state_columns(contact, pressure=np.geomspace(1e4, 1e8, 64), vary=vary)
     for column in ("d", "A_t", "F_ss_star"):
         keep("separations" if column == "d" else "states", f"{path} varied {column}", states[column])
 print(json.dumps(out))

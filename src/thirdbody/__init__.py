@@ -61,6 +61,7 @@ if TYPE_CHECKING:
     from .populations.measured.topography import Topography
     from .populations.particles import Particles
     from .populations.roughness import Roughness
+    from .study.whole import load_study
     from .systems import film_formulas as films
     from .systems import fractal, interaction, rough_body, waviness
     from .systems.mixed_film import mixed_film
@@ -118,6 +119,7 @@ __all__ = [
     "films",
     "fractal",
     "interaction",
+    "load_study",
     "materials",
     "mixed_film",
     "outputs",
@@ -207,6 +209,7 @@ _HOMES = {
     "critical_loads": "analysis.uncertainty.critical_loads",
     "design": "analysis.design.design",
     "equal_share_size": "analysis.design.equal_share",
+    "load_study": "study.whole",
     "materials": "populations.materials",
     "mixed_film": "systems.mixed_film",
     "propagate": "analysis.uncertainty.propagation",
@@ -237,4 +240,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    own = (name for name in globals() if name.startswith("__"))
+    return sorted({*own, *__all__, *_MODULES, *_HOMES})

@@ -12,6 +12,7 @@ import pytest
 from scipy.stats import norm
 
 import thirdbody as tb
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.study import load_study
 from thirdbody.study.analyses import arguments, design_study
 
@@ -44,7 +45,7 @@ def test_no_point_of_a_grid_is_better(best):
         "particles.diameter.std": 0.1 * size,
         "particles.areal_density": density,
     }
-    every = [tb.solve_states(study.contact, pressure=p, vary=vary) for p in (1e6, 2e6, 5e6, 1e7)]
+    every = [state_columns(study.contact, pressure=p, vary=vary) for p in (1e6, 2e6, 5e6, 1e7)]
     friction = np.mean([state["mu"] for state in every], axis=0)
     plastic = np.max([state["A_p"] / state["A_t"] for state in every], axis=0)
     covered = density * np.pi / 4 * size**2 * (1 + 0.1**2 * CUT)
@@ -125,8 +126,8 @@ def changed(*settings):
 
 def test_the_file_says_what_python_says():
     asked = changed()
-    assert list(asked["over"]) == [SIZE, AMOUNT]
-    np.testing.assert_allclose(list(asked["over"].values()), [(5e-8, 1e-6), (5e-4, 7e-3)])
+    assert list(asked["vary"]) == [SIZE, AMOUNT]
+    np.testing.assert_allclose(list(asked["vary"].values()), [(5e-8, 1e-6), (5e-4, 7e-3)])
     assert asked["suspension"] == tb.Suspension(
         gap=1e-6, concentration=3e-3, particle_density=2200.0
     )
@@ -139,24 +140,24 @@ def test_units_materials_and_loads():
     asked = changed(
         'design.limits=[{ of = "d", least = "100 nm" }]',
         'design.pressure={ from = "1 MPa", to = "9 MPa" }',
-        'design.over={ "particles.material" = ["quartz", "Al2O3"] }',
+        'design.vary={ "particles.material" = ["quartz", "Al2O3"] }',
         'design.objective=[{ of = "mu" }, { of = "h", aim = "largest", over_loads = "worst" }]',
     )
     assert asked["limits"][0].least == pytest.approx(1e-7)
     assert (asked["pressure"].low, asked["pressure"].high) == (1e6, 9e6)
-    assert [each.name for each in asked["over"]["particles.material"]] == ["quartz", "Al2O3"]
+    assert [each.name for each in asked["vary"]["particles.material"]] == ["quartz", "Al2O3"]
     assert [each.label for each in asked["objective"]] == ["mu", "h:worst"]
 
 
 @pytest.mark.parametrize(
     ("setting", "said"),
     [
-        ('design.over={ "particles.size" = { low = 1, high = 2 } }', "particles.size"),
-        ('design.over={ "roughness.sigma" = "50 nm" }', "must be { low = ..., high = ... }"),
-        ('design.over={ "roughness.sigma" = { low = "1 s", high = 2 } }', "low"),
-        ('design.over={ "particles.material" = ["Unobtainium"] }', "not a material"),
+        ('design.vary={ "particles.size" = { low = 1, high = 2 } }', "particles.size"),
+        ('design.vary={ "roughness.sigma" = "50 nm" }', "must be { low = ..., high = ... }"),
+        ('design.vary={ "roughness.sigma" = { low = "1 s", high = 2 } }', "low"),
+        ('design.vary={ "particles.material" = ["Unobtainium"] }', "not a material"),
         (
-            'design.over={ "particles.concentration" = { low = "1 mg/L", high = "9 mg/L" } }',
+            'design.vary={ "particles.concentration" = { low = "1 mg/L", high = "9 mg/L" } }',
             "must be by mass",
         ),
         ('design.objective={ aim = "smallest" }', "must be a table such as"),
@@ -178,10 +179,10 @@ def test_what_does_not_fit_the_contact_is_told():
     study = load_study(EXAMPLE, ['design.objective={ of = "muu" }'])
     with pytest.raises(tb.InvalidValue, match="no such number"):
         design_study(study)
-    density = 'design.over={ "particles.areal_density" = { low = 1e9, high = 1e10 } }'
+    density = 'design.vary={ "particles.areal_density" = { low = 1e9, high = 1e10 } }'
     with pytest.raises(tb.InvalidValue, match="follows from the suspension"):
         design_study(load_study(EXAMPLE, [density]))
-    several = 'design.over={ "particles.material" = ["quartz", "Al2O3"] }'
+    several = 'design.vary={ "particles.material" = ["quartz", "Al2O3"] }'
     with pytest.raises(tb.InvalidValue, match="cannot hold for several materials"):
         design_study(load_study(EXAMPLE, [several]))
     none = EXAMPLE.with_name("dusty_ball_screw.toml")

@@ -125,7 +125,7 @@ def test_sentences_hold_the_numbers(page):
 
 
 def test_two_bodies_have_no_modes_to_change():
-    page = tb.assess(TWO_BODY, {"roughness.R": (2e-6, 3e-6)}, pressure=5e6, samples=64)
+    page = tb.assess(TWO_BODY, vary={"roughness.R": (2e-6, 3e-6)}, pressure=5e6, samples=64)
     assert page.mode == "s-s"
     assert page.decisive == "A_t"
     assert page.changes == ()
@@ -136,13 +136,13 @@ def test_two_bodies_have_no_modes_to_change():
 
 
 def test_a_nominal_value_outside_its_range_is_told():
-    page = tb.assess(DUSTY, {"roughness.R": (3e-6, 4e-6)}, pressure=5e6, samples=64)
+    page = tb.assess(DUSTY, vary={"roughness.R": (3e-6, 4e-6)}, pressure=5e6, samples=64)
     assert any("2.8 µm of roughness.R lies outside" in note for note in page.notes)
 
 
 def test_only_the_load_uncertain():
     known = {"pressure": tb.Uncertain.lognormal(5e6, 3.0)}
-    page = tb.assess(DUSTY, known, pressure=5e6, samples=256)
+    page = tb.assess(DUSTY, vary=known, pressure=5e6, samples=256)
     share = page.propagation.mode_probability["p-s"]
     critical = tb.transitions(DUSTY).F_cr1.value * DUSTY.E_ss
     assert share == pytest.approx(known["pressure"].cdf(critical), abs=0.02)
@@ -275,7 +275,7 @@ def test_bands_enclose_the_median():
     loads = np.geomspace(1e6, 1e8, 4)
     found = tb.propagate(
         DUSTY,
-        {"roughness.sigma": (85e-9, 115e-9)},
+        vary={"roughness.sigma": (85e-9, 115e-9)},
         pressure=loads,
         samples=64,
         outputs=["particle_load_share", "F_cr1"],
@@ -293,7 +293,7 @@ def test_bands_enclose_the_median():
 def test_a_law_without_critical_loads_says_so_and_keeps_its_bands(monkeypatch):
     monkeypatch.setattr(sys.modules["thirdbody.views.assess_page"], "LOADS_SHOWN", 4)
     dusty = DUSTY.replace(particle_law=tb.particle.Horng2022())
-    answer = assess(dusty, {"roughness.sigma": (90e-9, 110e-9)}, pressure=5e6, samples=64)
+    answer = assess(dusty, vary={"roughness.sigma": (90e-9, 110e-9)}, pressure=5e6, samples=64)
     margins, state = answer.sections()[1:3]
     (sentence,) = margins.sentences
     assert sentence.startswith("No critical loads: with Horng2022")

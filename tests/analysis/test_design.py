@@ -10,6 +10,7 @@ from thirdbody.analysis.design.design import design
 from thirdbody.analysis.design.equal_share import equal_share_size
 from thirdbody.analysis.design.front import front, hypervolume
 from thirdbody.analysis.design.problem import Limit, Objective, Suspension
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.numerics.sampling import Span
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
@@ -60,7 +61,7 @@ def brute(case, objective, x):
     ids=lambda each: f"{each.of}-{each.aim}",
 )
 def test_brute_force(objective):
-    best = design(contact(), over={SIZE: (5e-8, 5e-7)}, objective=objective, F_star=LOADS)
+    best = design(contact(), vary={SIZE: (5e-8, 5e-7)}, objective=objective, F_star=LOADS)
     x = np.geomspace(5e-8, 5e-7, 150)
     values = brute(contact(), objective, x) * -objective.sign
     found = best.objectives[objective.label] * -objective.sign
@@ -72,14 +73,14 @@ def test_brute_force(objective):
 
 
 def test_two_numbers_and_a_material_beat_a_grid():
-    over = {
+    vary = {
         SIZE: (5e-8, 5e-7),
         "particles.areal_density": (1e9, 1e11),
         "particles.material": [SILICA, STEEL],
     }
     objective = Objective(of="A_t")
     limit = Limit(of="plastic_share", most=0.2)
-    best = design(contact(), over=over, objective=objective, limits=[limit], F_star=[1e-5, 1e-4])
+    best = design(contact(), vary=vary, objective=objective, limits=[limit], F_star=[1e-5, 1e-4])
     assert best.feasible
     x, eta = (
         v.ravel() for v in np.meshgrid(np.geomspace(5e-8, 5e-7, 20), np.geomspace(1e9, 1e11, 20))
@@ -87,7 +88,7 @@ def test_two_numbers_and_a_material_beat_a_grid():
     for material in (SILICA, STEEL):
         area, plastic = [], []
         for F in (1e-5, 1e-4):
-            states = tb.solve_states(
+            states = state_columns(
                 contact().replace(**{"particles.material": material}),
                 F_star=F,
                 vary={
@@ -125,7 +126,7 @@ def test_turning_point_sizes():
 
 def test_window_is_a_share_and_wider_limits_never_hurt():
     window = Objective(of="particle_load_share", aim="window")
-    few = dict(over={SIZE: (5e-8, 5e-7)}, F_star=LOADS, points=24)
+    few = dict(vary={SIZE: (5e-8, 5e-7)}, F_star=LOADS, points=24)
     free = design(contact(), objective=window, **few)
     assert 0 <= free.objectives[window.label] <= 1
     values = [
@@ -145,7 +146,7 @@ def scattered(objective, **asked):
 
 def test_scatter():
     objective = Objective(of="A_t", over_scatter="worst")
-    some = dict(over={SIZE: (5e-8, 5e-7)}, F_star=[1e-5], points=8)
+    some = dict(vary={SIZE: (5e-8, 5e-7)}, F_star=[1e-5], points=8)
     nothing = tb.Uncertain.uniform(100e-9 * (1 - 1e-12), 100e-9 * (1 + 1e-12))
     still = design(
         contact(), objective=objective, scatter={"roughness.sigma": nothing}, samples=4, **some
@@ -171,7 +172,7 @@ def test_scatter():
 def test_infeasible_points_are_kept_with_their_reason():
     best = design(
         contact(),
-        over={SIZE: (5e-8, 3e-6)},
+        vary={SIZE: (5e-8, 3e-6)},
         objective=Objective(of="A_t"),
         limits=[Limit(of="particle_load_share", least=0.999)],
         F_star=[1e-5],
@@ -183,7 +184,7 @@ def test_infeasible_points_are_kept_with_their_reason():
     assert any("particle_load_share" in text for text in reasons)
     hopeless = design(
         contact(),
-        over={SIZE: (5e-8, 6e-8)},
+        vary={SIZE: (5e-8, 6e-8)},
         objective=Objective(of="A_t"),
         limits=[Limit(of="particle_load_share", least=0.999)],
         F_star=[1e-4],
@@ -196,7 +197,7 @@ def test_infeasible_points_are_kept_with_their_reason():
 def test_several_objectives():
     best = design(
         contact(),
-        over={SIZE: (5e-8, 5e-7), "particles.areal_density": (1e9, 1e11)},
+        vary={SIZE: (5e-8, 5e-7), "particles.areal_density": (1e9, 1e11)},
         objective=[Objective(of="A_t"), Objective(of="plastic_share")],
         F_star=[1e-5],
         points=64,
@@ -226,7 +227,7 @@ def test_fronts_by_counting():
 def test_an_end_of_the_range_is_told():
     best = design(
         contact(),
-        over={SIZE: (5e-8, 1e-7)},
+        vary={SIZE: (5e-8, 1e-7)},
         objective=Objective(of="A_sa", aim="largest"),
         F_star=[1e-5],
         points=8,
@@ -240,12 +241,12 @@ def test_an_end_of_the_range_is_told():
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
-        ({"over": {}}, "over is empty"),
-        ({"over": {"particles.diametr": (1, 2)}}, "did you mean"),
-        ({"over": {"roughness.sigma": (2e-7, 1e-7)}}, "must be below"),
-        ({"over": {"roughness.sigma": 3}}, "must be \\(low, high\\)"),
-        ({"over": {"roughness.sigma": (-1e-7, 1e-7)}}, "sigma"),
-        ({"over": {"roughness.R": [STEEL]}}, "is not one"),
+        ({"vary": {}}, "vary is empty"),
+        ({"vary": {"particles.diametr": (1, 2)}}, "did you mean"),
+        ({"vary": {"roughness.sigma": (2e-7, 1e-7)}}, "must be below"),
+        ({"vary": {"roughness.sigma": 3}}, "must be \\(low, high\\)"),
+        ({"vary": {"roughness.sigma": (-1e-7, 1e-7)}}, "sigma"),
+        ({"vary": {"roughness.R": [STEEL]}}, "is not one"),
         ({"objective": Objective(of="muu")}, "no such number"),
         ({"objective": []}, "objective is empty"),
         ({"F_star": None}, "exactly one"),
@@ -255,7 +256,7 @@ def test_an_end_of_the_range_is_told():
 )
 def test_mistakes(changes, said):
     asked = {
-        "over": {"roughness.sigma": (5e-8, 2e-7)},
+        "vary": {"roughness.sigma": (5e-8, 2e-7)},
         "objective": Objective(of="A_t"),
         "F_star": [1e-5],
     }
@@ -293,7 +294,7 @@ def test_load_on_buried_particles():
     # a share of the whole load: few deep particles do no harm
     best = design(
         case,
-        over={"particles.areal_density": (1e8, 1e13)},
+        vary={"particles.areal_density": (1e8, 1e13)},
         objective=Objective(of="A_t"),
         pressure=[5e7],
         points=9,
@@ -317,7 +318,7 @@ def test_number_follows_from_the_fluid():
     fluid = Suspension(gap=1e-6, concentration=2e-3, by="volume")
     best = design(
         contact(),
-        over={SIZE: (5e-8, 5e-7)},
+        vary={SIZE: (5e-8, 5e-7)},
         objective=Objective(of="A_t"),
         pressure=[5e6],
         suspension=fluid,
@@ -327,12 +328,12 @@ def test_number_follows_from_the_fluid():
     volume = dust.areal_density * np.pi / 6 * dust.diameter.moment(3)
     assert volume == pytest.approx(2e-3 * 1e-6, rel=1e-12)
     for mistake, said in (
-        ({"suspension": None, "over": {"particles.concentration": (1e-3, 2e-3)}}, "needs suspens"),
-        ({"over": {"particles.areal_density": (1e9, 1e10)}}, "follows from the suspension"),
+        ({"suspension": None, "vary": {"particles.concentration": (1e-3, 2e-3)}}, "needs suspens"),
+        ({"vary": {"particles.areal_density": (1e9, 1e10)}}, "follows from the suspension"),
         ({"suspension": Suspension(gap=1e-6, by="volume")}, "concentration is missing"),
         ({"suspension": Suspension(gap=1e-6, concentration=1e-3)}, "needs the density"),
     ):
-        asked = {"over": {SIZE: (5e-8, 5e-7)}, "suspension": fluid, "pressure": [5e6]}
+        asked = {"vary": {SIZE: (5e-8, 5e-7)}, "suspension": fluid, "pressure": [5e6]}
         with pytest.raises(tb.InvalidValue, match=said):
             design(contact(), objective=Objective(of="A_t"), **{**asked, **mistake})
 
@@ -341,7 +342,7 @@ def test_particles_that_differ_in_number_share_their_spots():
     """Outputs of states of many densities at once, and of each alone."""
     case = contact(outputs=tb.outputs.Friction(tau_ss=580e6, tau_sa=200e6))
     density, p = np.array([0, 1e8, 1e10, 5e10, 0, 1e8]), np.array([1e6, 1e6, 5e6, 5e6, 2e6, 4e6])
-    states = tb.solve_states(case, pressure=p, vary={"particles.areal_density": density})
+    states = state_columns(case, pressure=p, vary={"particles.areal_density": density})
     for i in range(len(p)):
         one = tb.solve(case.replace(**{"particles.areal_density": density[i]}), pressure=p[i])
         for name in ("mu", "mu_sa", "mu_ss", "rolling_share"):

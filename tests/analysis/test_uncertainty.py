@@ -83,7 +83,7 @@ def test_power_laws_carry_lognormal_to_lognormal():
     spread = {"pressure": 1.3, "roughness.R": 1.4, "surfaces.first.E+surfaces.second.E": 1.1}
     start = {"pressure": 1e6, "roughness.R": 2.8e-6, "surfaces.first.E+surfaces.second.E": 205e9}
     inputs = {name: tb.Uncertain.lognormal(start[name], gsd) for name, gsd in spread.items()}
-    found = tb.propagate(EXPONENTIAL, inputs, pressure=1e6, samples=128, outputs=["A_t", "d"])
+    found = tb.propagate(EXPONENTIAL, vary=inputs, pressure=1e6, samples=128, outputs=["A_t", "d"])
     rough = EXPONENTIAL.roughness
     area = 1e6 * math.sqrt(math.pi * rough.R / rough.sigma_s) / EXPONENTIAL.E_ss
     assert found.nominal["A_t"] == pytest.approx(area, rel=1e-9)
@@ -102,7 +102,7 @@ def test_of_one_input_the_bands_are_the_states_at_its_quantiles():
     known = tb.Uncertain.lognormal(100e-9, 1.2)
     names = ["particle_load_share", "F_cr1"]
     found = tb.propagate(
-        DUSTY, {"roughness.sigma": known}, pressure=5e6, samples=4096, outputs=names
+        DUSTY, vary={"roughness.sigma": known}, pressure=5e6, samples=4096, outputs=names
     )
     # both fall while σ rises
     contacts = [DUSTY.replace(**{"roughness.sigma": known.at(1 - q)}) for q in found.probabilities]
@@ -121,7 +121,7 @@ def test_sobol_indices_of_a_sum_and_of_a_product():
     spread = {"pressure": 1.3, "roughness.R": 2.0}
     start = {"pressure": 1e6, "roughness.R": 2.8e-6}
     inputs = {name: tb.Uncertain.lognormal(start[name], gsd) for name, gsd in spread.items()}
-    found = tb.propagate(EXPONENTIAL, inputs, pressure=1e6, samples=64, outputs=["A_t"])
+    found = tb.propagate(EXPONENTIAL, vary=inputs, pressure=1e6, samples=64, outputs=["A_t"])
     indices = found.sobol_indices(["d", "A_t"], samples=64)
     s2 = (np.array([1.0, 0.5]) * np.log(list(spread.values()))) ** 2
     cv2 = np.expm1(s2)
@@ -143,7 +143,7 @@ def test_sobol_indices_of_a_sum_and_of_a_product():
 def test_bands_hold_in_brute_force():
     """Of 200 contacts solved one by one, as many lie below each quantile as it says."""
     columns = ["A_t", "particle_load_share", "d", "A_p"]
-    found = tb.propagate(DUSTY, RANGES, pressure=5e6, outputs=columns)
+    found = tb.propagate(DUSTY, vary=RANGES, pressure=5e6, outputs=columns)
     vary = draw(RANGES, 200, seed=5)
     states = [
         tb.solve(DUSTY.replace(**{n: float(v[i]) for n, v in vary.items()}), pressure=5e6)
@@ -162,10 +162,12 @@ def test_bands_hold_in_brute_force():
 
 def test_errors_of_the_bands_are_honest():
     """Over seeds the bands scatter by what each says of itself."""
-    exact = tb.propagate(DUSTY, RANGES, pressure=5e6, samples=2**15, outputs=["A_t"])
+    exact = tb.propagate(DUSTY, vary=RANGES, pressure=5e6, samples=2**15, outputs=["A_t"])
     ratios = []
     for seed in range(1, 13):
-        found = tb.propagate(DUSTY, RANGES, pressure=5e6, samples=512, seed=seed, outputs=["A_t"])
+        found = tb.propagate(
+            DUSTY, vary=RANGES, pressure=5e6, samples=512, seed=seed, outputs=["A_t"]
+        )
         ratios.append((found.bands["A_t"] - exact.bands["A_t"]) / found.error["A_t"])
     assert 0.4 < np.sqrt(np.mean(np.square(ratios))) < 2.5
     assert np.all(exact.error["A_t"] < 0.2 * found.error["A_t"])
@@ -189,7 +191,7 @@ def test_errors_of_the_bands_are_honest():
 )
 def test_critical_loads_are_those_of_transitions(contact, inputs, count):
     vary = draw(inputs, count, seed=3)
-    found = critical_loads(contact, vary, count)
+    found = critical_loads(contact, vary=vary, count=count)
     met = {name: set() for name in found}
     for i in range(count):
         one = tb.transitions(contact.replace(**{n: float(v[i]) for n, v in vary.items()}))
@@ -209,7 +211,7 @@ def test_critical_loads_are_those_of_transitions(contact, inputs, count):
 def test_margins_and_modes_tell_the_same():
     found = tb.propagate(
         DUSTY,
-        RANGES,
+        vary=RANGES,
         pressure=5e6,
         samples=2048,
         outputs=["F_cr1", "F/F_cr1", "F_star"],
@@ -228,7 +230,7 @@ def test_margins_and_modes_tell_the_same():
 def test_bodies_move_together():
     low, high = 4e9, 6e9
     found = tb.propagate(
-        TWO_BODY, {BOTH_H: (low, high)}, pressure=1e7, samples=256, outputs=["A_p"]
+        TWO_BODY, vary={BOTH_H: (low, high)}, pressure=1e7, samples=256, outputs=["A_p"]
     )
     ends = found.tornado("A_p", probabilities=(0.0, 1.0))["A_p"][BOTH_H]
     for H, value in zip((low, high), ends, strict=True):
@@ -240,11 +242,11 @@ def test_bodies_move_together():
 def test_several_loads_and_an_uncertain_load():
     loads = np.array([1e6, 1e7])
     inputs = {"roughness.sigma": (85e-9, 115e-9)}
-    both = tb.propagate(DUSTY, inputs, pressure=loads, samples=256)
+    both = tb.propagate(DUSTY, vary=inputs, pressure=loads, samples=256)
     assert both.bands["A_t"].shape == (2, 5)
     assert both.bands["F_cr1"].shape == (5,)
     assert both.bands["F/F_cr1"].shape == (2, 5)
-    one = tb.propagate(DUSTY, inputs, pressure=1e7, samples=256)
+    one = tb.propagate(DUSTY, vary=inputs, pressure=1e7, samples=256)
     np.testing.assert_array_equal(one.bands["A_t"], both.bands["A_t"][1])
     data = both.to_dataset()
     assert data.A_t.dims == ("pressure", "quantile")
@@ -254,7 +256,11 @@ def test_several_loads_and_an_uncertain_load():
         both.mode_probability["hybrid"][1]
     )
     moved = tb.propagate(
-        DUSTY, {"pressure": (5e6, 2e7)}, pressure=1e7, samples=1024, outputs=["pressure", "A_t"]
+        DUSTY,
+        vary={"pressure": (5e6, 2e7)},
+        pressure=1e7,
+        samples=1024,
+        outputs=["pressure", "A_t"],
     )
     exact = np.array([5.75e6, 8.75e6, 12.5e6, 16.25e6, 19.25e6])
     assert np.all(np.abs(moved.bands["pressure"] - exact) < 6 * moved.error["pressure"])
@@ -265,7 +271,7 @@ def test_several_loads_and_an_uncertain_load():
 
 def test_states_without_equilibrium_are_told():
     found = tb.propagate(
-        DUSTY, {"pressure": (1e9, 1e12)}, pressure=1e10, samples=256, outputs=["A_t"]
+        DUSTY, vary={"pressure": (1e9, 1e12)}, pressure=1e10, samples=256, outputs=["A_t"]
     )
     assert 0 < found.solved < 1
     assert found.mode_probability["none"] == pytest.approx(1 - found.solved)
@@ -276,7 +282,7 @@ def test_states_without_equilibrium_are_told():
 def test_the_same_seed_gives_the_same_digits(monkeypatch):
     def run(seed):
         inputs = RANGES | {"particles.material.H": tb.Uncertain.normal(7.7e9, 5e8)}
-        found = tb.propagate(DUSTY, inputs, pressure=5e6, samples=2048, seed=seed)
+        found = tb.propagate(DUSTY, vary=inputs, pressure=5e6, samples=2048, seed=seed)
         return json.dumps(found.to_dict(), allow_nan=False)
 
     first = run(0)
@@ -287,14 +293,14 @@ def test_the_same_seed_gives_the_same_digits(monkeypatch):
 
 def test_samples_are_rounded_up_to_a_power_of_two():
     found = tb.propagate(
-        TWO_BODY, {"roughness.R": (2e-6, 3e-6)}, pressure=1e6, samples=1000, outputs=["A_t"]
+        TWO_BODY, vary={"roughness.R": (2e-6, 3e-6)}, pressure=1e6, samples=1000, outputs=["A_t"]
     )
     assert found.samples == 1024
     assert found.critical_samples == 0
 
 
 def test_outputs_of_two_bodies_have_no_critical_loads():
-    found = tb.propagate(TWO_BODY, {"roughness.R": (2e-6, 3e-6)}, pressure=1e6, samples=64)
+    found = tb.propagate(TWO_BODY, vary={"roughness.R": (2e-6, 3e-6)}, pressure=1e6, samples=64)
     assert "F_cr1" not in found.bands
     assert found.mode_probability["s-s"] == 1
     assert set(found.bands) < set(OUTPUTS)
@@ -304,7 +310,7 @@ def test_outputs_of_two_bodies_have_no_critical_loads():
 @pytest.mark.parametrize(
     ("inputs", "options", "words"),
     [
-        ({}, {}, "inputs is empty"),
+        ({}, {}, "vary is empty"),
         ({"roughness.sgima": (1e-8, 1e-7)}, {}, "did you mean 'roughness.sigma'"),
         ({"roughness.sigma": (2e-7, 1e-7)}, {}, "low = 2e-07 must be below high = 1e-07"),
         ({"roughness.sigma": 1e-7}, {}, "must be (low, high), or one of Uncertain"),
@@ -331,18 +337,18 @@ def test_outputs_of_two_bodies_have_no_critical_loads():
 )
 def test_mistakes(inputs, options, words):
     with pytest.raises(tb.InvalidValue) as caught:
-        tb.propagate(DUSTY, inputs, **({"pressure": 5e6} | options))
+        tb.propagate(DUSTY, vary=inputs, **({"pressure": 5e6} | options))
     assert words in str(caught.value)
 
 
 def test_mistakes_of_contacts():
     inputs = {"roughness.R": (2e-6, 3e-6)}
     with pytest.raises(tb.InvalidValue, match="needs particles"):
-        tb.propagate(TWO_BODY, inputs, pressure=1e6, outputs=["F_cr1"])
+        tb.propagate(TWO_BODY, vary=inputs, pressure=1e6, outputs=["F_cr1"])
     paper = DUSTY.replace(particle_law=tb.particle.Horng2022())
     with pytest.raises(tb.InvalidValue, match="Horng2022 does not promise"):
-        tb.propagate(paper, inputs, pressure=1e6, samples=64, outputs=["F_cr1"])
-    assert "F_cr1" not in tb.propagate(paper, inputs, pressure=1e6, samples=64).bands
+        tb.propagate(paper, vary=inputs, pressure=1e6, samples=64, outputs=["F_cr1"])
+    assert "F_cr1" not in tb.propagate(paper, vary=inputs, pressure=1e6, samples=64).bands
     with pytest.raises(tb.InvalidValue, match=r"gsd = 0\.5 must be above 1"):
         tb.Uncertain.lognormal(1.0, 0.5)
     with pytest.raises(tb.InvalidValue, match="std = 0 must be > 0"):
@@ -355,7 +361,7 @@ def test_mistakes_of_contacts():
 
 @SALIB
 def test_what_has_no_variance_has_no_indices():
-    found = tb.propagate(TWO_BODY, {"roughness.R": (2e-6, 3e-6)}, pressure=1e6, samples=64)
+    found = tb.propagate(TWO_BODY, vary={"roughness.R": (2e-6, 3e-6)}, pressure=1e6, samples=64)
     with pytest.raises(tb.InvalidValue, match="power of two"):
         found.sobol_indices("A_t", samples=100)
     with pytest.raises(tb.InvalidValue, match="no variance"):

@@ -401,7 +401,7 @@ def test_error_bars_of_critical_loads_and_outputs(of):
     }
     asked = {"load": "F_star", "loads": [], "at": LOADS[1], "of": of, "samples": 64}
     found, _ = run("error bars", study=study, folder=".", **asked)
-    own = tb.propagate(check(study).contact, known, F_star=LOADS[1], samples=64, outputs=[of])
+    own = tb.propagate(check(study).contact, vary=known, F_star=LOADS[1], samples=64, outputs=[of])
     np.testing.assert_allclose(found["band_at"], own.bands[of], rtol=1e-9)
     assert bool(found["critical"]) is (of == "F_cr2")
     if found["critical"]:
@@ -415,7 +415,7 @@ def test_error_bars_are_those_of_the_library():
     asked = {"load": "F_star", "loads": LOADS, "at": LOADS[1], "of": "A_t", "samples": 256}
     found, _ = run("error bars", study=study, folder=".", **asked)
     own = tb.propagate(
-        check(study).contact, {"roughness.sigma": (9e-8, 11e-8)}, F_star=LOADS, samples=256,
+        check(study).contact, vary={"roughness.sigma": (9e-8, 11e-8)}, F_star=LOADS, samples=256,
         seed=3, outputs=["A_t"],
     )  # fmt: skip
     # another process may have another engine: they agree to 1e-12

@@ -11,6 +11,7 @@ from thirdbody.contact.interface import interface as bound_interface
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.columns import COLUMNS
 from thirdbody.equilibrium.compiled import batch as engine
+from thirdbody.equilibrium.states import state_columns
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 compiled = pytest.mark.skipif(not engine.available(), reason="needs the compiled engine")
@@ -111,12 +112,12 @@ def test_random_states(seat, shape):
     most = 100.0 if (seat, shape) == ("rough", "lognormal") else 1000.0
     contact = dusty(seat, shape)
     vary, loads = random_states(contact, 20_000, 1, most)
-    got = tb.solve_states(contact, F_star=loads, vary=vary)
+    got = state_columns(contact, F_star=loads, vary=vary)
     assert set(got["status"]) == {"ok"}
 
     def at(d, which):
         some = {name: values[which] for name, values in vary.items()}
-        state = tb.solve_states(contact, d=d, vary=some)
+        state = state_columns(contact, d=d, vary=some)
         return state["F_ss_star"] + state["F_sa_star"]
 
     balanced(got, loads, at)
@@ -132,15 +133,15 @@ def test_both_engines_agree(seat, shape):
     plateau, sigma = slice(10), vary["roughness.sigma"]
     sigma[plateau] = SIZE / np.linspace(100, 300, 10)
     vary["roughness.R"][plateau] = 28 * sigma[plateau]
-    loads[plateau] = tb.solve_states(contact, d=7 * sigma, vary=vary)["F_star"][plateau]
+    loads[plateau] = state_columns(contact, d=7 * sigma, vary=vary)["F_star"][plateau]
     with mock.patch.object(states, "FEWEST", 2):
-        got = tb.solve_states(contact, F_star=loads, vary=vary)
+        got = state_columns(contact, F_star=loads, vary=vary)
     with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
-        want = tb.solve_states(contact, F_star=loads, vary=vary)
+        want = state_columns(contact, F_star=loads, vary=vary)
         d = want["d"]
         step = 4 * EPS * (np.abs(d) + sigma)  # beside the first touch it says much of the load
         below, above, near = (
-            tb.solve_states(contact, d=x, vary=vary) for x in (d - step, d + step, d + 1e-6 * sigma)
+            state_columns(contact, d=x, vary=vary) for x in (d - step, d + step, d + 1e-6 * sigma)
         )
     assert set(got["status"]) == set(want["status"]) == {"ok"}
     for name in ("F_ss_star", "F_sa_star", "A_t", "A_sa", "A_ss"):
@@ -199,7 +200,7 @@ def test_a_state_without_balance_keeps_its_place(how, tmp_path):
             return {k: v.values for k, v in tb.sweep(contact, F_star=loads).items()}
         if how == "states":
             with mock.patch.object(states, "FIRST", len(loads)):
-                return tb.solve_states(contact, F_star=loads, vary=vary)
+                return state_columns(contact, F_star=loads, vary=vary)
         pytest.importorskip("zarr")
         folder = tmp_path / str(len(list(tmp_path.iterdir())))
         return {k: v.values for k, v in tb.sweep(contact, F_star=loads, out=folder).items()}
@@ -227,7 +228,7 @@ def test_no_states_far_below_every_asperity(name):
     with mock.patch.dict(os.environ, THIRDBODY_ENGINE=name):
         for got in (
             tb.solve(contact, d=d).columns(),
-            tb.solve_states(contact, d=d, vary=vary),
+            state_columns(contact, d=d, vary=vary),
             {k: v.values for k, v in tb.sweep(contact, d=d).items()},
         ):
             assert [text == "ok" for text in got["status"]] == [False] * 2 + [True] * (count - 2)

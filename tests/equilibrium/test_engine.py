@@ -22,6 +22,7 @@ from thirdbody.equilibrium import states
 from thirdbody.equilibrium.columns import COLUMNS
 from thirdbody.equilibrium.compiled import batch as engine
 from thirdbody.equilibrium.load_scan import load_scan
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.errors import NotCompiled
 from thirdbody.laws.asperity import REGISTRY
 from thirdbody.numerics.chebyshev import chebyshev_transform
@@ -124,13 +125,13 @@ def hold_loads(contact: tb.Contact, loads=LOADS, scanned: int = 3) -> None:
 
 def hold_states(contact: tb.Contact, vary: dict, **load) -> None:
     with compiled_engine():
-        got = tb.solve_states(contact, vary=vary, **load)
+        got = state_columns(contact, vary=vary, **load)
     with numpy_engine():
-        want = tb.solve_states(contact, vary=vary, **load)
+        want = state_columns(contact, vary=vary, **load)
         vary = dict(zip(vary, np.broadcast_arrays(*vary.values()), strict=True))
 
         def at(d, solved):
-            return tb.solve_states(contact, d=d, vary={k: v[solved] for k, v in vary.items()})
+            return state_columns(contact, d=d, vary={k: v[solved] for k, v in vary.items()})
 
         hold(got, want, vary.get("roughness.sigma", contact.roughness.sigma), at)
 
@@ -343,22 +344,22 @@ def test_states_at_given_separations(contact, seed):
     vary = variations(contact, seed, 5)
     d = vary["roughness.sigma"] * np.random.default_rng(seed).uniform(-3.5, 12, 5)
     with compiled_engine():
-        got = tb.solve_states(contact, d=d, vary=vary)
+        got = state_columns(contact, d=d, vary=vary)
     with numpy_engine():
-        want = tb.solve_states(contact, d=d, vary=vary)
+        want = state_columns(contact, d=d, vary=vary)
         sigma = vary["roughness.sigma"]
         # what carries nothing has no shares
         touching = want["F_star"] > 1e-25
         got, want = ({k: v[touching] for k, v in x.items()} for x in (got, want))
         vary = {k: v[touching] for k, v in vary.items()}
-        hold(got, want, sigma[touching], lambda d, _: tb.solve_states(contact, d=d, vary=vary))
+        hold(got, want, sigma[touching], lambda d, _: state_columns(contact, d=d, vary=vary))
 
 
 def test_pressure_means_force():
     contact, vary = default(), {"roughness.sigma": 1e-7 * ratios(0, 30)}
     loads = np.geomspace(1e-9, 1e-4, 30)
-    one = tb.solve_states(contact, F_star=loads, vary=vary)
-    two = tb.solve_states(contact, pressure=loads * contact.E_ss, vary=vary)
+    one = state_columns(contact, F_star=loads, vary=vary)
+    two = state_columns(contact, pressure=loads * contact.E_ss, vary=vary)
     np.testing.assert_allclose(one["d"], two["d"], rtol=1e-14)
 
 
@@ -384,7 +385,7 @@ def test_threads_change_no_bit(seat, monkeypatch):
         monkeypatch.setenv("THIRDBODY_THREADS", count)
         assert engine.threads() == int(count)
         with compiled_engine():
-            results.append(tb.solve_states(default(seat), F_star=loads, vary=vary))
+            results.append(state_columns(default(seat), F_star=loads, vary=vary))
         with compiled_engine():
             results.append(columns(tb.solve(default(seat), F_star=loads)))
     same(results[0], results[2])
@@ -394,16 +395,16 @@ def test_threads_change_no_bit(seat, monkeypatch):
 @pytest.mark.parametrize("seat", ["plane", "rough"])
 def test_order_and_company_change_no_bit(seat):
     vary, loads = sample(5_000)
-    whole = tb.solve_states(default(seat), F_star=loads, vary=vary)
+    whole = state_columns(default(seat), F_star=loads, vary=vary)
     order = np.random.default_rng(5).permutation(len(loads))
-    other = tb.solve_states(
+    other = state_columns(
         default(seat), F_star=loads[order], vary={k: v[order] for k, v in vary.items()}
     )
     same({k: v[order] for k, v in whole.items()}, other)
     with mock.patch.object(states, "AT_ONCE", 777), mock.patch.object(engine, "AT_ONCE", 100):
-        same(whole, tb.solve_states(default(seat), F_star=loads, vary=vary))
+        same(whole, state_columns(default(seat), F_star=loads, vary=vary))
     alone = slice(17, 40)
-    few = tb.solve_states(
+    few = state_columns(
         default(seat), F_star=loads[alone], vary={k: v[alone] for k, v in vary.items()}
     )
     same({k: v[alone] for k, v in whole.items()}, few)
@@ -415,7 +416,7 @@ def test_few_nodes_come_close(name):
     loads = 10.0 ** np.random.default_rng(6).uniform(-10, -3, 500)
     own = {"roughness.sigma": 1e-7, "particles.diameter.mean": 3e-7}[name]
     with compiled_engine():
-        got = tb.solve_states(default("rough"), F_star=loads, vary={name: own * ratios(3, 500)})
+        got = state_columns(default("rough"), F_star=loads, vary={name: own * ratios(3, 500)})
     assert np.mean(got["iterations"]) < 1.5
     assert np.max(got["residual"]) < 1e-11
 
@@ -440,11 +441,11 @@ def test_series_across_a_family(seed):
 def test_company_of_states_with_materials_of_their_own():
     """Their nodes follow what the company needs: equal to rounding, and for any threads."""
     vary, loads = materials_of_their_own(1_500), np.geomspace(1e-9, 1e-4, 1_500)
-    whole = tb.solve_states(default(), F_star=loads, vary=vary)
+    whole = state_columns(default(), F_star=loads, vary=vary)
     with mock.patch.dict(os.environ, THIRDBODY_THREADS="3"):
-        same(whole, tb.solve_states(default(), F_star=loads, vary=vary))
+        same(whole, state_columns(default(), F_star=loads, vary=vary))
     some = slice(None, None, 50)
-    few = tb.solve_states(default(), F_star=loads[some], vary={k: v[some] for k, v in vary.items()})
+    few = state_columns(default(), F_star=loads[some], vary={k: v[some] for k, v in vary.items()})
     for name in ("d", "A_t", "A_sa", "F_sa_star", "shadow"):
         np.testing.assert_allclose(few[name], whole[name][some], rtol=2e-12, err_msg=name)
 
@@ -455,7 +456,7 @@ def test_switched_off_or_not_installed():
     vary = {"roughness.sigma": 1e-7 * ratios(1, 4)}
     with compiled_engine():
         fast = tb.solve(contact, F_star=LOADS)
-        many = tb.solve_states(contact, F_star=1e-6, vary=vary)
+        many = state_columns(contact, F_star=1e-6, vary=vary)
     for absent in (
         mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"),
         mock.patch("importlib.util.find_spec", return_value=None),
@@ -465,7 +466,7 @@ def test_switched_off_or_not_installed():
             slow = tb.solve(contact, F_star=LOADS)
             np.testing.assert_allclose(slow.d, fast.d, rtol=1e-13, atol=1e-21)
             assert np.array_equal(slow.mode, fast.mode)
-            states_ = tb.solve_states(contact, F_star=1e-6, vary=vary)
+            states_ = state_columns(contact, F_star=1e-6, vary=vary)
             np.testing.assert_allclose(states_["A_t"], many["A_t"], rtol=1e-12)
     assert engine.available()
 
@@ -492,10 +493,10 @@ def test_what_only_numpy_knows_goes_there_silently(kind, recwarn):
         engine.batch(bound_interface(contact))
     loads = np.geomspace(1e-9, 1e-5, 5)
     vary = {"roughness.sigma": 1e-7 * np.array([1.0, 1.1, 0.9, 1.0, 1.2])}
-    got = tb.solve(contact, F_star=loads), tb.solve_states(contact, F_star=loads, vary=vary)
+    got = tb.solve(contact, F_star=loads), state_columns(contact, F_star=loads, vary=vary)
     with numpy_engine():
         same(columns(got[0]), columns(tb.solve(contact, F_star=loads)))
-        same(got[1], tb.solve_states(contact, F_star=loads, vary=vary))
+        same(got[1], state_columns(contact, F_star=loads, vary=vary))
     assert not [w for w in recwarn if not issubclass(w.category, tb.RangeWarning)]
 
 
@@ -564,9 +565,9 @@ def test_states_on_series_of_rules():
         "particles.diameter.mean": 3e-7 * 1.3 ** rng.uniform(-1, 1, count),
     }
     pressure = np.geomspace(1e3, 1e8, count)
-    shared = tb.solve_states(default(), pressure=pressure, vary=vary)
+    shared = state_columns(default(), pressure=pressure, vary=vary)
     with mock.patch.object(rules, "WORTH", 10**9):
-        each = tb.solve_states(default(), pressure=pressure, vary=vary)
+        each = state_columns(default(), pressure=pressure, vary=vary)
     assert set(shared["status"]) == {"ok"}
     for name in set(COLUMNS) - {*WORDS, *COUNTED}:
         areas = name.startswith("A_")  # regimes that hardly occur are small differences
@@ -607,7 +608,7 @@ def test_a_bad_value_says_what_replace_says(name, wrong):
     with pytest.raises(tb.InvalidValue) as one:
         contact.replace(**{name: wrong})
     with pytest.raises(tb.InvalidValue) as many:
-        tb.solve_states(contact, F_star=1e-6, vary=with_one(name, wrong))
+        state_columns(contact, F_star=1e-6, vary=with_one(name, wrong))
     assert str(many.value) == str(one.value)
 
 
@@ -617,13 +618,13 @@ def test_a_wrong_name_says_what_replace_says(name):
     with pytest.raises(tb.InvalidValue) as one:
         contact.replace(**{name: float(values[0])})
     with pytest.raises(tb.InvalidValue) as many:
-        tb.solve_states(contact, F_star=1e-6, vary={name: values})
+        state_columns(contact, F_star=1e-6, vary={name: values})
     assert str(many.value) == str(one.value)
 
 
 def test_a_part_is_not_a_number():
     with pytest.raises(tb.InvalidValue, match="must be a Roughness"):
-        tb.solve_states(default(), F_star=1e-6, vary={"roughness": 1e-7 * ratios(0, 30)})
+        state_columns(default(), F_star=1e-6, vary={"roughness": 1e-7 * ratios(0, 30)})
 
 
 def test_jammed_particles():
@@ -632,15 +633,15 @@ def test_jammed_particles():
     with pytest.raises(tb.InvalidValue, match="cover") as one:
         contact.replace(**{"particles.areal_density": 1e14})
     with pytest.raises(tb.InvalidValue) as many:
-        tb.solve_states(contact, F_star=1e-6, vary=vary)
+        state_columns(contact, F_star=1e-6, vary=vary)
     assert str(many.value) == str(one.value)
 
 
 def test_lengths_and_shapes():
     with pytest.raises(tb.InvalidValue, match="different lengths"):
-        tb.solve_states(default(), F_star=np.ones(3), vary={"roughness.sigma": 1e-7 * np.ones(4)})
+        state_columns(default(), F_star=np.ones(3), vary={"roughness.sigma": 1e-7 * np.ones(4)})
     with pytest.raises(tb.InvalidValue, match="dimensions"):
-        tb.solve_states(default(), F_star=1e-6, vary={"roughness.sigma": 1e-7 * np.ones((2, 2))})
+        state_columns(default(), F_star=1e-6, vary={"roughness.sigma": 1e-7 * np.ones((2, 2))})
 
 
 @pytest.mark.parametrize(
@@ -664,7 +665,7 @@ def test_one_length_alone_changes_no_shape(sizes, name, material):
     assert not engine.own_particles(case, vary)
     if material:
         vary["particles.material.E"] = np.linspace(6e10, 8e10, 30)
-    states = tb.solve_states(case, F_star=1e-5, vary=vary)
+    states = state_columns(case, F_star=1e-5, vary=vary)
     for i in (0, 13, 29):
         alone = tb.solve(case.replace(**{k: v[i] for k, v in vary.items()}), F_star=1e-5)
         assert states["d"][i] == pytest.approx(alone.d, rel=1e-11)
@@ -676,6 +677,7 @@ BITS = """
 import hashlib, sys
 import numpy as np
 import thirdbody as tb
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.study import load_study
 
 out = hashlib.sha256()
@@ -688,7 +690,7 @@ for given in ({"d": np.linspace(-1e-7, 5e-7, 60_000)}, {"pressure": np.geomspace
             out.update(result[name].tobytes())
 H = np.linspace(4e9, 6e9, 600)
 vary = {"surfaces.first.H": H, "surfaces.second.H": H}
-states = tb.solve_states(contact.replace(outputs=()), pressure=5e6, vary=vary)
+states = state_columns(contact.replace(outputs=()), pressure=5e6, vary=vary)
 out.update(states["d"].tobytes())
 print(out.hexdigest())
 """

@@ -13,6 +13,7 @@ import thirdbody as tb
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.compiled import batch as engine
 from thirdbody.equilibrium.load_scan import load_scan
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.errors import NotCompiled
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
@@ -54,7 +55,7 @@ class TestPath:
         sigma = 1e-7 * np.linspace(1, 1.2, 40)
         vary = {"asperity_law.k": k, "roughness.sigma": sigma}
         with mock.patch.object(states, "FEWEST", 2):
-            found = tb.solve_states(dusty(), F_star=1e-6, vary=vary)["engine"]
+            found = state_columns(dusty(), F_star=1e-6, vary=vary)["engine"]
         assert set(found[:20]) == {"compiled"}
         assert set(found[20:]) == {"numpy: the asperity law varies"}
 
@@ -76,7 +77,7 @@ class TestPath:
         vary = {"roughness.sigma": 1e-7 * np.linspace(1, 1.2, 40)}
         broken = {"side_effect": TypeError("a mistake")}
         with mock.patch.object(engine.States, where, **broken), pytest.raises(TypeError):
-            tb.solve_states(dusty(), F_star=1e-6, vary=vary)
+            state_columns(dusty(), F_star=1e-6, vary=vary)
         loads = np.geomspace(1e-8, 1e-5, 20)
         few = mock.patch.object(engine, "FEWEST", 1)
         broken_there = mock.patch.object(engine.Interfaces, where, **broken)
@@ -127,10 +128,10 @@ class TestJump:
     def test_every_path_says_so(self, printed, tmp_path):
         most, least = sides(printed, 3e-7 + 3.11e-7)
         inside = np.sqrt(most * least)
-        alike = tb.solve_states(printed, F_star=[inside, 2 * most])
+        alike = state_columns(printed, F_star=[inside, 2 * most])
         assert alike["status"][0].startswith("jump")
         assert alike["status"][1] == "ok"
-        own = tb.solve_states(
+        own = state_columns(
             printed, F_star=inside, vary={"roughness.R": 2.8e-6 * np.linspace(1, 1.001, 30)}
         )
         assert all(word.startswith("jump") for word in own["status"])
@@ -248,12 +249,12 @@ class TestJump:
             return h, n, fate, columns
 
         few = mock.patch.object(engine, "FEWEST", 1), mock.patch.object(states, "FEWEST", 2)
-        want = tb.solve(contact, F_star=loads), tb.solve_states(contact, F_star=loads, vary=vary)
+        want = tb.solve(contact, F_star=loads), state_columns(contact, F_star=loads, vary=vary)
         slipping = mock.patch.object(engine._Batch, "solve", wrong)
         with few[0], slipping:
             many = tb.solve(contact, F_star=loads)
         with few[1], slipping:
-            own = tb.solve_states(contact, F_star=loads, vary=vary)
+            own = state_columns(contact, F_star=loads, vary=vary)
         for found, right in ((many.columns(), want[0].columns()), (own, want[1])):
             assert set(found["status"]) == {"ok"}
             assert found["residual"].max() < 1e-9
@@ -317,7 +318,7 @@ class TestSeveralSeparations:
         few = mock.patch.object(engine, "FEWEST", 1), mock.patch.object(states, "FEWEST", 2)
         with few[0], few[1]:
             many = tb.solve(contact, pressure=loads)
-            own = tb.solve_states(contact, pressure=loads, vary=vary)
+            own = state_columns(contact, pressure=loads, vary=vary)
         assert many.engine == f"numpy: {engine.NOT_MONOTONE}"
         assert set(own["engine"]) == {many.engine}
         np.testing.assert_allclose(many.d, want, rtol=1e-9)
@@ -347,7 +348,7 @@ class TestSeveralSeparations:
             "particles.areal_density": cover / (np.pi / 4 * moment * x**2),
         }
         with mock.patch.object(states, "FEWEST", 2):
-            found = tb.solve_states(contact, F_star=1e-4, vary=vary)["engine"]
+            found = state_columns(contact, F_star=1e-4, vary=vary)["engine"]
         fast = np.flatnonzero(found == "compiled")
         assert len(fast) > 10
         for i in fast:

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 import thirdbody as tb
 from thirdbody.contact.particle_averages import SizeAverage
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.laws.particle.one_particle import squeezed_particle
 from thirdbody.numerics.chebyshev import PiecewiseChebyshev
 from thirdbody.numerics.quadrature import gauss_legendre
@@ -50,7 +51,7 @@ def test_particles_squeezed_flat_carry_by_all_their_sizes(widths, gsd):
     sizes = tb.LogNormal(median=size, gsd=gsd)
     contact = case(sizes, particle=dust, surfaces=(STEEL, SOFT), density=0.01 / size**2)
     vary = {"surfaces.first.H": np.linspace(4e9, 6e9, 32)}
-    states = tb.solve_states(contact, pressure=5e6, vary=vary)
+    states = state_columns(contact, pressure=5e6, vary=vary)
     alike(states, contact, vary, (0, 13, 31), pressure=5e6)
 
 
@@ -61,7 +62,7 @@ def test_particles_squeezed_flat_with_spreads_of_their_own():
     dust = SILICA.replace(H=0.3e9)
     contact = case(sizes, particle=dust, surfaces=(STEEL, SOFT), density=0.01 / size**2)
     vary = {"particles.diameter.std": size * np.linspace(0.01, 0.2, 32)}
-    states = tb.solve_states(contact, pressure=5e6, vary=vary)
+    states = state_columns(contact, pressure=5e6, vary=vary)
     alike(states, contact, vary, (0, 13, 31), pressure=5e6)
 
 
@@ -73,7 +74,7 @@ def test_wide_spreads_of_their_own_by_regime():
     contact = case(sizes, density=0.01 / size**2)
     contact = contact.replace(**{"particle_law.zeta_std": 0.4})
     vary = {"particles.diameter.std": size * np.linspace(0.3, 0.45, 24)}
-    states = tb.solve_states(contact, F_star=1e-5, vary=vary)
+    states = state_columns(contact, F_star=1e-5, vary=vary)
     alike(states, contact, vary, (0, 12, 23), F_star=1e-5)
 
 
@@ -85,7 +86,7 @@ def test_loads_that_do_not_change_with_the_separation(load):
     contact = case(tb.Uniform(low=3e-6, high=5e-6), "plane", surfaces=surfaces, density=2e6)
     contact = contact.replace(roughness=tb.Roughness(sigma=30e-9, R=1e-6))
     vary = {"particles.areal_density": np.linspace(1e6, 2e6, 24)}
-    states = tb.solve_states(contact, F_star=load, vary=vary)
+    states = state_columns(contact, F_star=load, vary=vary)
     assert np.all(np.isfinite(states["d"]))
     alike(states, contact, vary, (0, 23), F_star=load)
 
@@ -137,7 +138,7 @@ def test_states_of_close_sizes(kind, spread):
     pytest.importorskip("numba")
     contact = case(close_sizes(kind, spread))
     vary = {"surfaces.first.H": np.linspace(4e9, 6e9, 24)}
-    states = tb.solve_states(contact, F_star=1e-5, vary=vary)
+    states = state_columns(contact, F_star=1e-5, vary=vary)
     alike(states, contact, vary, (0, 23), rtol=1e-11, F_star=1e-5)
 
 

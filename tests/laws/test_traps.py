@@ -11,6 +11,7 @@ from subjects import CASE, E_STAR, FIRST, HEIGHTS, NU, SIGMA_S, H, R, build, con
 
 import thirdbody as tb
 from thirdbody import reference
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.laws.asperity import elliptic_hertz
 
 
@@ -236,7 +237,7 @@ def test_jackson_green_beyond_its_fits(hardness):
     for found in (
         tb.solve(hard, F_star=loads).columns(),
         tb.solve(hard, d=R * np.linspace(0, 4, 30)).columns(),
-        tb.solve_states(hard, F_star=loads, vary=vary),
+        state_columns(hard, F_star=loads, vary=vary),
     ):
         ok = found["status"] == "ok"
         assert np.all(np.isfinite(found["A_t"][ok]) & (found["mode"][ok] == "s-s"))

@@ -4,6 +4,9 @@ import dataclasses
 import json
 import math
 import pickle
+import subprocess
+import sys
+import warnings
 
 import numpy as np
 import oracle
@@ -15,6 +18,7 @@ from twins import decades, horng_twins, roughnesses, series_twins
 import thirdbody as tb
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+ROUGH = tb.Roughness(sigma=1e-7, R=2.8e-6)
 
 
 def dust(**changes) -> tb.Particles:
@@ -309,3 +313,85 @@ def test_every_field_is_documented(value):
             assert about["symbol"]
             assert about["unit"]
             assert about["meaning"]
+
+
+# -------------------------------------------------------------------------- likely slips
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        (
+            {"particles": dust(diameter=tb.Monodisperse(mean=200), areal_density=1e-6)},
+            ["particles.diameter.mean = 200 ", "200 m", "was 200 nm"],
+        ),
+        ({"roughness": tb.Roughness(sigma=1e-7, R=2.8)}, ["roughness.R = 2.8 ", "was 2.8 um"]),
+        (
+            {"surfaces": tb.MaterialPair(STEEL, STEEL.replace(E=205))},
+            ["surfaces.second.E = 205 ", "205 Pa", "was 205 GPa"],
+        ),
+    ],
+)
+def test_a_forgotten_unit_is_told_of(changes, words):
+    options = {"surfaces": tb.MaterialPair(STEEL, STEEL), "roughness": ROUGH} | changes
+    with pytest.warns(tb.RangeWarning) as heard:
+        tb.Contact(**options)
+    (one,) = heard
+    assert one.filename == __file__
+    for word in words:
+        assert word in str(one.message)
+
+
+def test_a_forgotten_unit_of_a_varied_input_is_told_of():
+    with pytest.warns(tb.RangeWarning, match=r"roughness\.R = 3 .*was 3 um"):
+        tb.solve_states(contact(), pressure=5e6, vary={"roughness.R": [2e-6, 3.0]})
+
+
+def test_usual_numbers_are_no_slip():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rubber = tb.Material(E=2e6, nu=0.49, H=1e6)
+        friction = tb.outputs.Friction(tau_ss=0, tau_sa=0)
+        contact(surfaces=tb.MaterialPair(rubber, rubber), outputs=friction)
+        tb.Monodisperse(mean=1.0)  # sizes over their mean
+
+
+def test_a_study_file_tells_of_a_slip_once(tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(
+        '[surfaces]\nfirst = "S45C"\nsecond = "S45C"\n'
+        '[roughness]\nsigma = "100 nm"\nR = 2.8\n[load]\npressure = "5 MPa"\n'
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        (note,) = tb.load_study(file).notes
+    assert 'was "2.8 um" meant?' in note
+    with pytest.warns(tb.RangeWarning, match=r"was 2\.8 um meant"):
+        contact(roughness=tb.Roughness(sigma=1e-7, R=2.8))
+
+
+# ------------------------------------------------------------------------------ names
+def test_every_name_is_listed():
+    script = "import thirdbody as tb; print(*dir(tb))"
+    listed = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout
+    names = listed.split()
+    assert set(tb.__all__) <= set(names)
+    assert all(hasattr(tb, name) for name in names)
+    assert names == dir(tb)  # the same after names were used
+    assert [name for name in names if name.startswith("_") and not name.startswith("__")] == []
+
+
+def test_notebooks_offer_the_names_of_materials():
+    assert tb.materials._ipython_key_completions_() == list(tb.materials)
+
+
+def test_a_study_is_a_contact_and_loads(tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(
+        'title = "two"\n[surfaces]\nfirst = "S45C"\nsecond = "S45C"\n'
+        '[roughness]\nsigma = "100 nm"\nR = "2.8 um"\n[load]\npressure = ["1 MPa", "5 MPa"]\n'
+    )
+    study = tb.load_study(file)
+    assert study.contact == contact(particles=None)
+    assert (study.title, study.load, study.values.tolist()) == ("two", "pressure", [1e6, 5e6])
+    assert study.solve().d.tolist() == tb.solve(study.contact, pressure=[1e6, 5e6]).d.tolist()
+    with pytest.raises(tb.InvalidValue, match=r"roughness\.sigma"):
+        tb.load_study(file, ["roughness.sigma=-1"])

@@ -228,7 +228,7 @@ def test_error_bars_are_those_of_assess(dusty):
     middle = np.geomspace(1e6, 20e6, 5)[2]
     again = tb.assess(
         found.contact.replace(outputs=()),
-        {"roughness.sigma": (85e-9, 115e-9)},
+        vary={"roughness.sigma": (85e-9, 115e-9)},
         pressure=middle,
         samples=64,
     )

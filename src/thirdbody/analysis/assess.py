@@ -35,10 +35,10 @@ __all__ = ["assess"]
 # -------------------------------------------------------------------------- making it
 def assess(
     contact: Contact,
-    inputs: Mapping[str, Uncertain | tuple[float, float]] | None = None,
     *,
     pressure: float | None = None,
     F_star: float | None = None,
+    vary: Mapping[str, Uncertain | tuple[float, float]] | None = None,
     samples: int = 2**14,
     seed: int = 0,
     title: str = "",
@@ -48,7 +48,7 @@ def assess(
     Parameters
     ----------
     contact : Contact
-    inputs : mapping, optional
+    vary : mapping, optional
         What is uncertain, as in `propagate`. Without it the ranges of the materials library, where
         it states some; none is invented.
     pressure, F_star : float
@@ -88,7 +88,7 @@ def assess(
     ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
     ...     particles=tb.Particles(material=silica, areal_density=1e11,
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
-    >>> page = assess(contact, {"roughness.sigma": (80e-9, 120e-9)}, pressure=5e6, samples=256)
+    >>> page = assess(contact, vary={"roughness.sigma": (80e-9, 120e-9)}, pressure=5e6, samples=256)
     >>> page.mode, page.decisive, page.changes[0].mode
     ('hybrid', 'F_cr1', 'p-s')
     """
@@ -97,20 +97,20 @@ def assess(
     if not one:
         raise InvalidValue(f"{load}: an assessment is of one operating load, not {len(values)}")
     notes: list[str] = []
-    if inputs is None:
-        inputs = library_ranges(contact)
-        if not inputs:
+    if vary is None:
+        vary = library_ranges(contact)
+        if not vary:
             known = ", ".join(all_inputs(contact))
             raise InvalidValue(
                 f"no input has a range, and the materials library states none for these bodies: "
                 f"say what is known of {known}, e.g. roughness.sigma = (80e-9, 120e-9)"
             )
-        notes.append(f"Ranges of the materials library: {', '.join(inputs)}.")
+        notes.append(f"Ranges of the materials library: {', '.join(vary)}.")
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, **{load: given[load]})  # type: ignore[arg-type]
     notes += [f"Warning: {text}." for text in dict.fromkeys(str(item.message) for item in heard)]
-    found = propagate(contact, inputs, **{load: given[load]}, samples=samples, seed=seed)  # type: ignore[arg-type]
+    found = propagate(contact, vary=vary, **{load: given[load]}, samples=samples, seed=seed)  # type: ignore[arg-type]
     if found.solved == 0:
         raise NoEquilibrium("no sample has an equilibrium; check the unit of the load")
     for label, one_input in found.inputs.items():

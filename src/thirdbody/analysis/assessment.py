@@ -19,6 +19,7 @@ from ..equilibrium.words import (
     not_met,
     two_bodies,
 )
+from ..quantities import notebook
 from ..quantities.say import listed, number, percent, span, times, value_of
 from .inputs import declared
 from .inputs import inputs as all_inputs
@@ -129,6 +130,14 @@ class Assessment:
             "notes": list(self.notes),
             "citations": cite(found.contact).splitlines(),
         }
+
+    def _repr_html_(self) -> str:
+        """The page for notebooks: a table for each part."""
+        out = []
+        for part in self.sections():
+            rows = [notebook.Row(each[0], each[1:]) for each in (part.head, *part.rows) if each]
+            out.append(notebook.card(part.title, rows, part.sentences))
+        return f"<div>{''.join(out)}</div>"
 
     # ------------------------------------------------------------------ words and tables
     def headline(self) -> str:

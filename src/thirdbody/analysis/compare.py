@@ -68,8 +68,8 @@ ATOMIC = 0.2e-9
 def compare(
     contact: Contact,
     *,
-    F_star: ArrayLike | None = None,
     pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
     laws: Iterable[str | AbstractAsperityLaw] | str | AbstractAsperityLaw | None = None,
 ) -> xarray.Dataset:
     """The same interface under every asperity law.
@@ -78,7 +78,7 @@ def compare(
     ----------
     contact : Contact
         With or without particles; its ``asperity_law`` is what the others are held against.
-    F_star, pressure : float or array (N,)
+    pressure, F_star : float or array (N,)
         Loads F* [1] or nominal pressures [Pa]; exactly one of them.
     laws : list of str or AbstractAsperityLaw, optional
         Words of the registry, which mean the law with its default options, or laws. When left

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..equilibrium.states import solve_states
+from ..equilibrium.states import state_columns
 from .inputs import CENTRAL, DOWN, UP, Input, _room
 
 if TYPE_CHECKING:
@@ -156,7 +156,7 @@ class Places:
             d = d[..., None] + step[..., None] * CENTRAL
             changes = {name: np.broadcast_to(v[..., None], d.shape) for name, v in changes.items()}
         vary = {name: values.ravel() for name, values in changes.items()}
-        states = solve_states(self.contact, d=d.ravel(), vary=vary or None)
+        states = state_columns(self.contact, d=d.ravel(), vary=vary or None)
         columns = [states[name].astype(float).reshape(d.shape) for name in self.columns]
         held = np.zeros(d.shape)
         if self.held:

@@ -22,10 +22,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.contact import Contact
-from ..equilibrium.columns import EPS_1, EPS_2, Equilibrium
+from ..equilibrium.columns import EPS_1, EPS_2, Equilibrium, quantity_of
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue
+from ..quantities import notebook
 from .differences import STEPS, Entry, Places
 from .inputs import NUMBERS, Input, _room, input_of, inputs
 
@@ -126,6 +127,19 @@ class Sensitivity:
             lines.append([to.ljust(width), *numbers])
         return "\n".join("  ".join(line) for line in lines)
 
+    def _repr_html_(self) -> str:
+        """A table for notebooks: the elasticities, an input a row; of several loads the first."""
+        rows = [notebook.Row("input", list(self.elasticity))]
+        rows += [
+            notebook.Row(
+                to,
+                [notebook.words_of(np.ravel(row[to])[0]) for row in self.elasticity.values()],
+                "" if (told := quantity_of(self.contact, to)) is None else told["meaning"],
+            )
+            for to in self.inputs
+        ]
+        return notebook.card("Elasticities d ln c/d ln p", rows)
+
 
 def _plain(value: Any) -> Any:
     if isinstance(value, dict):
@@ -169,8 +183,8 @@ def sensitivity(
     *,
     of: str | Sequence[str],
     to: str | Sequence[str] | None = None,
-    F_star: ArrayLike | None = None,
     pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
 ) -> Sensitivity:
     r"""Derivatives of columns and critical loads with respect to inputs of the contact.
@@ -191,7 +205,7 @@ def sensitivity(
         names joined by "+", which move by one factor. Every number and the load when left out,
         with E, ν and H of two equal surfaces, and equal hardnesses, joined: which body is the
         softer changes there, so that the slopes on both sides differ.
-    F_star, pressure, d : float or array (N,)
+    pressure, F_star, d : float or array (N,)
         The load as in `solve`, held while an input moves; at most one, none for critical loads
         alone. F* is held in units of E_ss, which moves with the moduli.
 

@@ -65,7 +65,7 @@ seed = 1
 objective = { of = "particle_load_share", aim = "largest" }
 limits = [{ of = "A_t", most = 0.1 }]
 
-[design.over]
+[design.vary]
 "roughness.sigma" = { low = "50 nm", high = "200 nm" }
 """,
 }

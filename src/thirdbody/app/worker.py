@@ -176,11 +176,11 @@ def error_bars(
     asking: dict[str, Any] = {"samples": samples, "seed": seed, "outputs": [*names, "F_star"]}
     rows, nominal = [], []
     for number, value in enumerate([] if critical else loads):
-        found = tb.propagate(asked.contact, inputs, **(asking | {load: value}))
+        found = tb.propagate(asked.contact, vary=inputs, **(asking | {load: value}))
         rows.append(found.bands[of])
         nominal.append(found.nominal[of])
         report(0.9 * (number + 1) / len(loads))
-    point = tb.propagate(asked.contact, inputs, **(asking | {load: at}))
+    point = tb.propagate(asked.contact, vary=inputs, **(asking | {load: at}))
     report(0.95)
     return {
         "of": of,

@@ -9,7 +9,7 @@ from ..laws.particle import AbstractParticleLaw, Series
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
 from ..populations.roughness import Roughness
-from ..quantities.value import Value
+from ..quantities.value import Value, warn_of_slips
 from .output import AbstractOutput, problems_of
 
 __all__ = ["Contact"]
@@ -35,6 +35,12 @@ class Contact(Value):
         What one particle does; `Series` on the rough seat by default.
     outputs : AbstractOutput or tuple of them, optional
         What else its states tell: friction, temperature, conductance, wear (`thirdbody.outputs`).
+
+    Warns
+    -----
+    RangeWarning
+        A length of 1 cm and more, or a modulus, hardness or stress below 0.1 MPa: mostly a
+        forgotten unit.
 
     Examples
     --------
@@ -62,6 +68,7 @@ class Contact(Value):
             object.__setattr__(self, "outputs", (self.outputs,))
         object.__setattr__(self, "outputs", tuple(self.outputs))
         Value.__post_init__(self)
+        warn_of_slips(self, stacklevel=3)
 
     def _problems(self) -> list[str]:
         kinds = {

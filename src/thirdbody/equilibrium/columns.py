@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
-from typing import Any
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..contact.output import column
+from ..errors import InvalidValue
+from ..quantities import notebook
+from ..version import __version__
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 __all__ = ["Equilibrium"]
 
@@ -99,6 +108,96 @@ class Equilibrium:
         own = {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
         return own | {name: np.atleast_1d(values) for name, values in self.outputs.items()}
 
+    def to_dataset(self, *, title: str = "") -> xarray.Dataset:
+        """The states as labelled data, one along the dimension ``state``.
+
+        Parameters
+        ----------
+        title : str, optional
+            What the data are of; kept with them.
+
+        Returns
+        -------
+        xarray.Dataset
+            Every column with ``units``, ``long_name`` and ``symbol``; title, inputs, version,
+            engine, warnings and citations as attributes. What each of several populations
+            carries has the dimension ``population`` too.
+
+        Examples
+        --------
+        >>> import thirdbody as tb
+        >>> steel = tb.materials["S45C"]
+        >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+        ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+        >>> data = tb.solve(contact, pressure=[1e6, 5e6]).to_dataset(title="Two loads")
+        >>> data.A_t.dims, data.pressure.units, data.title
+        (('state',), 'Pa', 'Two loads')
+        """
+        said = {
+            "title": title,
+            "engine": self.engine,
+            "warnings": "\n".join(self.warnings),
+        }
+        data = dataset(self.contact, self.columns(), {}, said)
+        if self.populations:
+            dims = ("state", "population")
+            parts = self.populations
+            for name, told in POPULATION_COLUMNS.items():
+                values = np.stack([np.atleast_1d(getattr(part, name)) for part in parts], axis=-1)
+                data[f"population_{name}"] = (dims, values, told)
+            data = data.assign_coords(population=[part.name for part in parts])
+        return data
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The states as a pandas table, one a row; units and symbols in ``attrs``.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Every column. ``attrs["units"]``, ``attrs["symbol"]`` and ``attrs["long_name"]`` say
+            of each what it is.
+
+        Raises
+        ------
+        ImportError
+            Pandas is not installed.
+
+        Examples
+        --------
+        >>> import thirdbody as tb
+        >>> steel = tb.materials["S45C"]
+        >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+        ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+        >>> table = tb.solve(contact, pressure=[1e6, 5e6]).to_dataframe()
+        >>> table["mode"].tolist(), table.attrs["units"]["pressure"]
+        (['s-s', 's-s'], 'Pa')
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise ImportError(
+                "a table of states needs pandas; install it with pip install pandas, or take "
+                "to_dataset()"
+            ) from None
+        columns = self.columns()
+        table = pandas.DataFrame(columns)
+        table.index.name = "state"
+        said = {name: labels(name) for name in columns}
+        for key in ("units", "symbol", "long_name"):
+            table.attrs[key] = {name: told[key] for name, told in said.items()}
+        return table
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: a row for each column, the first and the last states."""
+        count = len(self.columns()["d"])
+        rows = [
+            notebook.Row(told["symbol"], _shown(values, told["units"]), told["long_name"])
+            for name, values in self.columns().items()
+            for told in (labels(name),)
+        ]
+        states = "1 state" if count == 1 else f"{count} states"
+        return notebook.card(f"Equilibrium, {states}", rows, self.warnings)
+
     def modes(
         self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: str = "area"
     ) -> str | NDArray[np.str_]:
@@ -126,6 +225,15 @@ class PopulationShare:
     """of the total real area [1]"""
 
 
+POPULATION_COLUMNS = {
+    "F_sa_star": {"units": "1", "long_name": "load on the particles of a population"},
+    "A_sa": {"units": "1", "long_name": "real area of a population on surface 1"},
+    "load_share": {"units": "1", "long_name": "load share of a population"},
+    "area_share": {"units": "1", "long_name": "area share of a population"},
+}
+"""Attributes of what each of several populations carries."""
+ENGINE = "what found the separation"
+
 COLUMNS = {item.name: dict(item.metadata) for item in fields(Equilibrium) if item.metadata}
 """Symbol, unit and meaning of every column of a result."""
 
@@ -133,6 +241,77 @@ COLUMNS = {item.name: dict(item.metadata) for item in fields(Equilibrium) if ite
 def about(name: str) -> dict[str, str]:
     """Symbol, unit and meaning of a column, of the state itself or of an output."""
     return COLUMNS[name] if name in COLUMNS else column(name)._asdict()
+
+
+def labels(name: str) -> dict[str, Any]:
+    """Attributes of a column in a data set."""
+    told = about(name)
+    return {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
+
+
+def quantity_of(contact: Contact, name: str) -> dict[str, Any] | None:
+    """Symbol, unit and range of an input by its dotted name."""
+    path, _, last = name.rpartition(".")
+    try:
+        owner = contact.part(path)
+    except InvalidValue:
+        return None
+    if not is_dataclass(owner):
+        return None
+    return {item.name: item.metadata.get("quantity") for item in fields(owner)}.get(last)
+
+
+def labels_of(contact: Contact, name: str) -> dict[str, Any]:
+    """Attributes of an input or load in a data set."""
+    if name in COLUMNS:
+        return labels(name)
+    told = quantity_of(contact, name)
+    if told is None:
+        return {}
+    return {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
+
+
+def dataset(
+    contact: Contact,
+    columns: Mapping[str, NDArray[Any]],
+    inputs: Mapping[str, NDArray[Any]],
+    attrs: Mapping[str, str],
+) -> xarray.Dataset:
+    """States (N,) as labelled data; ``inputs``, which they were given, are coordinates."""
+    import xarray
+
+    data = {
+        name: ("state", values, labels(name) if name != "engine" else {"long_name": ENGINE})
+        for name, values in columns.items()
+        if name not in inputs
+    }
+    coords = {
+        name: (
+            "state",
+            values.astype(str) if values.dtype == object else values,
+            labels_of(contact, name),
+        )
+        for name, values in inputs.items()
+    }
+    own = {
+        "inputs": json.dumps(contact.to_dict(), ensure_ascii=False),
+        "version": __version__,
+        "citations": cite(contact),
+    }
+    return xarray.Dataset(data, coords=coords, attrs={**attrs, **own})
+
+
+MOST_SHOWN = 6
+"""States that a notebook shows; of more the first and the last."""
+
+
+def _shown(values: NDArray[Any], unit: str) -> list[str]:
+    """Values of some states in words."""
+    words = [notebook.words_of(value, unit) for value in values[:MOST_SHOWN]]
+    if len(values) <= MOST_SHOWN:
+        return words
+    half = MOST_SHOWN // 2
+    return [*words[:half], "…", *(notebook.words_of(v, unit) for v in values[-half:])]
 
 
 def columns_of(contact: Contact) -> tuple[str, ...]:

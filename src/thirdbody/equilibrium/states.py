@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from itertools import chain
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,28 +16,32 @@ from ..contact.evaluation import evaluate
 from ..contact.interface import interface
 from ..errors import InvalidValue, NotCompiled, RangeWarning
 from ..populations.materials import BULK
-from .columns import COLUMNS
+from ..quantities.value import warn_of_slip
+from .columns import COLUMNS, dataset, quantity_of
 from .compiled import batch as engine
 from .solve import TOO_DEEP, given_load, solve
 
-__all__ = ["solve_states", "varied"]
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["solve_states", "state_columns", "varied"]
 
 
 def solve_states(
     contact: Contact,
     *,
-    F_star: ArrayLike | None = None,
     pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
     vary: Mapping[str, ArrayLike] | None = None,
-) -> dict[str, NDArray[Any]]:
+) -> xarray.Dataset:
     """N states of a contact: state i has the i-th load and the i-th value of every varied input.
 
     Parameters
     ----------
     contact : Contact
         The inputs that are not varied.
-    F_star, pressure, d : float or array (N,)
+    pressure, F_star, d : float or array (N,)
         Loads, as in `solve`; exactly one.
     vary : mapping, optional
         Dotted names of inputs and their values, each a number or an array (N,), e.g.
@@ -46,10 +50,11 @@ def solve_states(
 
     Returns
     -------
-    dict
-        Every column of `Equilibrium`, arrays (N,). A state without equilibrium, or at a
+    xarray.Dataset
+        Every column of `Equilibrium` along ``state``, with ``units``, ``long_name`` and
+        ``symbol``; load and varied inputs are coordinates. A state without equilibrium, or at a
         separation below −5 σ_s, is NaN with its reason in ``status``. ``engine`` says what found
-        each state, as in `Equilibrium`.
+        each state, as in `Equilibrium`. Inputs, version and citations are attributes.
 
     Raises
     ------
@@ -65,9 +70,35 @@ def solve_states(
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
     >>> sigma = np.array([50e-9, 100e-9, 200e-9])
     >>> states = tb.solve_states(contact, pressure=1e6, vary={"roughness.sigma": sigma})
-    >>> states["A_t"].shape
-    (3,)
+    >>> states.A_t.dims, states["roughness.sigma"].units
+    (('state',), 'm')
     """
+    load, loads, arrays = _given(contact, pressure, F_star, d, vary)
+    columns = _columns(contact, arrays, load, loads)
+    return dataset(contact, columns, {load: loads, **arrays}, {})
+
+
+def state_columns(
+    contact: Contact,
+    *,
+    pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
+    d: ArrayLike | None = None,
+    vary: Mapping[str, ArrayLike] | None = None,
+) -> Columns:
+    """The columns of `solve_states` as plain arrays (N,)."""
+    load, loads, arrays = _given(contact, pressure, F_star, d, vary)
+    return _columns(contact, arrays, load, loads)
+
+
+def _given(
+    contact: Contact,
+    pressure: ArrayLike | None,
+    F_star: ArrayLike | None,
+    d: ArrayLike | None,
+    vary: Mapping[str, ArrayLike] | None,
+) -> tuple[str, NDArray[np.float64], dict[str, NDArray[Any]]]:
+    """Which load is given, its values and those of every varied input, all (N,)."""
     load, _, _ = given_load(contact, pressure, F_star, d)
     given = {"pressure": pressure, "F_star": F_star, "d": d}[load]
     inputs = {load: np.asarray(given, float), **{k: np.asarray(v) for k, v in (vary or {}).items()}}
@@ -80,6 +111,15 @@ def solve_states(
     arrays = {name: np.atleast_1d(values) for name, values in arrays.items()}
     if loads.ndim > 1:
         raise InvalidValue(f"inputs have {loads.ndim} dimensions; give numbers or 1-D arrays")
+    for name, values in arrays.items():
+        if values.dtype.kind in "iuf" and (told := quantity_of(contact, name)):
+            for extreme in dict.fromkeys((float(values.min()), float(values.max()))):
+                warn_of_slip(name, told, extreme, stacklevel=3)
+    return load, loads, arrays
+
+
+def _columns(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
+    """Every column of the states."""
     if contact.outputs:
         return _with_outputs(contact, arrays, load, loads)
     absent = np.zeros(len(loads), bool)
@@ -158,8 +198,7 @@ def _with_outputs(
 ) -> Columns:
     """Every column of the states, then the outputs of each contact among them."""
     inputs = {name: v for name, v in arrays.items() if carries(name)}
-    given: dict[str, Any] = {load: loads}
-    out = solve_states(contact.replace(outputs=()), vary=inputs or None, **given)
+    out = _columns(contact.replace(outputs=()), inputs, load, loads)
     # states of one contact share their spots; those of one surface share its tables, and those
     # that differ in the number of particles alone share the spots of one particle
     count = arrays.get(DENSITY, np.ones(len(loads)))

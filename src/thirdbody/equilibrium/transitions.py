@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import InvalidValue
+from ..quantities import notebook
 from .columns import EPS_1, EPS_2
 from .load_scan import load_scan
 
@@ -108,6 +109,26 @@ class Transitions:
             "F_cr2": self.F_cr2.to_dict(),
             "F_tpca": self.F_tpca.to_dict(),
         }
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: each load, its status, and what it is."""
+        found = {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2}
+        found |= {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
+        rows = [
+            notebook.Row(name, [notebook.words_of(load.value), load.status], MEANINGS[name])
+            for name, load in found.items()
+        ]
+        return notebook.card("Transitions, F* = F/(A_n E_ss)", rows)
+
+
+MEANINGS = {
+    "F_cr1": "up to it particles alone carry",
+    "F_cr2": "from it on surfaces alone carry",
+    "F_tpca.A": "largest particle share",
+    "F_tpca.B": "asperities and particles carry equal loads",
+    "F_tpca.C": "strongest bend of the area against the load",
+}
+"""Every load in words."""
 
 
 def transitions(

@@ -295,6 +295,10 @@ class MaterialLibrary(Mapping[str, Material]):
             raise UnknownMaterial(f"material {name!r} is not in the library; {guess}")
         return _material(name, entries[name])
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """Names that a notebook offers after ``materials["``."""
+        return list(self)
+
     def __iter__(self) -> Iterator[str]:
         return iter(self.entries())
 

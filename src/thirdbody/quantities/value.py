@@ -10,16 +10,21 @@ from __future__ import annotations
 import dataclasses
 import math
 import types
-from collections.abc import Mapping
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import MISSING, field
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from ..errors import InvalidValue, NotCompiled
+from ..errors import InvalidValue, NotCompiled, RangeWarning
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+    from .notebook import Row
 
 __all__ = ["Value", "choice", "quantity"]
 
@@ -35,6 +40,7 @@ def quantity(
     lt: float | None = None,
     le: float | None = None,
     hint: str = "",
+    usual: float | None = None,
 ) -> Any:
     """A dataclass field that holds one finite number in SI.
 
@@ -48,8 +54,12 @@ def quantity(
         Allowed range.
     hint : str, optional
         The likely cause of a mistake, appended to the message.
+    usual : float, optional
+        Lengths up to it are no slip; `USUAL_LENGTH` by default.
     """
     about = dict(symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint)
+    if usual is not None:
+        about["usual"] = usual
     return field(default=default, metadata={"quantity": about})
 
 
@@ -90,6 +100,64 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
     return allowed_range(about) + (f"; {about['hint']}" if about["hint"] else "")
 
 
+USUAL_LENGTH, USUAL_STRESS = 0.01, 1e5
+"""What lies in an interface is shorter [m], and what holds it is stiffer [Pa]."""
+
+
+def unit_meant(about: Mapping[str, Any], number: float) -> str | None:
+    """The unit that was probably forgotten, where a number in SI is allowed but looks like a slip.
+
+    Lengths of 1 cm and more, and moduli, hardnesses and stresses below 0.1 MPa.
+    """
+    usual = about.get("usual") or USUAL_LENGTH
+    if about["unit"] == "m" and abs(number) >= usual:
+        return "mm" if usual >= 1 else "nm" if abs(number) >= 10 else "um"
+    return "GPa" if about["unit"] == "Pa" and 0 < number < USUAL_STRESS else None
+
+
+_told: ContextVar[bool] = ContextVar("_told", default=False)
+
+
+@contextmanager
+def slips_are_told() -> Iterator[None]:
+    """No warning of numbers that look like a slip: who reads them tells of them himself."""
+    token = _told.set(True)
+    try:
+        yield
+    finally:
+        _told.reset(token)
+
+
+def warn_of_slip(where: str, about: Mapping[str, Any], number: float, *, stacklevel: int) -> None:
+    """Warn of a number that looks like a forgotten unit."""
+    if not _told.get() and (meant := unit_meant(about, number)):
+        warnings.warn(
+            f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI; was "
+            f"{number:g} {meant} meant?",
+            RangeWarning,
+            stacklevel=stacklevel + 1,
+        )
+
+
+def warn_of_slips(value: Value, *, stacklevel: int, prefix: str = "") -> None:
+    """Warn of every number of a value, and of the values in it, that looks like a slip."""
+    for item in dataclasses.fields(value):  # type: ignore[arg-type]
+        part = getattr(value, item.name)
+        where = prefix + item.name
+        if (about := item.metadata.get("quantity")) and part is not None:
+            warn_of_slip(where, about, part, stacklevel=stacklevel + 1)
+        for name, inner in _values_in(where, part):
+            warn_of_slips(inner, stacklevel=stacklevel + 1, prefix=f"{name}.")
+
+
+def _values_in(name: str, part: Any) -> Iterator[tuple[str, Value]]:
+    """The values in a field, by dotted names."""
+    if isinstance(part, Value):
+        yield name, part
+    elif isinstance(part, tuple):
+        yield from ((f"{name}.{i}", each) for i, each in enumerate(part) if isinstance(each, Value))
+
+
 class Value:
     """Base class of the frozen, slotted, keyword-only dataclasses a user builds."""
 
@@ -124,6 +192,12 @@ class Value:
     def _problems(self) -> list[str]:
         """Mistakes that concern several fields at once; subclasses override."""
         return []
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: symbol, value with unit, and words of every field."""
+        from .notebook import card
+
+        return card(type(self).__name__, _rows(self))
 
     def replace(self, **changes: Any) -> Self:
         """A copy with some fields changed; dots reach inside: ``**{"diameter.mean": 1e-7}``."""
@@ -217,6 +291,30 @@ class Value:
         if kind not in Value._classes:
             raise InvalidValue(f"type = {kind!r} is not a class of this library")
         return Value._classes[kind](**{k: _revive(v) for k, v in data.items() if k != "type"})
+
+
+def _rows(value: Value) -> Iterator[Row]:
+    """Fields of a value, those of the values in it below a heading each."""
+    from .notebook import Row, words_of
+
+    inner: list[tuple[str, Value]] = []
+    for item in dataclasses.fields(value):  # type: ignore[arg-type]
+        part = getattr(value, item.name)
+        if found := list(_values_in(item.name, part)):
+            inner += found
+        elif part is None or (isinstance(part, (str, tuple)) and not part):
+            continue
+        elif about := item.metadata.get("quantity"):
+            yield Row(about["symbol"], [words_of(part, about["unit"])], about["meaning"])
+        else:
+            meaning = item.metadata.get("choice", {}).get("meaning", "")
+            yield Row(item.name, [words_of(part)], meaning)
+    for name, part in inner:
+        yield Row(name, [], type(part).__name__)
+        yield from (
+            row if row.values else row._replace(symbol=f"{name}.{row.symbol}")
+            for row in _rows(part)
+        )
 
 
 @cache

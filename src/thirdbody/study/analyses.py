@@ -43,7 +43,7 @@ def assess_study(study: Study) -> Assessment:
         return assess(study.contact, title=study.title, **value)
     return assess(
         study.contact,
-        asked.inputs,
+        vary=asked.inputs,
         samples=asked.samples,
         seed=asked.seed,
         title=study.title,
@@ -77,7 +77,7 @@ def arguments(study: Study) -> dict[str, Any]:
     if study.design is None:
         raise InvalidValue(
             "the study has no table [design]: it says what may be chosen and what is good, e.g. "
-            '[design] objective = { of = "A_t" }, [design.over] "roughness.sigma" = '
+            '[design] objective = { of = "A_t" }, [design.vary] "roughness.sigma" = '
             '{ low = "50 nm", high = "200 nm" }'
         )
     given = dict(study.design)

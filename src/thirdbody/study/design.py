@@ -37,7 +37,7 @@ EXAMPLE = '{ of = "mu", aim = "smallest" }'
 def design(reader: Reader, path: str, data: Any) -> Any:
     """What may be chosen, what is good, and what must hold."""
     keys = {
-        "over": Key(plain(_over(reader, f"{path}.over")), True, "what may be chosen"),
+        "vary": Key(plain(_vary(reader, f"{path}.vary")), True, "what may be chosen"),
         "objective": Key(
             plain(_several(f"{path}.objective", Objective)), True, f"e.g. objective = {EXAMPLE}"
         ),
@@ -68,7 +68,7 @@ def design(reader: Reader, path: str, data: Any) -> Any:
 
 
 # -------------------------------------------------------------------------- what may be chosen
-def _over(reader: Reader, where: str) -> Any:
+def _vary(reader: Reader, where: str) -> Any:
     """Ranges and lists of materials by the names of the library."""
 
     def read(given: Any) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 from ..errors import InvalidValue
 from ..quantities.units import EXAMPLES, quantity_to_si, say, to_si
-from ..quantities.value import allowed_range, problem_with
+from ..quantities.value import allowed_range, problem_with, unit_meant
 from .vocabulary import in_words, near
 
 __all__ = [
@@ -50,22 +50,16 @@ def number(reader: Notes, path: str, about: dict[str, Any]) -> Callable[[Any], f
         if why := problem_with(about, found):
             meant = "" if about["hint"] else f"; it is the {about['meaning']}"
             raise InvalidValue(f"{path} = {say(value)} {in_words(why)}{meant}")
-        _plausible(reader, path, about["unit"], value, found)
+        _plausible(reader, path, about, value, found)
         return found
 
     return read
 
 
-def _plausible(reader: Notes, path: str, unit: str, value: Any, number: float) -> None:
+def _plausible(reader: Notes, path: str, about: dict[str, Any], value: Any, number: float) -> None:
     """Note a number that is allowed but looks like a forgotten unit."""
-    usual = None
-    if path.startswith("film.conjunction"):
-        usual = "mm" if abs(number) >= 1 else None
-    elif unit == "m" and abs(number) >= 0.01:
-        usual = "nm" if abs(number) >= 10 else "um"
-    elif unit == "Pa" and number < 1e5 and not path.startswith(("load", "sweep.pressure")):
-        usual = "GPa"
-    if usual is None:
+    unit, usual = about["unit"], unit_meant(about, number)
+    if usual is None or (unit == "Pa" and path.startswith(("load", "sweep.pressure"))):
         return
     if isinstance(value, str) and re.search(r"[^\d\s.+-]", value):
         cause = "check its unit (upper and lower case matter)"

@@ -17,6 +17,7 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue
+from ..quantities.value import slips_are_told
 from ..systems.film_conditions import FilmConditions
 from .overrides import override
 from .reader import Key, Reader, Table
@@ -118,11 +119,12 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
 def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
     data = with_nested_names(data)
-    try:
-        return _checked(data, folder, [t for t in TABLES if t.name in data or t.required(data)])
-    except InvalidValue:
-        # to say where a misplaced key belongs, every table must be known
-        return _checked(data, folder, TABLES)
+    with slips_are_told():
+        try:
+            return _checked(data, folder, [t for t in TABLES if t.name in data or t.required(data)])
+        except InvalidValue:
+            # to say where a misplaced key belongs, every table must be known
+            return _checked(data, folder, TABLES)
 
 
 def _checked(data: dict[str, Any], folder: Path, tables: Iterable[Table]) -> Study:

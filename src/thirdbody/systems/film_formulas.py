@@ -101,8 +101,10 @@ class Point(Value):
     """
 
     shape: ClassVar[str] = "point"
-    R: float = quantity("R_x", "m", "reduced radius along the motion", gt=0)
-    R_y: float | None = quantity("R_y", "m", "reduced radius across the motion", default=None, gt=0)
+    R: float = quantity("R_x", "m", "reduced radius along the motion", gt=0, usual=1.0)
+    R_y: float | None = quantity(
+        "R_y", "m", "reduced radius across the motion", default=None, gt=0, usual=1.0
+    )
 
     @property
     def ratio(self) -> float:
@@ -144,8 +146,8 @@ class Line(Value):
     """
 
     shape: ClassVar[str] = "line"
-    R: float = quantity("R", "m", "reduced radius", gt=0)
-    length: float = quantity("l", "m", "length of the contact", gt=0)
+    R: float = quantity("R", "m", "reduced radius", gt=0, usual=1.0)
+    length: float = quantity("l", "m", "length of the contact", gt=0, usual=1.0)
 
     @property
     def ratio(self) -> float:

@@ -48,7 +48,7 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
     if known:
         curve = propagate(
             found.contact,
-            known,
+            vary=known,
             **{found.load: loads},  # type: ignore[arg-type]
             samples=max(min(SAMPLES_SHOWN, found.samples // 16), 64),
             seed=found.seed,

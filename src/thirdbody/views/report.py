@@ -842,7 +842,7 @@ def _assessed(study: Study, contact: Contact, given: dict[str, float]) -> Assess
     if not inputs:
         return None
     samples = min(asked.samples, MOST_SAMPLES)
-    return assess(contact, inputs, **given, samples=samples, seed=asked.seed)  # type: ignore[arg-type]
+    return assess(contact, vary=inputs, **given, samples=samples, seed=asked.seed)  # type: ignore[arg-type]
 
 
 def _slopes(contact: Contact, given: dict[str, float]) -> Sensitivity | None:

@@ -104,7 +104,7 @@ class Best:
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
     >>> best = tb.design(
     ...     contact,
-    ...     over={"particles.diameter.mean+particles.diameter.std": (50e-9, 1e-6)},
+    ...     vary={"particles.diameter.mean+particles.diameter.std": (50e-9, 1e-6)},
     ...     objective=tb.Objective(of="A_t", aim="smallest"),
     ...     limits=[tb.Limit(of="plastic_share", most=0.1)],
     ...     pressure=[1e6, 5e6],
@@ -161,11 +161,11 @@ def _lists(data: xarray.Dataset) -> dict[str, list[Any]]:
 def design(
     contact: Contact,
     *,
-    over: Mapping[str, Any],
+    vary: Mapping[str, Any],
     objective: Objective | Sequence[Objective],
     limits: Sequence[Limit] = (),
-    F_star: ArrayLike | Span | None = None,
     pressure: ArrayLike | Span | None = None,
+    F_star: ArrayLike | Span | None = None,
     weights: ArrayLike | None = None,
     scatter: Mapping[str, Any] | None = None,
     samples: int = 16,
@@ -182,7 +182,7 @@ def design(
     ----------
     contact : Contact
         What is not searched, and the outputs that metrics come from.
-    over : mapping
+    vary : mapping
         What may be chosen: dotted names of numbers with their range (low, high) in SI, several
         names joined by "+" that move by one factor ("particles.diameter.mean+"
         "particles.diameter.std" keeps the relative width); "particles.concentration" with a
@@ -193,7 +193,7 @@ def design(
         Besides, always: every load has a state, A_t < 0.2, particles cover less than 0.3 of the
         area, and those that sit deeper than their radius, where the laws of a contact end, carry
         less than 0.05 of the load.
-    F_star, pressure : array, or Span
+    pressure, F_star : array, or Span
         Load cases; a `Span` stands for 32 of them, evenly in the logarithm. One of the two.
     weights : array, optional
         Of the load cases, equal by default; they are made to sum to one.
@@ -245,7 +245,7 @@ def design(
     ...     particles=tb.Particles(material=silica, areal_density=1e11,
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=30e-9)))
     >>> best = design(contact, F_star=[1e-5, 1e-4], points=16,
-    ...     over={"particles.diameter.mean+particles.diameter.std": (50e-9, 1e-6)},
+    ...     vary={"particles.diameter.mean+particles.diameter.std": (50e-9, 1e-6)},
     ...     objective=Objective(of="particle_load_share", aim="window"))
     >>> best.feasible
     True
@@ -253,7 +253,7 @@ def design(
     objectives = [objective] if isinstance(objective, Objective) else list(objective)
     task = asked(
         contact,
-        over=over,
+        vary=vary,
         objectives=objectives,
         limits=list(limits),
         F_star=F_star,
@@ -434,7 +434,7 @@ def _load_cases(
 def asked(
     contact: Contact,
     *,
-    over: Mapping[str, Any],
+    vary: Mapping[str, Any],
     objectives: list[Objective],
     limits: list[Limit],
     F_star: Any,
@@ -454,19 +454,19 @@ def asked(
         problems += error.problems
     variables: dict[str, Variable] = {}
     materials: dict[str, list[Material]] = {}
-    for name, allowed in over.items():
+    for name, allowed in vary.items():
         try:
             if _is_materials(allowed):
                 if not isinstance(contact.part(name), Material):
-                    raise InvalidValue(f"over[{name!r}] lists materials, but {name} is not one")
+                    raise InvalidValue(f"vary[{name!r}] lists materials, but {name} is not one")
                 materials[name] = list(allowed)
             else:
                 variables[name] = _variable(contact, name, allowed)
         except InvalidValue as error:
-            problems += [text.replace("to = ", "over: ") for text in error.problems]
-    if not over:
+            problems += [text.replace("to = ", "vary: ") for text in error.problems]
+    if not vary:
         problems.append(
-            'over is empty; say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}'
+            'vary is empty; say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}'
         )
     if not objectives:
         problems.append("objective is empty; say what should be small or large")
@@ -480,7 +480,7 @@ def asked(
     ]
     if len({each.label for each in objectives}) < len(objectives):
         problems.append("two objectives are the same")
-    moving = {name for label in (*over, *(scatter or {})) for name in label.split("+")}
+    moving = {name for label in (*vary, *(scatter or {})) for name in label.split("+")}
     problems += _suspension_problems(contact, suspension, moving, variables, materials)
     drawn = None
     if scatter and not problems:
@@ -488,7 +488,7 @@ def asked(
             moved = drawn_inputs(contact, scatter, load, loads)
             drawn = moved, latin(samples, len(moved.known), seed, 0, samples)
         except InvalidValue as error:
-            problems += [text.replace("inputs[", "scatter[") for text in error.problems]
+            problems += [text.replace("vary[", "scatter[") for text in error.problems]
     if problems:
         raise InvalidValue(*problems)
     return Task(
@@ -516,7 +516,7 @@ def _suspension_problems(
     """What does not fit the fluid that brings the particles."""
     if suspension is None:
         if AMOUNT in moving:
-            return [f"over[{AMOUNT!r}] needs suspension=Suspension(gap=...), which says of what"]
+            return [f"vary[{AMOUNT!r}] needs suspension=Suspension(gap=...), which says of what"]
         return []
     if len(contact.populations) != 1:
         return ["suspension needs exactly one population of particles"]
@@ -524,7 +524,7 @@ def _suspension_problems(
     if DENSITY in moving:
         out.append(f"{DENSITY} follows from the suspension: vary {AMOUNT} instead")
     if AMOUNT not in variables and suspension.concentration is None:
-        out.append(f"Suspension.concentration is missing, and over has no {AMOUNT!r}")
+        out.append(f"Suspension.concentration is missing, and vary has no {AMOUNT!r}")
     if suspension.by not in ("mass", "mass per volume"):
         return out
     listed = materials.get("particles.material", [])
@@ -551,12 +551,12 @@ def _variable(contact: Contact, name: str, allowed: Any) -> Variable:
     try:
         low, high = (float(end) for end in allowed)
     except (TypeError, ValueError):
-        raise InvalidValue(f"over[{name!r}] = {allowed!r} must be (low, high)") from None
+        raise InvalidValue(f"vary[{name!r}] = {allowed!r} must be (low, high)") from None
     if not low < high:
-        raise InvalidValue(f"over[{name!r}]: low = {low:g} must be below high = {high:g}")
+        raise InvalidValue(f"vary[{name!r}]: low = {low:g} must be below high = {high:g}")
     if name == AMOUNT:
         if low <= 0:
-            raise InvalidValue(f"over[{name!r}]: low = {low:g} must be > 0")
+            raise InvalidValue(f"vary[{name!r}]: low = {low:g} must be > 0")
         return Variable(name, low, high, None)
     found = Variable(name, low, high, moved_input(contact, name))
     for end in (low, high):

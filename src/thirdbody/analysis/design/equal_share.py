@@ -17,8 +17,8 @@ __all__ = ["equal_share_size"]
 def equal_share_size(
     contact: Contact,
     *,
-    F_star: float | None = None,
     pressure: float | None = None,
+    F_star: float | None = None,
     low: float = 0.05,
     high: float = 20.0,
     share: float = 0.5,
@@ -34,7 +34,7 @@ def equal_share_size(
     ----------
     contact : Contact
         With one population; its size distribution is scaled as a whole.
-    F_star, pressure : float
+    pressure, F_star : float
         The load, as in `solve`.
     low, high : float, optional
         Range of x_a/σ searched.

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ...contact.contact import Contact
 from ...contact.interface import interface
-from ...equilibrium.states import solve_states
+from ...equilibrium.states import state_columns
 from ...errors import InvalidValue
 from ...numerics.sampling import Span, sobol
 from ...quantities.say import percent
@@ -217,7 +217,7 @@ class Task:
             count = np.count_nonzero(possible)
             flat = {name: np.repeat(values[possible], J) for name, values in vary.items()}
             given: dict[str, Any] = {self.load: np.tile(self.loads, count)}
-            states = solve_states(contact, vary=flat or None, **given)
+            states = state_columns(contact, vary=flat or None, **given)
             with np.errstate(divide="ignore", invalid="ignore"):
                 states["plastic_share"] = states["A_p"] / states["A_t"]
             for name, values in out.items():

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...contact.contact import Contact
-from ...equilibrium.columns import columns_of
+from ...equilibrium.columns import columns_of, quantity_of
 from ...equilibrium.solve import given_load
 from ...errors import InvalidValue
 from ...numerics.sampling import DESIGNS, Span
 from ...quantities.value import Value, problem_with
-from .plan import CHUNK, Arrays, Listed, Plan, Sampled, _quantity
+from .plan import CHUNK, Arrays, Listed, Plan, Sampled
 from .reduction import Reduction
 
 CELL = 100_000_000
@@ -28,8 +28,8 @@ ABSENT = ("particles.diameter.mean", "particles.areal_density")
 def make_plan(
     contact: Contact,
     *,
-    F_star: Any = None,
     pressure: Any = None,
+    F_star: Any = None,
     d: Any = None,
     vary: Mapping[str, Any] | None = None,
     design: str = "grid",
@@ -191,7 +191,7 @@ def _as_array(entry: Any) -> NDArray[Any]:
 
 def _refused(contact: Contact, label: str, name: str, values: NDArray[Any]) -> list[str]:
     """Numbers that the field never takes; the rest is for the contact to judge."""
-    about = _quantity(contact, name)
+    about = quantity_of(contact, name)
     if about is None or values.dtype.kind not in "fiu" or not len(values):
         return []
     some = values[values != 0] if name in ABSENT else values

@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from ...contact.citations import cite
 from ...contact.contact import Contact
-from ...equilibrium.columns import about
+from ...equilibrium.columns import labels, labels_of
 from ...equilibrium.solve import about_particles, solve
-from ...equilibrium.states import solve_states, varied
+from ...equilibrium.states import state_columns, varied
 from ...errors import InvalidValue, RangeWarning
 from ...numerics.sampling import DESIGNS, Span
 from ...quantities.value import Value
@@ -36,7 +36,6 @@ CHUNK = 262_144
 """States of a block: the most that are lost when a run is killed, and written at once."""
 LOOKED_AT = 200
 """States whose inputs are looked at before a run."""
-LOAD_UNITS = {"F_star": "1", "pressure": "Pa", "d": "m"}
 MODES = ("", "p-s", "hybrid", "s-s")
 STATUSES = ("ok", "no_equilibrium_above", "no_equilibrium_below", "no_equilibrium", "jump")
 CODES = {
@@ -145,7 +144,7 @@ class Block:
             contact = varied(self.contact, changes) if changes else self.contact
             given: dict[str, Any] = {self.load: loads[which]}
             vary = {name: values[which] for name, values in numbers.items()}
-            for name, column in solve_states(contact, **given, vary=vary or None).items():
+            for name, column in state_columns(contact, **given, vary=vary or None).items():
                 if name not in out:
                     kind = object if column.dtype.kind in "UO" else column.dtype
                     out[name] = np.empty(len(loads), dtype=kind)
@@ -307,7 +306,7 @@ class Plan:
         coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]] = {}
         for dim in kept:
             for name in dim.names:
-                about = _attributes_of(self.contact, name)
+                about = labels_of(self.contact, name)
                 if isinstance(dim, Listed):
                     coords[name] = ((dim.name,), _shown(dim.values[name]), about)
                 else:
@@ -389,20 +388,6 @@ def all_notes(notes: list[str], summary: Mapping[str, Any]) -> list[str]:
     return out
 
 
-def _quantity(contact: Contact, name: str) -> dict[str, Any] | None:
-    """Symbol, unit and range of an input by its dotted name."""
-    path, _, last = name.rpartition(".")
-    try:
-        owner = contact.part(path)
-    except InvalidValue:
-        return None
-    if not dataclasses.is_dataclass(owner):
-        return None
-    found = (item.metadata.get("quantity") for item in dataclasses.fields(owner))
-    names = [item.name for item in dataclasses.fields(owner)]
-    return dict(zip(names, found, strict=True)).get(last)
-
-
 # -------------------------------------------------------------------------- small parts
 def _box(sizes: Sequence[int], most: int) -> tuple[int, ...]:
     """The largest box of at most so many states, whole along the last dimensions."""
@@ -469,20 +454,8 @@ def _shown(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def _attributes(name: str) -> dict[str, Any]:
-    told = about(name)
-    out: dict[str, Any] = {"units": told["unit"], "long_name": told["meaning"]}
-    out["symbol"] = told["symbol"]
+    out = labels(name)
     if name in CODES:
         words = CODES[name]
         out |= {"flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}
     return out
-
-
-def _attributes_of(contact: Contact, name: str) -> dict[str, Any]:
-    """Attributes of an input or load."""
-    if name in LOAD_UNITS:
-        return _attributes(name) | {"units": LOAD_UNITS[name]}
-    about = _quantity(contact, name)
-    if about is None:
-        return {}
-    return {"units": about["unit"], "long_name": about["meaning"], "symbol": about["symbol"]}

@@ -29,8 +29,8 @@ __all__ = ["sweep"]
 def sweep(
     contact: Contact,
     *,
-    F_star: ArrayLike | Mapping[str, Any] | None = None,
     pressure: ArrayLike | Mapping[str, Any] | None = None,
+    F_star: ArrayLike | Mapping[str, Any] | None = None,
     d: ArrayLike | Mapping[str, Any] | None = None,
     vary: Mapping[str, Any] | None = None,
     design: str = "grid",
@@ -51,7 +51,7 @@ def sweep(
     ----------
     contact : Contact
         The inputs that are not varied.
-    F_star, pressure, d : array_like or range
+    pressure, F_star, d : array_like or range
         Loads, as in `solve`; exactly one.
     vary : mapping, optional
         Dotted names of fields and the values they take, e.g.

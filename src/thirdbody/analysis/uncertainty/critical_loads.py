@@ -12,7 +12,7 @@ from ...contact.contact import Contact
 from ...contact.interface import interface
 from ...equilibrium.columns import EPS_1, EPS_2
 from ...equilibrium.load_scan import DEEPEST, load_scan
-from ...equilibrium.states import FEWEST, carries, solve_states
+from ...equilibrium.states import FEWEST, carries, state_columns
 from ...errors import InvalidValue
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ EXACT_PEAK = 1e-4
 
 # -------------------------------------------------------------------------- critical loads
 def critical_loads(
-    contact: Contact, vary: Mapping[str, ArrayLike], count: int
+    contact: Contact, *, vary: Mapping[str, ArrayLike], count: int
 ) -> dict[str, tuple[Array, NDArray[np.str_]]]:
     r"""Critical loads of many contacts at once, as `transitions` defines them.
 
@@ -85,7 +85,7 @@ def critical_loads(
     ...     particles=tb.Particles(material=silica, areal_density=1e11,
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
     >>> vary = {"roughness.sigma": np.linspace(90e-9, 110e-9, 21)}
-    >>> loads, status = critical_loads(contact, vary, 21)["F_cr1"]
+    >>> loads, status = critical_loads(contact, vary=vary, count=21)["F_cr1"]
     >>> bool(np.all(np.diff(loads) < 0)), str(status[0])
     (True, 'found')
     """
@@ -133,7 +133,7 @@ class Shares:
         self.bottom = np.where(np.isnan(last["d"]), deepest, last["d"])
 
     def _solve(self, **given: Any) -> Arrays:
-        return solve_states(self.contact, **given, vary=self.vary or None)
+        return state_columns(self.contact, **given, vary=self.vary or None)
 
     def at(self, t: Array, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
         """ln A_sa/A_ss, ln F_sa/F_ss and F* of contacts ``which`` (M,) at t (M,)."""
@@ -143,7 +143,7 @@ class Shares:
             t, which = np.append(t, np.full(len(others), 0.5)), np.append(which, others)
         d = self.top[which] + t * (self.bottom[which] - self.top[which])
         vary = {name: values[which] for name, values in self.vary.items()}
-        states = solve_states(self.contact, d=d, vary=vary or None)
+        states = state_columns(self.contact, d=d, vary=vary or None)
         return (
             _log_ratio(states["A_sa"], states["A_ss"])[:count],
             _log_ratio(states["F_sa_star"], states["F_ss_star"])[:count],

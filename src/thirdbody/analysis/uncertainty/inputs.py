@@ -230,10 +230,10 @@ def drawn_inputs(contact: Contact, inputs: Mapping[str, Any], load: str, loads: 
     problems: list[str] = []
     if not inputs:
         problems.append(
-            'inputs is empty; say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}'
+            'vary is empty; say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}'
         )
     for label, given in inputs.items():
-        where = f"inputs[{label!r}]"
+        where = f"vary[{label!r}]"
         try:
             each: Moved | str = label
             if label not in ("pressure", "F_star", "d"):
@@ -257,7 +257,7 @@ def drawn_inputs(contact: Contact, inputs: Mapping[str, Any], load: str, loads: 
         names = (each,) if isinstance(each, str) else each.names
         for name in names:
             if name in taken:
-                problems.append(f"{where} and inputs[{taken[name]!r}] both move {name}")
+                problems.append(f"{where} and vary[{taken[name]!r}] both move {name}")
             taken[name] = label
         problems += [f"{where}: {text}" for text in _beyond(contact, each, one)]
         moved.append(each)

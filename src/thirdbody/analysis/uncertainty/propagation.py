@@ -24,9 +24,10 @@ from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.columns import COLUMNS, about
 from ...equilibrium.solve import given_load
-from ...equilibrium.states import FEWEST, solve_states
+from ...equilibrium.states import FEWEST, state_columns
 from ...errors import InvalidValue
 from ...numerics.sampling import sobol
+from ...quantities import notebook
 from ..inputs import NUMBERS
 from .critical_loads import CRITICAL, _bare, _falls, critical_loads
 from .inputs import Drawn, Uncertain, drawn_inputs
@@ -149,6 +150,20 @@ class Propagation:
             "citations": cite(self.contact),
         }
         return xarray.Dataset(data, coords=coordinates, attrs=attributes)
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: quantiles of every output; of several loads at the first."""
+        rows = [notebook.Row("", [f"{100 * q:g} %" for q in self.probabilities])]
+        for name, band in self.bands.items():
+            told = about_result(name)
+            first = np.reshape(band, (-1, len(self.probabilities)))[0]
+            values = [notebook.words_of(value, told["unit"]) for value in first]
+            rows.append(notebook.Row(name, values, told["meaning"]))
+        for mode, share in self.mode_probability.items():
+            values = [notebook.words_of(np.ravel(share)[0])]
+            values += [""] * (len(self.probabilities) - 1)
+            rows.append(notebook.Row(mode, values, "probability of the contact mode"))
+        return notebook.card(f"Propagation, {self.samples} samples", rows)
 
     # ------------------------------------------------------------------ one input at a time
     def tornado(
@@ -313,11 +328,11 @@ def swing(low: float, high: float) -> float:
 # -------------------------------------------------------------------------- propagation
 def propagate(
     contact: Contact,
-    inputs: Mapping[str, Uncertain | tuple[float, float]],
     *,
-    F_star: ArrayLike | None = None,
     pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
+    vary: Mapping[str, Uncertain | tuple[float, float]],
     samples: int = 2**14,
     seed: int = 0,
     outputs: Sequence[str] | None = None,
@@ -332,11 +347,11 @@ def propagate(
     ----------
     contact : Contact
         Every input that is known; the uncertain ones have their nominal values here.
-    inputs : mapping
+    vary : mapping
         Dotted names of numbers of the contact, or several joined by "+", which move by one factor
         (``"surfaces.first.H+surfaces.second.H"``; values are those of the first), and for each an
         `Uncertain`, or ``(low, high)`` for a uniform range. The given load may be one of them.
-    F_star, pressure, d : float or array (L,)
+    pressure, F_star, d : float or array (L,)
         Loads, as in `solve`; exactly one.
     samples : int, optional
         Samples N for each load, at least 64, rounded up to a power of two.
@@ -384,7 +399,7 @@ def propagate(
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> found = tb.propagate(contact, {"roughness.sigma": (80e-9, 120e-9)}, pressure=5e6,
+    >>> found = tb.propagate(contact, vary={"roughness.sigma": (80e-9, 120e-9)}, pressure=5e6,
     ...                      samples=256, outputs=["A_t"], quantiles=[0.05, 0.95])
     >>> low, high = found.bands["A_t"]
     >>> bool(low < found.nominal["A_t"] < high)
@@ -392,7 +407,7 @@ def propagate(
     """
     load, _, one = given_load(contact, pressure, F_star, d)
     loads = np.atleast_1d(np.asarray({"pressure": pressure, "F_star": F_star, "d": d}[load], float))
-    drawn = drawn_inputs(contact, inputs, load, loads[0] if one else loads)
+    drawn = drawn_inputs(contact, vary, load, loads[0] if one else loads)
     names = _outputs(outputs, contact)
     probabilities = tuple(float(q) for q in quantiles)
     problems = [f"quantiles: {q:g} must be between 0 and 1" for q in probabilities if not 0 < q < 1]
@@ -407,8 +422,8 @@ def propagate(
         raise InvalidValue(*problems)
     each = _power_of_two(samples) // REPLICATES
     few = min(each, _power_of_two(critical_samples or MOST_CRITICAL) // REPLICATES)
-    u = _points(each, len(inputs), int(seed), REPLICATES)
-    vary = drawn.points(u)
+    u = _points(each, len(vary), int(seed), REPLICATES)
+    drawn_values = drawn.points(u)
 
     critical: Arrays = {}
     sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
@@ -416,14 +431,14 @@ def propagate(
     statuses: dict[str, dict[str, float]] = {}
     nominal_critical: Arrays = {}
     if sought:
-        some = {n: v[first_few.ravel()] for n, v in vary.items() if n != load}
-        found = critical_loads(contact, some, first_few.size)
+        some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
+        found = critical_loads(contact, vary=some, count=first_few.size)
         critical = {name: found[name][0].reshape(first_few.shape) for name in CRITICAL}
         for name in (name for name in CRITICAL if name in sought):
             words, counts = np.unique(found[name][1], return_counts=True)
             shares = (counts / first_few.size).tolist()
             statuses[name] = dict(zip(map(str, words), shares, strict=True))
-        nominal_critical = {n: v[0] for n, v in critical_loads(contact, {}, 1).items()}
+        nominal_critical = {n: v[0] for n, v in critical_loads(contact, vary={}, count=1).items()}
 
     of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
     some_outputs = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)]
@@ -436,10 +451,10 @@ def propagate(
     solved: list[float] = []
     fixed = {name for name in names if name in CRITICAL}
     for number, value in enumerate(loads):
-        state = columns_at(contact, load, value, vary, len(u))
+        state = columns_at(contact, load, value, drawn_values, len(u))
         middle = columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs))
         if of_outputs:
-            some = {n: v[some_outputs.ravel()] for n, v in vary.items()}
+            some = {n: v[some_outputs.ravel()] for n, v in drawn_values.items()}
             told = columns_at(contact, load, value, some, some_outputs.size, outputs=True)
             state |= {name: told[name] for name in of_outputs}
         for name in names:
@@ -465,7 +480,7 @@ def propagate(
 
     return Propagation(
         contact=contact,
-        inputs=dict(zip(inputs, drawn.known, strict=True)),
+        inputs=dict(zip(vary, drawn.known, strict=True)),
         load=load,
         loads=float(loads[0]) if one else loads,
         samples=len(u),
@@ -533,7 +548,7 @@ def columns_at(
     else:
         contact, vary = _bare(contact, vary)
     loads = vary.pop(load, np.full(count, value))
-    return solve_states(contact, **{load: loads}, vary=vary or None)
+    return state_columns(contact, **{load: loads}, vary=vary or None)
 
 
 def _evaluated(
@@ -543,7 +558,9 @@ def _evaluated(
     critical: Arrays = {}
     if any(name in CRITICAL or name in MARGINS for name in names):
         rest = {n: v for n, v in vary.items() if n != load}
-        critical = {name: v[0] for name, v in critical_loads(contact, rest, count).items()}
+        critical = {
+            name: v[0] for name, v in critical_loads(contact, vary=rest, count=count).items()
+        }
     asked = any(name in each.columns for each in contact.outputs for name in names)
     state = columns_at(contact, load, value, vary, count, outputs=asked)
     return {name: _output(name, state, critical, np.arange(count)) for name in names}

@@ -153,7 +153,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         """What the form asks, as the table [design] of a study."""
         ends = {end: value_from(str(w.value or "")) for end, w in (("low", low), ("high", high))}
         wanted = {"of": of.value, "aim": aim.value, "over_loads": over.value}
-        asked: dict[str, Any] = {"objective": wanted, "over": {str(which.value): ends}}
+        asked: dict[str, Any] = {"objective": wanted, "vary": {str(which.value): ends}}
         if limit.value:
             ends = {"most": value_from(most.value or ""), "least": value_from(least.value or "")}
             asked["limits"] = [

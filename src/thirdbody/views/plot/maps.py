@@ -26,8 +26,9 @@ __all__ = ["mode_map"]
 
 def mode_map(
     contact: Contact,
-    ratio: ArrayLike | None = None,
+    *,
     F_star: ArrayLike | None = None,
+    ratio: ArrayLike | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Contact mode over particle size x_a/σ and load F*.

@@ -56,7 +56,7 @@ def bands(
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> found = tb.propagate(contact, {"roughness.sigma": (80e-9, 120e-9)}, samples=64,
+    >>> found = tb.propagate(contact, vary={"roughness.sigma": (80e-9, 120e-9)}, samples=64,
     ...                      pressure=np.geomspace(1e6, 1e7, 5), outputs=["A_t"])
     >>> bands(found, "A_t").get_xscale()
     'log'
@@ -137,7 +137,7 @@ def tornado(
     >>> steel = tb.materials["S45C"]
     >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> found = tb.propagate(contact, {"roughness.R": (2e-6, 3e-6)}, pressure=1e7,
+    >>> found = tb.propagate(contact, vary={"roughness.R": (2e-6, 3e-6)}, pressure=1e7,
     ...                      samples=64, outputs=["A_t"])
     >>> [text.get_text() for text in tornado(found, "A_t").get_yticklabels()]
     ['$R$']
