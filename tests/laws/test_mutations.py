@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 from subjects import CASE, FIRST
 
-from thirdbody import reference as elliptic
-from thirdbody.laws.asperity import AbstractAsperityLaw, Branch, Jump
+from thirdbody.laws.asperity import AbstractAsperityLaw, Branch, Jump, elliptic
 
 Law = AbstractAsperityLaw
 CHECKS = tuple(check for check in battery.CHECKS if check is not battery.same_as_plain)
