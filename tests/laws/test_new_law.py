@@ -162,9 +162,11 @@ def test_the_law_of_the_page_works_everywhere(package, tmp_path):
     assert load_study(study).contact.asperity_law == package.Abrupt(k=0.4)
 
 
-def pegs(law, **more):
-    """A contact of unlike surfaces with pegs of spread sizes between them, and its numbers."""
-    sizes = tb.TruncatedGaussian(mean=3e-7, std=4e-8)
+SPREAD = tb.TruncatedGaussian(mean=3e-7, std=4e-8)
+
+
+def pegs(law, sizes=SPREAD, **more):
+    """A contact of unlike surfaces with pegs between them."""
     steel, soft = tb.materials["S45C"], tb.Material(E=110e9, nu=0.33, H=1.5e9)
     dust = tb.Particles(material=tb.materials["SiO2"], diameter=sizes, areal_density=2e11)
     return tb.Contact(
@@ -210,8 +212,9 @@ def by_quadrature(contact, d):
 
 @pytest.mark.parametrize("shadow", ["footprint", "projected", "covered", "none"])
 @pytest.mark.parametrize("seat", ["plane", "rough"])
-def test_the_particle_law_of_the_page_is_summed(package, seat, shadow):
-    contact = pegs(package.Pegs(), seat=seat, shadow=shadow)
+@pytest.mark.parametrize("sizes", [SPREAD, tb.Monodisperse(mean=3e-7)], ids=["spread", "one"])
+def test_the_particle_law_of_the_page_is_summed(package, sizes, seat, shadow):
+    contact = pegs(package.Pegs(), sizes, seat=seat, shadow=shadow)
     d = 2.6e-7
     F_sa, A_e, A_ep, A_p, A_sa2 = by_quadrature(contact, d)
     state = tb.solve(contact, d=d)
@@ -277,6 +280,13 @@ def test_pegs_of_equal_numbers_share_their_sums(package):
         for law in (package.Pegs(), package.Pegs(seat="plane", shadow="none"))
     )
     assert one is two
+
+
+def test_particles_wider_than_their_size_may_jam(package, monkeypatch):
+    monkeypatch.setattr(package.pegs.OnePeg, "breadth", 100.0)
+    contact = pegs(package.Pegs())
+    with pytest.raises(tb.InvalidValue, match=r"law pegs would cover 1\.44 of the nominal area"):
+        tb.solve(contact, F_star=1e-5)
 
 
 def test_a_law_without_seat_and_sum_says_so(package):

@@ -309,8 +309,6 @@ class Squeezed(NamedTuple):
     """Indentations δ_1 and δ_2 over x, ε in sum."""
     areas: tuple[Array, Array]
     """Contact areas over x² [1]."""
-    regimes: tuple[NDArray[np.intp], NDArray[np.intp]]
-    """Index into `REGIMES`."""
 
 
 class OneParticle(ABC):
@@ -346,6 +344,10 @@ class OneParticle(ABC):
     def at(self, eps: Array) -> Squeezed:
         """What particles squeezed by ε (N,) carry; of ε ≤ 0 no account is taken."""
 
+    @abstractmethod
+    def regime(self, side: int, depth: Array) -> NDArray[np.intp]:
+        """Index into `REGIMES` of side 0 or 1 indented by depth over x (N,)."""
+
     @cached_property
     def panels(self) -> Array:
         """The kinks, and more ε between kinks that lie far apart."""
@@ -357,7 +359,8 @@ class OneParticle(ABC):
     def __call__(self, eps: Array) -> Array:
         """The seven `COLUMNS` per x² at ε: (N, 7)."""
         eps = np.asarray(eps, dtype=float)
-        load, _, (one, two), (regime, _) = self.at(eps)
+        load, depths, (one, two) = self.at(eps)
+        regime = self.regime(0, depths[0])
         out = np.empty((len(eps), len(COLUMNS)))
         out[:, 0] = load
         for i in range(len(REGIMES)):
@@ -376,7 +379,7 @@ class OneParticle(ABC):
         first, second = (
             x**2 * np.where(eps > 0, area, 0.0).reshape(x.shape) for area in found.areas
         )
-        regimes = [regime.reshape(x.shape) for regime in found.regimes]
+        regimes = [self.regime(i, found.depths[i]).reshape(x.shape) for i in (0, 1)]
         return ParticleSpots(
             share=share,
             number=number,

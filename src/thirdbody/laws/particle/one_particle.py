@@ -314,8 +314,10 @@ class SqueezedParticle(OneParticle):
             load=self.force(eps, one),
             depths=depths,
             areas=(first.area(one), second.area(two)),
-            regimes=(first.regime(one), second.regime(two)),
         )
+
+    def regime(self, side: int, depth: Array) -> Index:
+        return self.sides[side].regime(depth)
 
 
 @lru_cache(maxsize=512)
