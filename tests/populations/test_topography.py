@@ -389,7 +389,7 @@ def test_the_resolution_of_the_instrument_is_heeded():
     assert any("below the recommended" in t for t in from_topography("example", cutoff=0).warnings)
     wide = from_topography("example", resolution=9e-6)
     assert wide.recommended[0] == pytest.approx(12.8e-6 / 5)
-    assert "9 um would be asked for" in wide.recommended[1]
+    assert "9 µm would be asked for" in wide.recommended[1]
 
 
 def test_the_curve_holds_what_single_cutoffs_give():
@@ -563,7 +563,7 @@ def test_the_tip_radius_in_a_file_is_a_limit(library):
     tip = {"instrument": {"parameters": {"tip_radius": {"value": 3.0, "unit": "µm"}}}}
     s = from_topography(library.Topography(h, (6000.0, 5000.0), unit="nm", info=tip))
     assert s.limit is not None
-    assert "tip radius of 3 um" in s.limit_reason
+    assert "tip radius of 3 µm" in s.limit_reason
     blur = {"instrument": {"parameters": {"resolution": {"value": 900, "unit": "nm"}}}}
     s = from_topography(library.Topography(h, (6000.0, 5000.0), unit="nm", info=blur))
     assert s.limit == pytest.approx(9e-7)
