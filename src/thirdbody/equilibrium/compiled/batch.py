@@ -6,11 +6,9 @@ import dataclasses
 import itertools
 import math
 import os
-import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache, partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -91,19 +89,6 @@ def threads() -> int:
 def pulls(law: AbstractAsperityLaw) -> bool:
     """Whether the load may be tension, which the compiled balance does not know."""
     return law.start < 0 or law.onset < 0
-
-
-@lru_cache(maxsize=1)
-def announce() -> None:
-    """Say at a terminal that the engine is compiled now, where no newer cache of it exists."""
-    from . import kernels
-
-    if kernels.solve_states.signatures or not sys.stderr.isatty():
-        return
-    changed = Path(__file__).with_name("kernels.py").stat().st_mtime
-    cached = Path(str(kernels.solve_states.stats.cache_path)).glob("kernels.solve_states-*.nbi")
-    if all(index.stat().st_mtime < changed for index in cached):
-        print("thirdbody: compiling the engine, once, some seconds", file=sys.stderr)
 
 
 class _Panels:
@@ -242,7 +227,6 @@ class _Batch:
         """Separations h [σ_s], evaluations, fates and columns of states of interfaces ``which``."""
         from .kernels import FIELDS, SCRATCH, solve_states
 
-        announce()
         count = len(which)
         given = h is not None
         h = np.array(h) if h is not None else np.empty(count)

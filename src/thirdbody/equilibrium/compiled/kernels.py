@@ -15,6 +15,8 @@ from llvmlite import ir
 from numba import extending, types
 from numba import njit as _njit
 
+from .cached import Cached
+
 __all__ = ["FIELDS", "solve_states"]
 
 njit: Any = _njit
@@ -779,6 +781,7 @@ def _state(m, kinds, values, series, edges, rules, work):
     )
 
 
+@Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
 def solve_states(
     kinds, values, series, edges, rules, work, scan, which, target, h, given, count, fate, rows

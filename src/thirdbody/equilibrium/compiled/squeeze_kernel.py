@@ -11,6 +11,8 @@ import math
 import numpy as np
 from numba import njit
 
+from .cached import Cached
+
 FAST = {"contract"}
 """A product and a sum may become one instruction, which rounds once."""
 
@@ -98,6 +100,7 @@ def _carrying(law, tables, side, f):
     return min(y, side[CAP])
 
 
+@Cached
 @njit(nogil=True, cache=True, error_model="numpy", fastmath=FAST)
 def carrying(law, tables, side, f, out):
     """`_carrying` at every f (M, k), into ``out``."""
@@ -123,6 +126,7 @@ def _share(law, tables, weaker, stronger, equal, v, out):
     out[AREA_STRONGER] = min(_load_and_area(law, tables[0], math.sqrt(y))[1], stronger[FULL])
 
 
+@Cached
 @njit(nogil=True, cache=True, error_model="numpy", fastmath=FAST)
 def share(law, tables, weaker, stronger, equal, y, out):
     """`_share` at every y (M, k), into ``out`` (M, k, 4)."""
@@ -132,6 +136,7 @@ def share(law, tables, weaker, stronger, equal, y, out):
             _share(law, tables, weaker[m], stronger[m], equal[m], v, out[m, i])
 
 
+@Cached
 @njit(nogil=True, cache=True, error_model="numpy", fastmath=FAST)
 def fill(law, tables, weaker, stronger, equal, turned, breaks, order, edges, nodes, slope, R,
          rows, bottom, floor):  # fmt: skip
@@ -183,6 +188,7 @@ def fill(law, tables, weaker, stronger, equal, turned, breaks, order, edges, nod
                 rows[m, 7, at + j] = 1 - values[7, per - 1 - j]
 
 
+@Cached
 @njit(nogil=True, cache=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz"})
 def gather(rows, bottom, transform, out):
     """Columns of rules (M, 8, n) moved to Chebyshev nodes between their bottoms and 1.

@@ -1,0 +1,87 @@
+"""Compiled functions that are always run as the cache holds them.
+
+A process that compiles a function binds what it calls to copies that were optimised apart; loaded
+from the cache the same function brings its own. The two differ in last digits. So a process of its
+own compiles, once after an installation, and every other one loads: the same input gives the same
+bytes in the first process, too.
+"""
+
+from __future__ import annotations
+
+import base64
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from collections.abc import Callable
+from typing import Any
+
+__all__ = ["Cached"]
+
+COMPILE = (
+    "import base64, importlib, pickle, sys; "
+    "module, name, signature = sys.argv[1:]; "
+    "function = getattr(importlib.import_module(module), name).function; "
+    "function.compile(pickle.loads(base64.b64decode(signature)))"
+)
+PATIENCE = 600
+"""Seconds after which this process compiles for itself."""
+
+
+class Cached:
+    """A numba function with ``cache=True``, to be called like it.
+
+    Parameters
+    ----------
+    function : numba dispatcher
+        Of one module, under the name of this object there.
+    """
+
+    def __init__(self, function: Any):
+        self.function = function
+        self._lock = threading.Lock()
+
+    def __call__(self, *args: Any) -> Any:
+        if not self.function.signatures or self._signature(args) not in self.function.overloads:
+            with self._lock:
+                self._prepare(self._signature(args))
+        return self.function(*args)
+
+    @staticmethod
+    def _signature(args: tuple[Any, ...]) -> tuple[Any, ...]:
+        from numba import typeof
+
+        return tuple(typeof(each) for each in args)
+
+    def is_cached(self, signature: tuple[Any, ...]) -> bool:
+        """Whether code for these types lies ready; where numba does not tell, it does."""
+        try:
+            cache = self.function._cache
+            key = cache._index_key(signature, self.function.targetctx.codegen())
+            return cache._cache_file.load(key) is not None
+        except AttributeError:
+            return True
+
+    def _prepare(self, signature: tuple[Any, ...]) -> None:
+        """See that the cache holds the function for these types, if a cache can be written."""
+        if signature in self.function.overloads or self.is_cached(signature):
+            return
+        if sys.stderr.isatty():
+            print("thirdbody: compiling the engine, once, some seconds", file=sys.stderr)
+        types = base64.b64encode(pickle.dumps(signature)).decode()
+        python: Callable[..., Any] = self.function.py_func
+        command = [sys.executable, "-c", COMPILE, python.__module__, python.__name__, types]
+        path = os.pathsep.join(each for each in sys.path if each)
+        try:
+            subprocess.run(
+                command,
+                env=os.environ | {"PYTHONPATH": path},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                timeout=PATIENCE,
+                check=False,
+            )
+        except (OSError, subprocess.TimeoutExpired):
+            return  # compiled here instead, by the call
