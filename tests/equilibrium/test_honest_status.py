@@ -383,3 +383,14 @@ class TestEquality:
         assert isinstance(one.roughness, tb.Roughness)
         assert tb.Roughness.from_dict(plain.roughness.to_dict()) == plain.roughness
         assert hash(plain.roughness) == hash(plain.roughness.replace())
+
+
+class TestResults:
+    """What holds arrays is equal to itself alone; comparing two of them raised."""
+
+    def test_results_with_arrays_can_be_compared_and_kept(self):
+        loads = np.array([1e-6, 1e-5])
+        one, two = (tb.solve(dusty(), F_star=loads) for _ in range(2))
+        assert one == one
+        assert one != two
+        assert len({one, two, one}) == 2

@@ -50,7 +50,7 @@ CRITICAL = {
 
 
 # -------------------------------------------------------------------------- result
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Sensitivity:
     """Derivatives of results with respect to inputs: floats, or arrays over several loads.
 

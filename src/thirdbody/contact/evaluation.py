@@ -29,7 +29,7 @@ AT_ONCE = 4096
 """States whose spots are laid out together."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Solved:
     """N solved states of one contact, and every spot in them: what `AbstractOutput.of` is given.
 

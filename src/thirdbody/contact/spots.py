@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 __all__ = ["AsperitySpots"]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class AsperitySpots(Spots):
     """Asperities of one shape.
 

@@ -37,7 +37,7 @@ def _column(symbol: str, unit: str, meaning: str) -> Any:
     return field(metadata={"symbol": symbol, "unit": unit, "meaning": meaning})
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Equilibrium:
     """The solved contact: floats for one load, arrays for several.
 
@@ -206,7 +206,7 @@ class Equilibrium:
         return _mode(share, eps_1, eps_2)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class PopulationShare:
     """What one of several populations of particles carries: floats for one load, else arrays.
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..contact.interface import Interface
+from ..errors import NoEquilibrium
 from ..numerics.roots import halley_root
 
 Array = NDArray[np.float64]
@@ -78,6 +79,8 @@ class LoadScan:
         if len(turns := self._turns(d, F, slope)):
             d = np.unique(np.append(d, turns))
             F = bound.load(d)[:, 0]
+        if not np.any(F > 0):
+            raise NoEquilibrium("no equilibrium: the laws carry no load at any separation")
         highest = np.flatnonzero(F > 0)[-1] + 1
         with np.errstate(divide="ignore"):
             self.d, self.log_F = d[:highest][::-1], np.log(np.maximum(F[:highest][::-1], 0.0))

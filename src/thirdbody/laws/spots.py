@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["ParticleSpots", "Spots"]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Spots:
     r"""Contacts of one kind in N states: M classes of n spots each.
 
@@ -61,7 +61,7 @@ class Spots:
         return replace(self, share=self.share * factor[:, None])
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class ParticleSpots(Spots):
     """Particles of one population; each has a contact with surface 1 and one with surface 2.
 

@@ -515,7 +515,7 @@ class ParticleFilm:
         return force, np.minimum(area, cap)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class MultiscaleState:
     """Equilibrium of `GhaedniaMultiscale`: floats for one pressure, arrays for several.
 

@@ -67,7 +67,7 @@ DISC_MEAN = 16 / (3 * math.pi**1.5)
 
 
 # ------------------------------------------------------------------------------ mean
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class MeanInteraction:
     """A contact whose summit plane sinks under its own nominal pressure.
 
@@ -206,7 +206,7 @@ def mean_interaction(
 
 
 # ------------------------------------------------------------------------------ local
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class LocalInteraction:
     """Asperities whose own load is taken out of the mean displacement.
 

@@ -121,7 +121,7 @@ def _column(symbol: str, unit: str, meaning: str) -> Any:
     return field(metadata={"symbol": symbol, "unit": unit, "meaning": meaning})
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class MixedFilm:
     r"""A lubricated contact with particles: floats for one speed and load, arrays (N,) for several.
 

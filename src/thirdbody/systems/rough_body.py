@@ -49,7 +49,7 @@ __all__ = ["RoughBody", "curve", "rough_cylinder", "rough_sphere"]
 
 
 # ------------------------------------------------------------------------------ results
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class RoughBody:
     """A solved rough sphere, or a rough cylinder per metre of length.
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 __all__ = ["WavyContact", "elastic_wave", "measured_wave", "rigid_wave"]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class WavyContact:
     """A rough contact on a wavy surface.
 
@@ -114,7 +114,7 @@ class Wave:
         return Grid(x, -self.amplitude * cosine, compliance, np.full(n, 1 / n))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class Histogram:
     """A rigid wave known by its heights and their shares: the grid is fixed."""
 

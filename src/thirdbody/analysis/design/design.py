@@ -58,7 +58,7 @@ AT_END = 1e-3
 """Part of a range that counts as its end."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Best:
     """The answer of `design`.
 

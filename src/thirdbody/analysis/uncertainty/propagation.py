@@ -64,7 +64,7 @@ MOST_OUTPUTS = 512
 
 
 # -------------------------------------------------------------------------- result
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Propagation:
     """Bands on the results of a contact with uncertain inputs: floats, or arrays over loads.
 

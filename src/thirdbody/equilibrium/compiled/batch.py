@@ -441,12 +441,13 @@ class States(_Batch):
         sides = [(reduced_modulus(s, body), softer_hardness(s, body)) for s in pair]
         E = np.minimum(sides[0][0], sides[1][0])
         H = np.minimum(sides[0][1], sides[1][1])
-        first, last = np.min(H / E), np.max(H / E)
-        for ratio in (float(first), float(last)):
+        yields = np.inf
+        for ratio in (float(np.min(H / E)), float(np.max(H / E))):
             bound = law.law.bound(R=law.tip_radius, E_star=1.0, H=ratio, nu=body.nu)
             if bound.jumps:
                 return np.zeros(len(target), bool)
-            yields = float(bound.reduced("force", 1.0) / bound.reduced("area", 1.0))
+            p_over_H = bound.reduced("force", 1.0) / bound.reduced("area", 1.0)
+            yields = min(yields, float(p_over_H))
         p = target / (1 - c)
         return (p <= 0.5 * yields * H) & (c * (0.5 * math.pi * p / E) ** 2 <= RISE)
 
