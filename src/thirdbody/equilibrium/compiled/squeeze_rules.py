@@ -43,8 +43,9 @@ __all__ = [
     "squeeze_rules",
 ]
 
-NODES, NODES_ALIKE = 16, 14
-"""of a panel, and where both sides are of one material: 4e-13 and 4e-14 of every sum"""
+NODES, NODES_ALIKE = 20, 14
+"""of a panel, and where both sides are of one material: 5e-13 of every sum over 600 pairs of
+materials and seats of 1/500 to 3 in the size, 3e-12 of the area of one regime"""
 RATIO = 2.8
 """Largest ratio of the roots of the indentations at the ends of a panel."""
 NEAR, MOST_REACH = 3.0, 8.0
@@ -452,20 +453,33 @@ def _numbers(side: Side) -> Array:
 
 
 def _panels(edges: Array, reach: Array) -> Array:
-    """Edges (M, k) split into as many panels for all as the worst needs; ``reach`` is in widths."""
+    """Edges (M, k) split into as many panels for all as the worst needs; ``reach`` is in widths.
+
+    From one kink to the next the reach grows about like the square of the edges. Panels of equal
+    ratio come first, up to where one would be too wide for the seat, and then panels of equal
+    reach.
+    """
     out = [edges[:, :1]]
+    shrink = 1 - 1 / RATIO**2
     for i in range(edges.shape[1] - 1):
         low, high = edges[:, i : i + 1], edges[:, i + 1 : i + 2]
         if np.all(high - low <= 1e-14 * high):
             continue
-        wide = math.ceil(np.max(reach[:, i + 1] - reach[:, i]) / SEAT_WIDTHS)
-        if i == 0:
-            parts = np.linspace(0, 1, max(wide, 1) + 1)[1:]
-            out.append(low + (high - low) * parts)
-            continue
-        steps = math.ceil(np.log(np.max(high / low)) / math.log(RATIO))
-        parts = np.arange(1, max(wide, steps, 1) + 1) / max(wide, steps, 1)
-        out.append(low * (high / low) ** parts)
+        wide = (reach[:, i + 1] - reach[:, i])[:, None] / SEAT_WIDTHS
+        square = high**2 - low**2
+        middle = low
+        if i > 0:
+            most = np.divide(square, shrink * wide, out=np.full_like(high, np.inf), where=wide > 0)
+            middle = np.clip(np.sqrt(most), low, high)
+            steps = math.ceil(np.log(np.max(middle / low)) / math.log(RATIO) - 1e-9)
+            if steps > 0:
+                out.append(low * (middle / low) ** (np.arange(1, steps + 1) / steps))
+        rest = np.divide(high**2 - middle**2, square, out=np.zeros_like(high), where=square > 0)
+        count = max(math.ceil(np.max(wide * rest) - 1e-9), int(i == 0))
+        if count > 0:
+            parts = np.arange(1, count + 1) / count
+            out.append(np.sqrt(middle**2 + (high**2 - middle**2) * parts))
+            out[-1][:, -1:] = high
     return np.concatenate(out, axis=1)
 
 
