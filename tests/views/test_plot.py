@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 import thirdbody as tb
 from thirdbody.equilibrium import solve as one_solve
+from thirdbody.equilibrium.words import MODES
 from thirdbody.views import plot
 from thirdbody.views.plot import style
 
@@ -180,9 +181,9 @@ def test_mode_map_is_solved_states():
         factor = size * 100e-9 / 300e-9
         one = contact.replace(**{MEAN: 300e-9 * factor, "particles.diameter.std": 24e-9 * factor})
         modes = tb.solve(one, F_star=loads).mode
-        assert [style.MODES[k] for k in shown[:, i]] == list(modes)
+        assert [MODES[k] for k in shown[:, i]] == list(modes)
         seen |= set(modes)
-    assert seen == set(style.MODES)
+    assert seen == set(MODES)
 
 
 def test_mode_map_leaves_jammed_sizes_white():

@@ -110,15 +110,16 @@ def percent(value: float | None, error: float = 0.0, *, digits: int = 3, least: 
 
     >>> percent(0.1234), percent(0.99996), percent(1), percent(0.3, 0.02), percent(None)
     ('12.3 %', '99.996 %', '100 %', '30 % (± 2 %)', 'not known')
-    >>> percent(1e-8, least=1e-6), percent(0.1234, digits=2)
-    ('< 0.0001 %', '12 %')
+    >>> percent(1e-8, least=1e-6), percent(0.1234, digits=2), percent(1, digits=1)
+    ('< 0.0001 %', '12 %', '100 %')
     """
     if value is None or not math.isfinite(value):
         return NOT_KNOWN
     if 0 < value < least:
         return f"< {percent(least)}"
     near = 1 - 0.5 * 10.0**-digits <= value and value != 1
-    text = f"{number(100 * value, digits + 2 if near else digits)} %"
+    whole = len(f"{abs(100 * value):.0f}")  # 100 is no 1×10²
+    text = f"{number(100 * value, max(digits + 2 if near else digits, whole))} %"
     return f"{text} (± {number(100 * error, 1)} %)" if error > 0 else text
 
 

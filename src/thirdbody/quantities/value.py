@@ -141,7 +141,9 @@ def warn_of_slip(where: str, about: Mapping[str, Any], number: float, *, stackle
 
 def warn_of_slips(value: Value, *, stacklevel: int, prefix: str = "") -> None:
     """Warn of every number of a value, and of the values in it, that looks like a slip."""
-    for item in dataclasses.fields(value):  # type: ignore[arg-type]
+    if not dataclasses.is_dataclass(value):  # an output or law of one's own
+        return
+    for item in dataclasses.fields(value):
         part = getattr(value, item.name)
         where = prefix + item.name
         if (about := item.metadata.get("quantity")) and part is not None:

@@ -332,7 +332,7 @@ class Stack(Value):
     >>> stack = Stack.self_affine(
     ...     hurst=0.8, amplitude=1e-6, frequency=1e3, ratio=2, count=12, E_star=1e11)
     >>> stack.convergence(1e7).message
-    'not converged: the last of 12 scales changed the area by 13.0 %'
+    'not converged: the last of 12 scales changed the area by 13 %'
     """
 
     citation: ClassVar[str] = "Jackson, Streator 2006, Wear 261, 1337"

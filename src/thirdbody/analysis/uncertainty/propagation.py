@@ -28,6 +28,7 @@ from ...equilibrium.states import FEWEST, state_columns
 from ...errors import InvalidValue
 from ...numerics.sampling import sobol
 from ...quantities import notebook
+from ...quantities.say import percent
 from ..inputs import NUMBERS
 from .critical_loads import CRITICAL, _bare, _falls, critical_loads
 from .inputs import Drawn, Uncertain, drawn_inputs
@@ -153,7 +154,7 @@ class Propagation:
 
     def _repr_html_(self) -> str:
         """A table for notebooks: quantiles of every output; of several loads at the first."""
-        rows = [notebook.Row("", [f"{100 * q:g} %" for q in self.probabilities])]
+        rows = [notebook.Row("", [percent(q) for q in self.probabilities])]
         for name, band in self.bands.items():
             told = about_result(name)
             first = np.reshape(band, (-1, len(self.probabilities)))[0]

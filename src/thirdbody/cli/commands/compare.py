@@ -117,7 +117,7 @@ def _show_comparison(title: str, table: Any, index: int) -> None:
     heads = ["law", "A_t", "diff.", "F/A_t", "d/sigma", "diff.", "elastic", "el.-plastic"]
     heads += ["plastic", "particles' load"] if particles else ["plastic"]
     shown = table_of([*heads, "note"], right=True)
-    shown.columns[0].justify = "left"
+    shown.columns[0].justify, shown.columns[0].no_wrap = "left", True
     notes: list[str] = []
     for i in range(one.sizes["law"]):
         row = one.isel(law=i)
