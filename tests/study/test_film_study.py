@@ -432,7 +432,8 @@ def test_the_report_has_the_film_and_the_same_bytes(monkeypatch):
     assert told._film()[0] in page
     section = page.partition('<section id="film">')[2].partition("</section>")[0]
     ends = told.study.film.regime_speeds(told.contact)
-    assert f"boundary up to {ends.boundary:.4g} m/s and a full film from {ends.full:.4g}" in section
+    assert f"boundary up to {ends.boundary:.4g} m/s, where solids carry 99 % of the load" in section
+    assert f"a full film from {ends.full:.4g} m/s, where solids carry 1 % of the load" in section
     assert "data:image/svg+xml" in section
     assert "There is no friction coefficient without [outputs.friction]." in section
     assert "below 1 sigma roughness hinders the flow" in page
