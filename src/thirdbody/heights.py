@@ -279,7 +279,9 @@ class JohnsonHeights(Heights):
 
     @property
     def pieces(self) -> tuple[float, ...]:
-        z = self._height(np.linspace(-13, 13, 27))
+        # one of n, or where z changes by more than e^1.5
+        step = min(1.0, 1.5 * self.parameters[1])
+        z = self._height(np.linspace(-13, 13, math.ceil(26 / step) + 1))
         return tuple(np.unique(z))
 
     @property

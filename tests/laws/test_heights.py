@@ -361,3 +361,26 @@ def test_light_loads_on_the_last_asperities(name, w):
     error = np.abs(total.load(h)[:, 0] / expected - 1)
     assert np.all((error < slack)[known]), (error / slack)[known].max()
     assert np.all(total.fields(h) >= 0)
+
+
+@pytest.mark.parametrize(("skewness", "kurtosis"), [(-2.0, 6.0), (-1.0, 2.6), (0.0, 1.5)])
+def test_loads_on_heights_that_crowd_at_their_ends(skewness, kurtosis):
+    """Hertz contacts on bounded Johnson heights, by the normal variable behind them."""
+    heights = tb.JohnsonHeights(skewness=skewness, kurtosis=kurtosis)
+    gamma, delta, xi, lam = heights.parameters
+    assert heights.family == "SB"
+    law = tb.asperity.GW()
+    total = DensitySum(law, heights, 1.0)
+    h = np.linspace(-2.0, total.highest - 0.01, 25)
+    expected = np.zeros(len(h))
+    for i, low in enumerate(h):
+        share = (low - xi) / lam
+        first = -12.0 if share <= 0 else max(gamma + delta * math.log(share / (1 - share)), -12.0)
+        # the load starts like a power 1.5 of the distance: the root is smooth
+        edges = np.linspace(0, math.sqrt(12 - first), 400)
+        v = 0.5 * (edges[1:] + edges[:-1])[:, None] + 0.5 * np.diff(edges)[:, None] * NODES
+        n = first + v**2
+        z = xi + lam / (1 + np.exp(-(n - gamma) / delta))
+        load = law.reduced("force", np.maximum(z - low, 0.0)) * stats.norm.pdf(n)
+        expected[i] = np.sum(0.5 * np.diff(edges)[:, None] * WEIGHTS * 2 * v * load)
+    assert_allclose(total.load(h)[:, 0], expected, rtol=1e-9)
