@@ -787,7 +787,9 @@ def summary(results: list[dict[str, Any]]) -> str:
     for result in results:
         asked.update(result["asked"])
         contacts.update({check for check, _ in result["failed"]})
-    refused = Counter(r["refused"].split(":")[0][:60] for r in results if r["refused"])
+    refused = Counter(
+        re.sub(r"[\d.e+-]*\d[\d.e+-]*", "#", r["refused"])[:80] for r in results if r["refused"]
+    )
     bad = sum(bool(r["failed"]) for r in results)
     lines = [
         f"{len(results)} contacts, {sum(r['loads'] for r in results)} loads and separations, "
