@@ -1,8 +1,11 @@
 # thirdbody: everything runs in its own environment, .venv, made on first use.
 #
 #   make demo     solve an example, redraw the figures of the paper, say where they are
-#   make test     all tests
+#   make test     the physics and the interfaces
+#   make check    types, style, layers, book, gallery, packaging, browser, planted slips, long studies
 #   make docs     the book, into docs/_build/html; it needs no network to be read
+#   make oldest   make test with the oldest releases that pyproject.toml allows
+#   make coverage which lines make test runs
 #   make bench    speed, into benchmarks/results.md
 #   make pictures the pictures of the README, into docs/images
 #   make format   tidy the code
@@ -12,19 +15,26 @@
 
 PYTHON  ?= python3
 VENV    := .venv
+OLDEST  := .venv-oldest
 RUN     := $(VENV)/bin
 OUT     ?= demo
 WORKERS ?= auto
+PIP     := install
 
 # one thread for each worker: the arrays are small, and workers must not fight for cores
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 export MPLBACKEND ?= Agg
 
-.PHONY: help demo test docs bench pictures browser format clean
+# files, not single tests, lie beside each other on a worker: what they share is made once
+PYTEST   = $(RUN)/python -m pytest -q -n $(WORKERS) --dist worksteal --durations 10
+QUICK    = -m "not check and not slow"
+
+.PHONY: help demo test check style types layers long docs oldest coverage bench pictures browser
+.PHONY: format clean
 
 help:
-	@sed -n '3,11s/^# \{0,1\}//p' Makefile
+	@sed -n '3,14s/^# \{0,1\}//p' Makefile
 
 $(RUN)/python:
 	$(PYTHON) -c 'import sys; v = sys.version_info; sys.exit(v < (3, 11) and f"thirdbody needs Python 3.11 or newer; {sys.executable} is {v.major}.{v.minor}. Try make PYTHON=python3.12 ...")'
@@ -32,15 +42,15 @@ $(RUN)/python:
 
 # editable, so that what you change is what runs
 $(VENV)/installed: pyproject.toml | $(RUN)/python
-	$(RUN)/python -m pip install --quiet --editable .
+	$(RUN)/python -m pip $(PIP) --quiet --editable .
 	@touch $@
 
 $(VENV)/installed-test: pyproject.toml | $(RUN)/python
-	$(RUN)/python -m pip install --quiet --editable '.[test]'
+	$(RUN)/python -m pip $(PIP) --quiet --editable '.[test]'
 	@touch $@ $(VENV)/installed
 
 $(VENV)/installed-docs: pyproject.toml | $(RUN)/python
-	$(RUN)/python -m pip install --quiet --editable '.[docs]'
+	$(RUN)/python -m pip $(PIP) --quiet --editable '.[docs]'
 	@touch $@ $(VENV)/installed
 
 demo: $(VENV)/installed
@@ -51,7 +61,34 @@ demo: $(VENV)/installed
 	@echo "and the ledger of the paper's 84 statements, claims.json."
 
 test: $(VENV)/installed-test
-	$(RUN)/python -m pytest -q -n $(WORKERS) --dist worksteal --durations 10
+	$(PYTEST) $(QUICK)
+
+# with make -k, all four even where one fails
+check: style types layers long
+
+style: $(VENV)/installed-test
+	$(RUN)/ruff check .
+	$(RUN)/ruff format --check .
+
+types: $(VENV)/installed-test
+	$(RUN)/python -m mypy
+
+layers: $(VENV)/installed-test
+	$(RUN)/lint-imports
+
+long: $(VENV)/installed-test $(VENV)/installed-docs
+	$(PYTEST) -m "check or slow"
+
+oldest:
+	$(MAKE) VENV=$(OLDEST) $(OLDEST)/floors.txt
+	$(MAKE) VENV=$(OLDEST) PIP='install --constraint $(OLDEST)/floors.txt' test
+
+$(VENV)/floors.txt: pyproject.toml tests/floors.py | $(RUN)/python
+	$(RUN)/python tests/floors.py > $@
+
+# of the lines that Python runs: those of the compiled engine and of other processes are not seen
+coverage: $(VENV)/installed-test
+	$(PYTEST) $(QUICK) --cov --cov-report term:skip-covered
 
 docs: $(VENV)/installed-docs
 	$(RUN)/python -m sphinx -W -q -b html docs docs/_build/html
@@ -73,6 +110,6 @@ format: $(VENV)/installed-test
 	$(RUN)/ruff format .
 
 clean:
-	rm -rf $(VENV) $(OUT) build dist src/*.egg-info .ruff_cache .mypy_cache .hypothesis
+	rm -rf $(VENV) $(OLDEST) $(OUT) build dist src/*.egg-info .ruff_cache .mypy_cache .import_linter_cache .hypothesis .coverage
 	rm -rf docs/_build docs/gallery docs/api
 	find src tests -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -15,8 +15,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from thirdbody import engine, kernels
-from thirdbody.asperities import gaussian_rule
+from thirdbody.contact.asperity_sums import gaussian_rule
+from thirdbody.equilibrium.compiled import batch as engine
+from thirdbody.equilibrium.compiled import kernels
 
 Array = NDArray[np.float64]
 

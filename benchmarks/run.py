@@ -26,8 +26,11 @@ sys.path.insert(0, str(Path(__file__).parent))
 import naive
 
 import thirdbody as tb
-from thirdbody import asperities, engine
-from thirdbody import contact as contacts
+from thirdbody.contact import asperity_sums as asperities
+from thirdbody.contact import interface as contacts
+from thirdbody.equilibrium.compiled import batch as engine
+from thirdbody.equilibrium.states import state_columns
+from thirdbody.errors import NotCompiled
 
 Array = NDArray[np.float64]
 HERE = Path(__file__).parent
@@ -169,7 +172,7 @@ def own_inputs(nanoseconds: float) -> Iterator[Row]:
     count = 100_000
     for seat, targets in DIRECT.items():
         base, vary, many = contact(seat), inputs(seat, count), loads(count)
-        solved = tb.solve_states(base, F_star=many, vary=vary)
+        solved = state_columns(base, F_star=many, vary=vary)
         some = {name: values[:2_000] for name, values in vary.items()}
         states = engine.States(base, some, 2_000)
         sigma_s = states.values[:, floor.kernels.SIGMA_S]
@@ -180,7 +183,7 @@ def own_inputs(nanoseconds: float) -> Iterator[Row]:
         for threads, target in zip((1, 2), targets, strict=True):
             this = row(
                 f"compiled, {seat}, {threads} thread{'s' * (threads > 1)}",
-                partial(tb.solve_states, base, F_star=many, vary=vary),
+                partial(state_columns, base, F_star=many, vary=vary),
                 count,
                 threads,
                 target,
@@ -207,7 +210,7 @@ def own_particles() -> Iterator[Row]:
     }
     for name, more in ways.items():
         vary = inputs("rough", count) | more
-        call = partial(tb.solve_states, contact("rough"), F_star=loads(count), vary=vary)
+        call = partial(state_columns, contact("rough"), F_star=loads(count), vary=vary)
         yield row(f"compiled, rough, {name}, 1 thread", call, count, 1, None, repeats=3)
 
 
@@ -252,7 +255,11 @@ def laws() -> Iterator[Row]:
                 target=OTHERS,
                 repeats=2,
             )
-            which = "" if engine.batch(interface) else ", NumPy engine"
+            try:
+                engine.batch(interface)
+                which = ""
+            except NotCompiled:
+                which = ", NumPy engine"
             this.note = f"table {build:.2f} s{which}"
             yield this
 
@@ -280,9 +287,7 @@ except OSError:
 print(imported - start, done - call, peak)
 """
 SOLVE = "thirdbody.solve(bound, F_star=run.loads({count}))"
-STATES = (
-    "thirdbody.solve_states(bound, F_star=run.loads({count}), vary=run.inputs('rough', {count}))"
-)
+STATES = "run.state_columns(bound, F_star=run.loads({count}), vary=run.inputs('rough', {count}))"
 
 
 def alone(call: str, **variables: object) -> tuple[float, float, float]:
@@ -299,7 +304,7 @@ def mode_map(seat: str, side: int) -> float:
     size, F_star = np.meshgrid(np.geomspace(0.2, 10, side), np.geomspace(5e-7, 2.4e-4, side))
     mean = size.ravel() * naive.SIGMA
     start = time.perf_counter()
-    tb.solve_states(
+    state_columns(
         contact(seat).replace(**{"particles.areal_density": 1e9}),
         F_star=F_star.ravel(),
         vary={
@@ -334,7 +339,7 @@ def largest_difference(few: Array, slow: Array) -> Iterator[tuple[str, float]]:
     yield "tables", float(np.max(np.abs(every.d[: len(few)] / slow - 1)))
     # R alone differs, too little to matter, so that nodes are used
     R = naive.R * (1 + 1e-13 * np.arange(len(few)))
-    own = tb.solve_states(contact("plane"), F_star=few, vary={"roughness.R": R})
+    own = state_columns(contact("plane"), F_star=few, vary={"roughness.R": R})
     yield "nodes", float(np.max(np.abs(own["d"] / slow - 1)))
 
 

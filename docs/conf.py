@@ -9,6 +9,10 @@ sys.path[:0] = [str(HERE / "_ext"), str(HERE.parent / "src")]
 
 import thirdbody  # noqa: E402
 
+# the API pages call things by the names that users write
+for _name in thirdbody._MODULES:
+    sys.modules.setdefault(f"thirdbody.{_name}", getattr(thirdbody, _name))
+
 project = "thirdbody"
 author = "The thirdbody developers"
 version = release = thirdbody.__version__

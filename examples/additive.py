@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 import thirdbody as tb
 from thirdbody.study import load_study
-from thirdbody.study.design import arguments, design_study
+from thirdbody.study.analyses import arguments, design_study
 
 warnings.simplefilter("ignore", tb.RangeWarning)  # the clean surfaces at small loads
 

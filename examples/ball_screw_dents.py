@@ -14,8 +14,9 @@ from matplotlib.figure import Figure
 from scipy.optimize import brentq
 
 import thirdbody as tb
-from thirdbody import cleanliness
-from thirdbody.contamination import FilmParticles, dent_of, dents_after
+from thirdbody.effects.single.dent import dent_of, dents_after
+from thirdbody.populations.measured import cleanliness
+from thirdbody.systems.oil_particles import FilmParticles
 
 steel = tb.materials["S45C"].replace(H=7.5e9, name="hardened bearing steel, 62 HRC")
 quartz = tb.materials["quartz"]

@@ -6,6 +6,7 @@ import signal
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, Phase, settings
 
@@ -38,8 +39,6 @@ def pytest_sessionstart(session):
     """Compile the engine once, before the workers start."""
     if hasattr(session.config, "workerinput"):
         return
-    import numpy as np
-
     import thirdbody as tb
 
     bodies = tb.MaterialPair(tb.materials["S45C"], tb.materials["100Cr6"])
@@ -53,9 +52,36 @@ def pytest_sessionstart(session):
     tb.solve_states(contact, F_star=1e-5, vary=vary)
 
 
+# what a test draws at random is named when it fails: every generator by its seed
+SEEDS: list[str] = []
+_default_rng = np.random.default_rng
+
+
+def _told(seed=None):
+    SEEDS.append(f"numpy.random.default_rng({'without a seed' if seed is None else seed})")
+    return _default_rng(seed)
+
+
+np.random.default_rng = _told
+
+
+def pytest_runtest_setup():
+    SEEDS.clear()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport():
+    report = yield
+    if report.failed and SEEDS:
+        report.sections.append(("random numbers", "\n".join(dict.fromkeys(SEEDS))))
+    return report
+
+
 def pytest_collection_modifyitems(items):
-    """Long studies first, so that no worker is left alone with one at the end."""
-    items.sort(key=lambda item: item.get_closest_marker("slow") is None)
+    """Files with long studies first, so that no worker is left alone with one at the end; whole,
+    so that what the tests of a file share is made once."""
+    long = {item.path for item in items if item.get_closest_marker("slow")}
+    items.sort(key=lambda item: item.path not in long)
 
 
 @pytest.fixture(scope="session")

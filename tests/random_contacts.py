@@ -31,11 +31,13 @@ from unittest import mock
 import numpy as np
 
 import thirdbody as tb
-from thirdbody import engine
-from thirdbody.contact import interface
-from thirdbody.distributions import Distribution
-from thirdbody.equilibrium import COLUMNS, DEEPEST
-from thirdbody.values import Value
+from thirdbody.contact.interface import interface
+from thirdbody.equilibrium.columns import COLUMNS
+from thirdbody.equilibrium.compiled import batch as engine
+from thirdbody.equilibrium.load_scan import DEEPEST
+from thirdbody.equilibrium.states import state_columns
+from thirdbody.populations.distributions import Distribution
+from thirdbody.quantities.value import Value
 
 Array = np.ndarray
 EPS = float(np.finfo(float).eps)
@@ -592,10 +594,10 @@ def _round_trip(found: Findings, contact: Any, columns: Any) -> None:
 def _engines(found: Findings, drawn: Drawn, columns: Any) -> None:
     """The compiled engine on what it knows."""
     contact = drawn.contact
-    if engine.batch(interface(contact)) is None:
-        return
     with mock.patch.object(engine, "FEWEST", 1):
         compiled = tb.solve(contact, F_star=drawn.loads)
+    if compiled.engine != "compiled":
+        return
     _states_of_engine(found, contact, compiled.columns())
     alike(found, "engines", contact, columns, compiled)
 
@@ -658,7 +660,7 @@ def _each(found: Findings, drawn: Drawn) -> None:
         if contact.roughness.ellipticity is not None and contact.particles is not None:
             return
         vary = {"roughness.eta_R_sigma": np.geomspace(0.02, 0.1, count)}
-    together = tb.solve_states(contact, F_star=loads, vary=vary)
+    together = state_columns(contact, F_star=loads, vary=vary)
     ((name, values),) = vary.items()
     for i in range(0, count, 3):
         one = contact.replace(**{name: float(values[i])})
@@ -680,7 +682,7 @@ def _each(found: Findings, drawn: Drawn) -> None:
             ),
         )
     d = np.full(count, drawn.d[len(drawn.d) // 2])
-    given = tb.solve_states(contact, d=d, vary=vary)
+    given = state_columns(contact, d=d, vary=vary)
     for i in range(0, count, 8):
         one = tb.solve(contact.replace(**{name: float(values[i])}), d=d[i : i + 1]).columns()
         total = np.abs(one["F_ss_star"]) + np.abs(one["F_sa_star"])

@@ -6,6 +6,7 @@ import importlib
 import importlib.util
 import io
 import json
+import pkgutil
 import re
 import shutil
 import subprocess
@@ -21,9 +22,10 @@ from twins import FIELDS, series_twin
 
 import thirdbody as tb
 from thirdbody import reference
-from thirdbody.studies import seats
-from thirdbody.studies.horng2022 import READINGS, Curves
+from thirdbody.papers import seats
+from thirdbody.papers.horng2022 import READINGS, Curves
 
+pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
 PAGES = sorted(DOCS.glob("*.md"))
@@ -80,7 +82,7 @@ def test_code_of_the_page_runs(page, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_anchors_and_documents_exist(page):
-    """Links to headings, and {doc} and toctree entries, which plain Markdown does not check."""
+    """Links to headings, {doc} and toctree entries and included files: not checked by Markdown."""
     text = page.read_text("utf-8")
     for file, anchor in re.findall(r"\]\(([\w./-]*)#([\w-]+)\)", text):
         target = (page.parent / file) if file else page
@@ -89,6 +91,8 @@ def test_anchors_and_documents_exist(page):
             re.sub(r"[^\w\- ]", "", t.lower()).replace(" ", "-").replace("_", "-") for t in titles
         }
         assert anchor in slugs, f"{page.name}: no heading #{anchor} in {target.name}"
+    for file in re.findall(r"^```\{(?:literal)?include\} (\S+)$", text, re.M):
+        assert (page.parent / file).is_file(), f"{page.name}: {file}"
     entries = re.findall(r"\{doc\}`(?:[^`<]*<)?([^`>]+)>?`", text)
     for body in re.findall(r"^```\{toctree\}\n(.*?)^```$", text, re.S | re.M):
         entries += [line for line in body.splitlines() if line and not line.startswith(":")]
@@ -128,12 +132,104 @@ def test_every_equation_of_the_paper_has_its_place():
     assert {int(n) for n in re.findall(r"item (\d+)", text)} <= items
 
 
+BOOK = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES]
+
+
+def reached(dotted):
+    """Whether a dotted name leads somewhere from the package: attribute, field or module."""
+    here, path = tb, "thirdbody"
+    for step in dotted.split("."):
+        path = f"{path}.{step}"
+        if step in getattr(here, "__dataclass_fields__", {}):
+            return True  # what a field holds is an instance's
+        if not hasattr(here, step):
+            try:
+                here = importlib.import_module(path)
+            except ImportError:
+                return False
+        else:
+            here = getattr(here, step)
+    return True
+
+
+def test_the_check_of_names_sees_a_wrong_one():
+    assert reached("asperity.ZMC.force")
+    assert not reached("asperity.ZMC.forse")
+    assert not reached("nothing")
+
+
+@pytest.mark.parametrize("page", BOOK, ids=lambda page: page.name)
+def test_names_of_the_page_exist(page):
+    named = re.findall(r"`(?:tb|thirdbody)\.([A-Za-z_]\w*(?:\.\w+)*)", page.read_text("utf-8"))
+    assert [name for name in named if not reached(name)] == []
+
+
+COMMAND = re.compile(r"(?:^|`)(?:\.venv/bin/)?thirdbody +(?!as\b)([a-z][\w-]*)([^`\n]*)", re.M)
+
+
+def mistakes_in(text):
+    """Commands and options that the command line does not have."""
+    import typer
+
+    from thirdbody.cli import app
+
+    commands = typer.main.get_command(app).commands
+    out = []
+    for name, rest in COMMAND.findall(text):
+        if name not in commands:
+            out.append(name)
+            continue
+        known = {word for item in commands[name].params for word in (*item.opts, "--help")}
+        known |= {word for item in commands[name].params for word in item.secondary_opts}
+        used = re.findall(r"(?<!\S)--?[a-z][\w-]*", rest.partition(" #")[0].partition(" |")[0])
+        out += [f"{name} {word}" for word in used if word not in known]
+    return out
+
+
+def test_the_check_of_commands_sees_a_wrong_one():
+    assert mistakes_in("`thirdbody solve a.toml --json`") == []
+    assert mistakes_in("thirdbody solve a.toml --jsn\n`thirdbody slove`") == [
+        "solve --jsn",
+        "slove",
+    ]
+
+
+@pytest.mark.parametrize("page", BOOK, ids=lambda page: page.name)
+def test_commands_of_the_page_exist(page):
+    assert mistakes_in(page.read_text("utf-8")) == []
+
+
+def test_hooks_of_the_guides_exist():
+    """Names in the tables and sentences of the pages on extending are those of the classes."""
+    from thirdbody.contact import evaluation as outputs
+    from thirdbody.contact import spots
+    from thirdbody.laws import base
+
+    known = {
+        name
+        for module in (base, outputs, spots)
+        for kind in vars(module).values()
+        if isinstance(kind, type)
+        for name in (*dir(kind), *getattr(kind, "__annotations__", ()))
+    }
+    for name in ("add-a-law.md", "add-an-output.md"):
+        text = (DOCS / name).read_text("utf-8")
+        hooks = [
+            w
+            for row in re.findall(r"^\| (`.*?) \|", text, re.M)
+            for w in re.findall(r"`(\w+)", row)
+        ]
+        hooks += re.findall(r"(?:set|override the property|implements?|give) `(\w+)", text)
+        assert len(hooks) > 3, name
+        assert [hook for hook in hooks if hook not in known] == [], name
+
+
 def test_the_reference_lists_every_public_name():
     text = (DOCS / "reference.md").read_text("utf-8")
     listed = set()
     for module, body in re.findall(r"currentmodule:: (\S+)\n(.*?)^```$", text, re.S | re.M):
         for name in re.findall(r"^   (\w+)$", body, re.M):
-            assert hasattr(importlib.import_module(module), name), f"{module}.{name}"
+            assert hasattr(pkgutil.resolve_name(module), name), f"{module}.{name}"
             listed.add((module, name))
     modules = {name for name in tb.__all__ if type(getattr(tb, name)).__name__ == "module"}
     for name in set(tb.__all__) - modules:
@@ -284,7 +380,7 @@ def units():
 def table_error():
     """True error of a table over the error it states."""
     contact = dusty()
-    table = contact.table(tolerance=1e-6)
+    table = tb.table(contact, tolerance=1e-6)
     h = np.linspace(210e-9, 600e-9, 997)
     exact = tb.solve(contact, d=h - contact.roughness.y_s).pressure
     return worst(table.p(h), exact) / table.error.p
@@ -351,7 +447,7 @@ def test_agreement_with_explicit_particles(diameter, stated):
 
 
 SECTIONS = {
-    "What the contact does": "outputs",
+    "What the contact does": "",
     "Laws and systems of the literature": "",
     "The parts around it": "",
 }

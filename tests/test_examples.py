@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from matplotlib.image import imread
 
+pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
 EXAMPLES = ROOT / "examples"
 # each with the answer that its last sentence gives

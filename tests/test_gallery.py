@@ -9,8 +9,9 @@ import pytest
 from matplotlib.figure import Figure
 
 import thirdbody as tb
-from thirdbody.studies.horng2022 import PANELS
+from thirdbody.papers.horng2022 import PANELS
 
+pytestmark = pytest.mark.check
 GALLERY = Path(__file__).parent.parent / "examples" / "gallery"
 EXAMPLES = sorted(GALLERY.glob("*/*.py"))
 

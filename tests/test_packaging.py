@@ -1,8 +1,7 @@
-"""What stands around the code: lint, types, versions, links, and the examples in the pages."""
+"""What stands around the code: versions, links, scripts, and the examples in the pages."""
 
-import importlib.util
+import ast
 import json
-import os
 import re
 import subprocess
 import sys
@@ -11,12 +10,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from floors import floors
 
 import thirdbody as tb
 
+pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
-SOURCES = [name for name in ("src", "tests", "benchmarks") if (ROOT / name).is_dir()]
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 
 
@@ -31,28 +31,47 @@ def blocks(page, language):
     return [code for name, code in fences if name == language]
 
 
-def tool(name):
-    """The command that runs a development tool, or a skip that says how to get it."""
-    if importlib.util.find_spec(name) is None:
-        pytest.skip(f"{name} is not installed; pip install -e '.[test]'")
-    return (sys.executable, "-m", name)
+# ---------------------------------------------------------------- the table of files
+def files_by_row():
+    """The names of each row of the table in CONTRIBUTING, in order."""
+    text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    table = text.split("| in `src/thirdbody` | holds |\n|---|---|\n")[1].split("\n\n")[0]
+    return [re.findall(r"`([^`]+)`", line.split("|")[1]) for line in table.splitlines()]
 
 
-# ---------------------------------------------------------------- tools
-def test_lint():
-    status, text = run(*tool("ruff"), "check", "--no-cache", *SOURCES)
-    assert status == 0, text
+def test_the_table_of_files_is_the_tree():
+    folder = Path(tb.__file__).parent
+    named = [name for row in files_by_row() for name in row]
+    assert len(named) == len(set(named))
+    there = {path.name for path in folder.glob("*.py")} - {"__init__.py", "__main__.py"}
+    there |= {f"{path.name}/" for path in folder.iterdir() if path.is_dir()} - {"__pycache__/"}
+    assert set(named) == there
 
 
-def test_format():
-    status, text = run(*tool("ruff"), "format", "--check", "--no-cache", *SOURCES)
-    assert status == 0, text
+def imported_at_the_top(file, package):
+    """Modules of the package that a file imports when it is itself imported."""
+    where = (*package.split("."), *file.relative_to(Path(tb.__file__).parent).parts[:-1])
+    for node in ast.parse(file.read_text("utf-8")).body:
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = where[: len(where) - node.level + 1]
+            base += tuple(node.module.split(".")) if node.module else ()
+            yield from ((*base, alias.name)[1] for alias in node.names if len(base) < 2)
+            yield from base[1:2]
 
 
-@pytest.mark.slow
-def test_types():
-    status, text = run(*tool("mypy"), "--cache-dir", os.devnull)
-    assert status == 0, text
+def test_imports_point_up_the_table_of_files():
+    row = {re.sub(r"(\.py|/)$", "", n): i for i, names in enumerate(files_by_row()) for n in names}
+    folder = Path(tb.__file__).parent
+    seen = 0
+    for file in sorted(folder.rglob("*.py")):
+        here = file.relative_to(folder).parts[0].removesuffix(".py")
+        if here not in row:
+            continue  # the package itself, which gathers all
+        for name in imported_at_the_top(file, "thirdbody"):
+            if name in row:
+                assert row[name] <= row[here], f"{file.relative_to(folder)} imports {name}"
+                seen += 1
+    assert seen > 300
 
 
 # ---------------------------------------------------------------- import
@@ -73,8 +92,10 @@ def test_public_names_exist():
 
 # ---------------------------------------------------------------- versions
 def test_one_version_everywhere():
-    version = PYPROJECT["project"]["version"]
-    assert tb.__version__ == version
+    assert "version" in PYPROJECT["project"]["dynamic"]
+    attribute = PYPROJECT["tool"]["setuptools"]["dynamic"]["version"]["attr"]
+    assert attribute == "thirdbody.version.__version__"
+    version = tb.__version__
     citation = (ROOT / "CITATION.cff").read_text("utf-8")
     assert re.search(r"^version: (.*)$", citation, re.M)[1] == version
     assert f"## [{version}]" in (ROOT / "CHANGELOG.md").read_text("utf-8")
@@ -113,7 +134,7 @@ def test_figures_are_small():
 
 def test_nomenclature_names_every_column():
     text = (ROOT / "docs" / "nomenclature.md").read_text("utf-8")
-    from thirdbody.equilibrium import COLUMNS
+    from thirdbody.equilibrium.columns import COLUMNS
 
     own_words = {"status", "residual", "iterations"}
     missing = [name for name in COLUMNS if f"`{name}`" not in text and name not in own_words]
@@ -300,14 +321,23 @@ def test_consequences_in_the_errata():
 
 
 # ---------------------------------------------------------------- scripts
+def test_every_need_has_an_oldest_release():
+    lines = floors()
+    assert len(lines) > 12
+    for line in lines:
+        assert re.fullmatch(r"[\w-]+==\d[\w.]*", line), line
+
+
 def test_scripts_are_well_formed():
     status, text = run("bash", "-n", str(ROOT / ".ci" / "run"))
     assert status == 0, text
-    assert "make test" in (ROOT / ".ci" / "run").read_text("utf-8")
+    lines = (ROOT / ".ci" / "run").read_text("utf-8")
+    assert "make test" in lines
+    assert "make --keep-going check" in lines
 
 
 def test_make_knows_its_targets():
-    for target in ("demo", "test", "bench", "format", "clean"):
+    for target in ("demo", "test", "check", "oldest", "coverage", "bench", "format", "clean"):
         try:
             status, text = run("make", "-n", target)
         except FileNotFoundError:

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import quad
 
 from thirdbody import InvalidValue, reference
-from thirdbody import asperity as asperity_laws
+from thirdbody.laws import asperity as asperity_laws
 
 # ηRσ_s = 0.05, σ_s/R = 0.01, H/E* = 0.02: lengths in R, pressures in E*
 R, SIGMA_S, ETA, E_STAR, H, NU = 1.0, 0.01, 5.0, 1.0, 0.02, 0.29

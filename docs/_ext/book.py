@@ -31,7 +31,7 @@ def save_figures(block, block_vars, gallery_conf):
 
 def inputs(value):
     """Rows (name, symbol, unit, meaning, range) of the numbers that a class takes."""
-    from thirdbody.values import allowed_range
+    from thirdbody.quantities.value import allowed_range
 
     rows = []
     for item in dataclasses.fields(value):

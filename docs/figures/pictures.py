@@ -18,10 +18,10 @@ from matplotlib.patches import Ellipse
 from PIL import Image
 
 import thirdbody as tb
-from thirdbody import plot
 from thirdbody.app.cross_section import section
-from thirdbody.plot import OKABE_ITO
 from thirdbody.study import load_study
+from thirdbody.views import plot
+from thirdbody.views.plot.style import OKABE_ITO
 
 ROOT = Path(__file__).parents[2]
 OUT = ROOT / "docs" / "images"

@@ -6,50 +6,67 @@ integrates laws over populations, and `solve` finds the separation that balances
 
 from typing import TYPE_CHECKING, Any
 
-from . import asperity, outputs, particle, surfaces
-from .assess import Assessment, assess
-from .citations import cite
-from .compare import compare
-from .contact import Contact
-from .design import Limit, Objective, Suspension, design, equal_share_size
-from .distributions import (
-    Distribution,
-    Histogram,
-    LogNormal,
-    Mixture,
-    Monodisperse,
-    PowerLaw,
-    TruncatedGaussian,
-    Uniform,
-    Weibull,
-)
-from .ellipticity import Ellipticity
-from .equilibrium import Equilibrium, pull_off, roots, solve
-from .errors import InvalidValue, NoEquilibrium, NoTransition, RangeWarning, ThirdBodyError
-from .heights import (
-    ExponentialHeights,
-    GaussianHeights,
-    Heights,
-    HistogramHeights,
-    JohnsonHeights,
-    WeibullHeights,
-)
-from .materials import Material, MaterialPair, materials
-from .particles import Particles
-from .sensitivities import Sensitivity, sensitivity
-from .spectral import SpectralMoments
-from .states import solve_states
-from .surfaces import Roughness
-from .sweep import sweep
-from .topography import Topography
-from .transitions import Critical, Transitions, TurningPoint, transitions
-from .uncertainty import Propagation, Uncertain, critical_loads, propagate
-
-__version__ = "0.1.0"
+from .version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from . import films, fractal, interaction, plot, reference, rough_body, synthetic, waviness
-    from .lubrication import mixed_film, stribeck
+    from . import effects as outputs
+    from . import reference
+    from . import systems as systems
+    from .analysis.assess import assess
+    from .analysis.assessment import Assessment
+    from .analysis.compare import compare
+    from .analysis.design.design import design
+    from .analysis.design.equal_share import equal_share_size
+    from .analysis.design.problem import Limit, Objective, Suspension
+    from .analysis.sensitivity import Sensitivity, sensitivity
+    from .analysis.sweep.sweep import sweep
+    from .analysis.uncertainty.critical_loads import critical_loads
+    from .analysis.uncertainty.inputs import Uncertain
+    from .analysis.uncertainty.propagation import Propagation, propagate
+    from .contact.citations import cite
+    from .contact.contact import Contact
+    from .equilibrium.columns import Equilibrium
+    from .equilibrium.solve import pull_off, roots, solve
+    from .equilibrium.states import solve_states
+    from .equilibrium.table.make import table
+    from .equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
+    from .errors import InvalidValue, NoEquilibrium, NoTransition, RangeWarning, ThirdBodyError
+    from .laws import asperity, particle
+    from .populations import heights as heights
+    from .populations.distributions import (
+        Distribution,
+        Histogram,
+        LogNormal,
+        Mixture,
+        Monodisperse,
+        PowerLaw,
+        TruncatedGaussian,
+        Uniform,
+        Weibull,
+    )
+    from .populations.ellipticity import Ellipticity
+    from .populations.heights import (
+        ExponentialHeights,
+        GaussianHeights,
+        Heights,
+        HistogramHeights,
+        JohnsonHeights,
+        WeibullHeights,
+    )
+    from .populations.materials import Material, MaterialPair, materials
+    from .populations.measured import cleanliness as dust
+    from .populations.measured import sizes, synthetic
+    from .populations.measured import topography as surfaces
+    from .populations.measured.spectra import SpectralMoments
+    from .populations.measured.topography import Topography
+    from .populations.particles import Particles
+    from .populations.roughness import Roughness
+    from .study.whole import load_study
+    from .systems import film_formulas as films
+    from .systems import fractal, interaction, rough_body, waviness
+    from .systems.mixed_film import mixed_film
+    from .systems.stribeck import stribeck
+    from .views import plot
 
 __all__ = [
     "Assessment",
@@ -97,10 +114,12 @@ __all__ = [
     "compare",
     "critical_loads",
     "design",
+    "dust",
     "equal_share_size",
     "films",
     "fractal",
     "interaction",
+    "load_study",
     "materials",
     "mixed_film",
     "outputs",
@@ -112,29 +131,114 @@ __all__ = [
     "roots",
     "rough_body",
     "sensitivity",
+    "sizes",
     "solve",
     "solve_states",
     "stribeck",
     "surfaces",
     "sweep",
     "synthetic",
+    "table",
     "transitions",
     "waviness",
 ]
 
-
 # imported when first used, to keep the start quick
-_LATER = frozenset(
-    {"films", "fractal", "interaction", "plot", "reference", "rough_body", "synthetic", "waviness"}
-)
-_HOME = {"mixed_film": "lubrication", "stribeck": "lubrication"}
+_MODULES = {
+    "asperity": "laws.asperity",
+    "dust": "populations.measured.cleanliness",
+    "films": "systems.film_formulas",
+    "fractal": "systems.fractal",
+    "heights": "populations.heights",
+    "interaction": "systems.interaction",
+    "outputs": "effects",
+    "particle": "laws.particle",
+    "plot": "views.plot",
+    "reference": "reference",
+    "rough_body": "systems.rough_body",
+    "sizes": "populations.measured.sizes",
+    "surfaces": "populations.measured.topography",
+    "synthetic": "populations.measured.synthetic",
+    "systems": "systems",
+    "waviness": "systems.waviness",
+}
+"""Modules by the names that users give them."""
+_HOMES = {
+    "Assessment": "analysis.assessment",
+    "Contact": "contact.contact",
+    "Critical": "equilibrium.transitions",
+    "Distribution": "populations.distributions",
+    "Ellipticity": "populations.ellipticity",
+    "Equilibrium": "equilibrium.columns",
+    "ExponentialHeights": "populations.heights",
+    "GaussianHeights": "populations.heights",
+    "Heights": "populations.heights",
+    "Histogram": "populations.distributions",
+    "HistogramHeights": "populations.heights",
+    "InvalidValue": "errors",
+    "JohnsonHeights": "populations.heights",
+    "Limit": "analysis.design.problem",
+    "LogNormal": "populations.distributions",
+    "Material": "populations.materials",
+    "MaterialPair": "populations.materials",
+    "Mixture": "populations.distributions",
+    "Monodisperse": "populations.distributions",
+    "NoEquilibrium": "errors",
+    "NoTransition": "errors",
+    "Objective": "analysis.design.problem",
+    "Particles": "populations.particles",
+    "PowerLaw": "populations.distributions",
+    "Propagation": "analysis.uncertainty.propagation",
+    "RangeWarning": "errors",
+    "Roughness": "populations.roughness",
+    "Sensitivity": "analysis.sensitivity",
+    "SpectralMoments": "populations.measured.spectra",
+    "Suspension": "analysis.design.problem",
+    "ThirdBodyError": "errors",
+    "Topography": "populations.measured.topography",
+    "Transitions": "equilibrium.transitions",
+    "TruncatedGaussian": "populations.distributions",
+    "TurningPoint": "equilibrium.transitions",
+    "Uncertain": "analysis.uncertainty.inputs",
+    "Uniform": "populations.distributions",
+    "Weibull": "populations.distributions",
+    "WeibullHeights": "populations.heights",
+    "assess": "analysis.assess",
+    "cite": "contact.citations",
+    "compare": "analysis.compare",
+    "critical_loads": "analysis.uncertainty.critical_loads",
+    "design": "analysis.design.design",
+    "equal_share_size": "analysis.design.equal_share",
+    "load_study": "study.whole",
+    "materials": "populations.materials",
+    "mixed_film": "systems.mixed_film",
+    "propagate": "analysis.uncertainty.propagation",
+    "pull_off": "equilibrium.solve",
+    "roots": "equilibrium.solve",
+    "sensitivity": "analysis.sensitivity",
+    "solve": "equilibrium.solve",
+    "solve_states": "equilibrium.states",
+    "stribeck": "systems.stribeck",
+    "sweep": "analysis.sweep.sweep",
+    "table": "equilibrium.table.make",
+    "transitions": "equilibrium.transitions",
+}
+"""The module of every other name."""
 
 
 def __getattr__(name: str) -> Any:
     from importlib import import_module
 
-    if name in _LATER:
-        return import_module(f".{name}", __name__)
-    if name in _HOME:
-        return getattr(import_module(f".{_HOME[name]}", __name__), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name in _MODULES:
+        found = import_module(f".{_MODULES[name]}", __name__)
+    elif name in _HOMES:
+        found = getattr(import_module(f".{_HOMES[name]}", __name__), name)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    own = (name for name in globals() if name.startswith("__"))
+    return sorted({*own, *__all__, *_MODULES, *_HOMES})

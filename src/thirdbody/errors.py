@@ -29,5 +29,12 @@ class NoTransition(ThirdBodyError, RuntimeError):
     """The contact mode does not change inside the loads searched."""
 
 
+class NotCompiled(Exception):
+    """The compiled engine does not know these inputs, and why; the NumPy engine takes them.
+
+    Raised and caught inside the library only.
+    """
+
+
 class RangeWarning(UserWarning):
     """A model is used outside the range for which it was derived or published."""

@@ -3,9 +3,9 @@
 import asyncio
 import dataclasses
 import json
+import re
 import subprocess
 import sys
-import time
 import tomllib
 from pathlib import Path
 
@@ -22,7 +22,7 @@ from thirdbody.app import exports, text
 from thirdbody.app.cross_section import profile, section, to_svg
 from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.fields import engineering, fields_of, number_of, shown, value_from
-from thirdbody.app.guard import LARGEST_UPLOAD, Guard, allowed_hosts
+from thirdbody.app.guard import LARGEST_UPLOAD, Guard, Headers, allowed_hosts
 from thirdbody.app.inputs import about_of
 from thirdbody.app.jobs import Job, Stopped
 from thirdbody.app.python_text import to_python
@@ -210,19 +210,23 @@ def test_figures_are_written_and_deterministic(state):
     assert b"<svg" in one
 
 
-def test_curves_of_200_loads_follow_a_slider_in_time(state):
+def test_curves_of_200_loads_follow_a_slider_by_one_solution(state, monkeypatch):
+    """What makes them quick; benchmarks/waiting.py measures it."""
     from thirdbody.app.tabs.curves import figures
 
     figures(state.answer, "F_star", state.at, critical=False)
-    times = []
-    for step in range(9):
-        began = time.process_time()
+    solve, solved = tb.solve, []
+
+    def counting(contact, **load):
+        solved.append(np.size(*load.values()))
+        return solve(contact, **load)
+
+    monkeypatch.setattr(tb, "solve", counting)
+    for step in range(3):
         state.set("roughness", "sigma", f"{101 + step} nm")
         drawn = figures(state.answer, "F_star", state.at, critical=False)
-        times.append(time.process_time() - began)
         assert len(drawn["area"]["data"][0]["x"]) == 200
-    # the best of several: other work on the machine is no part of the answer
-    assert min(times) < 0.1, times
+    assert solved == [200] * 3
 
 
 # ---------------------------------------------------------------- fields
@@ -397,7 +401,7 @@ def test_error_bars_of_critical_loads_and_outputs(of):
     }
     asked = {"load": "F_star", "loads": [], "at": LOADS[1], "of": of, "samples": 64}
     found, _ = run("error bars", study=study, folder=".", **asked)
-    own = tb.propagate(check(study).contact, known, F_star=LOADS[1], samples=64, outputs=[of])
+    own = tb.propagate(check(study).contact, vary=known, F_star=LOADS[1], samples=64, outputs=[of])
     np.testing.assert_allclose(found["band_at"], own.bands[of], rtol=1e-9)
     assert bool(found["critical"]) is (of == "F_cr2")
     if found["critical"]:
@@ -411,7 +415,7 @@ def test_error_bars_are_those_of_the_library():
     asked = {"load": "F_star", "loads": LOADS, "at": LOADS[1], "of": "A_t", "samples": 256}
     found, _ = run("error bars", study=study, folder=".", **asked)
     own = tb.propagate(
-        check(study).contact, {"roughness.sigma": (9e-8, 11e-8)}, F_star=LOADS, samples=256,
+        check(study).contact, vary={"roughness.sigma": (9e-8, 11e-8)}, F_star=LOADS, samples=256,
         seed=3, outputs=["A_t"],
     )  # fmt: skip
     # another process may have another engine: they agree to 1e-12
@@ -520,6 +524,11 @@ def behind(read=None):
         ({}, False),
         ({"host": "127.0.0.1:8765", "origin": "http://evil.example"}, False),
         ({"host": "127.0.0.1:8765", "origin": "null"}, False),
+        ({"host": "127.0.0.1:8765", "origin": "http://127.0.0.1:9000"}, False),
+        ({"host": "127.0.0.1:8765", "origin": "https://127.0.0.1:8765"}, False),
+        ({"host": "127.0.0.1:8765", "origin": "http://localhost:8765"}, False),
+        ({"host": "127.0.0.1:80", "origin": "http://127.0.0.1"}, True),
+        ({"host": "127.0.0.1:port"}, False),
     ],
 )
 def test_other_hosts_and_origins_are_refused(kind, headers, welcome):
@@ -535,6 +544,54 @@ def test_other_hosts_are_served_when_asked_for():
     guard = Guard(behind(), allowed_hosts("192.168.1.5"))
     assert ask(guard, host="192.168.1.5:80")["status"] == 200
     assert ask(guard, host="192.168.1.6:80")["status"] == 400
+
+
+def test_another_site_may_link_to_the_page_but_not_embed_it():
+    guard = Guard(behind(), allowed_hosts("127.0.0.1"))
+    for site in ("cross-site", "same-site"):
+        head = {"host": "127.0.0.1", "sec_fetch_site": site}
+        link = {"sec_fetch_mode": "navigate", "sec_fetch_dest": "document"}
+        assert ask(guard, **head, **link)["status"] == 200
+        for dest in ("iframe", "image", "script", "empty"):
+            mode = "navigate" if dest == "iframe" else "no-cors"
+            answer = ask(guard, **head, sec_fetch_mode=mode, sec_fetch_dest=dest)
+            assert answer["status"] == 403
+    assert ask(guard, host="127.0.0.1", sec_fetch_site="same-origin")["status"] == 200
+
+
+def test_other_origins_are_refused_under_any_name():
+    guard = Guard(behind(), allowed_hosts("0.0.0.0"))
+    assert ask(guard, host="lab.example", origin="http://lab.example")["status"] == 200
+    assert ask(guard, host="lab.example", origin="http://evil.example")["status"] == 400
+
+
+def test_every_answer_has_its_policy_and_scripts_of_a_page_their_nonce():
+    async def application(scope, receive, send):
+        head = [(b"content-type", b"text/html; charset=utf-8"), (b"content-length", b"34")]
+        await send({"type": "http.response.start", "status": 200, "headers": head})
+        for body in (b"<script>1</scr", b"ipt><script src=x>"):
+            await send({"type": "http.response.body", "body": body, "more_body": body[-1:] == b"r"})
+
+    def answered():
+        said = []
+
+        async def send(message):
+            said.append(message)
+
+        asyncio.run(Headers(application)({"type": "http", "headers": []}, None, send))
+        start, *bodies = said
+        return dict(start["headers"]), b"".join(each["body"] for each in bodies)
+
+    (head, body), (other, _) = answered(), answered()
+    policy = head[b"content-security-policy"].decode()
+    nonce = re.search(r"script-src 'self' 'nonce-([\w-]+)' 'unsafe-eval';", policy)[1]
+    assert body.decode() == f'<script nonce="{nonce}">1</script><script nonce="{nonce}" src=x>'
+    assert head[b"content-length"] == str(len(body)).encode()
+    assert other[b"content-security-policy"] != head[b"content-security-policy"]
+    assert "frame-ancestors 'none'" in policy
+    assert head[b"x-content-type-options"] == b"nosniff"
+    assert head[b"x-frame-options"] == b"DENY"
+    assert head[b"referrer-policy"] == b"same-origin"
 
 
 def test_large_uploads_are_refused_said_or_unsaid():

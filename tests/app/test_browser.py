@@ -28,12 +28,14 @@ sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright t
 
 sys.path.insert(0, str(Path(__file__).parent))
 from browser import chromium  # noqa: E402
+from hostile import PAYLOADS, several, wrong  # noqa: E402
 
 from thirdbody.app.examples import example  # noqa: E402
 from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
 from thirdbody.app.widgets import as_length  # noqa: E402
-from thirdbody.cli.show import as_number, as_percent, as_pressure  # noqa: E402
+from thirdbody.quantities.say import as_number, as_percent, as_pressure  # noqa: E402
 
+pytestmark = pytest.mark.check
 PATIENCE = 30_000
 FILM = Path(__file__).parents[2] / "examples" / "oil_film.toml"
 AT = 2e-5
@@ -406,6 +408,81 @@ def test_a_film_is_added_changed_and_removed(visit):
     assert not page.locator('[data-said="page"]').inner_text()
     page.locator('[data-path="film.remove"]').click()
     page.locator('[data-path="film.add"]').wait_for()
+
+
+# ---------------------------------------------------------------- links made to do harm
+HARM = """() => [
+  window.__hit === undefined ? "" : "script ran",
+  document.title === "thirdbody" ? "" : document.title,
+  ...[...document.querySelectorAll(
+    "img[src='x'], [onerror], [onload], a[href^='javascript'], body script:not([nonce])")]
+    .map(e => e.outerHTML),
+].filter(Boolean)"""
+
+
+def test_texts_of_a_link_are_shown_as_text(visit):
+    page = visit(several())
+    dialogs = []
+    page.on("dialog", lambda dialog: (dialogs.append(dialog.message), dialog.dismiss()))
+    shown = page.locator(".q-panel").inner_text()
+    for number, payload in enumerate(PAYLOADS):
+        assert " ".join(f"{number} {payload}".split()) in " ".join(shown.split())
+    for name in (TITLES := page.get_by_role("tab").all_inner_texts()):
+        tab(page, name.strip())
+        if name.strip() == "Curves":
+            drawn(page, "shares")
+            legend = page.locator('[data-figure="shares"] .legendtext').all_text_contents()
+            for number, payload in enumerate(PAYLOADS):
+                words = " ".join(f"{number} {payload}: load".split())
+                assert words in [" ".join(text.split()) for text in legend]
+        if name.strip() == "Dust":
+            drawn(page, "sizes")
+        if name.strip() == "Take away":
+            when(page, "document.querySelector('[data-path=python]')?.innerText.includes('__hit')")
+        page.wait_for_timeout(200)
+        assert not page.evaluate(HARM), name
+    assert len(TITLES) == 11
+    assert not dialogs
+
+
+def test_mistakes_of_a_link_are_told_as_text(visit, address):
+    page = visit()
+    for number, payload in enumerate(PAYLOADS):
+        _, study = list(wrong(payload))[number * 2]
+        page.goto(f"{address}/?{to_link(study)}")
+        page.locator('[data-said="page"]', has_text="__hit").wait_for()
+        assert not page.evaluate(HARM)
+
+
+def test_the_policy_runs_no_script_of_a_text(visit, shared):
+    page = visit()
+    page.evaluate(
+        "document.body.insertAdjacentHTML('beforeend', '<img src=data:, onerror=window.__hit=1>')"
+    )
+    when(page, "document.querySelector('img[onerror]')?.complete")
+    page.wait_for_timeout(200)
+    assert page.evaluate("window.__hit === undefined")
+    said = [text for text in shared[1] if "Content Security Policy" in text]
+    assert said
+    shared[1][:] = [text for text in shared[1] if text not in said]
+
+
+def test_others_are_answered_while_a_heavy_link_is_open(visit, address, browser):
+    edges = np.linspace(1e-7, 5e-7, 1001).tolist()
+    dust = {"material": "SiO2", "areal_density": 1e10, "distribution": "histogram"}
+    heavy = example() | {"particles": dust | {"edges": edges, "counts": [1] * 1000}}
+    heavy["load"] = {"F_star": {"from": 1e-7, "to": 1e-4, "points": 400}}
+    other = browser.new_page()
+    try:
+        other.goto(f"{address}/?{to_link(heavy)}", timeout=PATIENCE)
+        other.get_by_role("tab", name="Curves", exact=True).wait_for(timeout=PATIENCE)
+        page = visit()
+        tab(page, "Curves")
+        assert drawn(page, "area")[0]["y"] == check(STUDY).solve().A_t.tolist()
+        assert not other.locator('[data-figure="section"] svg').count()
+        assert not other.locator('[data-said="page"]').inner_text()
+    finally:
+        other.close()
 
 
 # ---------------------------------------------------------------- fields

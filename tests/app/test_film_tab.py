@@ -1,6 +1,5 @@
-"""The tab of the lubricated contact: its numbers are those of the library, in time."""
+"""The tab of the lubricated contact: its numbers are those of the library."""
 
-import time
 import tomllib
 from pathlib import Path
 
@@ -12,7 +11,7 @@ from thirdbody.study import check, run_film
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
 from thirdbody.app.tabs.film import MOST, START, film_figures, solved
-from thirdbody.film_words import point
+from thirdbody.views.film_words import point
 
 STUDY = Path(__file__).parents[2] / "examples" / "oil_film.toml"
 
@@ -23,12 +22,9 @@ def study_of(**film):
     return data
 
 
-def test_the_curve_is_that_of_the_library_in_time():
+def test_the_curve_is_that_of_the_library():
     study = check(study_of())
-    solved(study)
-    began = time.process_time()
     found, middle = solved(study)
-    spent = time.process_time() - began
     curve = study.film.stribeck(study.contact)
     assert found["states"]["mu"] == curve.mu.values.tolist()
     figures = film_figures(found, middle)
@@ -36,7 +32,8 @@ def test_the_curve_is_that_of_the_library_in_time():
     assert shares["on particles"] == (100 * curve.sa_share.values).tolist()
     words = [note["text"] for note in figures["film shares"]["layout"]["annotations"]]
     assert words == ["boundary", "mixed", "full film"]
-    assert spent < 1.0
+    # what a user waits for; benchmarks/waiting.py measures it
+    assert len(found["states"]["speed"]) <= MOST + 1
 
 
 def test_one_speed_is_drawn_with_what_is_near():

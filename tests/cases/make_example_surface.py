@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from thirdbody import synthetic
+from thirdbody.populations.measured import synthetic
 
 POINTS, SPACING, UNIT = 128, 1e-7, 1e-9
 

@@ -33,8 +33,8 @@ from subjects import (
 )
 
 import thirdbody as tb
-from thirdbody.asperity import GW, AbstractAsperityLaw, Jump
-from thirdbody.contact import interface
+from thirdbody.contact.interface import interface
+from thirdbody.laws.asperity import GW, AbstractAsperityLaw, Jump
 
 Array = NDArray[np.float64]
 Law = AbstractAsperityLaw

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import thirdbody as tb
-from thirdbody import asperities
-from thirdbody.asperity import REGISTRY, AbstractAsperityLaw
+from thirdbody.contact import asperity_sums as asperities
+from thirdbody.laws.asperity import REGISTRY, AbstractAsperityLaw
 
 Array = NDArray[np.float64]
 R, E_STAR, NU = 2.8e-6, 1.1e11, 0.29

@@ -7,7 +7,7 @@ import battery
 import pytest
 from subjects import ADHESIVE, CIRCLES, ELLIPSES, SUBJECTS, Subject
 
-from thirdbody.asperity import REGISTRY
+from thirdbody.laws.asperity import REGISTRY
 
 GUIDE = Path(__file__).parents[2] / "docs" / "add-a-law.md"
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq
 
 import thirdbody as tb
-from thirdbody.laws.particle.series import SqueezedParticle, contact_sides
+from thirdbody.laws.particle.one_particle import SqueezedParticle, contact_sides
 
 NU = 0.3
 LAWS = {

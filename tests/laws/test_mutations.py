@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from subjects import CASE, FIRST
 
-from thirdbody.asperity import AbstractAsperityLaw, Branch, Jump
-from thirdbody.laws.asperity import elliptic
+from thirdbody.laws.asperity import AbstractAsperityLaw, Branch, Jump, elliptic
 
+pytestmark = pytest.mark.check
 Law = AbstractAsperityLaw
 CHECKS = tuple(check for check in battery.CHECKS if check is not battery.same_as_plain)
 ROUND = {name: FIRST[name].law for name in ("gw", "ceb", "zmc", "hermite", "ke", "jg")}

@@ -30,7 +30,7 @@ from subjects import (
 )
 
 import thirdbody as tb
-from thirdbody.contact import interface
+from thirdbody.contact.interface import interface
 from thirdbody.laws.asperity import elliptic_hertz
 
 OURS = json.loads((Path(__file__).parents[1] / "cases" / "laws.json").read_text("utf-8"))

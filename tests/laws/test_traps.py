@@ -11,6 +11,7 @@ from subjects import CASE, E_STAR, FIRST, HEIGHTS, NU, SIGMA_S, H, R, build, con
 
 import thirdbody as tb
 from thirdbody import reference
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.laws.asperity import elliptic_hertz
 
 
@@ -188,7 +189,7 @@ def test_derivative_holds_the_jump_of_ceb():
     """∫F₁′φ alone misses a part that is not small."""
     from battery import ETA, by_parts, edges
 
-    from thirdbody.contact import interface
+    from thirdbody.contact.interface import interface
 
     law = FIRST["ceb"].law
     bare = contact(law)
@@ -206,3 +207,54 @@ def test_dmt_begins_with_a_pull():
     assert float(law.force(0.0, **CASE)) == 0
     first = float(law.force(1e-25, **CASE)) / (math.pi * law.w * R)
     assert first == pytest.approx(-2, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", FIRST)
+@pytest.mark.parametrize("radius", [1e-9, 2.8e-6, 1.0])
+def test_no_law_gives_no_number(name, radius):
+    """Whatever body a law takes, its loads and areas are finite, and areas not negative."""
+    law = FIRST[name].law
+    for ratio in np.geomspace(1e-4, 10, 16):
+        for nu in (-0.9, 0.0, 0.5):
+            case = {"R": radius, "E_star": E_STAR, "H": ratio * E_STAR}
+            bound = law.bound(**case, nu=nu)
+            # from a millionth of first yield, or of R, to R or to where the law ends
+            first = float(bound.yield_interference(**case))
+            y = np.geomspace(1e-6, max(min(radius / first, bound.valid_to), 1e-5), 300)
+            for quantity in ("force", "area", "stiffness"):
+                values = bound.reduced(quantity, y)
+                assert np.all(np.isfinite(values)), (quantity, ratio, nu)
+                assert quantity != "area" or np.all(values >= 0)
+
+
+@pytest.mark.parametrize("hardness", [0.5, 1.0, 2.0])
+def test_jackson_green_beyond_its_fits(hardness):
+    """The exponent of its area overflows; such states were "ok" without area and mode."""
+    hard = contact(build("jg"), hardness=hardness * E_STAR)
+    hard = hard.replace(roughness=tb.Roughness(sigma=R, R=R))
+    vary = {"roughness.R": R * np.linspace(1, 1.1, 30)}
+    loads = np.geomspace(1e-8, 1e-3, 30)
+    for found in (
+        tb.solve(hard, F_star=loads).columns(),
+        tb.solve(hard, d=R * np.linspace(0, 4, 30)).columns(),
+        state_columns(hard, F_star=loads, vary=vary),
+    ):
+        ok = found["status"] == "ok"
+        assert np.all(np.isfinite(found["A_t"][ok]) & (found["mode"][ok] == "s-s"))
+        assert np.all(np.isnan(found["d"][~ok]))
+        assert ok.all() if hardness < 1 else not ok.any()
+        for word in found["status"][~ok]:
+            assert "jg: at a/R above 0.41, out of its fits" in word
+
+
+@pytest.mark.parametrize("load", [{"d": 1e-8}, {"F_star": 1e-4}])
+def test_an_area_that_is_no_number_is_not_ok(load):
+    class Broken(type(build("gw"))):
+        __slots__ = ()
+
+        def reduced(self, quantity, y):
+            out = super().reduced(quantity, y)
+            return out * np.nan if quantity == "area" else out
+
+    with pytest.raises(tb.NoEquilibrium, match="give no number"):
+        tb.solve(contact(Broken()), **load)

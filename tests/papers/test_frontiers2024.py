@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from thirdbody.studies import frontiers2024 as study
-from thirdbody.studies.ledger import OWN, SEEN, WORDS
+from thirdbody.papers import frontiers2024 as study
+from thirdbody.papers.ledger import OWN, SEEN, WORDS
 
 READINGS = ("rough", "offset")
 

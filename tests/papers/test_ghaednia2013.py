@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from thirdbody.studies import ghaednia2013 as study
-from thirdbody.studies.ledger import NO_SOURCE, OWN, REPORTED, SEEN, WORDS
+from thirdbody.papers import ghaednia2013 as study
+from thirdbody.papers.ledger import NO_SOURCE, OWN, REPORTED, SEEN, WORDS
 
 READINGS = ("stack", "fractal")
 
@@ -68,7 +68,7 @@ def test_words_are_the_known_ones(ledger):
 
 def test_where_the_trends_end(ledger):
     """Both surfaces are in full contact by then, and the patches touch at p = P_p(0)."""
-    from thirdbody.fractal import ParticleFilm
+    from thirdbody.systems.fractal import ParticleFilm
 
     closed = ParticleFilm(study.model("stack"))(np.zeros(1))[0, 0]
     for name in READINGS:

@@ -12,10 +12,11 @@ from scipy.integrate import quad
 
 import thirdbody as tb
 from thirdbody import InvalidValue
-from thirdbody.studies import ghaednia2013, ghaednia2014
-from thirdbody.studies.ghaednia2014 import PRESSURES, READINGS, STUDY, conductance_ratio, contact
-from thirdbody.studies.ledger import NO_SOURCE, OWN, REPORTED, SEEN
-from thirdbody.studies.panels import table_of
+from thirdbody.contact.particle_sums import particle_sum
+from thirdbody.papers import ghaednia2013, ghaednia2014
+from thirdbody.papers.ghaednia2014 import PRESSURES, READINGS, STUDY, conductance_ratio, contact
+from thirdbody.papers.ledger import NO_SOURCE, OWN, REPORTED, SEEN
+from thirdbody.papers.panels import table_of
 
 STATED = ("elastic", "elastic-plastic", "stack")
 
@@ -84,7 +85,7 @@ def test_load_per_particle_of_the_reference(shared_reference):
         areal_density=1e-2,
     )
     law = contact().particle_law
-    response = law.response(tb.MaterialPair(unit, unit), tb.Roughness(sigma=1.0, R=1e3), dust)
+    response = particle_sum(law, tb.MaterialPair(unit, unit), tb.Roughness(sigma=1.0, R=1e3), dust)
     for row in stored:
         load = response.fields(np.array([row["gap"]]))["F_sa"][0] / dust.areal_density
         expected = float(row["F_per_particle"])

@@ -8,24 +8,16 @@ import numpy as np
 import pytest
 
 from thirdbody import InvalidValue
-from thirdbody.studies.horng2022 import (
-    PANELS,
-    READINGS,
-    Curves,
-    claims,
-    reproduce,
-    score,
-    study,
-)
-from thirdbody.studies.horng2022.claims import study_data
-from thirdbody.studies.horng2022.ledger import (
+from thirdbody.papers.horng2022 import PANELS, READINGS, Curves, claims, reproduce, score, study
+from thirdbody.papers.horng2022.claims import study_data
+from thirdbody.papers.horng2022.ledger import (
     MEASURES,
     critical_load_1,
     critical_load_2,
     interior_peak_of,
 )
-from thirdbody.studies.horng2022.readings import LOADS, RANGE, Curve
-from thirdbody.studies.ledger import Claim, Measurement
+from thirdbody.papers.horng2022.readings import LOADS, RANGE, Curve
+from thirdbody.papers.ledger import Claim, Measurement
 
 EXPECTED = {"published": 66, "window": 60, "window_E2": 57, "all_terms": 56, "literal": 35}
 """Totals of the search that found the presets, on an independent implementation."""
@@ -323,7 +315,7 @@ def test_a_file_where_the_folder_should_be(tmp_path):
 
 @pytest.mark.parametrize("name", ["9a", "9b", "12b"])
 def test_panels_of_every_reading_can_be_drawn(name):
-    from thirdbody.studies.horng2022.figures import draw
+    from thirdbody.papers.horng2022.figures import draw
 
     for reading in ("literal", "series-plane"):
         draw(PANELS[name](Curves(READINGS[reading]))).canvas.draw()

@@ -5,9 +5,9 @@ import json
 import numpy as np
 import pytest
 
-from thirdbody.studies import PAPERS
-from thirdbody.studies import wu2017 as study
-from thirdbody.studies.ledger import NO_SOURCE, OWN, SEEN
+from thirdbody.papers import PAPERS
+from thirdbody.papers import wu2017 as study
+from thirdbody.papers.ledger import NO_SOURCE, OWN, SEEN
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
 READINGS = ("few", "many", "smooth")

@@ -9,7 +9,7 @@ capped at the hardness. Lines: three seats of the model. Nothing was fitted.
 import numpy as np
 
 import thirdbody as tb
-from thirdbody.studies import seats
+from thirdbody.papers import seats
 
 figure = seats.figure(loads=np.geomspace(5e-7, 6e-4, 60))
 

@@ -11,7 +11,7 @@ import warnings
 import numpy as np
 
 import thirdbody as tb
-from thirdbody.compare import figure as draw
+from thirdbody.views.comparison import figure as draw
 
 warnings.simplefilter("ignore", tb.RangeWarning)  # gw says that it is out of its range
 steel = tb.materials["S45C"]

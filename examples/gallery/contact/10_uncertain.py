@@ -22,7 +22,7 @@ contact = tb.Contact(
 )
 found = tb.propagate(
     contact,
-    {
+    vary={
         "roughness.sigma": (85e-9, 115e-9),
         "particles.areal_density": tb.Uncertain.lognormal(median=1e11, gsd=1.5),
     },

@@ -21,7 +21,7 @@ contact = tb.Contact(
         diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
     ),
 )
-table = contact.table(tolerance=1e-4)
+table = tb.table(contact, tolerance=1e-4)
 h = np.linspace(210e-9, 600e-9, 801)  # m
 exact = tb.solve(contact, d=h - contact.roughness.y_s)
 error = np.abs(table.p(h) / np.asarray(exact.pressure) - 1)

@@ -8,8 +8,8 @@ could not go below 32 % (item 20 of :doc:`/errata`); the reading gets there with
 H_s + H_a, which is inferred from this number and is not physical.
 """
 
-from thirdbody.studies.horng2022 import PANELS, READINGS, Curves
-from thirdbody.studies.horng2022.figures import draw
+from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
+from thirdbody.papers.horng2022.figures import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("3a", "3b")]

@@ -7,8 +7,8 @@ The paper reads a gap between the two curves that is 9.8 times as wide at σ = 5
 This reading has it 2.2 times as wide at F* = 1e-5: one of the statements it misses.
 """
 
-from thirdbody.studies.horng2022 import PANELS, READINGS, Curves
-from thirdbody.studies.horng2022.figures import draw
+from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
+from thirdbody.papers.horng2022.figures import draw
 
 curves = Curves(READINGS["published"])
 figure = draw(PANELS["5"](curves))

@@ -9,8 +9,8 @@ in none of them (item 16 of :doc:`/errata`).
 
 import numpy as np
 
-from thirdbody.studies.horng2022 import PANELS, READINGS, Curves
-from thirdbody.studies.horng2022.figures import draw
+from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
+from thirdbody.papers.horng2022.figures import draw
 
 curves = Curves(READINGS["published"])
 figure = draw(PANELS["8"](curves))

@@ -6,8 +6,8 @@ The area of Eqs. 11 to 13 by regime, over the total. Without particles at most a
 elastic, which the paper says too; that needs R = 11.1 µm.
 """
 
-from thirdbody.studies.horng2022 import PANELS, READINGS, Curves
-from thirdbody.studies.horng2022.figures import draw
+from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
+from thirdbody.papers.horng2022.figures import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("10a", "10b", "10c")]

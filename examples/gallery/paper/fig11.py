@@ -6,8 +6,8 @@ Separation at one load. It follows the surface while particles are smaller than 
 particle diameter once they carry. The paper does not state the load; F* = 1e-5 is taken.
 """
 
-from thirdbody.studies.horng2022 import PANELS, READINGS, Curves
-from thirdbody.studies.horng2022.figures import draw
+from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
+from thirdbody.papers.horng2022.figures import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("11a", "11b")]

@@ -6,8 +6,8 @@ Particles of 500 nm hold the surfaces at about their diameter until asperities t
 against separation (b) shows both curves joining.
 """
 
-from thirdbody.studies.horng2022 import PANELS, READINGS, Curves
-from thirdbody.studies.horng2022.figures import draw
+from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
+from thirdbody.papers.horng2022.figures import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("12a", "12b")]

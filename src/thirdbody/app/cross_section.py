@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,8 @@ from numpy.typing import NDArray
 
 import thirdbody as tb
 
-from ..plot import OKABE_ITO
+from ..quantities.say import value_of
+from ..views.plot.style import OKABE_ITO
 
 __all__ = ["Section", "section", "to_svg"]
 
@@ -164,7 +166,7 @@ def to_svg(drawn: Section, *, title: str = "Cross-section") -> str:
     out = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-112 -4 {W + 112:.0f} {H + 52:.1f}" '
         'role="img" class="section" font-family="sans-serif" font-size="15">',
-        f"<title>{title}</title>",
+        f"<title>{escape(title)}</title>",
         "<style>.ink{fill:currentColor}.edge{stroke:currentColor;fill:none}"
         f".spot{{stroke:{OKABE_ITO['vermilion']};stroke-width:5;stroke-linecap:round}}</style>",
         f'<polygon class="body rough" points="{body}" fill="#8a8f98" fill-opacity="0.55"/>',
@@ -217,7 +219,7 @@ def _grain(drawn: Section, grain: Grain, X: Any, Y: Any, scale: float) -> str:
 def _measures(drawn: Section, X: Any, Y: Any, H: float, scale: float) -> list[str]:
     """The mean plane, the separation, and a bar for scale."""
     length = _round_length(drawn.width / 6)
-    bar = f"{length * 1e9:.0f} nm" if length < 1e-6 else f"{length * 1e6:g} µm"
+    bar = value_of(length, "m")
     x, mean, flat = -16.0, Y(0.0), Y(drawn.h)
     y = H + 30
     return [
@@ -227,7 +229,7 @@ def _measures(drawn: Section, X: Any, Y: Any, H: float, scale: float) -> list[st
         f'<path class="ink" d="M{x - 5} {flat + 9:.1f}L{x} {flat:.1f}L{x + 5} {flat + 9:.1f}z'
         f'M{x - 5} {mean - 9:.1f}L{x} {mean:.1f}L{x + 5} {mean - 9:.1f}z"/>',
         f'<text class="ink" x="{x - 12}" y="{0.5 * (mean + flat) + 5:.1f}" text-anchor="end">'
-        f"{drawn.h * 1e9:.4g} nm</text>",
+        f"{value_of(drawn.h, 'm')}</text>",
         f'<line class="edge" x1="0" x2="{scale * length:.1f}" y1="{y}" y2="{y}" stroke-width="4"/>',
         f'<text class="ink" x="{10 + scale * length:.1f}" y="{y + 5}">{bar}, both axes</text>',
     ]

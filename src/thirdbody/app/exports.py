@@ -7,9 +7,9 @@ import io
 import json
 from typing import Any
 
-from .. import plot
-from ..equilibrium import about
+from ..equilibrium.columns import about
 from ..study import Study, run_study
+from ..views import plot
 from .state import Answer
 
 __all__ = ["FIGURES", "figure_of", "to_csv", "to_json"]

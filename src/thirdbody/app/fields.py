@@ -10,17 +10,18 @@ from typing import Any
 
 import thirdbody as tb
 
-from .. import cleanliness
 from ..errors import InvalidValue
-from ..sizes import FITS, WEIGHTINGS
+from ..populations.measured import cleanliness
+from ..populations.measured.sizes import FITS, WEIGHTINGS
+from ..quantities.units import quantity_to_si
+from ..quantities.value import allowed_range
 from ..study import DISTRIBUTIONS, HEIGHTS, LOADS, filled_in
 from ..study.concentration import AMOUNT
 from ..study.counted import COUNTED
 from ..study.reader import Reader
 from ..study.tables import FIELDS, TABLES
 from ..study.toml import value_of
-from ..units import quantity_to_si
-from ..values import allowed_range
+from .bounds import refuse_long_names
 from .text import in_ascii, with_micro, written
 
 __all__ = [
@@ -61,7 +62,7 @@ class Field:
     options : tuple of str
         Of a word.
     quantity : dict, optional
-        What `thirdbody.values.quantity` says of a number.
+        What `thirdbody.quantities.value.quantity` says of a number.
     default : object
         What counts when it is left out; None where it must stand or there is none.
     """
@@ -217,6 +218,10 @@ def value_from(text: str) -> Any:
     text = in_ascii(text.strip())
     if not text:
         return None
+    try:
+        refuse_long_names(text)
+    except InvalidValue:
+        return text
     if "," in text and text[0] not in '[{"':
         return [value_of(part) for part in text.split(",") if part.strip()]
     return value_of(text)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import html
 from typing import Any
 
 import numpy as np
 
-from ..plot import MODE_COLOURS, OKABE_ITO, REGIMES
+from ..views.plot.style import MODE_COLOURS, OKABE_ITO, REGIMES
 
 __all__ = [
     "AXES",
@@ -23,6 +24,7 @@ __all__ = [
     "log_title",
     "mark",
     "mode_bands",
+    "plain",
 ]
 
 INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
@@ -47,6 +49,16 @@ def _rgb(colour: Any) -> str:
 
 MODE_FILLS = {name: _rgb(colour) for name, colour in MODE_COLOURS.items()}
 REGIME_FILLS = {name: (label, colour) for name, (label, colour) in REGIMES.items()}
+
+
+def plain(text: str) -> str:
+    """A text of a study for Plotly, which reads tags in names, titles and categories.
+
+    >>> plain("a<b>c</b> & d")
+    'a&lt;b&gt;c&lt;/b&gt; &amp; d'
+    """
+    # %{...} stands for a variable there
+    return html.escape(text, quote=False).replace("%{", "%&#123;")
 
 
 def figure(

@@ -1,12 +1,13 @@
-"""Who may talk to the page: browsers on its own host, with uploads of a decent size."""
+"""Who may talk to the page, what it may send, and what its answers may do in the browser."""
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Awaitable, Callable, Iterable, MutableMapping
 from typing import Any
 from urllib.parse import urlsplit
 
-__all__ = ["LARGEST_UPLOAD", "LOOPBACK", "Guard", "allowed_hosts"]
+__all__ = ["LARGEST_UPLOAD", "LOOPBACK", "Guard", "Headers", "allowed_hosts"]
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 LARGEST_UPLOAD = 25 * 2**20
@@ -49,8 +50,11 @@ class Guard:
         headers = {
             key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
         }
-        if self.hosts and not self._known(headers):
+        if not self._known(headers, scope):
             await _refuse(scope, send, 400, "this page is not served under that name")
+            return
+        if _embedded(headers):
+            await _refuse(scope, send, 403, "another site may link to this page, not embed it")
             return
         length = headers.get("content-length", "0")
         if not length.isdecimal() or int(length) > self.largest:
@@ -58,10 +62,13 @@ class Guard:
             return
         await self.app(scope, self._counted(receive), send)
 
-    def _known(self, headers: dict[str, str]) -> bool:
-        host = urlsplit(f"//{headers.get('host', '')}").hostname
-        origin = headers.get("origin")
-        return host in self.hosts and (origin is None or urlsplit(origin).hostname in self.hosts)
+    def _known(self, headers: dict[str, str], scope: Message) -> bool:
+        """Asked for under a name of its own, by nobody else than itself."""
+        secure = scope.get("scheme", "http") in ("https", "wss")
+        own = _origin(f"{'https' if secure else 'http'}://{headers.get('host', '')}")
+        if self.hosts and (own is None or own[1] not in self.hosts):
+            return False
+        return "origin" not in headers or _origin(headers["origin"]) == own
 
     def _counted(self, receive: Receive) -> Receive:
         """Ends a body that goes on beyond the limit without having said so."""
@@ -77,6 +84,91 @@ class Guard:
             return message
 
         return counted
+
+
+def _origin(text: str) -> tuple[str, str, int] | None:
+    """Scheme, host and port; None for what is no address of a page."""
+    try:
+        parts = urlsplit(text)
+        port = parts.port or {"http": 80, "https": 443}[parts.scheme]
+    except (ValueError, KeyError):
+        return None
+    return (parts.scheme, parts.hostname, port) if parts.hostname else None
+
+
+def _embedded(headers: dict[str, str]) -> bool:
+    """Whether the page of another site asks, other than by a link that is followed."""
+    if headers.get("sec-fetch-site") not in ("cross-site", "same-site"):
+        return False
+    follows = headers.get("sec-fetch-mode") == "navigate"
+    return not (follows and headers.get("sec-fetch-dest") == "document")
+
+
+POLICY = "; ".join(
+    (
+        "default-src 'none'",
+        "script-src 'self' 'nonce-{nonce}' 'unsafe-eval'",
+        "style-src 'self' 'unsafe-inline'",
+        "img-src 'self' data: blob:",
+        "font-src 'self' data:",
+        "connect-src 'self'",
+        "base-uri 'none'",
+        "form-action 'none'",
+        "frame-ancestors 'none'",
+    )
+)
+"""What an answer may do. No script but that of the server runs, none in attributes, and nothing is
+loaded from elsewhere. NiceGUI evaluates its event handlers and Vue compiles templates, hence
+'unsafe-eval'; both, and Plotly, write styles into the page, hence 'unsafe-inline' for those."""
+KEPT_TO_ITSELF = (
+    (b"x-content-type-options", b"nosniff"),
+    (b"x-frame-options", b"DENY"),
+    (b"referrer-policy", b"same-origin"),
+    (b"cross-origin-opener-policy", b"same-origin"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+)
+
+
+class Headers:
+    """ASGI middleware that tells the browser what answers may do; scripts of a page get a nonce."""
+
+    def __init__(self, app: Any) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Message, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+        nonce = secrets.token_urlsafe(16)
+        held: list[Message] = []
+
+        async def with_headers(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                policy = POLICY.format(nonce=nonce).encode()
+                more = [*KEPT_TO_ITSELF, (b"content-security-policy", policy)]
+                message["headers"] = [*message.get("headers", []), *more]
+                kinds = [v for k, v in message["headers"] if k.lower() == b"content-type"]
+                if kinds and kinds[0].startswith(b"text/html"):
+                    held.append(message)  # until its body is there, which gets longer
+                    return
+            elif held:
+                held.append(message)
+                if message.get("more_body"):
+                    return
+                start, *parts = held
+                held.clear()
+                body = b"".join(part.get("body", b"") for part in parts)
+                # texts of a study stand in it as data, in which < is escaped
+                body = body.replace(b"<script", f'<script nonce="{nonce}"'.encode())
+                start["headers"] = [
+                    (k, str(len(body)).encode() if k.lower() == b"content-length" else v)
+                    for k, v in start["headers"]
+                ]
+                await send(start)
+                message = {"type": "http.response.body", "body": body}
+            await send(message)
+
+        await self.app(scope, receive, with_headers)
 
 
 async def _refuse(scope: Message, send: Send, status: int, why: str) -> None:

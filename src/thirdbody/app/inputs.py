@@ -10,13 +10,15 @@ from nicegui import events, ui
 
 import thirdbody as tb
 
+from ..analysis.uncertainty.inputs import KINDS
 from ..errors import InvalidValue
+from ..quantities.say import number, value_of
+from ..quantities.units import say
 from ..study import LOADS
 from ..study.concentration import AMOUNT
 from ..study.counted import COUNTED
 from ..study.inputs import inputs_of
-from ..uncertainty import KINDS
-from ..units import say
+from .bounds import LARGEST_TABLE
 from .fields import (
     COUNTED_FIELDS,
     VARIANTS,
@@ -28,9 +30,10 @@ from .fields import (
     shown,
     value_from,
 )
-from .state import State, refuse_foreign_files
+from .state import State
 from .text import from_toml, to_toml, with_micro
 from .uploads import keep
+from .widgets import put
 
 __all__ = ["FORMED", "Inputs"]
 
@@ -62,7 +65,7 @@ seed = 1
 objective = { of = "particle_load_share", aim = "largest" }
 limits = [{ of = "A_t", most = 0.1 }]
 
-[design.over]
+[design.vary]
 "roughness.sigma" = { low = "50 nm", high = "200 nm" }
 """,
 }
@@ -134,24 +137,25 @@ class Inputs:
         else:
             self.text(place, field)
 
-    def text(self, place: Place, field: Field, put: Callable[[Any], None] | None = None) -> Any:
+    def text(self, place: Place, field: Field, to: Callable[[Any], None] | None = None) -> Any:
         """An entry that is written: the study changes when typing pauses."""
-        set_to = put or (lambda value: self.state.set(*place, value))
+        set_to = to or (lambda value: self.state.set(*place, value))
         read, show = (
             (lambda text: text.strip() or None, lambda value: str(value or ""))
             if field.kind == "string"
             else (value_from, shown)
         )
         entry = ui.input(field.label, value=show(self.state.get(*place))).classes("w-full")
-        entry.props(f'dense debounce=350 hint="{_attribute(with_micro(field.about))}"')
-        entry.props(f'aria-label="{_attribute(dotted(place))}" data-path="{dotted(place)}"')
+        name = dotted(place)
+        put(entry.props("dense debounce=350"), {"hint": with_micro(field.about)})
+        put(entry, {"aria-label": name, "data-path": name})
         entry.on_value_change(lambda event: set_to(read(event.value or "")))
-        self.shown[dotted(place)] = Entry(entry, read, show)
+        self.shown[name] = Entry(entry, read, show)
         return entry
 
     def known(self, *place: str) -> None:
         """The entries of a table without a form of its own, as the reader knows them."""
-        for name, about in known_keys(self.state.study, place[0])[dotted(place)].items():
+        for name, about in known_keys(self.state.study, place[0]).get(dotted(place), {}).items():
             if about:
                 self.field(place, Field(name=name, kind="text", label=name, about=about))
 
@@ -174,9 +178,10 @@ class Inputs:
             return "" if table is None else to_toml({name: table})
 
         entry = ui.textarea(value=show(self.state.get(name)), placeholder=BEGUN.get(name, ""))
-        entry.props(f'outlined autogrow debounce=500 data-path="{name}" aria-label="[{name}]"')
+        entry.props("outlined autogrow debounce=500")
+        put(entry, {"data-path": name, "aria-label": f"[{name}]"})
         entry.classes("w-full code").on_value_change(changed)
-        keys = known_keys(self.state.study, name)[name]
+        keys = known_keys(self.state.study, name).get(name, {})
         ui.label(f"Keys: {', '.join(keys)}.").classes("hint")
         self.shown[name] = Entry(entry, read, show, whole=True)
 
@@ -197,11 +202,13 @@ class Inputs:
             elif place is not None:
                 self.state.set(*place, event.value or None)
 
-        known = options if now in options else {now: str(now), **options}
+        if not isinstance(now, str):
+            now = shown(now)  # a mistake, which stands there as it is written
+        known = options if now in options else {now: now, **options}
         menu = ui.select(known, value=now, label=label, on_change=changed)
-        menu.props(f'dense options-dense hint="{_attribute(with_micro(hint))}"').classes("w-full")
+        put(menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)})
         if place is not None:
-            menu.props(f'data-path="{dotted(place)}"')
+            put(menu, {"data-path": dotted(place)})
             self.shown[dotted(place)] = Entry(menu)
         return menu
 
@@ -211,11 +218,16 @@ class Inputs:
         self.again()
 
     # ------------------------------------------------------------------ tables
+    def table(self, *place: str | int) -> dict[str, Any]:
+        """A table of the study; an empty one where something else stands."""
+        given = self.state.get(*place)
+        return given if isinstance(given, dict) else {}
+
     def material(self, place: Place, label: str) -> None:
         """A material of the library, or own values."""
         now = self.state.get(*place)
         own = isinstance(now, dict)
-        library = self._library()
+        library = self.state.library
         options = {OWN: OWN, **{name: name for name in library}}
 
         def then(value: Any) -> None:
@@ -230,20 +242,12 @@ class Inputs:
         if own:
             for each in fields_of(tb.Material):
                 self.field(place, each)
-        elif now in library:
+        elif isinstance(now, str) and now in library:
             known = library[now]
             ui.label(
-                f"E = {known.E / 1e9:.4g} GPa, ν = {known.nu:g}, H = {known.H / 1e9:.4g} GPa"
+                f"E = {value_of(known.E, 'Pa')}, ν = {number(known.nu)}, "
+                f"H = {value_of(known.H, 'Pa')}"
             ).classes("hint")
-
-    def _library(self) -> tb.MaterialLibrary:
-        """The materials that the study can name."""
-        own = self.state.get("materials")
-        try:
-            refuse_foreign_files({"materials": own}, self.state.folder)
-            return tb.materials.load(self.state.folder / own) if own else tb.materials
-        except (InvalidValue, TypeError):
-            return tb.materials
 
     def variant(
         self,
@@ -257,6 +261,7 @@ class Inputs:
         """A word of a registry and the entries that go with it."""
         now = self.state.get(*place)
         word = now.get(tag) if isinstance(now, dict) else now
+        word = word if isinstance(word, str) else shown(word)
         words = options_of(registry)
         if blank is not None:
             words = {"": blank, **words}
@@ -284,7 +289,7 @@ class Inputs:
     def _named(self, place: Place, field: Field, tag: str, word: str) -> None:
         """An entry of a table that is still a word, or left out."""
 
-        def put(value: Any) -> None:
+        def to(value: Any) -> None:
             table = self.state.get(*place)
             if value is None and not isinstance(table, dict):
                 return
@@ -292,7 +297,7 @@ class Inputs:
             new = {key: old for key, old in kept.items() if key != field.name}
             self.state.set(*place, new if value is None else new | {field.name: value})
 
-        self.text((*place, field.name), field, put)
+        self.text((*place, field.name), field, to)
 
     def surfaces(self) -> None:
         """Both bodies."""
@@ -300,11 +305,20 @@ class Inputs:
             self.material(("surfaces", side), f"{side} surface")
 
         async def uploaded(event: events.UploadEventArguments) -> None:
-            self.change("materials", await keep(self.state.folder, event))
+            try:
+                self.change("materials", await keep(self.state.folder, event))
+            except InvalidValue as error:
+                ui.notify("; ".join(error.problems))
 
         about = "a file, dropped below"
         self.field((), Field(name="materials", kind="string", label="own materials", about=about))
-        upload = ui.upload(label="Own materials", auto_upload=True, on_upload=uploaded)
+        upload = ui.upload(
+            label="Own materials",
+            auto_upload=True,
+            max_file_size=LARGEST_TABLE,
+            on_upload=uploaded,
+            on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
+        )
         upload.props('flat bordered data-upload="materials" accept=".toml,text/plain"')
 
     def asperity_law(self) -> None:
@@ -362,9 +376,10 @@ class Inputs:
 
     def population(self, place: Place) -> None:
         """One population: material, sizes, how many."""
-        table = self.state.get(*place) or {}
+        table = self.table(*place)
         self.material((*place, "material"), "material")
         kind = next((key for key in COUNTED if key in table), table.get("distribution"))
+        kind = kind if isinstance(kind, str) else None
         labels = options_of({name: None for name in SIZES}) | {
             "iso4406": "iso4406: oil cleanliness code",
             "as4059": "as4059: cleanliness class",
@@ -409,7 +424,7 @@ class Inputs:
 
     def _sized(self, place: Place, word: str) -> None:
         """Another way to give the sizes: what does not go with it goes."""
-        table = dict(self.state.get(*place) or {})
+        table = self.table(*place)
         kept = {key: table[key] for key in ("material", "name", "law") if key in table}
         amounts = {key: table[key] for key in ("areal_density", *AMOUNTS) if key in table}
         starts: dict[str, dict[str, Any]] = {
@@ -446,9 +461,9 @@ class Inputs:
 
     def particles(self) -> None:
         """Every population, one more, one less."""
-        for number, place in enumerate(self.populations()):
+        for i, place in enumerate(self.populations()):
             with ui.row().classes("w-full items-center justify-between"):
-                ui.label(f"Population {number + 1}").classes("subhead")
+                ui.label(f"Population {i + 1}").classes("subhead")
                 remove = ui.button(icon="delete", on_click=lambda _, p=place: self._remove(p))
                 remove.props('flat dense aria-label="remove this population"')
             self.population(place)
@@ -485,7 +500,7 @@ class Inputs:
 
     def load(self) -> None:
         """Which load, and its values."""
-        table = self.state.get("load") or {}
+        table = self.table("load")
         kind = next((name for name in VARIANTS["load"] if name in table), "pressure")
         starts = {
             "F_star": {"from": 5e-7, "to": 2.4e-4, "points": 200, "spacing": "log"},
@@ -533,7 +548,7 @@ class Inputs:
             place: Place = ("outputs", name)
             on = self.state.get(*place) is not None
             box = ui.switch(str(getattr(kind, "title", name)), value=on)
-            box.props(f'data-path="{dotted(place)}"')
+            put(box, {"data-path": dotted(place)})
             box.on_value_change(lambda e, p=place: self._switch(p, e.value))
             if on:
                 with ui.column().classes("w-full pl-4 gap-1"):
@@ -541,7 +556,7 @@ class Inputs:
                         self.field(place, each)
 
     def _switch(self, place: Place, on: bool) -> None:
-        wanted = dict(self.state.get("outputs") or {})
+        wanted = dict(self.table("outputs"))
         if on:
             kind = VARIANTS["outputs"][str(place[1])]
             wanted[str(place[1])] = {}
@@ -556,14 +571,14 @@ class Inputs:
         """What is known of the inputs: a row each."""
         names = [e.name for e in inputs_of(self.state.study) if e.quantity and not e.idle]
         names += [f"load.{name}" for name in LOADS if self.state.get("load", name) is not None]
-        given = self.state.get("uncertainty", "inputs") or {}
+        given = self.table("uncertainty", "inputs")
         flat = _flat(given)
         for label, entry in flat.items():
             with ui.row().classes("w-full items-center no-wrap gap-2"):
                 ui.label(label).classes("grow break-all")
                 ui.label(with_micro(say(entry))).classes("hint")
                 drop = ui.button(icon="delete", on_click=lambda _, k=label: self._known(k, None))
-                drop.props(f'flat dense aria-label="remove {_attribute(label)}"')
+                put(drop.props("flat dense"), {"aria-label": f"remove {label}"})
         kinds = {
             "uniform": "between two values",
             "log-uniform": "between two values, over decades",
@@ -598,11 +613,11 @@ class Inputs:
             ui.button("Add", icon="add", on_click=add).props('dense data-path="uncertain.add"')
 
     def _known(self, label: str, entry: dict[str, Any] | None) -> None:
-        flat = _flat(self.state.get("uncertainty", "inputs") or {})
+        flat = _flat(self.table("uncertainty", "inputs"))
         flat.pop(label, None)
         if entry is not None:
             flat[label] = entry
-        table = dict(self.state.get("uncertainty") or {})
+        table = self.table("uncertainty")
         self.change("uncertainty", table | {"inputs": flat} if flat else None)
 
 
@@ -622,7 +637,3 @@ def about_of(problem: str) -> str:
     """The entry that a sentence is about: it begins with its place."""
     first = problem.split(" ", 1)[0].rstrip(":,")
     return first.split("[", 1)[0]
-
-
-def _attribute(text: str) -> str:
-    return text.replace('"', "'")

@@ -11,11 +11,15 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import InvalidValue
+from .text import without_paths
 
-__all__ = ["Job", "Stopped"]
+__all__ = ["MOST", "RUNNING", "Job", "Stopped"]
 
-LONGEST_LINE = 64 * 2**20
+LONGEST_LINE = 8 * 2**20
 """Bytes of an answer."""
+MOST = 4
+"""Jobs that may be started while others run."""
+RUNNING: set[Job] = set()
 
 
 class Stopped(Exception):
@@ -56,6 +60,13 @@ class Job:
         kept = ("PATH", "PYTHONPATH", "HOME", "TMPDIR", "LANG", "SYSTEMROOT", "NUMBA_CACHE_DIR")
         surroundings = {name: os.environ[name] for name in kept if name in os.environ}
         surroundings |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+        RUNNING.add(self)
+        try:
+            return await self._run(surroundings, asked)
+        finally:
+            RUNNING.discard(self)
+
+    async def _run(self, surroundings: dict[str, str], asked: dict[str, Any]) -> dict[str, Any]:
         self.process = await asyncio.create_subprocess_exec(
             sys.executable,
             "-m",
@@ -67,6 +78,8 @@ class Job:
             limit=LONGEST_LINE,
         )
         try:
+            if self.stopped:
+                raise Stopped
             return await asyncio.wait_for(self._talk({"task": self.task} | asked), self.seconds)
         except TimeoutError:
             raise InvalidValue(
@@ -90,9 +103,12 @@ class Job:
                 if "done" in said and self.report is not None:
                     self.report(float(said["done"]))
                 elif "problems" in said:
-                    raise InvalidValue(*map(str, said["problems"]))
+                    raise InvalidValue(*(without_paths(str(text)) for text in said["problems"]))
                 elif "result" in said:
-                    return said["result"]
+                    result = said["result"]
+                    for name in {"warnings", "notes"} & result.keys():
+                        result[name] = [without_paths(str(text)) for text in result[name]]
+                    return result
         except ValueError as error:
             if isinstance(error, InvalidValue):
                 raise

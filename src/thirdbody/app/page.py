@@ -4,26 +4,26 @@ from __future__ import annotations
 
 import asyncio
 import shutil
-import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from fastapi import Request
 from nicegui import background_tasks, ui
 
 from ..errors import InvalidValue, ThirdBodyError
 from ..study.tables import TABLES
 from .examples import EXAMPLES, example
 from .fields import Field
+from .folders import Folders
 from .inputs import FORMED, Inputs
 from .sliders import Sliders
 from .state import State, files_of
 from .tabs import TABS
-from .text import from_link, with_micro
+from .text import from_link, with_micro, without_paths
+from .work import when_left
 
 __all__ = ["Start", "page"]
 
@@ -48,6 +48,9 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .scroll-x .q-table { min-width: 620px; }
 .narrow { max-width: 34rem; }
 .code textarea { font-family: ui-monospace, monospace; font-size: 0.8rem; line-height: 1.35; }
+.listing {
+  font-family: ui-monospace, monospace; font-size: 0.8rem; white-space: pre; overflow-x: auto;
+}
 .js-plotly-plot .main-svg text { fill: currentColor !important; }
 .js-plotly-plot .main-svg { background: transparent !important; }
 .js-plotly-plot .hoverlayer text { fill: #222 !important; }
@@ -100,26 +103,27 @@ class Start:
         Where the files lie that it names.
     """
 
-    def __init__(self, study: dict[str, Any] | None = None, folder: Path | None = None) -> None:
+    def __init__(self, study: dict[str, Any] | None, folder: Path | None, folders: Folders) -> None:
         self.study = example() if study is None else study
         self.folder = folder
+        self.folders = folders
 
-    def state(self, request: Request) -> tuple[State, str]:
+    def state(self, query: dict[str, str]) -> tuple[State, str]:
         """The state of a new page: that of the link, or the start; and what to tell."""
-        own = Path(tempfile.mkdtemp(prefix="thirdbody-"))
-        query = request.query_params
+        own = self.folders.new()
         if "study" in query:
             try:
                 at = float(query["at"]) if "at" in query else None
-                return State(from_link(query["study"]), own, at), ""
+                return State(from_link(query["study"]), own, at, later=True), ""
             except (InvalidValue, ValueError) as error:
-                return State(example(), own), f"{error}; here is the example instead"
+                told = "; ".join(getattr(error, "problems", ["the link has no number after at="]))
+                return State(example(), own, later=True), f"{told}; here is the example instead"
         if self.folder is not None:
             for name in files_of(self.study):
                 beside = self.folder / name
                 if beside.is_file():
                     shutil.copyfile(beside, own / Path(name).name)
-        return State(_plain_names(self.study), own), ""
+        return State(_plain_names(self.study), own, later=True), ""
 
 
 def _plain_names(study: Any) -> Any:
@@ -140,30 +144,39 @@ def _plain_names(study: Any) -> Any:
 
 
 class Soon:
-    """Calls a function once for many requests that come together."""
+    """Calls a function once for many requests that come together, and never twice at a time."""
 
-    def __init__(self, call: Callable[[], None]) -> None:
-        self.call, self.waiting = call, False
+    def __init__(self, call: Callable[[], Awaitable[None]]) -> None:
+        self.call, self.asked, self.running = call, False, False
         self.client = ui.context.client
 
     def __call__(self) -> None:
-        if not self.waiting:
-            self.waiting = True
-            background_tasks.create(self._later())
+        self.asked = True
+        if not self.running:
+            self.running = True
+            background_tasks.create(self._run())
 
-    async def _later(self) -> None:
-        await asyncio.sleep(0.005)
-        self.waiting = False
-        if not self.client._deleted:
-            with self.client:
-                self.call()
+    async def _run(self) -> None:
+        try:
+            while self.asked and not self.client._deleted:
+                await asyncio.sleep(0.005)
+                self.asked = False
+                with self.client:
+                    await self.call()
+        finally:
+            self.running = False
 
 
-def page(start: Start, request: Request) -> None:
-    """Put everything on the page of one visitor."""
-    state, told = start.state(request)
+def page(state: State, told: str) -> None:
+    """Put everything on the page of one visitor; what is computed follows."""
     client = ui.context.client
-    client.on_delete(lambda: shutil.rmtree(state.folder, ignore_errors=True))
+
+    def closed() -> None:
+        state.close()
+        shutil.rmtree(state.folder, ignore_errors=True)
+
+    client.on_delete(closed)
+    when_left(state.close)
     ui.add_css(LOOK)
     ui.add_body_html(RESIZE)
     ui.colors(primary="#0072B2", accent="#D55E00", positive="#009E73", negative="#b3261e")
@@ -173,7 +186,7 @@ def page(start: Start, request: Request) -> None:
         panel.refresh()
 
     inputs = Inputs(state, again)
-    draws: dict[str, Callable[[], None]] = {}
+    draws: dict[str, Callable[[], Awaitable[None] | None]] = {}
     opened_sections = {"Load", "Particles"}
     drawer: Any
 
@@ -243,8 +256,12 @@ def page(start: Start, request: Request) -> None:
         notes = ui.column().classes("w-full gap-1")
         clock = ui.label().classes("hint").props('data-fact="time"')
 
-    def refresh() -> None:
+    async def refresh() -> None:
         """Show the study as it is now: fields, sliders, the tab in sight."""
+        library = state.library
+        await state.settle()
+        if state.library != library:
+            again()
         inputs.tell()
         sliders.tell()
         name = str(tabs.value or TABS[0])
@@ -261,14 +278,16 @@ def page(start: Start, request: Request) -> None:
             if name not in draws:
                 with places[name]:
                     draws[name] = import_module(f".tabs.{name}", __package__).build(state, again)
-            draws[name]()
+            drawing = draws[name]()
+            if drawing is not None:
+                await drawing
         except ThirdBodyError as error:
-            wrong = str(error)
+            wrong = "; ".join(getattr(error, "problems", None) or [str(error)])
         banner.set_text(with_micro(wrong or told))
         notes.clear()
         with notes:
             for text in state.answer.notes[:6]:
-                ui.label(with_micro(f"Note: {text}")).classes("hint")
+                ui.label(with_micro(without_paths(f"Note: {text}"))).classes("hint")
         clock.set_text(f"answered in {1e3 * (time.perf_counter() - state.began):.0f} ms")
 
     def opened(name: str | None) -> None:
@@ -288,4 +307,4 @@ def page(start: Start, request: Request) -> None:
         soon()
 
     tabs.on_value_change(turned)
-    refresh()
+    soon()

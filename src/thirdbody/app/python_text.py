@@ -9,14 +9,14 @@ import numpy as np
 
 import thirdbody as tb
 
+from ..quantities.value import Value
 from ..study import Study
-from ..values import Value
 
 __all__ = ["to_python"]
 
 
 def to_python(study: Study, at: float | None = None) -> str:
-    """A script that solves the study, with the same numbers to the last digit.
+    """A script that solves the study, with the same numbers, on this machine to the last digit.
 
     Parameters
     ----------

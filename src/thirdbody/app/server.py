@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 from pathlib import Path
 from typing import Any
 
 from fastapi import Request
-from nicegui import app, ui
+from nicegui import app, run, ui
 
-from .guard import Guard, allowed_hosts
+from ..errors import InvalidValue
+from .examples import example
+from .folders import Folders, remove_left
+from .guard import Guard, Headers, allowed_hosts
+from .jobs import RUNNING
 from .page import Start, page
+from .solver import solver
+from .state import State
 
 __all__ = ["serve"]
 
@@ -37,15 +44,35 @@ def serve(
     browser : bool, optional
         Open it in the browser.
     """
-    start = Start(study, folder)
+    remove_left()
+    folders = Folders()
+    start = Start(study, folder, folders)
 
     @ui.page("/", title="thirdbody", response_timeout=30)
-    def index(request: Request) -> None:
-        page(start, request)
+    async def index(request: Request) -> None:
+        # a long link takes a while to unpack
+        opened = await run.io_bound(start.state, dict(request.query_params))
+        if opened is not None:  # as it is when the server ends
+            page(*opened)
+
+    def end() -> None:
+        for job in list(RUNNING):
+            job.cancel()
+        solver().close()
+        folders.close()
 
     app.add_middleware(Guard, hosts=allowed_hosts(host))
+    app.add_middleware(Headers)
     app.on_startup(_warm)
+    app.on_shutdown(end)
     logging.getLogger("nicegui").setLevel(logging.ERROR)
+    try:
+        _run(host, port, browser)
+    finally:
+        end()
+
+
+def _run(host: str, port: int, browser: bool) -> None:
     ui.run(
         host=host,
         port=port,
@@ -58,19 +85,17 @@ def serve(
         reconnect_timeout=60.0,
         storage_secret=None,
         on_air=None,
+        timeout_graceful_shutdown=3,
     )
 
 
 async def _warm() -> None:
     """Compile what is compiled on first use while the browser opens."""
-    from nicegui import run
+    with contextlib.suppress(InvalidValue):
+        await solver().ask(_solve)
 
-    from .examples import example
-    from .state import State
 
-    def solve() -> None:
-        answer = State(example(), Path()).answer
-        assert answer is not None
-        assert answer.curves is not None
-
-    await run.io_bound(solve)
+def _solve() -> None:
+    answer = State(example(), Path()).answer
+    assert answer is not None
+    assert answer.curves is not None

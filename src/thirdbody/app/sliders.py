@@ -12,12 +12,12 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ..cli.show import as_number, as_pressure
+from ..quantities.say import value_of
 from .fields import engineering, number_of
 from .inputs import Inputs
 from .sizing import size_of, with_size
 from .state import State
-from .widgets import as_length
+from .widgets import put
 
 __all__ = ["Sliders", "at_position", "position_of"]
 
@@ -96,6 +96,9 @@ class Sliders:
             value = number_of(state.get(*Inputs.first_population(state), "areal_density"), about)
             return value if value > 0 else None
 
+        def length(value: float) -> str:
+            return value_of(value, "m")
+
         def put(*place: str | int, unit: str) -> Callable[[float], None]:
             return lambda value: state.set(*place, engineering(value, unit, 3))
 
@@ -105,15 +108,15 @@ class Sliders:
                 "roughness.sigma",
                 rough("sigma"),
                 put("roughness", "sigma", unit="m"),
-                as_length,
+                length,
             ),
-            Knob("R", "roughness.R", rough("R"), put("roughness", "R", unit="m"), as_length),
+            Knob("R", "roughness.R", rough("R"), put("roughness", "R", unit="m"), length),
             Knob(
                 "mean size x_a",
                 "particles.size",
                 size,
                 lambda v: state.replace(with_size(state.study, float(f"{v:.3g}"))),
-                as_length,
+                length,
             ),
             Knob(
                 "particles per area",
@@ -122,7 +125,7 @@ class Sliders:
                 lambda v: state.set(
                     *Inputs.first_population(state), "areal_density", engineering(v, "1/m^2", 3)
                 ),
-                lambda v: f"{as_number(v)} 1/m²",
+                lambda v: value_of(v, "1/m^2"),
             ),
         ]
 
@@ -131,7 +134,7 @@ class Sliders:
         with ui.column().classes("slider gap-0") as box:
             made["label"] = ui.label(knob.label).classes("hint")
             made["slider"] = ui.slider(min=-STEPS // 2, max=STEPS // 2, step=1, value=0)
-            made["slider"].props(f'aria-label="{knob.label}" data-slider="{knob.place}"')
+            put(made["slider"], {"aria-label": knob.label, "data-slider": knob.place})
         made["box"] = box
 
         def moved(event: Any) -> None:
@@ -164,8 +167,8 @@ class Sliders:
             part = position_of(answer.loads, at)
             self.load.set_value(round(STEPS * part))
             names = {"F_star": "load F*", "pressure": "load p", "d": "separation d"}
-            said = {"F_star": as_number, "pressure": as_pressure, "d": as_length}[answer.load]
-            self.load_label.set_text(f"{names[answer.load]} = {said(at)}")
+            unit = {"F_star": "1", "pressure": "Pa", "d": "m"}[answer.load]
+            self.load_label.set_text(f"{names[answer.load]} = {value_of(at, unit)}")
             for made in self.knobs:
                 self._tell(made)
         finally:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 import copy
+import dataclasses
+import json
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -16,21 +19,30 @@ import thirdbody as tb
 
 from ..errors import InvalidValue, RangeWarning, ThirdBodyError
 from ..study import Study, check
+from .bounds import MOST_DRAWN, refuse_large, refuse_large_files
+from .jobs import Job, Stopped
+from .solver import apart
+from .text import without_paths
 
-__all__ = ["Answer", "State", "files_of", "refuse_foreign_files"]
+__all__ = ["Answer", "State", "files_of", "loads_as", "look", "refuse_foreign_files"]
 
 Path_ = tuple[str | int, ...]
 FILES = ("topography", "sizes", "materials")
 """Keys of a study that name other files."""
 POINTS = 200
 """Loads of the curves where the study gives one load."""
+MOST_TOLD = 40
+"""Mistakes that are told."""
+SECONDS = 60.0
+"""A measured file that takes longer to read is refused."""
 
 
 class Answer:
     """A valid study and its results, each computed when it is first asked for."""
 
     def __init__(self, study: Study) -> None:
-        self.study = study
+        # what is not drawn need not travel between processes
+        self.study = dataclasses.replace(study, sweep=None, uncertainty=None, design=None)
         self.contact = study.contact
         self.notes: list[str] = list(study.notes)
 
@@ -43,6 +55,9 @@ class Answer:
     def loads(self) -> np.ndarray:
         """Loads of the curves: those of the study, or two decades about its only one."""
         values = np.unique(self.study.values)
+        if len(values) > MOST_DRAWN:
+            every = np.linspace(0, len(values) - 1, MOST_DRAWN).round().astype(int)
+            values = values[np.unique(every)]
         if len(values) > 1:
             return values
         middle = float(values[0])
@@ -88,6 +103,65 @@ class Answer:
         return bool(self.loads[0] <= at <= self.loads[-1])
 
 
+Looked = tuple["Answer | None", list[str], dict[str, tb.Material] | None]
+
+
+def look(study: dict[str, Any], folder: Path, surface: dict[str, Any] | None = None) -> Looked:
+    """A study as the command line reads it: its answer or its mistakes, and its own materials.
+
+    ``surface`` is what `worker.roughness` found in the measured files of the study.
+    """
+    answer, problems, library = None, list[str](), None
+    try:
+        refuse_large(study)
+        refuse_foreign_files(study, folder)
+        tables = {key: value for key, value in study.items() if key != "roughness"}
+        refuse_large_files(folder, files_of(tables))
+        if isinstance(own := study.get("materials"), str):
+            mine = tb.materials.load(folder / own)
+            library = {name: mine[name] for name in mine}
+        given = copy.deepcopy(study)
+        if surface is not None:
+            problems += surface.get("problems", [])
+            given["roughness"] = surface.get("roughness", {"sigma": 1e-7, "R": 1e-6})
+        found = check(given, folder=folder)
+        if surface is not None:
+            found = dataclasses.replace(found, notes=(*surface.get("notes", []), *found.notes))
+        answer = None if problems else Answer(found)
+    except InvalidValue as error:
+        problems += error.problems
+    except (ThirdBodyError, OSError) as error:
+        problems += [str(error)]
+    problems = [without_paths(text) for text in dict.fromkeys(problems)]
+    if (more := len(problems) - MOST_TOLD) > 0:
+        problems[MOST_TOLD:] = [f"and {more} more mistakes"]
+    return answer, problems, library
+
+
+def measured(study: dict[str, Any], folder: Path) -> str:
+    """What names a measured surface that the study builds on; empty where there is none."""
+    rough = study.get("roughness")
+    names = files_of({"topography": rough.get("topography")}) if isinstance(rough, dict) else []
+    files = [folder / name for name in names if Path(name).name == name]
+    found = [file.stat() for file in files if file.is_file()]
+    if not found:
+        return ""  # of the library, or none
+    marks = [(each.st_size, each.st_mtime_ns) for each in found]
+    return json.dumps([rough, study.get("asperity_law"), marks], default=str)
+
+
+def loads_as(answer: Answer, name: str) -> np.ndarray:
+    """The loads of the curves as another load of `tb.solve`."""
+    return np.asarray(getattr(answer.curves, name))
+
+
+def _with(call: Callable[..., Any], answer: Answer, args: Any) -> tuple[Any, dict[str, Any]]:
+    """What a function of an answer gives, and what the answer has learned by it."""
+    before = set(answer.__dict__) - {"notes"}
+    found = call(answer, *args)
+    return found, {key: value for key, value in answer.__dict__.items() if key not in before}
+
+
 class State:
     """One page: the study as it stands, its mistakes, and the last answer without any.
 
@@ -99,18 +173,31 @@ class State:
         Where files lie that the study names.
     at : float, optional
         The operating load, in the unit of the study's load.
+    later : bool, optional
+        Leave the reading of a changed study to `settle`.
     """
 
-    def __init__(self, study: dict[str, Any], folder: Path, at: float | None = None) -> None:
+    def __init__(
+        self, study: dict[str, Any], folder: Path, at: float | None = None, *, later: bool = False
+    ) -> None:
         self.study = study
         self.folder = folder
+        self.later = later
+        self.read: dict[str, Any] | None = None
+        """The study that answer and problems belong to."""
+        self.surfaces: dict[str, dict[str, Any]] = {}
+        """What was found in measured files, the last one asked for."""
+        self.library: Mapping[str, tb.Material] = tb.materials
+        """The materials that the study can name."""
+        self.reading: Job | None = None
         self.problems: list[str] = []
         self.answer: Answer | None = None
         self.wanted = at
         self.changed: list[Callable[[], None]] = []
         self.began = time.perf_counter()
         """When the last change came."""
-        self.check()
+        if not later:
+            self.check()
 
     # ------------------------------------------------------------------ the study
     def get(self, *path: str | int) -> Any:
@@ -145,19 +232,72 @@ class State:
         self.began = time.perf_counter()
         self.study = study
         self.wanted = at if at is not None else self.wanted
-        self.check()
+        if not self.later:
+            self.check()
         self.tell()
 
     def check(self) -> None:
         """Read the study as the command line does; keep the last answer when it has mistakes."""
+        if self._unread():
+            asyncio.run(self._measure())
+        self._take(self.study, look(self.study, self.folder, self._surface()))
+
+    async def settle(self) -> None:
+        """The same beside the server, where it was left for later."""
+        study = self.study
+        if study is self.read:
+            return
         try:
-            refuse_foreign_files(self.study, self.folder)
-            self.answer = Answer(check(copy.deepcopy(self.study), folder=self.folder))
-            self.problems = []
+            refuse_large(study)
+            refuse_foreign_files(study, self.folder)
+            if self._unread():
+                await self._measure()
+            found = await apart(look, study, self.folder, self._surface())
         except InvalidValue as error:
-            self.problems = list(error.problems)
-        except (ThirdBodyError, OSError) as error:
-            self.problems = [str(error)]
+            found = None, [without_paths(text) for text in error.problems], None
+        self._take(study, found)
+
+    def _take(self, study: dict[str, Any], found: Looked) -> None:
+        answer, self.problems, library = found
+        self.library = tb.materials if library is None else library
+        self.answer = self.answer if answer is None else answer
+        self.read = study
+
+    async def ask(self, call: Callable[..., Any], *args: Any) -> Any:
+        """What a function of the answer and more arguments gives, computed beside the server."""
+        answer = self.answer
+        found, more = await apart(_with, call, answer, args)
+        assert answer is not None
+        answer.__dict__.update(more)
+        return found
+
+    # ------------------------------------------------------------------ measured surfaces
+    def _surface(self) -> dict[str, Any] | None:
+        return self.surfaces.get(measured(self.study, self.folder))
+
+    def _unread(self) -> bool:
+        key = measured(self.study, self.folder)
+        return bool(key) and key not in self.surfaces
+
+    async def _measure(self) -> None:
+        """Have the files read by a process of their own, which gives numbers."""
+        key = measured(self.study, self.folder)
+        tables = {k: v for k, v in self.study.items() if k in ("roughness", "asperity_law")}
+        self.reading = Job("roughness", seconds=SECONDS)
+        try:
+            found = await self.reading.run(study=tables, folder=str(self.folder))
+        except InvalidValue as error:
+            found = {"problems": list(error.problems)}
+        except Stopped:
+            found = {"problems": ["roughness.topography: the reading was cancelled"]}
+        finally:
+            self.reading = None
+        self.surfaces = {key: found}
+
+    def close(self) -> None:
+        """Nobody looks at the page any more."""
+        if self.reading is not None:
+            self.reading.cancel()
 
     def tell(self) -> None:
         """The study or the operating load is another one."""

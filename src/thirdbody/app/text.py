@@ -11,6 +11,7 @@ import zlib
 from typing import Any
 
 from ..errors import InvalidValue
+from .bounds import refuse_large, refuse_long_names
 
 __all__ = [
     "LONGEST_LINK",
@@ -21,6 +22,7 @@ __all__ = [
     "to_link",
     "to_toml",
     "with_micro",
+    "without_paths",
     "written",
 ]
 
@@ -46,6 +48,16 @@ def in_ascii(text: str) -> str:
     '1 um'
     """
     return re.sub(r"[\u00b5\u03bc]m\b", "um", text)
+
+
+def without_paths(text: str) -> str:
+    """A message without the folders of the machine that serves the page.
+
+    >>> without_paths("cannot read /srv/page/a.x3p: it holds 3 / m^2")
+    'cannot read a.x3p: it holds 3 / m^2'
+    """
+    part = r"[^\s/\\:'\",;<>()]+"
+    return re.sub(rf"(?<![\w.:/<])(?:[A-Za-z]:)?(?:[/\\]{part})+[/\\](?={part})", "", text)
 
 
 def to_toml(study: dict[str, Any]) -> str:
@@ -109,16 +121,19 @@ def from_toml(text: str) -> dict[str, Any]:
     Raises
     ------
     InvalidValue
-        Text that is not TOML, or too long.
+        Text that is not TOML, too long, or a study larger than the page takes.
     """
     if len(text) > LONGEST_STUDY:
         raise InvalidValue(f"a study of {len(text)} characters is longer than {LONGEST_STUDY}")
+    refuse_long_names(text)
     try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+        study = tomllib.loads(text)
+    except ValueError as error:  # of syntax, or a number of thousands of digits
         raise InvalidValue(f"this is not a study file: {error}") from None
     except RecursionError:
         raise InvalidValue("this is nested too deeply to be a study file") from None
+    refuse_large(study)
+    return study
 
 
 def to_link(study: dict[str, Any], at: float | None = None) -> str:

@@ -6,7 +6,13 @@ import re
 from pathlib import Path
 from typing import Any
 
+from ..errors import InvalidValue
+from .guard import LARGEST_UPLOAD
+
 __all__ = ["harmless", "keep"]
+
+LARGEST_FOLDER = 4 * LARGEST_UPLOAD
+"""Bytes of all files of one page."""
 
 
 def harmless(name: str) -> str:
@@ -23,8 +29,20 @@ def harmless(name: str) -> str:
 
 
 async def keep(folder: Path, event: Any) -> str:
-    """Write an uploaded file into the folder of the page; its name there."""
+    """Write an uploaded file into the folder of the page; its name there.
+
+    Raises
+    ------
+    InvalidValue
+        The folder would hold too much.
+    """
     name = harmless(event.file.name)
+    others = sum(each.stat().st_size for each in folder.iterdir() if each.name != name)
+    if others + event.file.size() > LARGEST_FOLDER:
+        raise InvalidValue(
+            f"the files of this page would have more than {LARGEST_FOLDER // 2**20} MB together; "
+            "open the page anew"
+        )
     await event.file.save(folder / name)
     (folder / name).chmod(0o600)
     return name

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from nicegui import ui
 
-from ..cli import show
-from .text import with_micro
-
-__all__ = ["as_length", "facts", "table"]
+__all__ = ["facts", "put", "table"]
 
 
-def as_length(value: float | None) -> str:
-    """A length as the page shows it.
+def put(element: Any, props: Mapping[str, Any]) -> Any:
+    """Set attributes of an element by their values, and give it back.
 
-    >>> as_length(2.8e-6)
-    '2.8 µm'
+    A text written into ``element.props("...")`` is parsed there, so that it could add attributes.
     """
-    return with_micro(show.as_length(value))
+    for name, value in props.items():
+        element.props[name] = value
+    return element
 
 
 def facts(pairs: Iterable[tuple[str, str]], kind: str = "") -> None:
@@ -27,7 +25,7 @@ def facts(pairs: Iterable[tuple[str, str]], kind: str = "") -> None:
     for name, value in pairs:
         with ui.column().classes("fact gap-0"):
             ui.label(name).classes("hint")
-            ui.label(value).classes("value").props(f'data-fact="{kind}{name}"')
+            put(ui.label(value).classes("value"), {"data-fact": f"{kind}{name}"})
 
 
 def table(name: str, heads: dict[str, str], rows: list[dict[str, Any]], **more: Any) -> None:
@@ -36,4 +34,4 @@ def table(name: str, heads: dict[str, str], rows: list[dict[str, Any]], **more: 
         {"name": key, "label": label, "field": key, "align": "left"} for key, label in heads.items()
     ]
     made = ui.table(columns=columns, rows=rows, **more).classes("w-full")
-    made.props(f'dense flat wrap-cells data-figure="{name}"')
+    put(made.props("dense flat wrap-cells"), {"data-figure": name})

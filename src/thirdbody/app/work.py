@@ -2,16 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import asyncio
+from collections.abc import Awaitable, Callable
 from typing import Any
 
-from nicegui import ui
+from nicegui import background_tasks, ui
 
 from ..errors import InvalidValue
-from .jobs import Job, Stopped
+from .jobs import MOST, RUNNING, Job, Stopped
 from .text import with_micro
+from .widgets import put
 
-__all__ = ["Work"]
+__all__ = ["Work", "when_left"]
+
+LEFT = 3.0
+"""Seconds after which a page that is not seen any more counts as closed."""
+
+
+def when_left(call: Callable[[], None]) -> None:
+    """Call when the page at hand is closed, not when its connection breaks for a moment."""
+    client = ui.context.client
+
+    async def later() -> None:
+        await asyncio.sleep(LEFT)
+        if not client.has_socket_connection:
+            call()
+
+    client.on_disconnect(lambda: background_tasks.create(later()))
+    client.on_delete(call)
 
 
 class Work:
@@ -33,21 +51,22 @@ class Work:
         self,
         task: str,
         label: str,
-        ask: Callable[[], dict[str, Any] | None],
-        show: Callable[[dict[str, Any]], None],
+        ask: Callable[[], dict[str, Any] | Awaitable[dict[str, Any] | None] | None],
+        show: Callable[[dict[str, Any]], Awaitable[None] | None],
         seconds: float = 300.0,
     ) -> None:
         self.task, self.ask, self.show, self.seconds = task, ask, show, seconds
         self.job: Job | None = None
         with ui.row().classes("w-full items-center gap-3"):
             self.start = ui.button(label, icon="play_arrow", on_click=self.run)
-            self.start.props(f'no-caps data-work="{task}"')
+            put(self.start.props("no-caps"), {"data-work": task})
             self.bar = ui.linear_progress(value=0.0, show_value=False).classes("grow")
-            self.bar.props(f'aria-label="progress of {task}"')
+            put(self.bar, {"aria-label": f"progress of {task}"})
             self.stop = ui.button("Cancel", icon="stop", on_click=self.cancel).props("flat no-caps")
-            self.stop.props(f'data-cancel="{task}"')
-        self.said = ui.label().classes("problem").props(f'role=alert data-said="{task}"')
+            put(self.stop, {"data-cancel": task})
+        self.said = put(ui.label().classes("problem"), {"role": "alert", "data-said": task})
         self._idle()
+        when_left(self.cancel)
 
     def _idle(self) -> None:
         self.bar.set_visibility(False)
@@ -59,22 +78,29 @@ class Work:
         if self.job is not None:
             return
         self.said.set_text("")
-        asked = self.ask()
-        if asked is None:
+        if len(RUNNING) >= MOST:
+            self.said.set_text(f"{MOST} long computations run here already; start when one ends")
             return
-        self.job = Job(self.task, self._report, self.seconds)
+        self.job = job = Job(self.task, self._report, self.seconds)
         self.bar.set_value(0.02)
         self.bar.set_visibility(True)
         self.stop.set_visibility(True)
         self.start.disable()
         try:
-            result = await self.job.run(**asked)
+            asked = self.ask()
+            if isinstance(asked, Awaitable):
+                asked = await asked
+            if asked is None:
+                return
+            result = await job.run(**asked)
         except Stopped:
             self.said.set_text("cancelled")
         except InvalidValue as error:
             self.said.set_text(with_micro("; ".join(error.problems)))
         else:
-            self.show(result)
+            shown = self.show(result)
+            if shown is not None:
+                await shown
         finally:
             self.job = None
             self._idle()

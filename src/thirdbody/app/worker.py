@@ -7,6 +7,7 @@ that makes this process misbehave cannot reach the page.
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import sys
@@ -17,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["TASKS", "compare", "design", "error_bars", "mode_map", "surface"]
+__all__ = ["TASKS", "compare", "design", "error_bars", "mode_map", "roughness", "surface"]
 
 Report = Callable[[float], None]
 SECONDS = 300
@@ -94,12 +95,13 @@ def mode_map(
     """Contact mode over x_a/σ and F*: index into p-s, hybrid, s-s (−1: none) and load share."""
     import thirdbody as tb
 
+    from ..equilibrium.words import MODES
     from ..errors import InvalidValue, ThirdBodyError
 
     contact = _bare(_study(study, folder).contact)
     (dust,) = contact.populations
     mean = float(dust.diameter.mean_diameter)
-    names = ["p-s", "hybrid", "s-s"]
+    names = list(MODES)
     index, share = [], []
     for number, size in enumerate(sizes):
         row, part = [-1] * len(loads), [math.nan] * len(loads)
@@ -156,8 +158,9 @@ def error_bars(
     """
     import thirdbody as tb
 
+    from ..analysis.uncertainty.critical_loads import CRITICAL
+    from ..analysis.uncertainty.inputs import library_ranges
     from ..errors import InvalidValue
-    from ..uncertainty import CRITICAL, library_ranges
 
     asked = _study(study, folder)
     known = asked.uncertainty
@@ -173,11 +176,11 @@ def error_bars(
     asking: dict[str, Any] = {"samples": samples, "seed": seed, "outputs": [*names, "F_star"]}
     rows, nominal = [], []
     for number, value in enumerate([] if critical else loads):
-        found = tb.propagate(asked.contact, inputs, **(asking | {load: value}))
+        found = tb.propagate(asked.contact, vary=inputs, **(asking | {load: value}))
         rows.append(found.bands[of])
         nominal.append(found.nominal[of])
         report(0.9 * (number + 1) / len(loads))
-    point = tb.propagate(asked.contact, inputs, **(asking | {load: at}))
+    point = tb.propagate(asked.contact, vary=inputs, **(asking | {load: at}))
     report(0.95)
     return {
         "of": of,
@@ -198,16 +201,38 @@ def error_bars(
 
 def design(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
     """The best inputs over a range of loads, as the table [design] asks."""
-    from ..study.design import design_study
+    from ..study.analyses import design_study
 
     asked = _study(study, folder)
     report(0.05)
     return design_study(asked).to_dict()
 
 
+def roughness(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
+    """The table [roughness] in numbers, where it names measured files, and what is told of them."""
+    from ..study import HEIGHTS
+
+    base = {"surfaces": {"first": "S45C", "second": "S45C"}, "load": {"F_star": 1e-5}}
+    found = _study(base | study, folder)
+    rough = found.contact.roughness
+    heights = rough.heights
+    word = next(name for name, kind in HEIGHTS.items() if type(heights) is kind)
+    numbers = _fields(rough)
+    table: dict[str, Any] = {k: v for k, v in numbers.items() if isinstance(v, float)}
+    table["heights"] = {"name": word} | _fields(heights)
+    if rough.ellipticity is not None:
+        table["ellipticity"] = _fields(rough.ellipticity)
+    return {"roughness": table, "notes": list(found.notes)}
+
+
+def _fields(value: Any) -> dict[str, Any]:
+    every = {item.name: getattr(value, item.name) for item in dataclasses.fields(value)}
+    return {name: own for name, own in every.items() if own is not None}
+
+
 def surface(*, file: str, options: dict[str, Any], report: Report) -> dict[str, Any]:
     """A measured surface: heights for a picture, moments, and their course with the cut-off."""
-    from ..topography import from_topography
+    from ..populations.measured.topography import from_topography
 
     found = from_topography(file if file == "example" else Path(file), **options)
     report(0.4)
@@ -241,6 +266,7 @@ TASKS: dict[str, Callable[..., dict[str, Any]]] = {
     "error bars": error_bars,
     "design": design,
     "surface": surface,
+    "roughness": roughness,
 }
 
 

@@ -20,9 +20,17 @@ import typer
 from typer.core import TyperGroup
 
 from ..errors import InvalidValue, NoEquilibrium, NoTransition
-from ..interrupt import INTERRUPTED, interruptible
+from .interrupt import INTERRUPTED, interruptible
 
-__all__ = ["INTERRUPTED", "Commands", "complain", "warn", "write_csv"]
+__all__ = [
+    "INTERRUPTED",
+    "Commands",
+    "complain",
+    "figure_format",
+    "warn",
+    "write_csv",
+    "write_figure",
+]
 
 BAD_INPUT, NO_ANSWER, BROKEN_PIPE = 2, 3, 141
 
@@ -71,10 +79,31 @@ def warn(message: Warning | str, *_: Any, **__: Any) -> None:
 
 def write_csv(path: Path, columns: dict[str, list[Any]], units: Mapping[str, str]) -> None:
     """A file with a line of names and units, and a row a state."""
-    from ..files import write_text
+    from ..quantities.files import write_text
 
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(f"{name} [{units[name]}]" if units[name] else name for name in columns)
     writer.writerows(zip(*columns.values(), strict=True))
     write_text(path, text.getvalue())
+
+
+def figure_format(figure: Path) -> str:
+    """What a figure is written as, by the end of its name."""
+    kind = figure.suffix.lstrip(".").lower() or "png"
+    if kind not in ("png", "svg", "pdf"):
+        raise InvalidValue(f"--figure {figure} must end in .png, .svg or .pdf")
+    return kind
+
+
+def write_figure(figure: Path, drawing: Any) -> None:
+    """A matplotlib figure as a file, the same bytes every time."""
+    from matplotlib import rc_context
+
+    from ..quantities.files import whole
+
+    kind = figure_format(figure)
+    no_date = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)
+    with whole(figure) as part, rc_context({"svg.hashsalt": "thirdbody"}):
+        drawing.savefig(part, format=kind, metadata=no_date)
+    print(f"written: {figure}", file=sys.stderr)

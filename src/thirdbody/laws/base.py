@@ -7,40 +7,56 @@ interference of first yield ω_1, the interference :math:`y = \omega/\omega_1`,
 
 as a sequence of smooth branches between the `breakpoints`. Everything else (contact radius,
 mean pressure, stiffness, energy, regime, sums over a population) follows from the branches,
-so a new law is one file with its equations.
+so a new law is one file with its equations. For a particle it is stated for unit size, as load,
+areas and indentations against the squeeze ε; sums over sizes and seats follow.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
-from ..errors import InvalidValue
-from ..numerics import panel_rule
-from ..values import Value
+from ..numerics.quadrature import panel_rule
+from ..quantities.value import Value, choice, quantity
+from .spots import ParticleSpots
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from ..materials import Material, MaterialPair
-    from ..particles import Particles
-    from ..spots import ParticleSpots
-    from ..surfaces import Roughness
+    from ..populations.materials import Material, MaterialPair
+    from ..populations.particles import Particles
+    from ..populations.roughness import Roughness
 
     Array = NDArray[np.float64]
     Number = float | Array
 
-__all__ = ["REGIMES", "AbstractAsperityLaw", "AbstractParticleLaw", "Branch", "Jump", "Law"]
+__all__ = [
+    "COLUMNS",
+    "KINDS",
+    "REGIMES",
+    "AbstractAsperityLaw",
+    "AbstractParticleLaw",
+    "Branch",
+    "Jump",
+    "Law",
+    "OneParticle",
+    "SeatedLaw",
+    "Squeezed",
+]
 
 REGIMES = ("elastic", "elastoplastic", "plastic")
-NO_SPOTS = (
-    "this particle law knows loads and areas of all particles together, not how deep one of them "
-    "sits; outputs need particle.Series or particle.Flakes"
-)
+COLUMNS = ("force", "elastic", "elastoplastic", "plastic", "second", "footprint", "projected")
+"""What one particle contributes: load, area on surface 1 by regime, area on surface 2, larger of
+the two areas, projected area."""
+KINDS = (0, 1, 1, 1, 1, 1, 1)
+"""Which columns are measured against each other: load, areas."""
 
 
 class Branch(NamedTuple):
@@ -284,10 +300,106 @@ class AbstractAsperityLaw(Law):
         return np.where(y > self.start, names[which], "none")
 
 
+class Squeezed(NamedTuple):
+    """Particles of unit size, each squeezed by some ε: arrays (N,), sides 1 and 2 in pairs."""
+
+    load: Array
+    """Load over x² [Pa]; both sides carry it."""
+    depths: tuple[Array, Array]
+    """Indentations δ_1 and δ_2 over x, ε in sum."""
+    areas: tuple[Array, Array]
+    """Contact areas over x² [1]."""
+
+
+class OneParticle(ABC):
+    """One particle of unit size between two sides, as a function of its squeeze ε = δ/x.
+
+    A particle of size x has x² times the load and the areas. The load must not fall with ε.
+    Equal particles share the tables of their sums; a frozen dataclass knows which are equal.
+
+    Attributes
+    ----------
+    kinks : sequence of float
+        Increasing ε > 0 at which a formula changes; beyond the last, load and areas are constant.
+    onset : (float, float), optional
+        Powers of ε with which load and areas set in, whole or half; smaller ones do no harm.
+    breadth : float, optional
+        Projected area over πx²/4 [1].
+    tip_radius : float, optional
+        Radius of the contacting tips over x [1].
+    yields : (float, float)
+        Indentation of first yield over x, on each side [1].
+    hardness : (float, float)
+        Of the softer body of each side [Pa].
+    """
+
+    kinks: Sequence[float] | Array
+    onset: tuple[float, float] = (1.0, 1.0)
+    breadth: float = 1.0
+    tip_radius: float = 0.5
+    yields: tuple[float, float]
+    hardness: tuple[float, float]
+
+    @abstractmethod
+    def at(self, eps: Array) -> Squeezed:
+        """What particles squeezed by ε (N,) carry; of ε ≤ 0 no account is taken."""
+
+    @abstractmethod
+    def regime(self, side: int, depth: Array) -> NDArray[np.intp]:
+        """Index into `REGIMES` of side 0 or 1 indented by depth over x (N,)."""
+
+    @cached_property
+    def panels(self) -> Array:
+        """The kinks, and more ε between kinks that lie far apart."""
+        splits = [np.asarray(self.kinks[:1])]
+        for a, b in itertools.pairwise(self.kinks):
+            splits.append(np.geomspace(a, b, max(2, math.ceil(math.log(b / a, 4.0)) + 1))[1:])
+        return np.concatenate(splits)
+
+    def __call__(self, eps: Array) -> Array:
+        """The seven `COLUMNS` per x² at ε: (N, 7)."""
+        eps = np.asarray(eps, dtype=float)
+        load, depths, (one, two) = self.at(eps)
+        regime = self.regime(0, depths[0])
+        out = np.empty((len(eps), len(COLUMNS)))
+        out[:, 0] = load
+        for i in range(len(REGIMES)):
+            out[:, 1 + i] = np.where(regime == i, one, 0.0)
+        out[:, 4] = two
+        out[:, 5] = np.maximum(one, two)
+        out[:, 6] = 0.25 * math.pi * self.breadth
+        out[eps <= 0] = 0.0
+        return out
+
+    def spots(self, x: Array, delta: Array, *, share: Array | None, number: Array) -> ParticleSpots:
+        """Particles of sizes x squeezed by δ (M, n), so many of each."""
+        eps = np.divide(delta, x, out=np.zeros_like(x), where=x > 0).ravel()
+        found = self.at(eps)
+        one, two = (x * depth.reshape(x.shape) for depth in found.depths)
+        first, second = (
+            x**2 * np.where(eps > 0, area, 0.0).reshape(x.shape) for area in found.areas
+        )
+        regimes = [self.regime(i, found.depths[i]).reshape(x.shape) for i in (0, 1)]
+        return ParticleSpots(
+            share=share,
+            number=number,
+            load=x**2 * np.where(eps > 0, found.load, 0.0).reshape(x.shape),
+            x=x,
+            radius=self.tip_radius * x,
+            depths=(one, two),
+            areas=(first, second),
+            regimes=(regimes[0], regimes[1]),
+            yields=self.yields,
+            hardness=self.hardness,
+        )
+
+
 class AbstractParticleLaw(Law):
     """What a particle caught between two surfaces does.
 
-    `response` binds the law to an interface and returns a `ParticleResponse`.
+    A subclass says what one particle does (`one`); `thirdbody.contact.particle_sums` sums over
+    sizes and seats. Laws whose particles rest somewhere derive from `SeatedLaw`. The book's page
+    "Add a law" writes one out.
 
     Examples
     --------
@@ -305,14 +417,52 @@ class AbstractParticleLaw(Law):
         return 0.0
 
     @abstractmethod
-    def response(
-        self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
-    ) -> ParticleResponse:
-        """The particles' answer as a function of d."""
+    def one(self, *, surfaces: MaterialPair, particle: Material) -> OneParticle:
+        """One particle of unit size of this material between these surfaces."""
+
+    def single(
+        self, x: ArrayLike, gap: ArrayLike, *, surfaces: MaterialPair, particle: Material
+    ) -> dict[str, Array]:
+        """One particle between two flats.
+
+        Parameters
+        ----------
+        x, gap : array_like
+            Diameter and gap between the flats [m].
+        surfaces : MaterialPair
+        particle : Material
+
+        Returns
+        -------
+        dict
+            ``force`` [N], ``area_1``, ``area_2`` [m²], ``delta_1``, ``delta_2`` [m], and
+            ``regime`` on surface 1.
+        """
+        x, gap = np.broadcast_arrays(np.asarray(x, float), np.asarray(gap, float))
+        eps = np.maximum(1 - gap / x, 0.0)
+        unit = self.probe(eps.ravel(), surfaces=surfaces, particle=particle)
+        names = np.array(REGIMES)[unit.regimes[0]].reshape(x.shape)
+        return {
+            "force": unit.load.reshape(x.shape) * x**2,
+            "area_1": unit.areas[0].reshape(x.shape) * x**2,
+            "area_2": unit.areas[1].reshape(x.shape) * x**2,
+            "delta_1": x * unit.depths[0].reshape(x.shape),
+            "delta_2": x * unit.depths[1].reshape(x.shape),
+            "regime": np.where(eps > 0, names, "none"),
+        }
 
     def probe(self, eps: Array, *, surfaces: MaterialPair, particle: Material) -> ParticleSpots:
         """Particles of unit size squeezed by ε, one a row (N, 1): what one particle does."""
-        raise InvalidValue(NO_SPOTS)
+        each = np.ones((len(eps), 1))
+        one = self.one(surfaces=surfaces, particle=particle)
+        return one.spots(each, eps[:, None], share=None, number=each)
+
+    def jammed(self, coverage: float) -> str:
+        """What to say of particles that would cover this part of the area, 1 or more."""
+        return (
+            f"particles of the law {self.name} would cover {coverage:.3g} of the nominal area and "
+            "it must stay below 1"
+        )
 
     def warnings(
         self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
@@ -321,64 +471,64 @@ class AbstractParticleLaw(Law):
         return []
 
 
-class ParticleResponse(ABC):
-    """Particles between two surfaces, per nominal area, as functions of the separation d [m].
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeatedLaw(AbstractParticleLaw):
+    """A law whose particles rest somewhere: what one particle does, and the options of its seat.
 
-    Made by `AbstractParticleLaw.response`.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import thirdbody as tb
-    >>> steel = tb.materials["S45C"]
-    >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e11,
-    ...                     diameter=tb.Monodisperse(mean=300e-9))
-    >>> made = tb.particle.Series(seat="plane").response(
-    ...     tb.MaterialPair(steel, steel), tb.Roughness(sigma=100e-9, R=2.8e-6), dust)
-    >>> f"{made.reach:.1e}", f"{made.fields(np.array([250e-9]))['F_sa'][0]:.3g} Pa"
-    ('3.0e-07', '7.49e+06 Pa')
+    Parameters
+    ----------
+    seat : {"rough", "plane", "offset"}, optional
+        Where particles rest, as in `thirdbody.particle.Series`.
+    h_0 : float, optional
+        Height of the seat above the mean asperity plane [m], for ``offset``.
+    zeta_mean, zeta_std : float, optional
+        Mean and width of the seat heights in units of σ [1], for ``rough``.
+    shadow : {"footprint", "projected", "covered", "none"}, optional
+        The share of nominal area in which loaded particles keep asperities apart.
     """
 
-    reach: float
-    """Separation [m] above which no particle is loaded (or the load is negligible)."""
-    monotone: bool = True
-    """The load falls with d everywhere."""
-    resolution: float = np.inf
-    """Step of d [m] that resolves the load, where it is not monotone."""
+    seat: str = choice("where particles rest", "rough", "plane", "offset", default="rough")
+    h_0: float = quantity("h_0", "m", "seat height above the mean asperity plane", default=0.0)
+    zeta_mean: float = quantity("m_ζ", "1", "mean seat height over σ", default=0.0)
+    zeta_std: float = quantity("s_ζ", "1", "width of seat heights over σ", default=1.0, gt=0)
+    shadow: str = choice(
+        "area in which particles keep asperities apart",
+        "footprint",
+        "projected",
+        "covered",
+        "none",
+        default="footprint",
+    )
 
-    @abstractmethod
-    def load(self, d: Array) -> tuple[Array, Array]:
-        """Pressure F_sa and shadow ς with first and second derivative: two arrays (N, 3)."""
+    def _problems(self) -> list[str]:
+        out = []
+        name = type(self).__name__
+        if self.h_0 != 0 and self.seat != "offset":
+            out.append(
+                f"{name}.h_0 = {self.h_0:g} has no meaning with seat = {self.seat!r}; "
+                "set seat = 'offset'"
+            )
+        if self.seat != "rough" and (self.zeta_mean, self.zeta_std) != (0.0, 1.0):
+            out.append(f"{name}.zeta_mean and zeta_std need seat = 'rough', not {self.seat!r}")
+        return out
 
-    @abstractmethod
-    def fields(self, d: Array) -> dict[str, Array]:
-        """F_sa [Pa], A_e, A_ep, A_p on surface 1, A_sa2 on surface 2, and the shadow ς."""
+    def seat_offset(self, roughness: Roughness) -> float:
+        """Mean gap minus d [m]."""
+        if self.seat == "rough":
+            return roughness.y_s - self.zeta_mean * roughness.sigma
+        return -self.h_0
 
-    def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
-        """Every loaded particle at d (N,), in groups.
-
-        Parameters
-        ----------
-        d : array (N,)
-        splits : sequence of float, optional
-            Squeezes over diameter ε where what is asked of a particle changes its formula.
-        """
-        raise InvalidValue(NO_SPOTS)
-
-
-class ParticlesTogether(ParticleResponse):
-    """Several populations side by side: loads, areas and shadows add."""
-
-    def __init__(self, responses: Sequence[ParticleResponse]):
-        self.responses = responses
-        self.reach = max(each.reach for each in responses)
-        self.monotone = all(each.monotone for each in responses)
-        self.resolution = min(each.resolution for each in responses)
-
-    def load(self, d: Array) -> tuple[Array, Array]:
-        loads, shadows = zip(*(each.load(d) for each in self.responses), strict=True)
-        return np.sum(loads, axis=0), np.sum(shadows, axis=0)
-
-    def fields(self, d: Array) -> dict[str, Array]:
-        parts = [each.fields(d) for each in self.responses]
-        return {name: np.sum([part[name] for part in parts], axis=0) for name in parts[0]}
+    def warnings(
+        self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
+    ) -> list[str]:
+        out = []
+        one = self.one(surfaces=surfaces, particle=particles.material)
+        # πd²/4 of a particle of size x is breadth·πx²/4, and its radius d/2
+        radius = particles.diameter.mean_diameter * math.sqrt(0.25 * one.breadth)
+        if self.seat == "rough" and radius > 0.5 * roughness.R:
+            out.append(
+                f"mean particle radius {radius:.3g} m is not small against the asperity "
+                f"radius R = {roughness.R:.3g} m: the rough seat takes the surface under a "
+                "particle as flat"
+            )
+        return out

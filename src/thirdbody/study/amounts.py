@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InvalidValue
-from ..units import say
+from ..quantities.units import say
 from .one_value import count, number, word
 from .reader import Key, Reader, plain
 

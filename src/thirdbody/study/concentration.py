@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from .. import cleanliness
 from ..errors import InvalidValue
-from ..particles import Particles
-from ..units import say
-from ..values import quantity
+from ..populations.measured import cleanliness
+from ..populations.particles import Particles
+from ..quantities.units import say
+from ..quantities.value import quantity
 from .fields import about_of
 from .one_value import number
 from .reader import Key, Reader, plain

@@ -6,11 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from .. import cleanliness
 from ..errors import InvalidValue
-from ..particles import Particles
-from ..sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
-from ..units import say
+from ..populations.measured import cleanliness
+from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
+from ..populations.particles import Particles
+from ..quantities.units import say
 from .concentration import AMOUNT, laden, told
 from .fields import about_of
 from .one_value import number, word

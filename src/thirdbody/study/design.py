@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from .. import cleanliness
-from ..design import Limit, Objective, Suspension
-from ..design_search import AMOUNT
-from ..designs import Span
-from ..equilibrium import about
+from ..analysis.design.problem import Limit, Objective, Suspension
+from ..analysis.design.search import AMOUNT
+from ..equilibrium.columns import about
 from ..errors import InvalidValue
-from ..units import say, to_si
-from .amounts import amounts, is_span
+from ..populations.measured import cleanliness
+from ..quantities.units import say, to_si
+from .amounts import amounts
 from .concentration import AMOUNT as OF_FLUID
 from .fields import about_of
 from .inputs import inputs_of
@@ -25,11 +24,7 @@ from .surfaces import material
 from .uncertainty import named
 from .vocabulary import LOADS, near
 
-if TYPE_CHECKING:
-    from ..design import Best
-    from .whole import Study
-
-__all__ = ["TABLE", "design_study"]
+__all__ = ["TABLE"]
 
 WORDS = {
     "aim": ("smallest", "largest", "window"),
@@ -42,7 +37,7 @@ EXAMPLE = '{ of = "mu", aim = "smallest" }'
 def design(reader: Reader, path: str, data: Any) -> Any:
     """What may be chosen, what is good, and what must hold."""
     keys = {
-        "over": Key(plain(_over(reader, f"{path}.over")), True, "what may be chosen"),
+        "vary": Key(plain(_vary(reader, f"{path}.vary")), True, "what may be chosen"),
         "objective": Key(
             plain(_several(f"{path}.objective", Objective)), True, f"e.g. objective = {EXAMPLE}"
         ),
@@ -73,7 +68,7 @@ def design(reader: Reader, path: str, data: Any) -> Any:
 
 
 # -------------------------------------------------------------------------- what may be chosen
-def _over(reader: Reader, where: str) -> Any:
+def _vary(reader: Reader, where: str) -> Any:
     """Ranges and lists of materials by the names of the library."""
 
     def read(given: Any) -> dict[str, Any]:
@@ -236,49 +231,6 @@ def _in_si(where: str, value: Any, unit: str) -> float:
         return float(to_si(value, unit))
     except InvalidValue as error:
         raise InvalidValue(f"{where} = {error}") from None
-
-
-# -------------------------------------------------------------------------- the answer
-def design_study(study: Study, *, progress: bool = False) -> Best:
-    """The best inputs that a study file asks for.
-
-    Parameters
-    ----------
-    study : Study
-        With a table [design].
-    progress : bool, optional
-        Shows a bar on standard error.
-
-    Raises
-    ------
-    InvalidValue
-        There is no table [design], or what it asks does not fit the contact.
-    """
-    from ..design import design as search
-
-    return search(study.contact, **arguments(study), progress=progress)
-
-
-def arguments(study: Study) -> dict[str, Any]:
-    """The arguments of `thirdbody.design` beside the contact."""
-    if study.design is None:
-        raise InvalidValue(
-            "the study has no table [design]: it says what may be chosen and what is good, e.g. "
-            '[design] objective = { of = "A_t" }, [design.over] "roughness.sigma" = '
-            '{ low = "50 nm", high = "200 nm" }'
-        )
-    given = dict(study.design)
-    if given.pop("scatter", False) and study.uncertainty is not None:
-        given["scatter"] = study.uncertainty.inputs
-    names = [name for name in ("F_star", "pressure") if name in given]
-    if not names:
-        if study.load == "separation":
-            raise InvalidValue("design needs a load: [load] gives a separation")
-        given[study.load] = study.values
-    for name in names:
-        if is_span(given[name]):
-            given[name] = Span(given[name]["low"], given[name]["high"], given[name]["scale"])
-    return given
 
 
 TABLE = Table(name="design", read=design, role="study")

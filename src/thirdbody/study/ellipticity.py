@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ..ellipticity import FACES, Ellipticity
 from ..errors import InvalidValue
-from ..units import say
+from ..populations.ellipticity import FACES, Ellipticity
+from ..quantities.units import say
 from .fields import about_of
 from .one_value import number, refused
 from .reader import Key, Reader, plain
@@ -34,7 +34,8 @@ def ellipticity(reader: Reader, path: str, data: Any) -> Any:
     if "ratios" in data or not {"first", "second", "angle"} & data.keys():
         keys = reader.keys_of(Ellipticity, path, data)
         keys["ratios"] = keys["ratios"]._replace(about="e.g. ratios = [1, 2, 5]")
-        for key in {"first", "second", "angle", "R_first", "R_second"} & data.keys():
+        second_shape = ("first", "second", "angle", "R_first", "R_second")
+        for key in (key for key in second_shape if key in data):
             keys[key] = Key(plain(refused(f"{path}.{key}", SECOND_SHAPE)), False, "")
         return reader.table(path, keys, lambda values: reader.make(Ellipticity, path, values))
     names = {"first": "first_ratio", "second": "second_ratio"}

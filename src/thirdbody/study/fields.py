@@ -6,9 +6,9 @@ import dataclasses
 from functools import cache
 from typing import Any
 
-from .. import asperity
-from ..units import EXAMPLES
-from ..values import problem_with
+from ..laws import asperity
+from ..quantities.units import EXAMPLES
+from ..quantities.value import problem_with
 
 __all__ = ["UNITS_OF_LISTS", "about_of", "filled_in", "idle", "needed_fields"]
 

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from ..films import AbstractFilm, Line, Oil, Point
-from ..lubrication import Entrainment, FilmConditions
-from ..values import quantity
+from ..quantities.value import quantity
+from ..systems.film_conditions import Entrainment, FilmConditions
+from ..systems.film_formulas import AbstractFilm, Line, Oil, Point
 from .amounts import amounts
 from .fields import about_of
 from .laws import named_law

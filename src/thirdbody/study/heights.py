@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import InvalidValue
-from ..heights import Heights
-from ..units import say
+from ..populations.heights import Heights
+from ..quantities.units import say
 from .fields import needed_fields
 from .mistakes import retold
 from .one_value import word

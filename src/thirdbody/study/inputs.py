@@ -7,11 +7,11 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from .. import asperity, particle
-from ..materials import BULK, Material
-from ..outputs import REGISTRY as OUTPUTS
-from ..particles import Particles
-from ..surfaces import Roughness
+from ..effects import REGISTRY as OUTPUTS
+from ..laws import asperity, particle
+from ..populations.materials import BULK, Material
+from ..populations.particles import Particles
+from ..populations.roughness import Roughness
 from .fields import filled_in, idle
 from .laws import class_of
 from .particles import populations

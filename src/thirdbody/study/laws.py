@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, PlainValidator
 
-from .. import asperity, particle
+from ..laws import asperity, particle
 from .one_value import word
 from .reader import Reader, Table, get
 

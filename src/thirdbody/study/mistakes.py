@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from ..units import say
+from ..quantities.units import say
 from .vocabulary import in_words, near
 
 __all__ = ["Known", "retold"]

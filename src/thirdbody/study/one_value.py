@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from ..errors import InvalidValue
-from ..units import EXAMPLES, quantity_to_si, say, to_si
-from ..values import allowed_range, problem_with
+from ..quantities.units import EXAMPLES, quantity_to_si, say, to_si
+from ..quantities.value import allowed_range, problem_with, unit_meant
 from .vocabulary import in_words, near
-
-if TYPE_CHECKING:
-    from .reader import Reader
 
 __all__ = [
     "count",
@@ -30,7 +27,13 @@ __all__ = [
 MOST_POINTS = 1_000_000
 
 
-def number(reader: Reader, path: str, about: dict[str, Any]) -> Callable[[Any], float]:
+class Notes(Protocol):
+    """Who keeps what is to be said of a file."""
+
+    notes: list[str]
+
+
+def number(reader: Notes, path: str, about: dict[str, Any]) -> Callable[[Any], float]:
     """A number in SI inside the range of its quantity; text has a unit."""
 
     def read(value: Any) -> float:
@@ -47,22 +50,16 @@ def number(reader: Reader, path: str, about: dict[str, Any]) -> Callable[[Any], 
         if why := problem_with(about, found):
             meant = "" if about["hint"] else f"; it is the {about['meaning']}"
             raise InvalidValue(f"{path} = {say(value)} {in_words(why)}{meant}")
-        _plausible(reader, path, about["unit"], value, found)
+        _plausible(reader, path, about, value, found)
         return found
 
     return read
 
 
-def _plausible(reader: Reader, path: str, unit: str, value: Any, number: float) -> None:
+def _plausible(reader: Notes, path: str, about: dict[str, Any], value: Any, number: float) -> None:
     """Note a number that is allowed but looks like a forgotten unit."""
-    usual = None
-    if path.startswith("film.conjunction"):
-        usual = "mm" if abs(number) >= 1 else None
-    elif unit == "m" and abs(number) >= 0.01:
-        usual = "nm" if abs(number) >= 10 else "um"
-    elif unit == "Pa" and number < 1e5 and not path.startswith(("load", "sweep.pressure")):
-        usual = "GPa"
-    if usual is None:
+    unit, usual = about["unit"], unit_meant(about, number)
+    if usual is None or (unit == "Pa" and path.startswith(("load", "sweep.pressure"))):
         return
     if isinstance(value, str) and re.search(r"[^\d\s.+-]", value):
         cause = "check its unit (upper and lower case matter)"

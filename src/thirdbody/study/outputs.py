@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..outputs import REGISTRY
+from ..effects import REGISTRY
 from .reader import Key, Reader, Table, get
 
 __all__ = ["TABLE"]

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..errors import InvalidValue
-from ..units import say
+from ..quantities.units import say
 from .reader import ONE_OF
 from .toml import value_of
 

@@ -7,8 +7,8 @@ from typing import Annotated, Any
 from pydantic import AfterValidator
 
 from ..errors import InvalidValue
-from ..particles import Particles
-from ..units import say
+from ..populations.particles import Particles
+from ..quantities.units import say
 from .concentration import amount, laden
 from .counted import COUNTED, counted
 from .laws import particle_law

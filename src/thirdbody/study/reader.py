@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
-from pydantic import AfterValidator, ConfigDict, PlainValidator, create_model
+from pydantic import ConfigDict, PlainValidator, WrapValidator, create_model
 
 from ..errors import InvalidValue
-from ..materials import MaterialLibrary, materials
-from ..units import say
+from ..populations.materials import MaterialLibrary, materials
+from ..quantities.units import say
 from .fields import UNITS_OF_LISTS, about_of, filled_in, needed_fields
 from .mistakes import Known, retold
 from .one_value import number, numbers, switch, text, word, word_or_number
@@ -178,10 +178,12 @@ class Reader:
         config = ConfigDict(extra="forbid", arbitrary_types_allowed=True, protected_namespaces=())
         model = create_model(path or "study", __config__=config, **fields)
 
-        def finish(values: Any) -> Any:
-            return build({name: getattr(values, name) for name in values.model_fields_set})
+        def finish(given: Any, check: Callable[[Any], Any]) -> Any:
+            values = check(given)
+            # in the order of the file, which decides what each sampled input is given
+            return build({name: getattr(values, name) for name in given})
 
-        return Annotated[model, AfterValidator(finish)]
+        return Annotated[model, WrapValidator(finish)]
 
     # ------------------------------------------------------------------ several keys at once
     def only_one(self, path: str, data: Any) -> list[str]:

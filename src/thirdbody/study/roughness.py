@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 from ..errors import InvalidValue
-from ..surfaces import Roughness
-from ..units import say, to_si
+from ..populations.roughness import Roughness
+from ..quantities.units import say, to_si
 from .reader import Reader, Table, get
 from .topography import topography
 

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from ..citations import cite
-from ..contact import Contact
-from ..equilibrium import Equilibrium
+from ..contact.citations import cite
+from ..contact.contact import Contact
+from ..equilibrium.columns import Equilibrium
+from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
 from ..errors import InvalidValue, RangeWarning, ThirdBodyError
-from ..films import full_range
-from ..lubrication import FilmConditions
-from ..transitions import Critical, Transitions, TurningPoint, transitions
+from ..systems.film_conditions import FilmConditions
+from ..systems.film_formulas import full_range
 from .whole import Study
 
 SHARING = "Johnson, Greenwood, Poon 1972, Wear 19, 91, doi:10.1016/0043-1648(72)90445-0"
@@ -38,7 +38,7 @@ def run_study(study: Study) -> dict[str, Any]:
         carries in them, transitions, warnings, citations. A state that cannot be solved keeps its
         place with None and a status that says why.
     """
-    from .. import __version__
+    from ..version import __version__
 
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
@@ -54,6 +54,7 @@ def run_study(study: Study) -> dict[str, Any]:
         "scales": state.scales,
         "states": {"status": states.pop("status"), **states},
         "populations": _populations(state),
+        "engine": state.engine,
         "transitions": critical.to_dict(),
         "warnings": list(dict.fromkeys(sentences)),
         "citations": cite(study.contact).splitlines(),
@@ -99,7 +100,7 @@ def run_film(study: Study) -> dict[str, Any]:
     NoEquilibrium
         The solids carry more than the load at every gap that a film leaves.
     """
-    from .. import __version__
+    from ..version import __version__
 
     given, contact = film_conditions(study), study.contact
     with warnings.catch_warnings(record=True) as heard:

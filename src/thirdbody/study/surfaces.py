@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import InvalidValue
-from ..materials import Material, MaterialLibrary, MaterialPair, materials
-from ..units import say
+from ..populations.materials import Material, MaterialLibrary, MaterialPair, materials
+from ..quantities.units import say
 from .one_value import text
 from .reader import Key, Reader, Table, get, plain
 

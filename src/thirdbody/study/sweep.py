@@ -7,12 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ..contact import Contact
-from ..equilibrium import COLUMNS
+from ..analysis.sweep.make_plan import make_plan
+from ..analysis.sweep.plan import Plan
+from ..contact.contact import Contact
+from ..contact.output import every_column
+from ..equilibrium.columns import COLUMNS
 from ..errors import InvalidValue
-from ..outputs.base import every_column
-from ..sweep import DESIGNS, Plan, make_plan
-from ..units import say
+from ..numerics.sampling import DESIGNS
+from ..quantities.units import say
 from .amounts import amounts, is_span
 from .fields import about_of
 from .inputs import Input, field_of, inputs_of

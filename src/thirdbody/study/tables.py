@@ -7,23 +7,22 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import (
-    design,
-    ellipticity,
-    film,
-    heights,
-    laws,
-    load,
-    outputs,
-    particles,
-    roughness,
-    sizes,
-    surfaces,
-    sweep,
-    uncertainty,
-)
+from .design import TABLE as DESIGN
+from .ellipticity import ellipticity
+from .film import TABLE as FILM
+from .heights import heights
+from .laws import ASPERITY_LAW, PARTICLE_LAW, asperity_law
+from .load import TABLE as LOAD
 from .one_value import text
+from .outputs import TABLE as OUTPUTS
+from .particles import TABLE as PARTICLES
 from .reader import FieldReader, Reader, Table, plain
+from .roughness import TABLE as ROUGHNESS
+from .sizes import parts
+from .surfaces import OWN_MATERIALS, material
+from .surfaces import TABLE as SURFACES
+from .sweep import TABLE as SWEEP
+from .uncertainty import TABLE as UNCERTAINTY
 
 __all__ = ["FIELDS", "TABLES"]
 
@@ -34,25 +33,25 @@ def _title(reader: Reader, path: str, data: Any) -> Any:
 
 TABLES: tuple[Table, ...] = (
     Table(name="title", read=_title, about="a line of text", role="study"),
-    surfaces.OWN_MATERIALS,
-    surfaces.TABLE,
-    roughness.TABLE,
-    laws.ASPERITY_LAW,
-    particles.TABLE,
-    laws.PARTICLE_LAW,
-    outputs.TABLE,
-    load.TABLE,
-    film.TABLE,
-    sweep.TABLE,
-    uncertainty.TABLE,
-    design.TABLE,
+    OWN_MATERIALS,
+    SURFACES,
+    ROUGHNESS,
+    ASPERITY_LAW,
+    PARTICLES,
+    PARTICLE_LAW,
+    OUTPUTS,
+    LOAD,
+    FILM,
+    SWEEP,
+    UNCERTAINTY,
+    DESIGN,
 )
 
 FIELDS: dict[str, tuple[FieldReader, str]] = {
-    "Material": (surfaces.material, ""),
-    "Heights": (heights.heights, "distribution of asperity heights"),
-    "Ellipticity | None": (ellipticity.ellipticity, "shapes of elliptic asperities"),
-    "AbstractAsperityLaw": (laws.asperity_law, ""),
-    "tuple[Distribution, ...]": (sizes.parts, "a list of size distributions"),
+    "Material": (material, ""),
+    "Heights": (heights, "distribution of asperity heights"),
+    "Ellipticity | None": (ellipticity, "shapes of elliptic asperities"),
+    "AbstractAsperityLaw": (asperity_law, ""),
+    "tuple[Distribution, ...]": (parts, "a list of size distributions"),
 }
 """Fields of value classes that are tables themselves, by their declared type."""

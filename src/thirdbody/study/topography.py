@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InvalidValue
-from ..surfaces import Roughness
-from ..topography import FORMS, from_topography
-from ..units import say
-from ..values import quantity
+from ..populations.measured.topography import FORMS, from_topography
+from ..populations.roughness import Roughness
+from ..quantities.units import say
+from ..quantities.value import quantity
 from .amounts import amounts
 from .ellipticity import ellipticity_beside_topography
 from .fields import about_of

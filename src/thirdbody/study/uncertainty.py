@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..analysis.uncertainty.inputs import KINDS, Uncertain, Uncertainty
 from ..errors import InvalidValue
-from ..uncertainty import KINDS, Uncertain, Uncertainty
-from ..units import say
+from ..quantities.units import say
 from .inputs import Input, inputs_of
 from .one_value import count, number, word
 from .reader import Key, Reader, Table, get, plain

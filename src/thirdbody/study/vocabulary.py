@@ -6,7 +6,7 @@ import difflib
 import re
 from collections.abc import Iterable
 
-from ..distributions import (
+from ..populations.distributions import (
     Histogram,
     LogNormal,
     Mixture,
@@ -16,7 +16,7 @@ from ..distributions import (
     Uniform,
     Weibull,
 )
-from ..heights import (
+from ..populations.heights import (
     ExponentialHeights,
     GaussianHeights,
     Heights,
@@ -24,7 +24,7 @@ from ..heights import (
     JohnsonHeights,
     WeibullHeights,
 )
-from ..values import quantity
+from ..quantities.value import quantity
 
 __all__ = ["DISTRIBUTIONS", "HEIGHTS", "LOADS", "in_words", "near"]
 

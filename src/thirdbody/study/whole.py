@@ -11,12 +11,14 @@ from typing import Any
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
-from ..contact import Contact
-from ..equilibrium import Equilibrium, solve
+from ..analysis.sweep.plan import Plan
+from ..analysis.uncertainty.inputs import Uncertainty
+from ..contact.contact import Contact
+from ..equilibrium.columns import Equilibrium
+from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue
-from ..lubrication import FilmConditions
-from ..sweep import Plan
-from ..uncertainty import Uncertainty
+from ..quantities.value import slips_are_told
+from ..systems.film_conditions import FilmConditions
 from .overrides import override
 from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names
@@ -117,11 +119,12 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
 def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
     data = with_nested_names(data)
-    try:
-        return _checked(data, folder, [t for t in TABLES if t.name in data or t.required(data)])
-    except InvalidValue:
-        # to say where a misplaced key belongs, every table must be known
-        return _checked(data, folder, TABLES)
+    with slips_are_told():
+        try:
+            return _checked(data, folder, [t for t in TABLES if t.name in data or t.required(data)])
+        except InvalidValue:
+            # to say where a misplaced key belongs, every table must be known
+            return _checked(data, folder, TABLES)
 
 
 def _checked(data: dict[str, Any], folder: Path, tables: Iterable[Table]) -> Study:
@@ -161,6 +164,10 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     contact = reader.make(Contact, "", parts)
     loaded = own.get("load") or ends(asked or {})
     load, loads = loaded or _pressed(film, contact)
+    if load == "separation" and asked is None and np.any(deep := loads < deepest(contact)):
+        raise InvalidValue(
+            *(f"load.separation = {d:g} m is refused: {why_deep(contact)}" for d in loads[deep][:5])
+        )
     states = None if asked is None else plan(reader, contact, load, loads, asked)
     return Study(
         title=own.get("title", ""),

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
 from nicegui import ui
 
-from ...cli.show import as_number, as_pressure
+from ...quantities.say import number, percent, signed, value_of
 from ..figures import AXES, empty, figure, line
-from ..state import State
+from ..state import Answer, State, loads_as
 from ..widgets import table as shown_table
 from ..work import Work
 
@@ -33,27 +33,27 @@ def law_figure(found: dict[str, Any], of: str) -> dict[str, Any]:
     """One curve a law; the study's own is the thickest."""
     label, ylog, scale = SHOWN[of]
     traces = []
-    for number, law in enumerate(found["laws"]):
-        y = np.array([np.nan if v is None else scale * v for v in found["columns"][of][number]])
+    for row, law in enumerate(found["laws"]):
+        y = np.array([np.nan if v is None else scale * v for v in found["columns"][of][row]])
         own = law == found["own"]
-        traces.append(line(found["loads"], y, law, number, line={"width": 4 if own else 1.8}))
+        traces.append(line(found["loads"], y, law, row, line={"width": 4 if own else 1.8}))
     return figure(
         traces, x=AXES[found["load"]], y=label, title="Asperity laws", ylog=ylog, height=460
     )
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """One figure, and a table at the load nearest to the operating load."""
     found: dict[str, Any] = {}
 
-    def ask() -> dict[str, Any] | None:
+    async def ask() -> dict[str, Any] | None:
         answer = state.answer
         if answer is None:
             return None
         load = answer.load
         values = answer.loads
         if load == "d":
-            load, values = "F_star", np.asarray(answer.curves.F_star)
+            load, values = "F_star", await state.ask(loads_as, "F_star")
         values = np.sort(values[np.isfinite(values) & (values > 0)])
         if not len(values):
             work.said.set_text("no load of the study is positive")
@@ -66,10 +66,10 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             "loads": np.geomspace(values[0], values[-1], LOADS).tolist(),
         }
 
-    def show(result: dict[str, Any]) -> None:
+    async def show(result: dict[str, Any]) -> None:
         found["result"] = result
         found["answer"] = state.answer
-        draw()
+        await draw()
 
     work = Work("compare", "Compare all laws", ask, show)
     stale = ui.label().classes("hint")
@@ -82,7 +82,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     table = ui.column().classes("w-full scroll-x")
     plot.set_visibility(False)
 
-    def draw() -> None:
+    async def draw() -> None:
         if "result" not in found:
             return
         plot.set_visibility(True)
@@ -90,13 +90,16 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         plot.update_figure(law_figure(result, str(what.value)))
         changed = found["answer"] is not state.answer
         stale.set_text("The study has changed since: compare again." if changed else "")
-        point = state.point()
-        here = float(getattr(point, result["load"]))
+        here = await state.ask(_here, state.at, result["load"])
         at = int(np.argmin(np.abs(np.log(np.array(result["loads"]) / here))))
         _table(result, at, table)
 
     what.on_value_change(lambda: draw())
     return draw
+
+
+def _here(answer: Answer, at: float, load: str) -> float:
+    return float(getattr(answer.solve(at), load))
 
 
 def _plain(label: str) -> str:
@@ -106,22 +109,22 @@ def _plain(label: str) -> str:
 def _table(found: dict[str, Any], at: int, place: Any) -> None:
     columns = found["columns"]
     rows = []
-    for number, law in enumerate(found["laws"]):
+    for row, law in enumerate(found["laws"]):
 
-        def cell(name: str, number: int = number) -> float | None:
-            return columns[name][number][at] if name in columns else None
+        def cell(name: str, row: int = row) -> float | None:
+            return columns[name][row][at] if name in columns else None
 
         difference = cell("A_t_difference")
         pressure = cell("mean_pressure")
         rows.append(
             {
                 "law": law,
-                "A_t": as_number(cell("A_t")),
-                "difference": "" if not difference else f"{difference:+.1f} %",
-                "pressure": as_pressure(pressure),
-                "d": as_number(cell("d_star")),
-                "plastic": _percent(cell("plastic_share")),
-                "note": columns.get("note", [""] * len(found["laws"]))[number] or "",
+                "A_t": number(cell("A_t")),
+                "difference": "" if not difference else signed(difference, 1, "%"),
+                "pressure": value_of(pressure, "Pa"),
+                "d": number(cell("d_star")),
+                "plastic": percent(cell("plastic_share")),
+                "note": columns.get("note", [""] * len(found["laws"]))[row] or "",
             }
         )
     heads = {
@@ -135,10 +138,6 @@ def _table(found: dict[str, Any], at: int, place: Any) -> None:
     }
     place.clear()
     with place:
-        said = as_pressure(columns["pressure"][at]) if "pressure" in columns else ""
+        said = value_of(columns["pressure"][at], "Pa") if "pressure" in columns else ""
         ui.label(f"At {said}" if said else "").classes("hint")
         shown_table("laws", heads, rows)
-
-
-def _percent(value: float | None) -> str:
-    return "-" if value is None else f"{100 * value:.1f} %"

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
 from nicegui import ui
 
-from ...cli.show import as_number, as_pressure
-from ..figures import AXES, REGIME_FILLS, empty, figure, line, log_title, mark, mode_bands
+from ...equilibrium.words import BANDS, critical_load, happens
+from ..figures import AXES, REGIME_FILLS, empty, figure, line, log_title, mark, mode_bands, plain
 from ..state import Answer, State
+from ..widgets import put
 from ..widgets import table as shown_table
 
 __all__ = ["TITLE", "build", "figures"]
@@ -85,7 +86,7 @@ def figures(
         ]
         for number, part in enumerate(state.populations):
             share = 100 * np.asarray(part.load_share)
-            parts.append(line(x, share, f"{part.name}: load", number + 2))
+            parts.append(line(x, share, f"{plain(part.name)}: load", number + 2))
         out["shares"] = figure(
             parts, y="share of particles [%]", title="What particles carry; mode as bands", **more
         )
@@ -103,9 +104,9 @@ def figures(
                 "fillpattern": {"shape": {"A_e": "", "A_ep": "/", "A_p": "x"}[name], "size": 7},
             }
         )
-    plain = more | {"shapes": [s for s in shapes if s["type"] == "line"]}
+    lined = more | {"shapes": [s for s in shapes if s["type"] == "line"]}
     out["regimes"] = figure(
-        stacked, y="part of the real area [%]", title="Deformation regimes", **plain
+        stacked, y="part of the real area [%]", title="Deformation regimes", **lined
     )
     out["regimes"]["layout"]["yaxis"]["range"] = [0, 100]
     nm = 1e9
@@ -121,7 +122,7 @@ def figures(
     return out
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Four figures and the critical loads."""
     with ui.row().classes("w-full items-center gap-4"):
         against = ui.toggle({"F_star": "F*", "pressure": "pressure"}, value="F_star")
@@ -132,32 +133,29 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     with grid:
         for name in ("area", "shares", "regimes", "separation"):
             plots[name] = ui.plotly(empty(360)).classes("w-full")
-            plots[name].props(f'data-figure="{name}"')
+            put(plots[name], {"data-figure": name})
     table = ui.column().classes("w-full scroll-x")
     later: dict[str, Any] = {"timer": None}
 
-    def show(critical: bool) -> None:
+    async def show(critical: bool) -> None:
         answer = state.answer
         assert answer is not None
-        for name, made in figures(answer, str(against.value), state.at, critical=critical).items():
+        found = await state.ask(_figures, str(against.value), state.at, critical)
+        for name, made in found.items():
             plots[name].update_figure(made)
         plots["shares"].set_visibility(not answer.contact.two_body)
-        modes.set_text(
-            ""
-            if answer.contact.two_body
-            else "bands: p-s particles alone, hybrid, s-s asperities alone"
-        )
+        modes.set_text("" if answer.contact.two_body else BANDS)
 
-    def finish() -> None:
+    async def finish() -> None:
         later["timer"] = None
-        show(critical=True)
+        await show(critical=True)
         _table(state, table)
 
-    def draw() -> None:
+    async def draw() -> None:
         answer = state.answer
         assert answer is not None
         known = "critical" in answer.__dict__
-        show(critical=known)
+        await show(critical=known)
         if known:
             _table(state, table)
         elif later["timer"] is None:
@@ -169,26 +167,32 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     return draw
 
 
+def _figures(answer: Answer, against: str, at: float, critical: bool) -> dict[str, dict[str, Any]]:
+    if critical:
+        _ = answer.critical  # which the table shows as well
+    return figures(answer, against, at, critical=critical)
+
+
 def _table(state: State, place: Any) -> None:
     """Critical loads, as the command line prints them."""
     answer = state.answer
     assert answer is not None
     place.clear()
-    found = answer.critical
+    found = answer.__dict__.get("critical")
     if found is None or answer.contact.two_body:
         return
     entries = {
-        "F_cr1: asperities come into contact": found.F_cr1,
-        "F_cr2: particles have little of the contact left": found.F_cr2,
-        "turning point A: largest particle share": found.F_tpca.A,
-        "turning point B: equal loads": found.F_tpca.B,
-        "turning point C: strongest bend of the area": found.F_tpca.C,
+        "F_cr1": found.F_cr1,
+        "F_cr2": found.F_cr2,
+        "F_tpca A": found.F_tpca.A,
+        "F_tpca B": found.F_tpca.B,
+        "F_tpca C": found.F_tpca.C,
     }
     rows = [
         {
-            "name": name,
-            "F": as_number(one.value),
-            "p": as_pressure(None if one.value is None else one.value * answer.contact.E_ss),
+            "name": f"{name}: {happens(name)}",
+            "F": critical_load(one.value, one.status),
+            "p": critical_load(one.value, one.status, answer.contact.E_ss),
             "status": one.status,
         }
         for name, one in entries.items()

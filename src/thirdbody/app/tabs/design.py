@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...equilibrium import COLUMNS, about
+from ...equilibrium.columns import COLUMNS, about
 from ...errors import InvalidValue
+from ...quantities.say import number
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, shown, value_from
-from ..figures import GREY, empty, figure, line
-from ..state import State
+from ..figures import GREY, empty, figure, line, plain
+from ..state import State, loads_as
 from ..text import with_micro
 from ..work import Work
 
@@ -51,10 +52,11 @@ def design_figure(found: dict[str, Any], variable: str, objective: str) -> dict[
     """Every point tried, the best marked, the tolerance as a band."""
     every = found["points"][variable]
     words = any(isinstance(item, str) for item in every)
-    x = np.array(every, dtype=str if words else float)
+    x = np.array([plain(item) for item in every] if words else every, dtype=str if words else float)
     y = np.array([np.nan if v is None else v for v in found["points"][objective]], dtype=float)
     good = np.array(found["points"]["feasible"], dtype=bool)
     order = np.argsort(x)
+    best = found["values"][variable]
     traces = [
         line([], y[order], "all points", 0, line={"width": 1.5}) | {"x": x[order].tolist()},
         {
@@ -68,7 +70,7 @@ def design_figure(found: dict[str, Any], variable: str, objective: str) -> dict[
         {
             "type": "scatter",
             "mode": "markers",
-            "x": [found["values"][variable]],
+            "x": [plain(str(best)) if words else best],
             "y": [found["objectives"][objective]],
             "name": "best",
             "marker": {"symbol": "star", "size": 16, "color": "#D55E00"},
@@ -76,8 +78,8 @@ def design_figure(found: dict[str, Any], variable: str, objective: str) -> dict[
     ]
     made = figure(
         traces,
-        x=f"{variable.split('+')[0]} [SI]",
-        y=objective,
+        x=f"{plain(variable.split('+')[0])} [SI]",
+        y=plain(objective),
         title="Search",
         xlog=not words and bool(x.min() > 0),
         height=420,
@@ -147,11 +149,11 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
 
     which.on_value_change(ranged)
 
-    def table() -> dict[str, Any]:
+    async def table() -> dict[str, Any]:
         """What the form asks, as the table [design] of a study."""
         ends = {end: value_from(str(w.value or "")) for end, w in (("low", low), ("high", high))}
         wanted = {"of": of.value, "aim": aim.value, "over_loads": over.value}
-        asked: dict[str, Any] = {"objective": wanted, "over": {str(which.value): ends}}
+        asked: dict[str, Any] = {"objective": wanted, "vary": {str(which.value): ends}}
         if limit.value:
             ends = {"most": value_from(most.value or ""), "least": value_from(least.value or "")}
             asked["limits"] = [
@@ -159,13 +161,13 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             ]
         if (answer := state.answer) is not None:
             name = answer.load if answer.load != "d" else "F_star"
-            values = answer.loads if name == answer.load else np.asarray(answer.curves.F_star)
+            values = answer.loads if name == answer.load else await state.ask(loads_as, name)
             first, last = float(values.min()), float(values.max())
             asked[name] = {"from": first, "to": last, "points": LOADS}
         return asked
 
-    def ask() -> dict[str, Any]:
-        own = {} if which.value == WRITTEN else {"design": table()}
+    async def ask() -> dict[str, Any]:
+        own = {} if which.value == WRITTEN else {"design": await table()}
         return {"study": state.study | own, "folder": str(state.folder)}
 
     def show(result: dict[str, Any]) -> None:
@@ -179,7 +181,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             return str(value) if isinstance(value, str) else str(engineering(value, unit))
 
         best = [f"{name} = {told(name, value)}" for name, value in result["values"].items()]
-        best += [f"{name} = {value:.4g}" for name, value in result["objectives"].items()]
+        best += [f"{name} = {number(value)}" for name, value in result["objectives"].items()]
         words = [f"Best: {', '.join(best)}."]
         if not result["feasible"]:
             words = [f"Nothing that was tried obeys the limits: {result['reason']}."]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
@@ -10,13 +10,14 @@ from nicegui import events, ui
 
 import thirdbody as tb
 
-from ...cli.show import as_number, as_percent
-from ..figures import empty, figure, line
-from ..guard import LARGEST_UPLOAD
+from ...errors import InvalidValue
+from ...quantities.say import percent, value_of
+from ..bounds import LARGEST_TABLE
+from ..figures import empty, figure, line, plain
 from ..inputs import Inputs
-from ..state import State
+from ..state import Answer, State
 from ..uploads import keep
-from ..widgets import as_length, facts
+from ..widgets import facts
 
 __all__ = ["TITLE", "build", "dust_facts", "size_figure"]
 
@@ -29,12 +30,15 @@ def dust_facts(dust: tb.Particles) -> list[tuple[str, str]]:
     low, middle, high = (float(sizes.ppf(q)) for q in (0.05, 0.5, 0.95))
     each = sizes.moment(3) * np.pi / 6 * dust.areal_density
     return [
-        ("particles per area", f"{as_number(dust.areal_density)} 1/m²"),
-        ("mean distance", as_length(dust.areal_density**-0.5)),
-        ("mean diameter", as_length(float(sizes.mean_diameter))),
-        ("5 %, 50 %, 95 % by number", ", ".join(map(as_length, (low, middle, high)))),
-        ("covered area", as_percent(dust.coverage)),
-        ("volume per area", f"{as_number(each)} m"),
+        ("particles per area", value_of(dust.areal_density, "1/m^2")),
+        ("mean distance", value_of(dust.areal_density**-0.5, "m")),
+        ("mean diameter", value_of(float(sizes.mean_diameter), "m")),
+        (
+            "5 %, 50 %, 95 % by number",
+            ", ".join(value_of(size, "m") for size in (low, middle, high)),
+        ),
+        ("covered area", percent(dust.coverage)),
+        ("volume per area", value_of(each, "m")),
     ]
 
 
@@ -48,14 +52,14 @@ def size_figure(contact: tb.Contact) -> dict[str, Any]:
             low, high = 0.9 * low, 1.1 * high
         x = np.geomspace(max(low, 1e-3 * high), high, 240)
         density = np.asarray(sizes.pdf(x)) * x
-        name = dust.name or dust.material.name or f"population {number + 1}"
+        name = plain(dust.name or dust.material.name or f"population {number + 1}")
         for k, (values, how) in enumerate(((density, "number"), (density * x**3, "volume"))):
             top = values.max() if np.isfinite(values).all() and values.max() > 0 else 1.0
             traces.append(line(1e6 * x, values / top, f"{name}, by {how}", 2 * number + k))
     return figure(traces, x="diameter [µm]", y="density per ln x, over its largest", title="Sizes")
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Entries for the particles alone, and what they amount to."""
     ui.label(
         "Give the sizes and numbers of the particles as a cleanliness code (ISO 4406, NAS 1638, "
@@ -77,8 +81,12 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             inputs.rest = ui.column().classes("w-full")
 
     async def uploaded(event: events.UploadEventArguments) -> None:
-        name = await keep(state.folder, event)
         upload.reset()
+        try:
+            name = await keep(state.folder, event)
+        except InvalidValue as error:
+            ui.notify("; ".join(error.problems))
+            return
         places = inputs.populations()
         if not places:
             ui.notify("Add particles first.")
@@ -95,9 +103,10 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             upload = ui.upload(
                 label="Sizes from a particle counter",
                 auto_upload=True,
-                max_file_size=LARGEST_UPLOAD,
+                max_file_size=LARGEST_TABLE,
                 max_files=1,
                 on_upload=uploaded,
+                on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
             ).props('flat bordered data-upload="sizes"')
         with ui.column().classes("w-full"):
             plot = ui.plotly(empty(360)).classes("w-full")
@@ -106,7 +115,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
 
     seen: dict[str, Any] = {"particles": state.get("particles")}
 
-    def draw() -> None:
+    async def draw() -> None:
         now = state.get("particles")
         if _shape(now) != _shape(seen["particles"]):
             seen["particles"] = now
@@ -116,17 +125,26 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         answer = state.answer
         assert answer is not None
         plot.set_visibility(not answer.contact.two_body)
-        table.clear()
         if answer.contact.two_body:
+            table.clear()
             return
-        plot.update_figure(size_figure(answer.contact))
+        drawn, told = await state.ask(_found)
+        plot.update_figure(drawn)
+        table.clear()
         with table:
-            for dust in answer.contact.populations:
-                ui.label(dust.name or dust.material.name).classes("subhead")
+            for name, numbers in told:
+                ui.label(name).classes("subhead")
                 with ui.row().classes("facts w-full"):
-                    facts(dust_facts(dust))
+                    facts(numbers)
 
     return draw
+
+
+def _found(answer: Answer) -> tuple[dict[str, Any], list[tuple[str, list[tuple[str, str]]]]]:
+    """The figure, and the numbers of each population."""
+    contact = answer.contact
+    told = [(dust.name or dust.material.name, dust_facts(dust)) for dust in contact.populations]
+    return size_figure(contact), told
 
 
 def _shape(particles: Any) -> Any:

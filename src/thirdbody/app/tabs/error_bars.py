@@ -8,11 +8,14 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...plot import OKABE_ITO
-from ...uncertainty import CRITICAL, about_result
-from ..figures import AXES, GREY, INKS, empty, figure, line, listed, mark
+from ...analysis.uncertainty.critical_loads import CRITICAL
+from ...analysis.uncertainty.propagation import about_result
+from ...quantities.say import number, percent
+from ...views.plot.style import OKABE_ITO
+from ..figures import AXES, GREY, INKS, empty, figure, line, listed, mark, plain
 from ..inputs import Inputs
 from ..state import State
+from ..widgets import put
 from ..work import Work
 
 __all__ = ["TITLE", "band_figure", "build", "critical_figure", "results_of", "tornado_figure"]
@@ -58,7 +61,7 @@ def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
                 "y": listed(band[:, high]),
                 "fill": "tonexty",
                 "fillcolor": f"rgba(0,114,178,{0.22 + 0.2 * k})",
-                "name": f"{100 * (q[high] - q[low]):.3g} % of cases",
+                "name": f"{percent(q[high] - q[low])} of cases",
             }
         )
     if len(order) % 2:
@@ -98,7 +101,7 @@ def critical_figure(found: dict[str, Any]) -> dict[str, Any]:
                 "x": [None if None in pair else pair[1] - pair[0] for pair in ends],
                 "width": 0.3 + 0.3 * k,
                 "marker": {"color": f"rgba(0,114,178,{0.3 + 0.3 * k})"},
-                "name": f"{100 * (q[-1 - k] - q[k]):.3g} % of cases",
+                "name": f"{percent(q[-1 - k] - q[k])} of cases",
             }
         )
     for place, name, symbol, ink in (
@@ -145,7 +148,7 @@ def tornado_figure(found: dict[str, Any]) -> dict[str, Any]:
             {
                 "type": "bar",
                 "orientation": "h",
-                "y": labels,
+                "y": [plain(label) for label in labels],
                 "x": [None if v is None or middle is None else v - middle for v in ends],
                 "base": middle,
                 "name": name,
@@ -224,8 +227,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         low, middle, high = result["band_at"][0], result["nominal_at"], result["band_at"][-1]
         start = result["of"] if result["critical"] else "At the operating load"
         said.set_text(
-            f"{start}: {middle:.4g}, in nine of ten cases between {low:.4g} and "
-            f"{high:.4g} ({result['samples']} samples)."
+            f"{start}: {number(middle)}, in nine of ten cases between {number(low)} and "
+            f"{number(high)} ({result['samples']} samples)."
             if None not in (low, middle, high)
             else f"{result['of']} is not known at every end of the inputs."
         )
@@ -238,7 +241,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     with box:
         for name in ("bands", "tornado"):
             plots[name] = ui.plotly(empty(380)).classes("w-full")
-            plots[name].props(f'data-figure="{name}"')
+            put(plots[name], {"data-figure": name})
     box.set_visibility(False)
 
     def draw() -> None:

@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
 from nicegui import ui
 
-from ...film_words import point, summary
-from ...lubrication import Entrainment, FilmConditions, Oil
-from ...plot_film import OF_PARTICLES, bands_of
+from ...quantities.say import value_of
 from ...study import Study, run_film
 from ...study.film import SHAPES, SPEED
-from ..fields import Field, fields_of, number_field
+from ...systems.film_conditions import Entrainment, FilmConditions
+from ...systems.film_formulas import Oil
+from ...views.film_words import point, summary
+from ...views.plot.film import OF_PARTICLES, bands_of
+from ..fields import Field, engineering, fields_of, number_field
 from ..figures import GREY, empty, figure, line, log_title, mark
 from ..inputs import Inputs
-from ..state import State
+from ..state import Answer, State
 from ..text import with_micro
 from ..widgets import facts as named_values
+from ..widgets import put
 
 __all__ = ["START", "TITLE", "build", "film_figures", "solved"]
 
@@ -80,6 +83,10 @@ def solved(study: Study) -> tuple[dict[str, Any], int]:
     return found, len(speeds) // 2
 
 
+def _solved(answer: Answer) -> tuple[dict[str, Any], int]:
+    return solved(answer.study)
+
+
 def film_figures(found: dict[str, Any], i: int) -> dict[str, dict[str, Any]]:
     """Three figures over speed, with the regimes behind the curves and the speed i marked."""
     states = found["states"]
@@ -129,7 +136,7 @@ def film_figures(found: dict[str, Any], i: int) -> dict[str, dict[str, Any]]:
     return out
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Entries, a slider over the speed, facts, three figures."""
     ui.label(
         "An oil film, asperities and particles carry one load together. The film of smooth bodies "
@@ -161,7 +168,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             words = ui.column().classes("w-full gap-0")
             for name in CURVES:
                 plots[name] = ui.plotly(empty(360)).classes("w-full")
-                plots[name].props(f'data-figure="{name}"')
+                put(plots[name], {"data-figure": name})
 
     def show() -> None:
         found, i = now["found"], now["i"]
@@ -169,11 +176,11 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             plots[name].update_figure(made)
         known = found["states"]["mu"][i] is not None
         plots["film friction"].set_visibility(known)
-        said.set_text(f"speed {found['states']['speed'][i]:.4g} m/s")
+        said.set_text(f"speed {value_of(found['states']['speed'][i], 'm/s')}")
         facts.clear()
         with facts:
             said_of = point(found, i)
-            named_values(((name, with_micro(value)) for name, value in said_of.items()), "film: ")
+            named_values(said_of.items(), "film: ")
 
     def moved() -> None:
         i = int(slider.value or 0)
@@ -183,7 +190,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
 
     slider.on_value_change(moved)
 
-    def draw() -> None:
+    async def draw() -> None:
         table = state.get("film")
         if _shape(table) != now["there"]:
             now["there"] = _shape(table)
@@ -196,10 +203,10 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         if given is None or answer is now["answer"]:
             return
         before = now["found"]
-        found, middle = solved(answer.study)
+        found, middle = await state.ask(_solved)
         kept = before is not None and before["states"]["speed"] == found["states"]["speed"]
         now.update(answer=answer, found=found, i=now["i"] if kept else middle)
-        slider.props(f"max={len(found['states']['speed']) - 1}")
+        put(slider, {"max": len(found["states"]["speed"]) - 1})
         slider.set_value(now["i"])
         words.clear()
         with words:
@@ -272,7 +279,7 @@ def _removed(inputs: Inputs, state: State) -> None:
     """The study without a film; it keeps a load."""
     answer = state.answer
     if state.get("load") is None and answer is not None:
-        pressure = f"{float(answer.study.values[0]) / 1e6:.4g} MPa"
+        pressure = engineering(float(answer.study.values[0]), "Pa")
         state.replace({**state.study, "load": {"pressure": pressure}})
     inputs.change("film", None)
 

@@ -2,49 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 from nicegui import ui
 
 import thirdbody as tb
 
-from ...cli.show import as_number, as_percent, as_pressure
+from ...equilibrium.words import NO_CONTACT, load_of
+from ...quantities.say import number, percent, value_of
 from ..cross_section import section, to_svg
-from ..state import State
-from ..widgets import as_length, facts
+from ..state import Answer, State
+from ..widgets import facts
 
 __all__ = ["TITLE", "build", "told"]
 
 TITLE = "Interface"
 
 
-def told(state: State) -> list[tuple[str, str]]:
+def told(point: tb.Equilibrium) -> list[tuple[str, str]]:
     """The state under the operating load, in the words of the command line."""
-    point = state.point()
     at = [
-        ("load", f"{as_pressure(_one(point.pressure))} (F* = {as_number(_one(point.F_star))})"),
-        ("separation h", as_length(_one(point.h))),
-        ("separation d", f"{as_length(_one(point.d))} ({as_number(_one(point.d_star))} σ)"),
-        ("real contact area", as_percent(_one(point.A_t))),
+        ("load", load_of(_one(point.pressure), _one(point.F_star))),
+        ("separation h", value_of(_one(point.h), "m")),
+        ("separation d", f"{value_of(_one(point.d), 'm')} ({number(_one(point.d_star))} σ)"),
+        ("real contact area", percent(_one(point.A_t))),
     ]
     if not point.contact.two_body:
         at += [
-            ("mode", str(point.mode) or "no contact"),
-            ("particles carry", as_percent(_one(point.particle_load_share))),
-            ("of the real area", as_percent(_one(point.particle_area_share))),
+            ("mode", str(point.mode) or NO_CONTACT),
+            ("particles carry", percent(_one(point.particle_load_share))),
+            ("of the real area", percent(_one(point.particle_area_share))),
         ]
         counted = tb.solve(
             point.contact.replace(outputs=(tb.outputs.Counts(),)), d=_one(point.d)
         ).outputs
         every = sum(dust.areal_density for dust in point.contact.populations)
-        at.append(("particles loaded", as_percent(_one(counted["n_sa"]) / every)))
+        at.append(("particles loaded", percent(_one(counted["n_sa"]) / every)))
     for part in point.populations:
-        at.append((f"{part.name} carries", as_percent(_one(part.load_share))))
+        at.append((f"{part.name} carries", percent(_one(part.load_share))))
     return at
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """The drawing, what it shows, and another draw."""
     seed = {"now": 0}
     with ui.row().classes("w-full items-center justify-between"):
@@ -59,29 +59,37 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     table = ui.row().classes("facts w-full")
     status = ui.label().classes("problem")
 
-    def draw() -> None:
-        assert state.answer is not None
-        point = state.point()
-        bad = str(point.status) != "ok"
-        status.set_text(str(point.status) if bad else "")
-        status.set_visibility(bad)
+    async def draw() -> None:
+        bad, found = await state.ask(_drawn, state.at, seed["now"])
+        status.set_text(bad)
+        status.set_visibility(bool(bad))
         if bad:
             return
-        drawn = section(state.answer.contact, point, seed=seed["now"])
-        picture.set_content(to_svg(drawn, title="Cross-section of the interface, to scale"))
-        caption.set_text(_caption(drawn))
+        svg, says, names, numbers = found
+        picture.set_content(svg)
+        caption.set_text(says)
         legend.clear()
         with legend:
-            _legend(drawn)
+            _legend(names)
         table.clear()
         with table:
-            facts(told(state))
+            facts(numbers)
 
-    def another() -> None:
+    async def another() -> None:
         seed["now"] += 1
-        draw()
+        await draw()
 
     return draw
+
+
+def _drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
+    """What is wrong with the state; else the drawing, what it shows, whose, and the state."""
+    point = answer.solve(at)
+    if str(point.status) != "ok":
+        return str(point.status), None
+    drawn = section(answer.contact, point, seed=seed)
+    svg = to_svg(drawn, title="Cross-section of the interface, to scale")
+    return "", (svg, _caption(drawn), drawn.names, told(point))
 
 
 def _caption(drawn: Any) -> str:
@@ -93,18 +101,18 @@ def _caption(drawn: Any) -> str:
         return said
     loaded = sum(grain.loaded for grain in drawn.grains)
     return said + (
-        f"Particles are those of a slab {as_length(drawn.depth)} deep: {loaded} of "
+        f"Particles are those of a slab {value_of(drawn.depth, 'm')} deep: {loaded} of "
         f"{len(drawn.grains)} are larger than the gap above their seat and carry load."
     )
 
 
-def _legend(drawn: Any) -> None:
-    from ...plot import OKABE_ITO
+def _legend(names: tuple[str, ...]) -> None:
+    from ...views.plot.style import OKABE_ITO
     from ..cross_section import COLOURS
 
-    for number, name in enumerate(drawn.names):
-        _swatch(f"background:{COLOURS[number % len(COLOURS)]}", name)
-    if drawn.names:
+    for i, name in enumerate(names):
+        _swatch(f"background:{COLOURS[i % len(COLOURS)]}", name)
+    if names:
         _swatch(f"border:3px solid {OKABE_ITO['vermilion']}", "loaded")
         _swatch("border:1px dashed currentColor", "free")
     _swatch(f"background:{OKABE_ITO['vermilion']};height:5px", "asperity contact")

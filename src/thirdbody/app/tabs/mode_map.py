@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
 from nicegui import ui
 
-from ...plot import MODES
+from ...equilibrium.words import MODES
 from ..figures import MODE_FILLS, empty, figure
 from ..sizing import size_of, with_size
-from ..state import State
+from ..state import Answer, State
 from ..work import Work
 
 __all__ = ["TITLE", "build", "map_figure"]
@@ -90,7 +90,7 @@ def map_figure(found: dict[str, Any], here: tuple[float, float] | None) -> dict[
     return made
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """The map of this study."""
     ui.label(
         "Sizes are scaled as a whole, everything else stays. Every point is a solved state."
@@ -110,9 +110,9 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             "loads": LOADS.tolist(),
         }
 
-    def show(result: dict[str, Any]) -> None:
+    async def show(result: dict[str, Any]) -> None:
         found["map"] = result
-        draw()
+        await draw()
 
     work = Work("map", "Draw the map", ask, show)
     stale = ui.label().classes("hint")
@@ -120,7 +120,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     plot.props('data-figure="map"')
     plot.set_visibility(False)
 
-    def draw() -> None:
+    async def draw() -> None:
         if "map" not in found or state.answer is None:
             return
         plot.set_visibility(True)
@@ -128,7 +128,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         here = None
         if len(contact.populations) == 1:
             ratio = size_of(contact) / contact.roughness.sigma
-            here = (ratio, float(state.point().F_star))
+            here = (ratio, await state.ask(_load, state.at))
         plot.update_figure(map_figure(found["map"], here))
         other = not _same_map(found["contact"], contact)
         stale.set_text("The study has changed since: draw the map again." if other else "")
@@ -145,6 +145,10 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
 
     plot.on("plotly_click", clicked)
     return draw
+
+
+def _load(answer: Answer, at: float) -> float:
+    return float(answer.solve(at).F_star)
 
 
 def _same_map(one: Any, other: Any) -> bool:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
 from nicegui import ui
 
-from ...cli.show import as_number
-from ...equilibrium import about
+from ...equilibrium.columns import about
+from ...quantities.say import number
 from ..figures import AXES, figure, line, mark
 from ..inputs import Inputs
 from ..state import Answer, State
+from ..widgets import put
 from ..widgets import table as shown_table
 
 __all__ = ["TITLE", "build", "output_figures"]
@@ -33,10 +34,10 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
         for unit, columns in units.items():
             traces = []
             values = []
-            for number, column in enumerate(columns):
+            for i, column in enumerate(columns):
                 y = np.asarray(state.outputs[column], dtype=float)
                 values.append(y)
-                traces.append(line(x, y, column, number) | {"meta": about(column)["meaning"]})
+                traces.append(line(x, y, column, i) | {"meta": about(column)["meaning"]})
             every = np.concatenate(values)
             every = every[np.isfinite(every) & (every != 0)]
             wide = len(every) > 0 and every.min() > 0 and every.max() > 30 * every.min()
@@ -54,12 +55,11 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
     return out
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Switches with their numbers, figures, and the values at the operating load."""
 
     def renewed() -> None:
         entries.refresh()
-        draw()
 
     inputs = Inputs(state, renewed)
 
@@ -77,37 +77,39 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     grid = ui.element("div").classes("figures w-full")
     plots: dict[str, Any] = {}
 
-    def draw() -> None:
+    async def draw() -> None:
         inputs.tell()
-        answer = state.answer
-        assert answer is not None
-        made = output_figures(answer, state.at)
+        made, rows = await state.ask(_found, state.at)
         for name in set(plots) - set(made):
             plots.pop(name).delete()
         with grid:
             for name, drawn in made.items():
                 if name not in plots:
                     plots[name] = ui.plotly(drawn).classes("w-full")
-                    plots[name].props(f'data-figure="output {name}"')
+                    put(plots[name], {"data-figure": f"output {name}"})
                 else:
                     plots[name].update_figure(drawn)
-        _table(state, table)
+        _table(rows, table)
 
     return draw
 
 
-def _table(state: State, place: Any) -> None:
-    place.clear()
-    point = state.point()
+def _found(answer: Answer, at: float) -> tuple[dict[str, dict[str, Any]], list[dict[str, Any]]]:
+    """The figures, and the rows of the table."""
     rows = [
         {
             "name": name,
             "meaning": about(name)["meaning"],
-            "value": as_number(None if not np.isfinite(value) else float(value)),
+            "value": number(float(value)),
             "unit": about(name)["unit"],
         }
-        for name, value in point.outputs.items()
+        for name, value in answer.solve(at).outputs.items()
     ]
+    return output_figures(answer, at), rows
+
+
+def _table(rows: list[dict[str, Any]], place: Any) -> None:
+    place.clear()
     with place:
         if not rows:
             ui.label("Switch an output on.").classes("hint")

@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 from nicegui import events, ui
 
-from ...cli.show import as_number
 from ...errors import InvalidValue
-from ...units import to_si
+from ...quantities.say import number, value_of
+from ...quantities.units import to_si
 from ..fields import value_from
 from ..figures import empty, figure, line, mark
 from ..guard import LARGEST_UPLOAD
 from ..state import State
 from ..text import with_micro
 from ..uploads import keep
-from ..widgets import as_length, facts
+from ..widgets import facts, put
 from ..work import Work
 
 __all__ = ["TITLE", "build", "options_from"]
@@ -70,11 +70,15 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     ui.label(
         "Maps and profiles of instruments (x3p, sur, opd, al3d, npy, txt, ...), up to "
         f"{LARGEST_UPLOAD // 2**20} MB. The file stays on this machine; it is read in a process "
-        f"of its own, which is stopped after {SECONDS:.0f} s."
+        f"of its own, which is stopped after {value_of(SECONDS, 's')}."
     ).classes("hint")
 
     async def uploaded(event: events.UploadEventArguments) -> None:
-        name = await keep(state.folder, event)
+        try:
+            name = await keep(state.folder, event)
+        except InvalidValue as error:
+            work.said.set_text("; ".join(error.problems))
+            return
         now["file"] = str(state.folder / name)
         source.set_text(f"file: {name}")
         upload.reset()
@@ -101,8 +105,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             ("channel", "of a file with several"),
             ("resolution", "of the instrument"),
         ):
-            entry = ui.input(name).props(f'dense hint="{hint}" data-path="surface.{name}"')
-            texts[name] = entry.classes("w-52")
+            entry = ui.input(name).props("dense").classes("w-52")
+            texts[name] = put(entry, {"hint": hint, "data-path": f"surface.{name}"})
         forms = {"": "tilt", "none": "none", "curvature": "curvature"}
         texts["detrend"] = ui.select(forms, value="", label="form removed")
         texts["detrend"].props("dense").classes("w-36")
@@ -122,14 +126,14 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             plots[name].update_figure(cutoff_figure(result, name))
         used = result["used"]
         words = {
-            "σ": as_length(used["sigma"]),
-            "R": as_length(used["R"]),
-            "η": f"{as_number(used['eta'])} 1/m²",
-            "α": as_number(used["alpha"]),
-            "σ_s": as_length(used["sigma_s"]),
-            "cut-off": as_length(used["cutoff"]) if used["cutoff"] else "as sampled",
-            "skewness": as_number(result["skewness"]),
-            "kurtosis": as_number(result["kurtosis"]),
+            "σ": value_of(used["sigma"], "m"),
+            "R": value_of(used["R"], "m"),
+            "η": value_of(used["eta"], "1/m^2"),
+            "α": number(used["alpha"]),
+            "σ_s": value_of(used["sigma_s"], "m"),
+            "cut-off": value_of(used["cutoff"], "m") if used["cutoff"] else "as sampled",
+            "skewness": number(result["skewness"]),
+            "kurtosis": number(result["kurtosis"]),
         }
         table.clear()
         with table:
@@ -148,12 +152,12 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         with ui.row():
             for label, name in (("Use these numbers", "surface"), ("Use the file", "file")):
                 button = ui.button(label, icon="input", on_click=lambda _, n=name: take(n))
-                button.props(f'no-caps data-take="{name}"')
+                put(button.props("no-caps"), {"data-take": name})
         plots: dict[str, Any] = {}
         with ui.element("div").classes("figures w-full"):
             for name in ("heights", "rms_gradient", "R", "eta"):
                 plots[name] = ui.plotly(empty(360)).classes("w-full")
-                plots[name].props(f'data-figure="surface-{name}"')
+                put(plots[name], {"data-figure": f"surface-{name}"})
     box.set_visibility(False)
 
     def take(what: str) -> None:
@@ -213,11 +217,11 @@ def cutoff_figure(found: dict[str, Any], name: str) -> dict[str, Any]:
     x = np.array([np.nan if v is None else v for v in curve["cutoff"]], dtype=float)
     known = x > 0
     traces = []
-    for number, column in enumerate(columns):
+    for i, column in enumerate(columns):
         y = np.array([np.nan if v is None else v for v in curve[column]], dtype=float)
         words = "counted" if column.endswith("_counted") else "from moments"
         traces.append(
-            line(x[known] * 1e6, y[known], words, number, mode="lines+markers", marker={"size": 7})
+            line(x[known] * 1e6, y[known], words, i, mode="lines+markers", marker={"size": 7})
         )
     made = figure(traces, x="cut-off [µm]", y=label, title=label.split(" [")[0], ylog=True)
     if found["used"]["cutoff"]:

@@ -10,8 +10,9 @@ from ...errors import InvalidValue
 from ..cross_section import section, to_svg
 from ..exports import FIGURES, figure_of, to_csv, to_json
 from ..python_text import to_python
-from ..state import State
+from ..state import Answer, State
 from ..text import LONGEST_STUDY, from_toml, to_link, to_toml
+from ..widgets import put
 
 __all__ = ["TITLE", "build"]
 
@@ -44,29 +45,25 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         except InvalidValue as error:
             said.set_text("; ".join(error.problems))
 
-    def send(name: str, kind: str) -> None:
-        answer = state.answer
-        if answer is None:
+    async def send(name: str, kind: str) -> None:
+        if state.answer is None:
             return
         try:
-            content = {
-                "study.toml": lambda: to_toml(state.study),
-                "study.py": lambda: to_python(answer.study, state.at),
-                "states.csv": lambda: to_csv(answer.study),
-                "states.json": lambda: to_json(answer.study),
-                "section.svg": lambda: to_svg(section(answer.contact, state.point())),
-            }[name]()
+            content = (
+                to_toml(state.study)
+                if name == "study.toml"
+                else await state.ask(_content, name, state.at)
+            )
             ui.download.content(content, name, kind)
         except InvalidValue as error:
             said.set_text("; ".join(error.problems))
 
-    def picture(suffix: str) -> None:
-        answer = state.answer
-        if answer is None:
+    async def picture(suffix: str) -> None:
+        if state.answer is None:
             return
         name = str(which.value)
         try:
-            ui.download.content(figure_of(answer, name, suffix), f"{name}.{suffix}")
+            ui.download.content(await state.ask(figure_of, name, suffix), f"{name}.{suffix}")
         except InvalidValue as error:
             said.set_text("; ".join(error.problems))
 
@@ -81,13 +78,14 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             button = ui.button(
                 label, icon="download", on_click=lambda _, n=name, k=kind: send(n, k)
             )
-            button.props(f'no-caps outline data-download="{name}"')
+            put(button.props("no-caps outline"), {"data-download": name})
     with ui.row().classes("w-full gap-2 items-center"):
         which = ui.select(list(FIGURES), value="area", label="figure").props("dense")
         for suffix in ("png", "svg"):
-            ui.button(suffix.upper(), icon="image", on_click=lambda _, s=suffix: picture(s)).props(
-                f'no-caps outline data-download="{suffix}"'
+            button = ui.button(
+                suffix.upper(), icon="image", on_click=lambda _, s=suffix: picture(s)
             )
+            put(button.props("no-caps outline"), {"data-download": suffix})
     said = ui.label().classes("problem").props('role=alert data-said="take away"')
     ui.label("A link that reopens this page on this machine").classes("subhead")
     with ui.row().classes("w-full items-center no-wrap"):
@@ -116,15 +114,14 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             problems = ui.column().classes("w-full")
         with ui.column().classes("w-full"):
             ui.label("The same numbers in Python").classes("subhead")
-            script = ui.code("", language="python").classes("w-full")
-            script.props('data-path="python"')
+            script = ui.label().classes("w-full listing").props('data-path="python"')
             ui.label("On the command line: thirdbody solve study.toml").classes("hint")
 
     def draw() -> None:
         answer = state.answer
         assert answer is not None
         editor.set_value(to_toml(state.study))
-        script.set_content(to_python(answer.study, state.at))
+        script.set_text(to_python(answer.study, state.at))
         link.set_value(f"{_origin()}/?{to_link(state.study, state.at)}")
         problems.clear()
         with problems:
@@ -132,6 +129,17 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
                 ui.label(text).classes("problem")
 
     return draw
+
+
+def _content(answer: Answer, name: str, at: float) -> str:
+    """What goes into a file of this name."""
+    made: dict[str, Callable[[], str]] = {
+        "study.py": lambda: to_python(answer.study, at),
+        "states.csv": lambda: to_csv(answer.study),
+        "states.json": lambda: to_json(answer.study),
+        "section.svg": lambda: to_svg(section(answer.contact, answer.solve(at))),
+    }
+    return made[name]()
 
 
 def _origin() -> str:

@@ -28,14 +28,15 @@ def command(
     settings: Settings = None,
 ) -> None:
     """One page: the mode at the operating load, how sure it is, and what would change it."""
-    from ...assess import assess_study
-    from ...files import need_folders, write_text
+    from ...quantities.files import need_folders, write_text
+    from ...study.analyses import assess_study
+    from ...views.assess_page import page
 
     asked = read_study(study, settings)
     need_folders(html_file)
     answer = assess_study(asked)
     if html_file is not None:
-        write_text(html_file, answer.html())
+        write_text(html_file, page(answer))
         print(f"written: {html_file}", file=sys.stderr)
     if as_json:
         print(json.dumps(answer.to_dict(), indent=1, allow_nan=False))

@@ -8,9 +8,11 @@ from typing import Annotated, Any
 
 import typer
 
+from ...equilibrium.words import load_of
 from ...errors import InvalidValue, NoEquilibrium
+from ...quantities.say import number, percent, signed, value_of
 from ..options import Settings, StudyFile, not_a_folder, read_study
-from ..show import as_number, as_pressure, table_of, terminal
+from ..show import table_of, terminal
 from ..streams import warn
 
 __all__ = ["command"]
@@ -38,9 +40,9 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The interface of a study under every asperity law, against the law the study names."""
-    from ... import asperity
-    from ...compare import compare as compare_laws
-    from ...compare import save
+    from ...analysis.compare import compare as compare_laws
+    from ...laws import asperity
+    from ...views.comparison import save
 
     problems = []
     if at not in PLACES:
@@ -92,25 +94,25 @@ def _show_comparison(title: str, table: Any, index: int) -> None:
     one = table.isel({table.A_t.dims[1]: index})
     particles = "particle_load_share" in one
     own = table.attrs["own_law"]
-    load = f"{as_pressure(float(one.pressure))} (F* = {as_number(float(one.F_star))})"
+    load = load_of(float(one.pressure), float(one.F_star))
     console.print(f"{title or 'Study'}: every law at {load}, differences against {own}")
 
-    def cells(row: Any, number: str) -> list[str]:
+    def cells(row: Any, note: str) -> list[str]:
         if row.status.item() != "ok":
-            return [row.law.item(), *["-"] * (9 if particles else 8), number]
+            return [row.law.item(), *["-"] * (9 if particles else 8), note]
         value = {str(name): row[name].values.item() for name in row.data_vars}
         first = row.law.item() == own
         out = [
             row.law.item(),
-            as_number(value["A_t"]),
-            "" if first else f"{value['A_t_difference']:+z.1f} %",
-            as_pressure(value["mean_pressure"]),
-            f"{value['d_star']:.3f}",
-            "" if first else f"{value['d_star_difference']:+z.3f}",
+            number(value["A_t"]),
+            "" if first else signed(value["A_t_difference"], 1, "%"),
+            value_of(value["mean_pressure"], "Pa"),
+            number(value["d_star"]),
+            "" if first else signed(value["d_star_difference"], 3),
         ]
         shares = ["elastic_share", "elastoplastic_share", "plastic_share"]
         shares += ["particle_load_share"] if particles else []
-        return [*out, *(f"{100 * value[name]:.1f} %" for name in shares), number]
+        return [*out, *(percent(value[name]) for name in shares), note]
 
     heads = ["law", "A_t", "diff.", "F/A_t", "d/sigma", "diff.", "elastic", "el.-plastic"]
     heads += ["plastic", "particles' load"] if particles else ["plastic"]

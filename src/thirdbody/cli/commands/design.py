@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ...quantities.say import number
 from ..options import AsJson, Settings, read_study
-from ..show import as_number, table_of, terminal
-from ..streams import warn, write_csv
+from ..show import table_of, terminal
+from ..streams import figure_format, warn, write_csv, write_figure
 
 if TYPE_CHECKING:
-    from ...design import Best
+    from ...analysis.design.design import Best
     from ...study import Study
 
 __all__ = ["command"]
@@ -37,11 +38,13 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The best size, concentration or roughness over a range of loads, under limits."""
-    from ...files import need_folders, whole
-    from ...study.design import design_study
+    from ...quantities.files import need_folders
+    from ...study.analyses import design_study
 
     asked = read_study(study, settings)
     need_folders(csv_file, figure)
+    if figure is not None:
+        figure_format(figure)  # refused before long work
     best = design_study(asked, progress=True)
     for sentence in best.warnings:
         warn(sentence)
@@ -50,12 +53,9 @@ def command(
         write_csv(csv_file, columns, dict.fromkeys(columns, ""))
         print(f"written: {csv_file}", file=sys.stderr)
     if figure is not None:
-        from ...plot_design import tried
+        from ...views.plot.design import tried
 
-        drawing = tried(best)
-        with whole(figure) as part:
-            drawing.savefig(part, format=figure.suffix.lstrip(".") or "png")
-        print(f"written: {figure}", file=sys.stderr)
+        write_figure(figure, tried(best))
     if as_json:
         told = {"title": asked.title, **best.to_dict()}
         print(json.dumps(told, indent=1, allow_nan=False))
@@ -74,18 +74,18 @@ def _page(asked: Study, best: Best) -> None:
     table = table_of(("", "value", "within 5 % from", "to"), right=True)
     for name, value in best.values.items():
         band = best.tolerance.get(name)
-        shown = [as_number(end) for end in band] if band else ["", ""]
-        table.add_row(name, value.name if band is None else as_number(value), *shown)
+        shown = [number(end) for end in band] if band else ["", ""]
+        table.add_row(name, value.name if band is None else number(value), *shown)
     out.print(table)
     for label, value in best.objectives.items():
-        out.print(f"{label} = {as_number(value)}")
+        out.print(f"{label} = {number(value)}")
     out.print(f"limits in force: {'; '.join(best.active) or 'none'}")
     _against_load(out, best)
     if best.slopes:
         out.print("change of a metric for a relative change of an input, at the middle load")
         table = table_of(("", *next(iter(best.slopes.values()))), right=True)
         for column, slopes in best.slopes.items():
-            table.add_row(f"d {column}/d ln", *map(as_number, slopes.values()))
+            table.add_row(f"d {column}/d ln", *map(number, slopes.values()))
         out.print(table)
     if several:
         out.print(f"{front.sum()} of {len(front)} points are beaten by none in every objective")
@@ -106,9 +106,9 @@ def _against_load(out: Any, best: Best) -> None:
     count = best.states.sizes[load]
     for i in sorted({0, count // 2, count - 1}):
         one = best.states.isel({load: i})
-        table.add_row(as_number(float(one[load])), *(_shown(one[name].item()) for name in names))
+        table.add_row(number(float(one[load])), *(_shown(one[name].item()) for name in names))
     out.print(table)
 
 
 def _shown(value: Any) -> str:
-    return value if isinstance(value, str) else as_number(float(value))
+    return value if isinstance(value, str) else number(float(value))

@@ -9,9 +9,10 @@ from typing import Annotated, Any
 
 import typer
 
+from ...quantities.say import number, value_of
 from ..options import AsJson, Settings, read_study
-from ..show import as_length, as_number, as_pressure, table_of, terminal
-from ..streams import warn, write_csv
+from ..show import table_of, terminal
+from ..streams import figure_format, warn, write_csv, write_figure
 
 __all__ = ["columns_of", "command"]
 
@@ -35,43 +36,30 @@ def command(
     from ...study import run_film
 
     asked = read_study(study, settings)
-    kind = "" if figure is None else _format_of(figure)
+    if figure is not None:
+        figure_format(figure)  # refused before long work
     result = run_film(asked)
     for sentence in result["warnings"][len(asked.notes) :]:
         warn(sentence)
     drawn = None
     if figure is not None:
-        from ...plot_film import stribeck
+        from ...views.plot.film import stribeck
 
         drawn = stribeck(result["states"], result["regime_speeds"])
     if csv_file is not None:
         write_csv(csv_file, *columns_of(result))
         print(f"written: {csv_file}", file=sys.stderr)
-    if figure is not None and drawn is not None:
-        from ...files import whole
-
-        with whole(figure) as part:
-            drawn.savefig(part, format=kind)
-        print(f"written: {figure}", file=sys.stderr)
+    if figure is not None:
+        write_figure(figure, drawn)
     if as_json:
         print(json.dumps(result, indent=1, allow_nan=False))
     else:
         _show(result)
 
 
-def _format_of(figure: Path) -> str:
-    """What a figure is written as, by the end of its name."""
-    from ...errors import InvalidValue
-
-    kind = figure.suffix.lstrip(".").lower() or "png"
-    if kind not in ("png", "svg", "pdf"):
-        raise InvalidValue(f"--figure {figure} must end in .png, .svg or .pdf")
-    return kind
-
-
 def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, str]]:
     """Columns of the states, then what passes and what the oil brings, and their units."""
-    from ...lubrication import COLUMNS
+    from ...systems.mixed_film import COLUMNS
 
     columns = dict(result["states"])
     units = {name: COLUMNS[name]["unit"] if name in COLUMNS else "1" for name in columns}
@@ -91,20 +79,17 @@ def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, 
 
 def _show(result: dict[str, Any]) -> None:
     """The result for a reader: the point or the curve, then in words."""
-    from ...film_words import point, summary
+    from ...views.film_words import bodies, point, summary
 
     console = terminal()
     console.print(f"{result['title'] or 'Study'} (thirdbody {result['version']})")
-    film, states = result["inputs"]["film"], result["states"]
+    states = result["states"]
     console.print(
-        f"{film['conjunction']['type'].lower()} contact under {as_number(film['load'])} N, "
-        f"{'mean' if film['pressure'] == 'mean' else 'largest'} Hertz pressure "
-        f"{as_pressure(states['pressure'][0])}, sigma = "
-        f"{as_length(result['inputs']['roughness']['sigma'])}"
+        f"{bodies(result)}, sigma = {value_of(result['inputs']['roughness']['sigma'], 'm')}"
     )
     total = len(states["speed"])
     if total == 1:
-        table = table_of((f"at {as_number(states['speed'][0])} m/s", ""))
+        table = table_of((f"at {value_of(states['speed'][0], 'm/s')}", ""))
         for name, value in point(result, 0).items():
             table.add_row(name, value)
         console.print(table)
@@ -118,7 +103,7 @@ def _show(result: dict[str, Any]) -> None:
 
 def _curve(result: dict[str, Any]) -> Any:
     """A row a speed; of many speeds some, evenly spread."""
-    from ...film_words import share
+    from ...views.film_words import share
 
     states = result["states"]
     shares = {"film_share": "on film", "ss_share": "on asperities"}
@@ -132,11 +117,11 @@ def _curve(result: dict[str, Any]) -> Any:
     for row in range(rows):
         i = round(row * (total - 1) / max(rows - 1, 1))
         table.add_row(
-            as_number(states["speed"][i]),
-            as_length(states["h_T"][i]),
-            as_number(states["lambda_ratio"][i]),
+            number(states["speed"][i]),
+            value_of(states["h_T"][i], "m"),
+            number(states["lambda_ratio"][i]),
             *(share(states[name][i]) for name in shares),
-            *[as_number(states["mu"][i])] * known,
+            *[number(states["mu"][i])] * known,
             states["regime"][i],
         )
     return table

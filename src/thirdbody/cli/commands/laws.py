@@ -21,13 +21,13 @@ def command(
     ] = False,
 ) -> None:
     """The laws of asperities and particles, with citation and range."""
-    from ... import asperity, particle
-    from ...units import say
+    from ...laws import asperity, particle
+    from ...quantities.units import say
 
     if as_json and as_page:
         raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")
     if as_page:
-        from ...compare import laws_page
+        from ...views.laws_page import laws_page
 
         print(laws_page(), end="")
         return
@@ -74,8 +74,8 @@ def _about_law(law: type) -> dict[str, Any]:
 
 
 def _about_option(item: dataclasses.Field, default: Any) -> dict[str, Any]:
-    from ...units import say
-    from ...values import allowed_range
+    from ...quantities.units import say
+    from ...quantities.value import allowed_range
 
     default = getattr(default, "name", default)
     allowed, meaning, unit = "", "", ""

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from ...errors import InvalidValue
+from ...quantities.say import number
 from ..options import AsJson
 from ..show import table_of, terminal
 
@@ -30,7 +31,7 @@ def command(
     ] = False,
 ) -> None:
     """The materials of the library, with range and source: thirdbody materials bearing steel."""
-    from ...materials import materials
+    from ...populations.materials import materials
 
     if as_json and as_table:
         raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")
@@ -70,8 +71,8 @@ def _in_range(entry: dict[str, Any], key: str, scale: float, unit: str) -> str:
     if key not in entry:
         return "-"
     low, high = entry.get("range", {}).get(key, (entry[key], entry[key]))
-    spread = f" ({low / scale:.5g} to {high / scale:.5g})" if low < high else ""
-    return f"{entry[key] / scale:.5g}{unit}{spread}"
+    spread = f" ({number(low / scale, 5)} to {number(high / scale, 5)})" if low < high else ""
+    return f"{number(entry[key] / scale, 5)}{unit}{spread}"
 
 
 def _materials_in_markdown(entries: dict[str, dict[str, Any]]) -> str:

@@ -20,7 +20,7 @@ def command(
     ] = False,
 ) -> None:
     """The outputs of a contact: friction, temperature, conductance, wear ..., with their keys."""
-    from ...outputs.catalogue import entries, page
+    from ...effects.catalogue import entries, page
 
     if as_json and as_page:
         raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")

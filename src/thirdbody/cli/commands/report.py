@@ -22,8 +22,8 @@ def command(
     settings: Settings = None,
 ) -> None:
     """A report to hand on: answer, figures, tables, error bars and sources, in one file."""
-    from ...files import need_folders, write_text
-    from ...report import report
+    from ...quantities.files import need_folders, write_text
+    from ...views.report import report
 
     asked = read_study(study, settings)
     need_folders(out)

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from ...errors import InvalidValue
-from ...studies import PAPERS
+from ...papers import PAPERS
 from ..options import not_a_folder
 
 __all__ = ["command"]
@@ -40,7 +40,7 @@ def command(
     problems += not_a_folder(folder)
     if problems:
         raise InvalidValue(*problems)
-    study = import_module(f"thirdbody.studies.{paper}")
+    study = import_module(f"thirdbody.papers.{paper}")
     with _Progress() as progress:
         chosen = {} if preset is None else {"preset": preset}
         done = study.reproduce(folder, progress=progress, **chosen)

@@ -10,9 +10,20 @@ from typing import Annotated, Any
 
 import typer
 
+from ...equilibrium.words import (
+    carried,
+    critical_load,
+    happens,
+    load_of,
+    mode_of,
+    mode_path,
+    two_bodies,
+    unsolved,
+)
 from ...errors import NoEquilibrium
+from ...quantities.say import number, percent, unit_of, value_of
 from ..options import AsJson, Settings, StudyFile, read_study
-from ..show import as_length, as_number, as_percent, as_pressure, table_of, terminal
+from ..show import table_of, terminal
 from ..streams import warn, write_csv
 
 __all__ = ["command", "summary"]
@@ -56,7 +67,7 @@ def command(
 
 def _columns(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, str]]:
     """Columns of the states, then those of each of several populations, and their units."""
-    from ...equilibrium import about
+    from ...equilibrium.columns import about
 
     columns = dict(result["states"])
     units = {name: about(name)["unit"] for name in columns}
@@ -73,23 +84,25 @@ def _show(result: dict[str, Any]) -> None:
     states, scales = result["states"], result["scales"]
     three_body = result["inputs"]["particles"] is not None
     console.print(f"{result['title'] or 'Study'} (thirdbody {result['version']})")
-    console.print(f"E_ss = {scales['E_ss'] / 1e9:.4g} GPa, sigma = {as_length(scales['sigma'])}")
+    console.print(
+        f"E_ss = {value_of(scales['E_ss'], 'Pa')}, sigma = {value_of(scales['sigma'], 'm')}"
+    )
 
     loads: Columns = {
-        "F*": lambda i: as_number(states["F_star"][i]),
-        "pressure": lambda i: as_pressure(states["pressure"][i]),
+        "F*": lambda i: number(states["F_star"][i]),
+        "pressure": lambda i: value_of(states["pressure"][i], "Pa"),
     }
     columns = loads | {
-        "d": lambda i: as_length(states["d"][i]),
-        "d/sigma": lambda i: as_number(states["d_star"][i]),
-        "A_t": lambda i: as_number(states["A_t"][i]),
-        "A_ss": lambda i: as_number(states["A_ss"][i]),
+        "d": lambda i: value_of(states["d"][i], "m"),
+        "d/sigma": lambda i: number(states["d_star"][i]),
+        "A_t": lambda i: number(states["A_t"][i]),
+        "A_ss": lambda i: number(states["A_ss"][i]),
     }
     if three_body:
         columns |= {
-            "A_sa": lambda i: as_number(states["A_sa"][i]),
-            "particles' load": lambda i: as_percent(states["particle_load_share"][i]),
-            "particles' area": lambda i: as_percent(states["particle_area_share"][i]),
+            "A_sa": lambda i: number(states["A_sa"][i]),
+            "particles' load": lambda i: percent(states["particle_load_share"][i]),
+            "particles' area": lambda i: percent(states["particle_area_share"][i]),
             "mode": lambda i: states["mode"][i] or "-",
         }
     total = len(states["status"])
@@ -101,9 +114,8 @@ def _show(result: dict[str, Any]) -> None:
         console.print(_output_table(states))
     if total > MOST_ROWS:
         console.print(f"{MOST_ROWS} of {total} states shown; --csv FILE writes all\n")
-    for status in dict.fromkeys(states["status"]):
-        if status != "ok":
-            console.print(f"{states['status'].count(status)} state(s) unsolved: {status}")
+    for sentence in unsolved(states["status"]):
+        console.print(sentence)
     if three_body:
         console.print(_transition_table(result["transitions"], scales["E_ss"]))
     console.print(summary(result))
@@ -123,7 +135,7 @@ def _population_columns(populations: list[dict[str, Any]]) -> Columns:
     """Shares of load and area of each population."""
 
     def share(part: dict[str, Any], key: str) -> Callable[[int], str]:
-        return lambda i: as_percent(part[key][i])
+        return lambda i: percent(part[key][i])
 
     out: Columns = {}
     for part in populations:
@@ -134,35 +146,30 @@ def _population_columns(populations: list[dict[str, Any]]) -> Columns:
 
 def _output_table(states: dict[str, Any]) -> Any:
     """A row for each number of an output, at a few of the loads."""
-    from ...equilibrium import COLUMNS, about
+    from ...equilibrium.columns import COLUMNS, about
 
     total = len(states["status"])
     count = min(total, MOST_LOADS)
     which = [round(k * (total - 1) / max(count - 1, 1)) for k in range(count)]
-    table = table_of(("", *(as_pressure(states["pressure"][i]) for i in which), "unit", "meaning"))
+    table = table_of(
+        ("", *(value_of(states["pressure"][i], "Pa") for i in which), "unit", "meaning")
+    )
     for name in states:
         if name not in COLUMNS:
             told = about(name)
-            unit = "" if told["unit"] == "1" else told["unit"]
-            cells = (as_number(states[name][i]) for i in which)
-            table.add_row(name, *cells, unit, told["meaning"])
+            cells = (number(states[name][i]) for i in which)
+            table.add_row(name, *cells, unit_of(told["unit"]), told["meaning"])
     return table
 
 
 def _transition_table(critical: dict[str, Any], E_ss: float) -> Any:
-    turning = critical["F_tpca"]
-    rows = {
-        "F_cr1: asperities come into contact (p-s to hybrid)": critical["F_cr1"],
-        "F_cr2: particles have little of the contact left (hybrid to s-s)": critical["F_cr2"],
-        "F_tpca A: largest particle share": turning["A"],
-        "F_tpca B: equal loads": turning["B"],
-        "F_tpca C: strongest bend of the area": turning["C"],
-    }
+    entries = {"F_cr1": critical["F_cr1"], "F_cr2": critical["F_cr2"]}
+    entries |= {f"F_tpca {which}": entry for which, entry in critical["F_tpca"].items()}
     table = table_of(("critical load", "F*", "pressure", "status"))
-    for name, entry in rows.items():
-        value = entry["value"]
-        load = None if value is None else value * E_ss
-        table.add_row(name, as_number(value), as_pressure(load), entry["status"])
+    for name, entry in entries.items():
+        value, status = entry["value"], entry["status"]
+        loads = (critical_load(value, status), critical_load(value, status, E_ss))
+        table.add_row(f"{name}: {happens(name)}", *loads, status)
     return table
 
 
@@ -171,33 +178,25 @@ def summary(result: dict[str, Any]) -> str:
     states = result["states"]
     known = [i for i, status in enumerate(states["status"]) if status == "ok"]
     three_body = result["inputs"]["particles"] is not None
-    words = {
-        "p-s": "nearly all real contact is on particles (p-s)",
-        "hybrid": "real contact is on particles and on asperities (hybrid)",
-        "s-s": "nearly all real contact is on asperities (s-s)",
-    }
 
     def state(i: int) -> str:
-        gap = f"separation {as_length(states['d'][i])} ({states['d_star'][i]:.3g} sigma)"
-        area = f"real contact area {as_percent(states['A_t'][i])} of the nominal area"
+        gap = f"separation {value_of(states['d'][i], 'm')} ({number(states['d_star'][i], 3)} sigma)"
+        if not states["A_t"][i]:
+            return f"{mode_of(None)}; {gap}"
+        area = f"real contact area {percent(states['A_t'][i])} of the nominal area"
         if not three_body:
-            return f"{gap}, {area}"
-        share = f"particles carry {as_percent(states['particle_load_share'][i])} of the load"
-        if parts := result["populations"]:
-            each = (f"{part['name']} {as_percent(part['load_share'][i])}" for part in parts)
-            share += f" ({', '.join(each)})"
-        if states["mode"][i] is None:
-            return f"no contact, {gap}"
-        return f"{words[states['mode'][i]]}; {share}, {gap}, {area}"
+            return f"{two_bodies()}; {gap}, {area}"
+        parts = {part["name"]: part["load_share"][i] for part in result["populations"]}
+        share = carried(states["particle_load_share"][i], parts)
+        return f"{mode_of(states['mode'][i])}, and {share}; {gap}, {area}"
 
-    def load(i: int) -> str:
-        return f"{as_pressure(states['pressure'][i])} (F* = {as_number(states['F_star'][i])})"
+    def at(i: int) -> str:
+        return f"At {load_of(states['pressure'][i], states['F_star'][i])} {state(i)}."
 
     known.sort(key=lambda i: states["pressure"][i])
     first, last = known[0], known[-1]
     if first == last:
-        return f"At {load(first)}: {state(first)}."
-    modes = [states["mode"][i] or "no contact" for i in known]
-    path = [mode for i, mode in enumerate(modes) if i == 0 or mode != modes[i - 1]]
-    passes = f" In between the mode goes {' -> '.join(path)}." if len(path) > 1 else ""
-    return f"At {load(first)}: {state(first)}. At {load(last)}: {state(last)}.{passes}"
+        return at(first)
+    if not three_body:
+        return f"{at(first)} {at(last)}"
+    return f"{at(first)} {at(last)} {mode_path(states['mode'][i] for i in known)}."

@@ -10,8 +10,9 @@ from typing import Annotated, Any
 import typer
 
 from ...errors import InvalidValue
+from ...quantities.say import number, signed, value_of
 from ..options import AsJson, not_a_folder
-from ..show import as_length, as_number, finite, table_of, terminal
+from ..show import finite, table_of, terminal
 from ..streams import warn, write_csv
 
 __all__ = ["command"]
@@ -55,8 +56,8 @@ def command(
     ] = None,
 ) -> None:
     """Moments and asperities of a measured surface, and what they owe to the cut-off."""
-    from ...topography import from_topography
-    from ...units import to_si
+    from ...populations.measured.topography import from_topography
+    from ...quantities.units import to_si
 
     problems: list[str] = []
 
@@ -96,8 +97,8 @@ def command(
 def _write_surface(folder: Path, found: Any, result: dict[str, Any]) -> list[Path]:
     import matplotlib as mpl
 
-    from ...files import whole, write_text
-    from ...plot import surface as draw
+    from ...quantities.files import whole, write_text
+    from ...views.plot.topography import surface as draw
 
     folder.mkdir(parents=True, exist_ok=True)
     out = [folder / f"surface.{suffix}" for suffix in ("png", "svg", "json")]
@@ -114,20 +115,22 @@ def _show_surface(found: Any, result: dict[str, Any]) -> None:
     """What was read, the answer at the cut-off used, and its course with the cut-off."""
     console = terminal()
     points = " x ".join(map(str, result["points"]))
-    sides = " x ".join(map(as_length, result["size"]))
+    sides = " x ".join(value_of(side, "m") for side in result["size"])
     kind = "map" if found.dim == 2 else "profile"
     console.print(f"{found.source}: {kind} of {points} points, {sides}")
     sampled, used = result["as_sampled"], result["cutoff"]
     console.print(
-        f"as sampled: RMS height {as_length(sampled['rms_height'])}, RMS "
-        f"{'gradient' if found.dim == 2 else 'slope'} {as_number(sampled['rms_slope'])}, RMS "
-        f"curvature {as_number(sampled['rms_curvature'])} 1/m"
+        f"as sampled: RMS height {value_of(sampled['rms_height'], 'm')}, RMS "
+        f"{'gradient' if found.dim == 2 else 'slope'} {number(sampled['rms_slope'])}, RMS "
+        f"curvature {value_of(sampled['rms_curvature'], '1/m')}"
     )
-    limit = "" if used["instrument_limit"] is None else as_length(used["instrument_limit"]) + ", "
+    limit = (
+        "" if used["instrument_limit"] is None else value_of(used["instrument_limit"], "m") + ", "
+    )
     console.print(f"limit of the instrument: {limit}{used['instrument_limit_reason']}")
-    console.print(f"recommended cut-off: {as_length(used['recommended'])}: {used['reason']}")
+    console.print(f"recommended cut-off: {value_of(used['recommended'], 'm')}: {used['reason']}")
     console.print()
-    at = "as sampled" if used["used"] == 0 else f"at {as_length(used['used'])}"
+    at = "as sampled" if used["used"] == 0 else f"at {value_of(used['used'], 'm')}"
     columns = ("sigma", "R", "eta [1/m^2]", "eta R sigma", "alpha", "sigma_s", "y_s")
     answer = table_of((at, *columns), right=True)
     answer.columns[0].justify = "left"
@@ -135,25 +138,25 @@ def _show_surface(found: Any, result: dict[str, Any]) -> None:
     for label, one in (("differences", found.moments), ("spectrum", spectral)):
         answer.add_row(
             label,
-            as_length(one.sigma),
-            as_length(one.R),
-            as_number(one.eta),
-            as_number(one.eta * one.R * one.sigma),
-            as_number(one.alpha),
-            as_length(one.sigma_s),
-            as_length(one.y_s),
+            value_of(one.sigma, "m"),
+            value_of(one.R, "m"),
+            number(one.eta),
+            number(one.eta * one.R * one.sigma),
+            number(one.alpha),
+            value_of(one.sigma_s, "m"),
+            value_of(one.y_s, "m"),
         )
     if found.dim == 2 and found.summits.count > 1:
         counted = found.summits
         answer.add_row(
             f"{counted.count} summits",
-            as_length(found.moments.sigma),
-            as_length(counted.R),
-            as_number(counted.density),
-            as_number(counted.density * counted.R * found.moments.sigma),
+            value_of(found.moments.sigma, "m"),
+            value_of(counted.R, "m"),
+            number(counted.density),
+            number(counted.density * counted.R * found.moments.sigma),
             "-",
-            as_length(counted.sigma_s),
-            as_length(counted.y_s),
+            value_of(counted.sigma_s, "m"),
+            value_of(counted.y_s, "m"),
         )
     console.print(answer)
     curve = finite(result["curve"])
@@ -162,18 +165,19 @@ def _show_surface(found: Any, result: dict[str, Any]) -> None:
     change = found.curve().per_octave("R")
     for i, cut in enumerate(curve["cutoff"]):
         course.add_row(
-            as_length(cut),
-            as_length(curve["sigma"][i]),
-            as_number(curve["rms_gradient"][i]),
-            as_number(curve["alpha"][i]),
-            as_length(curve["R"][i]),
-            as_length(curve["R_counted"][i]),
-            as_number(curve["eta"][i]),
-            as_number(curve["eta_counted"][i]),
-            f"{100 * change[i]:+.0f} %",
+            value_of(cut, "m"),
+            value_of(curve["sigma"][i], "m"),
+            number(curve["rms_gradient"][i]),
+            number(curve["alpha"][i]),
+            value_of(curve["R"][i], "m"),
+            value_of(curve["R_counted"][i], "m"),
+            number(curve["eta"][i]),
+            number(curve["eta_counted"][i]),
+            signed(100 * change[i], 0, "%"),
         )
     console.print(course)
     console.print(
-        f"skewness {result['skewness']:.3g}, kurtosis {result['kurtosis']:.3g}, mean square slopes "
-        f"{as_number(result['anisotropy'])} : 1 along and across"
+        f"skewness {number(result['skewness'], 3)}, kurtosis {number(result['kurtosis'], 3)}, "
+        "mean square slopes "
+        f"{number(result['anisotropy'])} : 1 along and across"
     )

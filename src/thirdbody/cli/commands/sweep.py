@@ -9,8 +9,9 @@ from typing import Annotated
 import typer
 
 from ...errors import InvalidValue, NoEquilibrium
+from ..interrupt import INTERRUPTED
 from ..options import Settings
-from ..streams import INTERRUPTED, complain, warn
+from ..streams import complain, warn
 
 __all__ = ["command"]
 
@@ -40,7 +41,7 @@ def command(
     settings: Settings = None,
 ) -> None:
     """Many states, in a folder: on a grid, in pairs or sampled; resumable."""
-    from ...streaming import FORMATS, run
+    from ...analysis.sweep.streaming import FORMATS, run
     from ...study import load_study
 
     problems = []
@@ -65,7 +66,7 @@ def command(
     assert plan is not None
     client = None
     if scheduler is not None:
-        from ...cluster import connected
+        from ...analysis.sweep.cluster import connected
 
         client = connected(scheduler)
     try:

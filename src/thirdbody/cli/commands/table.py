@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 
 from ...errors import InvalidValue
+from ...quantities.say import value_of
 from ..options import Settings, StudyFile, read_study
-from ..show import as_length, as_pressure
 
 __all__ = ["command"]
 
@@ -47,8 +47,9 @@ def command(
     settings: Settings = None,
 ) -> None:
     """Pressure and real area of a study's contact against separation, for other solvers."""
-    from ...table import FORMATS, rounded_up
-    from ...units import to_si
+    from ...equilibrium.table.make import table
+    from ...equilibrium.table.writers import FORMATS, rounded_up
+    from ...quantities.units import to_si
 
     suffixes = {suffix: name for name, (_, suffix) in FORMATS.items()}
     name = form or suffixes.get(out.suffix.lower())
@@ -72,15 +73,19 @@ def command(
     if problems or name is None:
         raise InvalidValue(*problems)
     asked = read_study(study, settings)
-    made = asked.contact.table(
-        low=ends["low"], high=ends["high"], tolerance=tolerance, coordinate=coordinate
+    made = table(
+        asked.contact,
+        low=ends["low"],
+        high=ends["high"],
+        tolerance=tolerance,
+        coordinate=coordinate,
     )
     write, _ = FORMATS[name]
     write(made, out, **({} if units is None else {"units": units}))
-    first, last = (as_pressure(float(made.p(end))) for end in made.h[[0, -1]])
+    first, last = (value_of(float(made.p(end)), "Pa") for end in made.h[[0, -1]])
     print(
-        f"written: {out} ({name}): {coordinate} from {as_length(made.h[0])} to "
-        f"{as_length(made.h[-1])}, p from {first} to {last}; relative errors at most "
+        f"written: {out} ({name}): {coordinate} from {value_of(made.h[0], 'm')} to "
+        f"{value_of(made.h[-1], 'm')}, p from {first} to {last}; relative errors at most "
         f"{rounded_up(made.error.p)} of p, {rounded_up(made.error.A)} of A_t, "
         f"{rounded_up(made.error.dp_dh)} of dp/d{coordinate}",
         file=sys.stderr,

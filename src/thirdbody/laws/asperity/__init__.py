@@ -1,10 +1,11 @@
 """Laws of one asperity. A new law is one file here and one import line below."""
 
+from ...reference import elliptic_hertz
 from ..base import AbstractAsperityLaw, Branch, Jump
 from .adhesive import DMT, JKR
 from .ceb import CEB
 from .coated import Coated
-from .elliptic import EllipticCEB, EllipticZMC, elliptic_hertz
+from .elliptic import EllipticCEB, EllipticZMC
 from .gw import GW
 from .hermite import Hermite
 from .jg import JG

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Self
 
 from ...errors import InvalidValue
-from ...layer import ElasticLayer
-from ...values import quantity
+from ...quantities.value import quantity
 from ..base import AbstractAsperityLaw, Branch
+from .layer import ElasticLayer
 
 __all__ = ["Coated"]
 
@@ -25,8 +25,8 @@ class Coated(AbstractAsperityLaw):
               E_1^* = \frac{E_1}{1-\nu_1^2}
 
     with functions that depend on the materials alone, from the integral equation of
-    `thirdbody.layer`. Hertz with E_1* for a ≪ t and with E_2* for a ≫ t; with E_3, each in
-    series with E_3*.
+    `thirdbody.laws.asperity.layer`. Hertz with E_1* for a ≪ t and with E_2* for a ≫ t; with E_3,
+    each in series with E_3*.
 
     Parameters
     ----------

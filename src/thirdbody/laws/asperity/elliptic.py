@@ -2,83 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from functools import cache
-from typing import NamedTuple
 
 import numpy as np
-from scipy.special import elliprd, elliprf
 
-from ...values import choice, quantity
+from ...quantities.value import choice, quantity
+from ...reference import elliptic_hertz
 from ..base import Branch, Jump
 from .yielding import PeakPressureLaw
 from .zmc import ZMC
 
-__all__ = ["EllipticCEB", "EllipticZMC", "elliptic_hertz"]
-
-
-class EllipticHertz(NamedTuple):
-    """An elastic contact of principal radii R′ ≥ R″, in units of R_g = √(R′R″)."""
-
-    k: float
-    """Axis ratio a_y/a_x ≤ 1 of the contact."""
-    K: float
-    """Complete elliptic integral of the first kind, parameter 1 − k²."""
-    R_A: float
-    """A = π R_A ω, over R_g."""
-    root_R_F: float
-    """F = (4/3) E* √R_F ω^(3/2), √(R_F/R_g)."""
-    yield_factor: float
-    """ω at mean pressure p over (p/E*)² R_g."""
-
-
-@cache
-def elliptic_hertz(ratio: float) -> EllipticHertz:
-    r"""The elastic contact of an elliptic asperity with a flat, exactly.
-
-    .. math:: \lambda = R'/R'' = \frac{R_D(0,1,k^2)}{R_D(0,k^2,1)}
-
-    with Carlson's integrals, which do not cancel near the circle or the line.
-
-    Parameters
-    ----------
-    ratio : float
-        λ = R′/R″ ≥ 1 [1].
-
-    Returns
-    -------
-    EllipticHertz
-
-    References
-    ----------
-    Johnson 1985, Contact Mechanics, ch. 4; Carlson 1995, Numer. Algorithms 10, 13,
-    doi:10.1007/BF02198293.
-
-    Examples
-    --------
-    >>> round(elliptic_hertz(4.0).R_A, 5)
-    0.97555
-    """
-    k = 1.0
-    if ratio > 1:
-        from scipy.optimize import brentq
-
-        def excess(log_k: float) -> float:
-            kk = math.exp(2 * log_k)
-            return math.log(elliprd(0, 1, kk) / elliprd(0, kk, 1) / ratio)
-
-        k = math.exp(brentq(excess, -math.log(ratio) - 1e-9, 0.0, xtol=1e-16, rtol=1e-15))
-    K = float(elliprf(0, k * k, 1))
-    D = float(elliprd(0, k * k, 1)) / 3
-    larger = math.sqrt(ratio)  # R′/R_g
-    return EllipticHertz(
-        k=k,
-        K=K,
-        R_A=2 * larger * k * D / K,
-        root_R_F=math.pi / 2 * math.sqrt(2 * larger * D) * K**-1.5,
-        yield_factor=9 / 4 * k * k * 2 * larger * D * K,
-    )
+__all__ = ["EllipticCEB", "EllipticZMC"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

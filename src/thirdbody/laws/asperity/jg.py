@@ -9,7 +9,7 @@ from typing import Self
 import numpy as np
 
 from ...errors import InvalidValue
-from ...values import quantity
+from ...quantities.value import quantity
 from ..base import AbstractAsperityLaw, Branch, Jump
 
 __all__ = ["JG"]

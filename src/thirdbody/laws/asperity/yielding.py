@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Self
 
 from ...errors import InvalidValue
-from ...values import quantity
+from ...quantities.value import quantity
 from ..base import AbstractAsperityLaw
 
 __all__ = ["PeakPressureLaw"]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...values import quantity
+from ...quantities.value import quantity
 from ..base import AbstractAsperityLaw, Branch, Jump
 
 __all__ = ["ZMC"]

@@ -1,8 +1,9 @@
 """Laws of particles between two surfaces. A new law is one file here and one import line below."""
 
-from ..base import AbstractParticleLaw, ParticleResponse
+from ..base import AbstractParticleLaw, OneParticle, SeatedLaw, Squeezed
 from .flakes import Flakes
 from .horng2022 import PRESETS, Horng2022
+from .one_particle import contact_sides
 from .series import Series
 
 REGISTRY = AbstractParticleLaw.registry
@@ -14,6 +15,9 @@ __all__ = [
     "AbstractParticleLaw",
     "Flakes",
     "Horng2022",
-    "ParticleResponse",
+    "OneParticle",
+    "SeatedLaw",
     "Series",
+    "Squeezed",
+    "contact_sides",
 ]

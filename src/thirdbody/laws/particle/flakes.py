@@ -3,17 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from ...errors import InvalidValue
-from ...values import quantity
-from ..base import ParticleResponse
+from ...quantities.value import quantity
 from .series import Series
-
-if TYPE_CHECKING:
-    from ...materials import MaterialPair
-    from ...particles import Particles
-    from ...surfaces import Roughness
 
 __all__ = ["Flakes"]
 
@@ -82,12 +74,8 @@ class Flakes(Series):
         """R_p/τ = (D/τ)²/2."""
         return 0.5 * self.aspect**2
 
-    def response(
-        self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
-    ) -> ParticleResponse:
-        if (coverage := self._coverage(particles)) >= 1:
-            raise InvalidValue(
-                f"flakes of aspect {self.aspect:g} would cover {coverage:.3g} of the nominal area "
-                "and it must stay below 1; the size distribution is that of their thickness"
-            )
-        return Series.response(self, surfaces, roughness, particles)
+    def jammed(self, coverage: float) -> str:
+        return (
+            f"flakes of aspect {self.aspect:g} would cover {coverage:.3g} of the nominal area "
+            "and it must stay below 1; the size distribution is that of their thickness"
+        )

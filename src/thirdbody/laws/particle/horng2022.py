@@ -3,26 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from ...errors import InvalidValue
-from ...materials import reduced_modulus
-from ...values import choice, quantity
-from ..base import AbstractParticleLaw, ParticleResponse
+from ...quantities.value import choice, quantity
+from ..base import AbstractParticleLaw, OneParticle
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from ...distributions import Distribution
-    from ...materials import MaterialPair
-    from ...particles import Particles
-    from ...surfaces import Roughness
-
-    Array = NDArray[np.float64]
+    from ...populations.materials import Material, MaterialPair
 
 __all__ = ["PRESETS", "Horng2022"]
 
@@ -34,6 +23,11 @@ PRESETS: dict[str, dict[str, Any]] = {
     "literal": dict(h_e_rule="approach"),
 }
 """What each reading of the printed equations changes; the rest is as printed."""
+
+NO_ONE_PARTICLE = (
+    "this particle law knows loads and areas of all particles together, not how deep one of them "
+    "sits; outputs need particle.Series or particle.Flakes"
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -146,115 +140,5 @@ class Horng2022(AbstractParticleLaw):
     def centre(self) -> float:
         return self.datum
 
-    def response(
-        self, surfaces: MaterialPair, roughness: Roughness, particles: Particles
-    ) -> ParticleResponse:
-        return PrintedIntegrals(self, surfaces, roughness, particles)
-
-
-class PrintedIntegrals(ParticleResponse):
-    """The printed integrals in closed form, as functions of d."""
-
-    monotone = False
-
-    def __init__(
-        self, law: Horng2022, surfaces: MaterialPair, roughness: Roughness, particles: Particles
-    ):
-        self.law, self.sizes = law, particles.diameter
-        H1, H2, Ha = surfaces.first.H, surfaces.second.H, particles.material.H
-        if law.hardness_rule == "softer":
-            H1, H2 = min(H1, Ha), min(H2, Ha)
-        elif law.hardness_rule == "replace2":
-            H2 = Ha
-        E1 = law.kappa_C * reduced_modulus(surfaces.first, particles.material)
-        second = (
-            surfaces.E_star
-            if law.second_modulus == "ss"
-            else reduced_modulus(surfaces.second, particles.material)
-        )
-        self.C = 9 * math.pi**2 / 4 * ((H1 / E1) ** 2 + (H2 / (law.kappa_C * second)) ** 2)
-        self.x_a = nominal_diameter(self.sizes)
-        if law.h_e_rule == "approach":
-            self.h_e = self.C * self.x_a / 2
-        else:
-            self.h_e = law.h_e_sigma * roughness.sigma + law.h_e_diameter * self.x_a
-        eta = law.chi * particles.areal_density
-        if not law.normalise:
-            eta *= self.sizes.retained_mass
-        if law.hardness_rule == "sum":
-            self.area_factor = math.pi * eta * Ha / (H1 + Ha)
-            self.pressure = H1 + Ha
-        else:
-            self.area_factor = math.pi * eta * H2 / (H1 + H2)
-            self.pressure = H1
-        self.shadow_factor = math.pi * eta * H1 / (H1 + H2)
-        low, high = self.sizes.support
-        self.reach = high + self.h_e
-        width = (high - low) / 6 or self.x_a
-        self.resolution = min(roughness.sigma, self.h_e or np.inf, width) / 40
-
-    def _moment(self, weight: str, a: Array | float, b: Array | float) -> Array:
-        if weight == "xa2":
-            return self.x_a**2 * self.sizes.partial_moment(0, a, b)
-        return self.sizes.partial_moment(2, a, b)
-
-    def _density(self, x: Array) -> Array:
-        """w(x) φ_a(x)."""
-        scale = self.x_a if self.law.weight == "xa2" else x
-        return scale**2 * self.sizes.pdf(x)
-
-    def _window(self, d: Array) -> Array:
-        return self.C * self._moment(self.law.weight, d - self.h_e, d)
-
-    def _above(self, d: Array) -> Array:
-        """∫_d^x_max w_p φ_a dx, the plastic footprint."""
-        if not self.law.plastic:
-            return np.zeros_like(d)
-        if self.law.plastic_weight == "xxd":
-            m2 = self.sizes.partial_moment(2, d, np.inf)
-            return m2 - d * self.sizes.partial_moment(1, d, np.inf)
-        return self._moment(self.law.weight, d, np.inf)
-
-    def _above_slope(self, d: Array) -> Array:
-        if not self.law.plastic:
-            return np.zeros_like(d)
-        if self.law.plastic_weight == "xxd":
-            return -self.sizes.partial_moment(1, d, np.inf)
-        return -self._density(d)
-
-    def _shadow(self, d: Array) -> Array:
-        if self.law.shadow == "none":
-            return np.zeros_like(d)
-        lower = d if self.law.shadow == "d" else np.zeros_like(d)
-        return self.shadow_factor * self._above(lower)
-
-    def load(self, d: Array) -> tuple[Array, Array]:
-        force, shadow = np.zeros((len(d), 3)), np.zeros((len(d), 3))
-        window_slope = self.C * (self._density(d) - self._density(d - self.h_e))
-        force[:, 0] = self._window(d) + self._above(d)
-        force[:, 1] = window_slope + self._above_slope(d)
-        force *= self.pressure * self.area_factor
-        shadow[:, 0] = self._shadow(d)
-        if self.law.shadow == "d":
-            shadow[:, 1] = self.shadow_factor * self._above_slope(d)
-        over = shadow[:, 0] >= 1
-        shadow[over] = [1.0, 0.0, 0.0]
-        return force, shadow
-
-    def fields(self, d: Array) -> dict[str, Array]:
-        window, above = (self.area_factor * part for part in (self._window(d), self._above(d)))
-        elastic = window if self.law.particle_regime == "split" else np.zeros_like(d)
-        total = window + above
-        return {
-            "F_sa": self.pressure * total,
-            "A_e": elastic,
-            "A_ep": np.zeros_like(d),
-            "A_p": total - elastic,
-            "A_sa2": total,
-            "shadow": np.minimum(self._shadow(d), 1.0),
-        }
-
-
-def nominal_diameter(sizes: Distribution) -> float:
-    """x_a as the paper means it: the centre of the Gaussian, or the mean of another law [m]."""
-    return getattr(sizes, "mean", None) or sizes.mean_diameter
+    def one(self, *, surfaces: MaterialPair, particle: Material) -> OneParticle:
+        raise InvalidValue(NO_ONE_PARTICLE)

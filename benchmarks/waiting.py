@@ -1,0 +1,94 @@
+"""What a user waits for at the command line and at the page, in seconds of one processor.
+
+python benchmarks/waiting.py
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import resource
+import subprocess
+import sys
+import time
+import tomllib
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).parent))
+import run
+
+import thirdbody as tb
+from thirdbody.study import check
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+REPEATS = 3
+LOADING = ["-c", "import numpy, pydantic, scipy.optimize.elementwise, scipy.special, typer"]
+
+
+def here(call: Callable[[], Any]) -> float:
+    """The least processor time of a call, after one that loads and compiles."""
+    call()
+    spent = []
+    for _ in range(REPEATS):
+        start = time.process_time()
+        call()
+        spent.append(time.process_time() - start)
+    return min(spent)
+
+
+def process(*words: str) -> float:
+    """The least processor time of a Python process."""
+    spent = []
+    for _ in range(REPEATS):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([sys.executable, *words], capture_output=True, check=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        spent.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    return min(spent)
+
+
+def main() -> int:
+    warnings.simplefilter("ignore", tb.RangeWarning)
+    dusty, additive = (str(EXAMPLES / f"{n}.toml") for n in ("dusty_ball_screw", "additive"))
+    one = ["-m", "thirdbody", "solve", dusty, "--json", "--set", "load.pressure=5 MPa"]
+    rows: list[tuple[str, Callable[[], float]]] = [
+        ("loading what a command is built on", lambda: process(*LOADING)),
+        ("one state by command", lambda: process(*one)),
+        ("a design by command", lambda: process("-m", "thirdbody", "design", additive)),
+        (
+            "a mode map of 40 000 states",
+            lambda: here(lambda: tb.plot.mode_map(run.contact("rough"))),
+        ),
+    ]
+    if importlib.util.find_spec("nicegui") is not None:
+        rows += [("200 loads after a slider moved", slider), ("the curve of a film", film)]
+    for what, measured in rows:
+        print(f"{what:36s} {measured():8.3f} s")
+    return 0
+
+
+def slider() -> float:
+    from thirdbody.app.examples import example
+    from thirdbody.app.state import State
+    from thirdbody.app.tabs.curves import figures
+
+    state, nm = State(example("dusty_ball_screw")), iter(range(101, 200))
+
+    def step() -> None:
+        state.set("roughness", "sigma", f"{next(nm)} nm")
+        figures(state.answer, "F_star", state.at, critical=False)
+
+    return here(step)
+
+
+def film() -> float:
+    from thirdbody.app.tabs.film import solved
+
+    study = check(tomllib.loads((EXAMPLES / "oil_film.toml").read_text("utf-8")))
+    return here(lambda: solved(study))
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

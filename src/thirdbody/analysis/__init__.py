@@ -1,0 +1,1 @@
+"""Analysis: many states, what matters, how sure, what would be better."""

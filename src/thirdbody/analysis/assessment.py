@@ -1,0 +1,378 @@
+"""What an assessment says, in sections and sentences."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..contact.citations import cite
+from ..contact.contact import Contact
+from ..equilibrium.words import (
+    critical_load,
+    critical_name,
+    happens,
+    load_of,
+    mode_of,
+    not_met,
+    two_bodies,
+)
+from ..quantities import notebook
+from ..quantities.say import listed, number, percent, span, times, value_of
+from .inputs import declared
+from .inputs import inputs as all_inputs
+from .uncertainty.critical_loads import CRITICAL
+from .uncertainty.propagation import OUTPUTS, Propagation, about_result, plain
+
+__all__ = ["Assessment", "Change"]
+
+SHOWN = ("particle_load_share", "particle_area_share", "plastic_share", "A_t", "d", "h")
+"""What the page tells of the state."""
+BAND = (0.05, 0.5, 0.95)
+FAR, COARSE, FINE = 10.0, 41, 81
+"""Factor within which a change of mode is sought in an input, and the values tried."""
+RARE = 1e-4
+"""Probability below which a value counts as outside the range of an input."""
+
+
+class Change(NamedTuple):
+    """How far one input, the others as they are, must go to change the mode."""
+
+    input: str
+    value: float
+    mode: str
+    beyond: float
+    """Probability that the input is there or farther."""
+
+    def to_dict(self) -> dict[str, Any]:
+        return {
+            "input": self.input,
+            "value": self.value,
+            "mode": self.mode,
+            "probability": self.beyond,
+            "within_range": self.beyond >= RARE,
+        }
+
+
+class Section(NamedTuple):
+    """A part of the page: a table, and sentences below it."""
+
+    title: str
+    head: tuple[str, ...] = ()
+    rows: tuple[tuple[str, ...], ...] = ()
+    sentences: tuple[str, ...] = ()
+
+
+# -------------------------------------------------------------------------- the page
+@dataclass(frozen=True, kw_only=True)
+class Assessment:
+    """What an engineer wants to know of a contact under its operating load.
+
+    Attributes
+    ----------
+    title : str
+    propagation : Propagation
+        Bands of everything, at the load.
+    mode : str
+        Contact mode with the contact's own inputs.
+    decisive : str
+        The output by which inputs are ranked: the critical load nearest to the load, or a share.
+    matter : dict
+        Inputs, the one that moves `decisive` most first, and their part of its spread when each
+        goes from the 5th to the 95th percentile alone; NaN where `decisive` ceases to exist.
+    tornado : dict of dict
+        ``tornado[of][input]``, outputs at both ends of each input.
+    elasticity : dict
+        d ln F_cr/d ln p of the nearest critical load; NaN where there is none.
+    changes : tuple of Change
+        Inputs that can change the mode alone, the likeliest first.
+    exact : tuple of str
+        Inputs without a range, taken as exactly known.
+    notes : tuple of str
+        What else is to be said.
+    """
+
+    title: str
+    propagation: Propagation
+    mode: str
+    decisive: str
+    matter: dict[str, float]
+    tornado: dict[str, dict[str, tuple[float, float]]] = field(repr=False)
+    elasticity: dict[str, float]
+    changes: tuple[Change, ...]
+    exact: tuple[str, ...]
+    notes: tuple[str, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The whole page as plain data ready for JSON."""
+        from ..version import __version__
+
+        found = self.propagation
+        return {
+            "title": self.title,
+            "version": __version__,
+            "contact": found.contact.to_dict(),
+            "mode": self.mode,
+            **plain(
+                {
+                    "propagation": found.to_dict(),
+                    "decisive": self.decisive,
+                    "matter": self.matter,
+                    "tornado": self.tornado,
+                    "elasticity": self.elasticity,
+                    "changes": [change.to_dict() for change in self.changes],
+                }
+            ),
+            "exact": list(self.exact),
+            "sentences": {part.title: list(part.sentences) for part in self.sections()},
+            "notes": list(self.notes),
+            "citations": cite(found.contact).splitlines(),
+        }
+
+    def _repr_html_(self) -> str:
+        """The page for notebooks: a table for each part."""
+        out = []
+        for part in self.sections():
+            rows = [notebook.Row(each[0], each[1:]) for each in (part.head, *part.rows) if each]
+            out.append(notebook.card(part.title, rows, part.sentences))
+        return f"<div>{''.join(out)}</div>"
+
+    # ------------------------------------------------------------------ words and tables
+    def headline(self) -> str:
+        """Mode, its probability and the load in one sentence."""
+        found = self.propagation
+        likely = max(found.mode_probability, key=lambda mode: found.mode_probability[mode])
+        parts = [
+            f"{mode} {percent(share, found.mode_error[mode])}"
+            for mode, share in found.mode_probability.items()
+            if share > 0
+        ]
+        load = load_of(found.nominal["pressure"], found.nominal["F_star"])
+        if found.contact.two_body:
+            return f"At {load} {two_bodies()}."
+        agree = "" if likely == self.mode else f" The likeliest mode is {likely}."
+        return (
+            f"At {load} {mode_of(self.mode)}. Probability of each mode: {', '.join(parts)}.{agree}"
+        )
+
+    def sections(self) -> list[Section]:
+        """The page from top to bottom."""
+        parts = [Section("Mode at the operating load", sentences=(self.headline(),))]
+        if not self.propagation.contact.two_body:
+            parts.append(self._margins())
+        parts += [self._state(), self._inputs()]
+        if not self.propagation.contact.two_body:
+            parts.append(Section("What would change the mode", sentences=self._ways()))
+        parts.append(Section("What this rests on", sentences=self._basis()))
+        return parts
+
+    def _band(self, name: str) -> tuple[float, ...]:
+        where = [self.propagation.probabilities.index(q) for q in BAND]
+        return tuple(float(self.propagation.bands[name][i]) for i in where)
+
+    def _margins(self) -> Section:
+        found = self.propagation
+        if "F_cr1" not in found.bands:
+            return Section("Margins", sentences=(NO_CRITICAL.format(_law_of(found)),))
+        rows, sentences = [], []
+        E = found.contact.E_ss
+        for name in (name for name in CRITICAL if name in found.bands):
+            nominal, (low, _, high) = found.nominal[name], self._band(name)
+            status = found.critical_status[name]
+            exists = status.get("found", 0.0)
+            rows.append(
+                (
+                    critical_name(name),
+                    critical_load(nominal),
+                    critical_load(nominal, E_ss=E),
+                    critical_load(low),
+                    critical_load(high),
+                    percent(exists),
+                    happens(name),
+                )
+            )
+        for name in ("F_cr1", "F_cr2"):
+            nominal, (low, _, high) = found.nominal[f"F/{name}"], self._band(f"F/{name}")
+            if not 0 < nominal < math.inf:
+                sentences.append(not_met(name, found.nominal[name]))
+                continue
+            band = f"{number(low, 3)} to {times(high)}"
+            if low == 0 or math.isinf(high):
+                band = f"at most {times(high)}" if low == 0 else f"at least {times(low)}"
+            sentences.append(
+                f"The load is {times(nominal)} {name}, where {happens(name)}; in nine of ten "
+                f"cases it is {band} that load."
+            )
+        head = ("critical load", "F*", "pressure", "5 %", "95 %", "exists", "where")
+        return Section("Margins", head, tuple(rows), tuple(sentences))
+
+    def _state(self) -> Section:
+        found = self.propagation
+        rows = []
+        outputs = [name for each in found.contact.outputs for name in each.columns]
+        for name in (name for name in (*SHOWN, *outputs) if name in found.bands):
+            if found.contact.two_body and name.startswith("particle"):
+                continue
+            low, middle, high = self._band(name)
+            each = (found.nominal[name], low, middle, high)
+            where = [found.probabilities.index(q) for q in BAND]
+            error = _error(float(np.max(found.error[name][where])), name)
+            rows.append((about_result(name)["meaning"], *(_amount(x, name) for x in each), error))
+        head = ("result", "nominal", "5 %", "50 %", "95 %", "error of the bands")
+        lost = 1 - found.solved
+        told = (f"{percent(lost)} of the samples have no equilibrium.",) if lost else ()
+        return Section("State", head, tuple(rows), told)
+
+    def _inputs(self) -> Section:
+        found = self.propagation
+        rows = []
+        for label, part in self.matter.items():
+            known = found.inputs[label]
+            unit, value = _unit(found.contact, label), _nominal(found, label)
+            low, high = self.tornado[self.decisive][label]
+            slope = self.elasticity.get(label, math.nan)
+            rows.append(
+                (
+                    label,
+                    value_of(value, unit),
+                    *(value_of(known.at(end), unit) for end in (0.05, 0.95)),
+                    *(_amount(end, self.decisive) for end in (low, high)),
+                    percent(part, least=1e-3),
+                    number(0.0 if abs(slope) < 1e-4 else slope, 3),
+                )
+            )
+        strongest = list(self.matter)[:3]
+        sentences = [
+            f"Of the inputs, {listed(strongest)} matter{'s' if len(strongest) == 1 else ''} most "
+            f"to {self._decisive()}."
+        ]
+        first = self.matter[strongest[0]] if strongest else math.nan
+        if math.isfinite(first):
+            sentences.append(
+                f"A better value of {strongest[0]} pays most: it alone makes about "
+                f"{percent(first)} of the spread of {self.decisive}"
+                + (" (of its logarithm)." if self.decisive in CRITICAL else ".")
+            )
+        head = (
+            *("input", "value", "5 %", "95 %"),
+            *(f"{self.decisive} at {end}" for end in ("5 %", "95 %")),
+            *("part of spread", "elasticity"),
+        )
+        return Section("Inputs that matter", head, tuple(rows), tuple(sentences))
+
+    def _decisive(self) -> str:
+        if self.decisive in CRITICAL:
+            return f"{self.decisive}, the critical load nearest to this load"
+        return f"the {OUTPUTS[self.decisive]['meaning']}"
+
+    def _ways(self) -> tuple[str, ...]:
+        found = self.propagation
+        out = []
+        F = found.nominal["F_star"]
+        for name, modes in (("F_cr1", ("p-s", "hybrid")), ("F_cr2", ("hybrid", "s-s"))):
+            critical = found.nominal.get(name, math.nan)
+            if 0 < critical < math.inf and self.mode in modes:
+                word = "fall" if critical < F else "rise"
+                other = modes[0] if critical < F else modes[1]
+                load = value_of(critical * found.contact.E_ss, "Pa")
+                out.append(
+                    f"The load would have to {word} to {load} ({times(critical / F)} "
+                    f"the operating load) for {other}."
+                )
+        for change in self.changes:
+            unit, value = _unit(found.contact, change.input), _nominal(found, change.input)
+            word = "falling" if change.value < value else "rising"
+            where = "outside its range"
+            if change.beyond >= RARE:
+                where = f"it is there or beyond in {percent(change.beyond)} of cases"
+            out.append(
+                f"{change.input} {word} from {span(value, change.value, unit)} makes it "
+                f"{change.mode}: {where}."
+            )
+        changed = {change.input for change in self.changes}
+        still = [label for label in found.inputs if label not in changed and label != found.load]
+        if still:
+            out.append(
+                f"{listed(still)}: no change of mode within a factor of {number(FAR)}, the other "
+                "inputs as they are."
+            )
+        return tuple(out)
+
+    def _basis(self) -> tuple[str, ...]:
+        from ..version import __version__
+
+        found = self.propagation
+        sought = f" and {found.critical_samples} of the critical loads"
+        out = [
+            f"{found.samples} samples of the state{sought if found.critical_samples else ''} "
+            f"(scrambled Sobol points, seed {found.seed}); inputs independent of each "
+            f"other; thirdbody {__version__}."
+        ]
+        if self.exact:
+            out.append(f"Taken as exactly known: {', '.join(self.exact)}.")
+        return (*out, *self.notes)
+
+    # ------------------------------------------------------------------ terminal
+    def page(self) -> Any:
+        """The page for a terminal, to print by rich."""
+        from rich import box
+        from rich.console import Group
+        from rich.table import Table
+
+        parts: list[Any] = [self.title or "Assessment"]
+        for section in self.sections():
+            parts += ["", section.title.upper()]
+            if section.rows:
+                table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+                for i, head in enumerate(section.head):
+                    words = not i or head == "where"
+                    table.add_column(
+                        head,
+                        justify="left" if words else "right",
+                        overflow="fold",
+                        no_wrap=not i or head == "elasticity",
+                    )
+                for row in section.rows:
+                    table.add_row(*row)
+                parts.append(table)
+            parts += section.sentences
+        return Group(*parts)
+
+
+NO_CRITICAL = (
+    "No critical loads: with {} as the law of the particles, the load need not fall as the "
+    "separation grows, so that several separations may carry one load and the mode may change "
+    "more than once; the bands of the state below hold, and `transitions` seeks the critical "
+    "loads of single contacts."
+)
+"""What stands for the margins of a law whose load does not tell its separation."""
+
+
+def _law_of(found: Propagation) -> str:
+    return type(found.contact.particle_law).__name__
+
+
+def _amount(value: float, name: str) -> str:
+    if name in CRITICAL:
+        return critical_load(value)
+    unit = about_result(name)["unit"]
+    return percent(value) if unit == "1" and name in OUTPUTS else value_of(value, unit)
+
+
+def _error(error: float, name: str) -> str:
+    unit = about_result(name)["unit"]
+    share = unit == "1" and name in OUTPUTS and name not in CRITICAL
+    return percent(error, digits=1) if share else value_of(error, unit, 1)
+
+
+def _unit(contact: Contact, label: str) -> str:
+    units = {"pressure": "Pa", "F_star": "1", "d": "m"}
+    return units.get(label) or declared(contact, label.split("+")[0])["unit"]
+
+
+def _nominal(found: Propagation, label: str) -> float:
+    if label == found.load:
+        return float(found.loads)
+    return all_inputs(found.contact)[label.split("+")[0].strip()]

@@ -1,0 +1,374 @@
+r"""One interface under every law: what the choice of the asperity law is worth.
+
+The laws of the literature differ in when an asperity yields and what it does then. `compare`
+solves the same contact at the same loads under each of them,
+
+.. math:: \Delta A = 100\,\left(\frac{A_t}{A_t^{own}} - 1\right), \qquad
+          \frac{\Delta d}{\sigma} = \frac{d - d^{own}}{\sigma},
+
+where "own" is the law the contact came with. Only asperities change their law; particles keep
+theirs.
+"""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import difflib
+import io
+import json
+import math
+import re
+import warnings
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.citations import cite
+from ..contact.contact import Contact
+from ..contact.interface import interface
+from ..equilibrium.columns import COLUMNS, Equilibrium
+from ..equilibrium.solve import given_load, solve
+from ..errors import InvalidValue, RangeWarning
+from ..laws.asperity import REGISTRY, AbstractAsperityLaw
+from ..quantities.say import percent
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["compare", "csv_text"]
+
+KEPT = (
+    *("d", "d_star", "F_ss_star", "A_t", "A_ss", "A_sa", "A_e", "A_ep", "A_p"),
+    *("particle_load_share", "mode", "status", "residual"),
+)
+"""Columns of `Equilibrium` that differ from law to law."""
+DERIVED = {
+    "mean_pressure": ("p_m", "Pa", "mean real pressure F/A_t"),
+    "elastic_share": ("A_e/A_t", "1", "elastic part of the real area"),
+    "elastoplastic_share": ("A_ep/A_t", "1", "elastoplastic part of the real area"),
+    "plastic_share": ("A_p/A_t", "1", "plastic part of the real area"),
+    "A_t_difference": ("ΔA_t", "%", "real area against the contact's own law"),
+    "mean_pressure_difference": ("Δp_m", "%", "mean real pressure against the own law"),
+    "particle_load_share_difference": ("Δ(F_sa/F_t)", "%", "particles' load against the own law"),
+    "d_star_difference": ("Δd/σ", "1", "separation above that of the own law, over σ"),
+}
+"""Symbol, unit and meaning of what a comparison adds."""
+TELLING = 0.01
+"""Share of the area beyond a law's range from which a comparison says so."""
+ATOMIC = 0.2e-9
+"""Distance z_0 of atomic planes in the Tabor number [m]."""
+
+
+# -------------------------------------------------------------------------- comparing
+def compare(
+    contact: Contact,
+    *,
+    pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
+    laws: Iterable[str | AbstractAsperityLaw] | str | AbstractAsperityLaw | None = None,
+) -> xarray.Dataset:
+    """The same interface under every asperity law.
+
+    Parameters
+    ----------
+    contact : Contact
+        With or without particles; its ``asperity_law`` is what the others are held against.
+    pressure, F_star : float or array (N,)
+        Loads F* [1] or nominal pressures [Pa]; exactly one of them.
+    laws : list of str or AbstractAsperityLaw, optional
+        Words of the registry, which mean the law with its default options, or laws. When left
+        out: every registered law but the adhesive ones, which need a work of adhesion, the coated
+        one, which needs the coating, and the elliptic ones, which equal their circular ones at a
+        ratio of 1. The contact's own law is always there and comes first.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions ``law`` and the load. Separation, areas and their regimes as in `solve`;
+        ``mean_pressure`` F/A_t; ``elastic_share`` and its neighbours, what each law believes of
+        the real area; differences against the own law at the same load, in per cent
+        (``A_t_difference``, ...) or in σ (``d_star_difference``). A law that fails keeps its
+        row, NaN, and ``note`` says why; ``note`` also says where a law leaves its range.
+
+    Raises
+    ------
+    InvalidValue
+        No load or two, or a word that names no law.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> table = tb.compare(contact, F_star=[1e-5, 1e-4], laws=["ceb", "jg"])
+    >>> table.law.values.tolist()
+    ['zmc', 'ceb', 'jg']
+    >>> table.A_t_difference.sel(law="ceb").values.round(0).tolist()
+    [29.0, 35.0]
+    """
+    import xarray as xr
+
+    from ..version import __version__
+
+    load, values, _ = given_load(contact, pressure, F_star, None)
+    given = values / contact.E_ss if load == "F_star" else values
+    if load == "F_star":
+        given = np.atleast_1d(np.asarray(F_star, dtype=float))
+    rows = _rows(contact, laws)
+    names = list(rows)
+    shape = (len(names), len(given))
+    data: dict[str, Array] = {}
+    notes: list[list[str]] = []
+    sentences: list[tuple[str, ...]] = []
+    for i, law in enumerate(rows.values()):
+        state, note, heard = _solved(contact, law, {load: given})
+        for name in KEPT:
+            words = name in ("mode", "status")
+            column = data.setdefault(
+                name, np.full(shape, "", dtype=object) if words else np.full(shape, np.nan)
+            )
+            if state is not None:
+                column[i] = getattr(state, name)
+            elif name == "status":
+                column[i] = note[0]
+        notes.append(note)
+        sentences.append(heard)
+    # what the own law is told already, with other numbers, is not told again of the others
+    common = sentences[0]
+    known = {_numberless(text) for text in common}
+    for note, heard in zip(notes, sentences, strict=True):
+        note += [text for text in heard if _numberless(text) not in known]
+    data |= _derived(data, values)
+    if contact.two_body:
+        for name in ("particle_load_share", "particle_load_share_difference"):
+            data.pop(name)
+    for name in ("mode", "status"):
+        data[name] = data[name].astype(str)
+    coords: dict[str, Any] = {
+        "law": ("law", names, {"long_name": "asperity law"}),
+        load: (load, given, _about(load)),
+        "title": ("law", [_title(law) for law in rows.values()]),
+        "options": ("law", [_options(law) for law in rows.values()]),
+        "note": ("law", ["; ".join(note) for note in notes]),
+    }
+    other = "pressure" if load == "F_star" else "F_star"
+    scale = 1.0 if other == "pressure" else contact.E_ss
+    coords[other] = (load, values / scale, _about(other))
+    used = [_under(contact, law) for law in rows.values() if not isinstance(law, type)]
+    cited = "\n".join(cite(each) for each in used)
+    return xr.Dataset(
+        {name: (("law", load), column, _about(name)) for name, column in data.items()},
+        coords=coords,
+        attrs={
+            "own_law": names[0],
+            "hardness": contact.surfaces.H,
+            "inputs": json.dumps(contact.to_dict(), ensure_ascii=False),
+            "version": __version__,
+            "citations": "\n".join(dict.fromkeys(cited.splitlines())),
+            "warnings": "\n".join(common),
+        },
+    )
+
+
+def _numberless(sentence: str) -> str:
+    """A sentence without its numbers."""
+    return re.sub(r"-?\d+(\.\d*)?(e[+-]?\d+)?", "#", sentence)
+
+
+def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | type]:
+    """The laws to compare by label, the contact's own first; a class where no law can be made."""
+    own = contact.asperity_law
+    by_year = sorted(REGISTRY.values(), key=lambda law: (law.year, law.name))
+    if laws is None:
+        asked: list[Any] = [law.name for law in by_year if not _special(law)]
+    elif isinstance(laws, (str, AbstractAsperityLaw)):
+        asked = [laws]
+    else:
+        asked = list(laws)
+    problems = []
+    found: list[Any] = [own]
+    for item in asked:
+        if isinstance(item, AbstractAsperityLaw):
+            found.append(item)
+        elif isinstance(item, str) and item in REGISTRY:
+            found.append(own if item == own.name else _usual(REGISTRY[item]))
+        else:
+            near = difflib.get_close_matches(str(item), REGISTRY, n=1, cutoff=0.4)
+            guess = f"; did you mean {near[0]!r}?" if near else ""
+            known = ", ".join(law.name for law in by_year)
+            problems.append(f"laws: {item!r} names no asperity law ({known}){guess}")
+    if not asked:
+        problems.append("laws is empty; give at least one law, or leave it out for all")
+    if problems:
+        raise InvalidValue(*problems)
+    return {_label(law): law for law in found}
+
+
+def _special(law: type) -> bool:
+    """A law that asks for more than the interface: adhesion w, a ratio of radii, a coating t."""
+    return bool({item.name for item in dataclasses.fields(law)} & {"w", "ratio", "t"})
+
+
+def _usual(law: type) -> Any:
+    try:
+        return law()
+    except (TypeError, InvalidValue):
+        return law
+
+
+def _label(law: Any) -> str:
+    """The law's word, with the options that are not its usual ones."""
+    if isinstance(law, type) or isinstance(usual := _usual(type(law)), type):
+        return law.name
+    changed = [
+        f"{item.name}={getattr(law, item.name)!r}".replace("'", "")
+        for item in dataclasses.fields(law)
+        if getattr(law, item.name) != getattr(usual, item.name)
+    ]
+    return law.name + (f"({', '.join(changed)})" if changed else "")
+
+
+def _title(law: Any) -> str:
+    return f"{law.title} ({law.year})"
+
+
+def _options(law: AbstractAsperityLaw | type) -> str:
+    return "" if isinstance(law, type) else json.dumps(law.to_dict(), ensure_ascii=False)
+
+
+def _under(contact: Contact, law: AbstractAsperityLaw) -> Contact:
+    """The contact with another law; a law of one shape has tips of the same R all alike."""
+    rough = contact.roughness
+    if getattr(law, "ratio", None) != 1:
+        rough = rough.replace(ellipticity=None)
+    return contact.replace(roughness=rough, asperity_law=law)
+
+
+def _solved(
+    contact: Contact, law: AbstractAsperityLaw | type, load: dict[str, Any]
+) -> tuple[Equilibrium | None, list[str], tuple[str, ...]]:
+    """The states under one law, or None; what to say of the row; warnings of the states."""
+    if isinstance(law, type):
+        return None, ["has options without a usual value: give the law itself"], ()
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore", RangeWarning)
+            changed = _under(contact, law)
+            state = solve(changed, **load)
+            note = _outside(changed, state)
+    except Exception as error:  # a law can be anybody's: whatever it does, the others stand
+        why = str(error).strip().splitlines() or [type(error).__name__]
+        return None, [f"failed: {why[0]}"], ()
+    status = np.asarray(state.status)
+    bad = status[status != "ok"]
+    if len(bad):
+        count = "no state" if len(bad) == len(status) else f"{len(bad)} state(s) not"
+        note.insert(0, f"{count} solved: {bad[0]}")
+    # the note tells of the range already, in parts of the area
+    heard = tuple(text for text in state.warnings if not (law.beyond and law.beyond in text))
+    return state, note, heard
+
+
+def _derived(data: dict[str, Array], load: Array) -> dict[str, Array]:
+    """Mean pressure, regime shares, and differences against the first row."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        area = data["A_t"]
+        out = {
+            "mean_pressure": load / area,
+            "elastic_share": data["A_e"] / area,
+            "elastoplastic_share": data["A_ep"] / area,
+            "plastic_share": data["A_p"] / area,
+        }
+        for name in ("A_t", "mean_pressure", "particle_load_share"):
+            column = out.get(name, data.get(name))
+            out[f"{name}_difference"] = 100 * (column / column[0] - 1)  # type: ignore[index]
+    out["d_star_difference"] = data["d_star"] - data["d_star"][0]
+    return out
+
+
+def _about(name: str) -> dict[str, str]:
+    if name in DERIVED:
+        symbol, unit, meaning = DERIVED[name]
+    else:
+        symbol, unit, meaning = (COLUMNS[name][key] for key in ("symbol", "unit", "meaning"))
+    return {"units": unit, "long_name": meaning, "symbol": symbol}
+
+
+# -------------------------------------------------------------------------- ranges
+def _outside(contact: Contact, state: Equilibrium) -> list[str]:
+    """Where the states leave the published range of the law, one phrase each."""
+    law, R = contact.asperity_law, contact.roughness.R
+    E_star, H = contact.E_ss, contact.surfaces.H
+    body: dict[str, Any] = dict(R=R, E_star=E_star, H=H)
+    bound = law.bound(**body, nu=contact.surfaces.softer.nu)
+    out = []
+    w = getattr(law, "w", None)
+    if w is not None:
+        tabor = (R * w**2 / (E_star**2 * ATOMIC**3)) ** (1 / 3)
+        out.append(
+            f"w = {w:g} J/m², Tabor number {tabor:.2g} (z_0 = 0.2 nm); meant for: {law.valid_range}"
+        )
+    limit = bound.valid_to * float(bound.yield_interference(**body))
+    d = np.atleast_1d(np.asarray(state.d, dtype=float))
+    if math.isinf(limit) or not np.any(np.isfinite(d)):
+        return out
+    share = _share_beyond(contact, bound, float(np.nanmin(d)), limit, body)
+    if share > TELLING:
+        part = percent(share, digits=2 if share > 0.095 else 1)
+        out.append(f"at the highest load {part} of the asperities' area is {bound.beyond}")
+    return out
+
+
+def _share_beyond(
+    contact: Contact, law: AbstractAsperityLaw, d: float, limit: float, body: dict[str, Any]
+) -> float:
+    """Part of the asperities' area that is pressed by more than ``limit``."""
+    asperities = interface(contact).asperities
+    sigma_s, heights = asperities.sigma_s, contact.roughness.heights
+    h = (d - asperities.centre) / sigma_s
+    reach = min(heights.highest, max(h, 0.0) + 8.0) - h
+    if reach <= 0:
+        return 0.0
+    omega = sigma_s * reach * (np.arange(8000) + 0.5) / 8000
+    area = law.area(omega, **body) * heights.pdf(h + omega / sigma_s)
+    return float(area[omega > limit].sum() / area.sum()) if area.any() else 0.0
+
+
+# -------------------------------------------------------------------------- showing
+def csv_text(table: xarray.Dataset) -> str:
+    """A comparison as comma-separated values: one row for each law and load.
+
+    Parameters
+    ----------
+    table : xarray.Dataset
+        From `compare`.
+
+    Returns
+    -------
+    str
+        Header with units; NaN is an empty cell.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    load = table.A_t.dims[1]
+    columns = [*(("F_star", "pressure") if load == "F_star" else ("pressure", "F_star"))]
+    columns += [str(name) for name in table.data_vars]
+    units = [table[name].attrs["units"] for name in columns]
+    heads = [
+        f"{name} [{unit}]" if unit else name for name, unit in zip(columns, units, strict=True)
+    ]
+    writer.writerow(["law", *heads, "note"])
+    for i, law in enumerate(table.law.values):
+        row = table.isel(law=i)
+        note = str(row.note.item())
+        for j in range(table.sizes[load]):
+            cells = [row[name].values[j] for name in columns]
+            plain = [item.item() for item in cells]
+            writer.writerow([law, *("" if v != v else v for v in plain), note])
+    return text.getvalue()

@@ -1,0 +1,1 @@
+"""Design: inputs that make an objective best under limits."""

@@ -1,0 +1,567 @@
+r"""Which particles, how many, on which surface: the best inputs of a contact over a range of loads.
+
+A point y of the design is a contact; its states under the load cases :math:`F_j` with weights
+:math:`w_j` give metrics m(y, F). An objective reduces a metric over the loads,
+
+.. math:: \sum_j w_j m_j, \qquad \max_j m_j, \qquad \sum_j w_j\,1[\,low \le m_j \le high\,],
+
+and over samples of what scatters; limits bound metrics at every load.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...contact.contact import Contact
+from ...equilibrium.columns import about, columns_of
+from ...equilibrium.solve import given_load
+from ...errors import InvalidValue, ThirdBodyError
+from ...numerics.sampling import Span, latin
+from ...populations.materials import Material
+from ...quantities.progress import reporting
+from ..inputs import input_of as moved_input
+from ..sensitivity import sensitivity
+from ..uncertainty.inputs import drawn_inputs
+from .front import front, hypervolume
+from .problem import Limit, Objective, Suspension
+from .search import AMOUNT, DENSITY, GRID, SAMPLES, STARTS, STEPS, Point, Task, Variable
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Best", "design"]
+
+Array = NDArray[np.float64]
+
+
+METRICS = {
+    "plastic_share": {"symbol": "A_p/A_t", "unit": "1", "meaning": "plastic part of the real area"},
+    "buried_share": {
+        "symbol": "w_b",
+        "unit": "1",
+        "meaning": "share of the load on particles deeper than their radius",
+    },
+}
+"""What is known beside the columns of the states; the first may be asked for."""
+NOT_SMOOTH = {"mode", "status", "residual", "iterations"}
+CASES = 32
+"""Load cases of a range."""
+LOSS = 0.05
+"""Of the objective, inside the tolerance band."""
+AT_END = 1e-3
+"""Part of a range that counts as its end."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Best:
+    """The answer of `design`.
+
+    Attributes
+    ----------
+    values : dict
+        The best value of every variable; of one of the best, for several objectives.
+    contact : Contact
+        The contact with these values.
+    objectives : dict
+        Value of every objective there.
+    feasible : bool
+        Whether every limit holds there; if not, nothing tried was feasible, and ``reason`` says
+        why not at the point that came nearest.
+    states : xarray.Dataset
+        Every metric against the load at the best point, nominal.
+    points : xarray.Dataset
+        Every point tried: variables, objectives, ``feasible``, ``reason``, and ``front`` for
+        those that no other point beats in every objective.
+    active : tuple of str
+        Limits within 1 % of being broken.
+    tolerance : dict
+        Per variable the range about the best point in which the first objective loses less
+        than 5 %.
+    at_bound : tuple of str
+        Variables whose best value is an end of their range: the optimum may lie beyond.
+    slopes : dict
+        d m/d ln y of every metric asked for, per variable, at the load in the middle; at a
+        constant concentration where there is a `Suspension`.
+    hypervolume : float or None
+        Of the front against the worst feasible value of each objective; None for one objective.
+    warnings : tuple of str
+        What to know before the answer is used, one sentence each.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> best = tb.design(
+    ...     contact,
+    ...     vary={"particles.diameter.mean+particles.diameter.std": (50e-9, 1e-6)},
+    ...     objective=tb.Objective(of="A_t", aim="smallest"),
+    ...     limits=[tb.Limit(of="plastic_share", most=0.1)],
+    ...     pressure=[1e6, 5e6],
+    ... )
+    >>> [round(float(x) * 1e9) for x in best.values.values()], best.active, best.at_bound
+    ([465], ('plastic_share <= 0.1',), ())
+    """
+
+    values: dict[str, Any]
+    contact: Contact
+    objectives: dict[str, float]
+    feasible: bool
+    reason: str
+    states: xarray.Dataset
+    points: xarray.Dataset
+    active: tuple[str, ...]
+    tolerance: dict[str, tuple[float, float]]
+    at_bound: tuple[str, ...]
+    slopes: dict[str, dict[str, float]]
+    hypervolume: float | None = None
+    warnings: tuple[str, ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything for JSON, the points as lists."""
+        values = {
+            name: value.name if isinstance(value, Material) else value
+            for name, value in self.values.items()
+        }
+        return {
+            "values": values,
+            "objectives": self.objectives,
+            "feasible": self.feasible,
+            "reason": self.reason,
+            "active": list(self.active),
+            "tolerance": {name: list(band) for name, band in self.tolerance.items()},
+            "at_bound": list(self.at_bound),
+            "slopes": self.slopes,
+            "hypervolume": self.hypervolume,
+            "states": _lists(self.states),
+            "points": _lists(self.points),
+            "warnings": list(self.warnings),
+        }
+
+
+def _lists(data: xarray.Dataset) -> dict[str, list[Any]]:
+    every = {str(name): data[name].values for name in data.variables}
+    return {
+        name: [None if isinstance(v, float) and math.isnan(v) else v for v in values.tolist()]
+        for name, values in every.items()
+    }
+
+
+# -------------------------------------------------------------------------- the search
+def design(
+    contact: Contact,
+    *,
+    vary: Mapping[str, Any],
+    objective: Objective | Sequence[Objective],
+    limits: Sequence[Limit] = (),
+    pressure: ArrayLike | Span | None = None,
+    F_star: ArrayLike | Span | None = None,
+    weights: ArrayLike | None = None,
+    scatter: Mapping[str, Any] | None = None,
+    samples: int = 16,
+    points: int | None = None,
+    seed: int = 0,
+    suspension: Suspension | None = None,
+    progress: bool | Callable[[int], None] = False,
+) -> Best:
+    r"""The best inputs of a contact over a range of loads, under limits and scatter.
+
+    .. math:: \min_y\; R_s\,R_F\; m(y, F), \qquad g_k(y) \le 0
+
+    Parameters
+    ----------
+    contact : Contact
+        What is not searched, and the outputs that metrics come from.
+    vary : mapping
+        What may be chosen: dotted names of numbers with their range (low, high) in SI, several
+        names joined by "+" that move by one factor ("particles.diameter.mean+"
+        "particles.diameter.std" keeps the relative width); "particles.concentration" with a
+        ``suspension``; or a name of a material with a list of `Material`.
+    objective : Objective or several
+        Several give the front of points that no other beats in all of them.
+    limits : sequence of Limit, optional
+        Besides, always: every load has a state, A_t < 0.2, particles cover less than 0.3 of the
+        area, and those that sit deeper than their radius, where the laws of a contact end, carry
+        less than 0.05 of the load.
+    pressure, F_star : array, or Span
+        Load cases; a `Span` stands for 32 of them, evenly in the logarithm. One of the two.
+    weights : array, optional
+        Of the load cases, equal by default; they are made to sum to one.
+    scatter : mapping, optional
+        Inputs that scatter, as in `propagate`. An input that is also searched scatters about each
+        of its values by the same factors.
+    samples : int, optional
+        Of the scatter: one Latin hypercube for all points, so that they can be compared.
+    points : int, optional
+        Tried before the search goes local: 64 for one number, 384 for several.
+    seed : int, optional
+    suspension : Suspension, optional
+        What brings the particles. Their number then follows from size and concentration; without
+        it the number per area stays as it is when the size changes.
+    progress : bool or callable, optional
+        True shows a bar; a callable gets the number of points tried.
+
+    Returns
+    -------
+    Best
+
+    Raises
+    ------
+    InvalidValue
+        A name that is no number or column, a range without extent, no load or two.
+
+    Notes
+    -----
+    One number and one objective: a grid, then Brent's bounded search between the neighbours of
+    the best point (`scipy.optimize.minimize_scalar`). Several numbers: the corners of the ranges
+    and a Sobol design, or sizes with sixteen amounts each, then COBYQA (`scipy.optimize.minimize`)
+    from the three best places that lie apart, with the limits as constraints. Several objectives:
+    the design alone. Islands of feasible points that hold less than one part in ``points`` of the
+    ranges can be missed. A point that breaks a limit ranks behind all that do not, by how much it
+    breaks it.
+
+    References
+    ----------
+    Brent 1973, Algorithms for Minimization without Derivatives, ch. 5; Ragonneau and Zhang 2025,
+    COBYQA, in `scipy.optimize.minimize`.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=30e-9)))
+    >>> best = design(contact, F_star=[1e-5, 1e-4], points=16,
+    ...     vary={"particles.diameter.mean+particles.diameter.std": (50e-9, 1e-6)},
+    ...     objective=Objective(of="particle_load_share", aim="window"))
+    >>> best.feasible
+    True
+    """
+    objectives = [objective] if isinstance(objective, Objective) else list(objective)
+    task = asked(
+        contact,
+        vary=vary,
+        objectives=objectives,
+        limits=list(limits),
+        F_star=F_star,
+        pressure=pressure,
+        weights=weights,
+        scatter=scatter,
+        samples=samples,
+        seed=seed,
+        suspension=suspension,
+    )
+    local = len(objectives) == 1 and bool(task.variables)
+    with reporting("design", _expected(task, points, local), 0, progress) as task.report:
+        for materials in task.choices():
+            task.explore(materials, points)
+            if local:
+                task.refine(materials)
+        return _answer(task)
+
+
+def _expected(task: Task, points: int | None, local: bool) -> int:
+    """Points that will be tried, or a few less."""
+    width = len(task.variables)
+    if not width:
+        return len(task.choices())
+    one = points or (GRID if width == 1 else SAMPLES)
+    more = (25 if width == 1 else STARTS * STEPS) if local else 0
+    return len(task.choices()) * (one + more)
+
+
+# -------------------------------------------------------------------------- the answer
+def _answer(task: Task) -> Best:
+    import xarray
+
+    rows, best = task.tried, task.best()
+    made = task.made(best.numbers, best.materials)
+    ok = np.array([not point.reason for point in rows])
+    costs = np.array([list(point.costs.values()) for point in rows])
+    on_front = np.zeros(len(rows), bool)
+    on_front[np.flatnonzero(ok)] = front(costs[ok])
+    volume = None
+    if len(task.objectives) > 1 and ok.any():
+        volume = hypervolume(costs[ok], costs[ok].max(axis=0))
+    signs = {each.label: each.sign for each in task.objectives}
+    columns: dict[str, Any] = {
+        name: ("point", [point.numbers[name] for point in rows]) for name in task.variables
+    }
+    columns |= {
+        name: ("point", [point.materials[name].name for point in rows]) for name in task.materials
+    }
+    columns |= {
+        each.label: ("point", each.sign * costs[:, i], {"long_name": each.aim})
+        for i, each in enumerate(task.objectives)
+    }
+    columns |= {
+        "feasible": ("point", ok),
+        "front": ("point", on_front),
+        "reason": ("point", [point.reason for point in rows]),
+    }
+    ends = {name: each.place(best.numbers[name]) for name, each in task.variables.items()}
+    at_bound = tuple(name for name, u in ends.items() if min(u, 1 - u) < AT_END)
+    notes = [f"the best {name} is an end of its range" for name in at_bound]
+    if task.scatter is None and any(
+        each.over_scatter not in ("mean", "nominal") for each in task.objectives
+    ):
+        notes.append("nothing scatters: over_scatter has no meaning")
+    return Best(
+        values={**best.numbers, **best.materials},
+        contact=made,
+        objectives={label: signs[label] * cost for label, cost in best.costs.items()},
+        feasible=not best.reason,
+        reason=best.reason,
+        states=_states(task, best),
+        points=xarray.Dataset(columns),
+        active=best.active,
+        tolerance=_tolerance(task, best),
+        at_bound=at_bound,
+        slopes=_slopes(task, best, made),
+        hypervolume=volume,
+        warnings=tuple(notes),
+    )
+
+
+def _states(task: Task, best: Point) -> xarray.Dataset:
+    """Metrics against the load, nominal."""
+    import xarray
+
+    found = task.metrics([best.numbers], best.materials, samples=False)
+    columns: dict[str, Any] = {}
+    first = (name for name in found if name not in ("coverage", "buried_share"))
+    for name in (*first, "buried_share"):
+        told = METRICS.get(name) or about(name)
+        attrs = {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
+        columns[name] = (task.load, found[name].reshape(-1), attrs)
+    return xarray.Dataset(columns, coords={task.load: task.loads})
+
+
+def _tolerance(task: Task, best: Point) -> dict[str, tuple[float, float]]:
+    """Where the first objective loses less than `LOSS`, variable by variable."""
+    label = task.objectives[0].label
+    value = best.costs[label]
+    out = {}
+    for name, each in task.variables.items():
+        own = best.numbers[name]
+        grid = np.unique(np.append(each.span.at(np.linspace(0, 1, GRID + 1)), own))
+        rows = task.judged([{**best.numbers, name: float(x)} for x in grid], best.materials)
+        lost = np.array([point.costs[label] for point in rows]) - value
+        good = (lost <= LOSS * abs(value)) & np.array([not point.reason for point in rows])
+        place = int(np.searchsorted(grid, own))
+        bad = np.flatnonzero(~good)
+        first = bad[bad < place].max(initial=-1) + 1
+        last = bad[bad > place].min(initial=len(grid)) - 1
+        out[name] = (float(grid[first]), float(grid[last]))
+    return out
+
+
+def _slopes(task: Task, best: Point, made: Contact) -> dict[str, dict[str, float]]:
+    """d m/d ln y at the load in the middle, by the exact sensitivities."""
+    known = set(columns_of(made)) - NOT_SMOOTH
+    wanted = [name for name in task.columns if name in known]
+    if "plastic_share" in task.columns:
+        wanted = list(dict.fromkeys([*wanted, "A_p", "A_t"]))
+    labels = [name for name, each in task.variables.items() if each.moved is not None]
+    if task.suspension is not None:
+        labels.append(DENSITY)
+    if not (wanted and labels):
+        return {}
+    middle: dict[str, Any] = {task.load: float(np.sort(task.loads)[len(task.loads) // 2])}
+    try:
+        found = sensitivity(made, of=wanted, to=labels, **middle)
+    except ThirdBodyError:
+        return {}
+    slopes = {
+        column: {name: found.derivative[column][name] * found.inputs[name] for name in labels}
+        for column in wanted
+    }
+    if "plastic_share" in task.columns:
+        A_p, A_t = found.value["A_p"], found.value["A_t"]
+        slopes["plastic_share"] = {
+            name: (slopes["A_p"][name] - A_p / A_t * slopes["A_t"][name]) / A_t for name in labels
+        }
+    if task.suspension is not None:
+        per_density = {column: own.pop(DENSITY) for column, own in slopes.items()}
+        for name in task.variables:
+            crowding = _crowding(task, best, name)
+            for column, own in slopes.items():
+                own[name] = own.get(name, 0.0) + crowding * per_density[column]
+    return {column: slopes[column] for column in task.columns if column in slopes}
+
+
+def _crowding(task: Task, best: Point, name: str) -> float:
+    """d ln η_a/d ln y of the particles that a fluid brings."""
+    step = 1e-5
+    high, low = (
+        task.made({**best.numbers, name: best.numbers[name] * math.exp(t)}, best.materials)
+        for t in (step, -step)
+    )
+    ratio = high.populations[0].areal_density / low.populations[0].areal_density
+    return math.log(ratio) / (2 * step)
+
+
+# -------------------------------------------------------------------------- what is asked, checked
+def _load_cases(
+    contact: Contact, F_star: Any, pressure: Any, weights: ArrayLike | None
+) -> tuple[str, Array, Array]:
+    """Which load, its values, and their weights."""
+    cases = {
+        name: np.geomspace(v.low, v.high, CASES) if isinstance(v, Span) else v
+        for name, v in (("F_star", F_star), ("pressure", pressure))
+    }
+    load, _, _ = given_load(contact, cases["pressure"], cases["F_star"], None)
+    loads = np.atleast_1d(np.asarray(cases[load], float))
+    share = np.ones(len(loads)) if weights is None else np.asarray(weights, float)
+    if share.shape != loads.shape or not (np.all(share >= 0) and share.sum() > 0):
+        raise InvalidValue(f"weights must be {len(loads)} numbers >= 0, one a load")
+    return load, loads, share / share.sum()
+
+
+def asked(
+    contact: Contact,
+    *,
+    vary: Mapping[str, Any],
+    objectives: list[Objective],
+    limits: list[Limit],
+    F_star: Any,
+    pressure: Any,
+    weights: ArrayLike | None,
+    scatter: Mapping[str, Any] | None,
+    samples: int,
+    seed: int,
+    suspension: Suspension | None,
+) -> Task:
+    """What `design` is to do, every mistake in it told."""
+    problems: list[str] = []
+    load, loads, share = "F_star", np.ones(1), np.ones(1)
+    try:
+        load, loads, share = _load_cases(contact, F_star, pressure, weights)
+    except InvalidValue as error:
+        problems += error.problems
+    variables: dict[str, Variable] = {}
+    materials: dict[str, list[Material]] = {}
+    for name, allowed in vary.items():
+        try:
+            if _is_materials(allowed):
+                if not isinstance(contact.part(name), Material):
+                    raise InvalidValue(f"vary[{name!r}] lists materials, but {name} is not one")
+                materials[name] = list(allowed)
+            else:
+                variables[name] = _variable(contact, name, allowed)
+        except InvalidValue as error:
+            problems += [text.replace("to = ", "vary: ") for text in error.problems]
+    if not vary:
+        problems.append(
+            'vary is empty; say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}'
+        )
+    if not objectives:
+        problems.append("objective is empty; say what should be small or large")
+    known = {*columns_of(contact), "plastic_share"} - NOT_SMOOTH
+    both: list[Objective | Limit] = [*objectives, *limits]
+    problems += [
+        f"{type(each).__name__} of {each.of!r}: no such number; the states of this contact have "
+        f"{', '.join(sorted(known))}"
+        for each in both
+        if each.of not in known
+    ]
+    if len({each.label for each in objectives}) < len(objectives):
+        problems.append("two objectives are the same")
+    moving = {name for label in (*vary, *(scatter or {})) for name in label.split("+")}
+    problems += _suspension_problems(contact, suspension, moving, variables, materials)
+    drawn = None
+    if scatter and not problems:
+        try:
+            moved = drawn_inputs(contact, scatter, load, loads)
+            drawn = moved, latin(samples, len(moved.known), seed, 0, samples)
+        except InvalidValue as error:
+            problems += [text.replace("vary[", "scatter[") for text in error.problems]
+    if problems:
+        raise InvalidValue(*problems)
+    return Task(
+        contact=contact,
+        variables=variables,
+        materials=materials,
+        objectives=objectives,
+        limits=limits,
+        load=load,
+        loads=loads,
+        weights=share,
+        scatter=drawn,
+        suspension=suspension,
+        seed=seed,
+    )
+
+
+def _suspension_problems(
+    contact: Contact,
+    suspension: Suspension | None,
+    moving: set[str],
+    variables: Mapping[str, Variable],
+    materials: Mapping[str, list[Material]],
+) -> list[str]:
+    """What does not fit the fluid that brings the particles."""
+    if suspension is None:
+        if AMOUNT in moving:
+            return [f"vary[{AMOUNT!r}] needs suspension=Suspension(gap=...), which says of what"]
+        return []
+    if len(contact.populations) != 1:
+        return ["suspension needs exactly one population of particles"]
+    out = []
+    if DENSITY in moving:
+        out.append(f"{DENSITY} follows from the suspension: vary {AMOUNT} instead")
+    if AMOUNT not in variables and suspension.concentration is None:
+        out.append(f"Suspension.concentration is missing, and vary has no {AMOUNT!r}")
+    if suspension.by not in ("mass", "mass per volume"):
+        return out
+    listed = materials.get("particles.material", [])
+    if listed and suspension.particle_density is not None:
+        out.append(
+            "Suspension.particle_density cannot hold for several materials; give each its own, "
+            "material.replace(density=...)"
+        )
+    every = listed or [contact.populations[0].material]
+    out += [
+        f"a concentration by mass needs the density of {each.name or 'the particles'} [kg/m^3]; "
+        "give it with the material, or for one material as Suspension.particle_density"
+        for each in every
+        if each.density is None and suspension.particle_density is None
+    ]
+    return out
+
+
+def _is_materials(allowed: Any) -> bool:
+    return isinstance(allowed, (list, tuple)) and any(isinstance(v, Material) for v in allowed)
+
+
+def _variable(contact: Contact, name: str, allowed: Any) -> Variable:
+    try:
+        low, high = (float(end) for end in allowed)
+    except (TypeError, ValueError):
+        raise InvalidValue(f"vary[{name!r}] = {allowed!r} must be (low, high)") from None
+    if not low < high:
+        raise InvalidValue(f"vary[{name!r}]: low = {low:g} must be below high = {high:g}")
+    if name == AMOUNT:
+        if low <= 0:
+            raise InvalidValue(f"vary[{name!r}]: low = {low:g} must be > 0")
+        return Variable(name, low, high, None)
+    found = Variable(name, low, high, moved_input(contact, name))
+    for end in (low, high):
+        # of itself each end must be allowed; that particles jam depends on the others
+        changes = {k: float(v) for k, v in found.changes(end).items()}
+        sparse = {DENSITY: 0.0} if name.startswith("particles.diameter.") else {}
+        contact.replace(**(sparse | changes))
+    return found

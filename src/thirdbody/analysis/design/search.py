@@ -1,0 +1,440 @@
+"""The search of a design: points, what each costs and breaks, and better points."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...contact.contact import Contact
+from ...contact.interface import interface
+from ...equilibrium.states import state_columns
+from ...errors import InvalidValue
+from ...numerics.sampling import Span, sobol
+from ...quantities.say import percent
+from ..inputs import Input, inputs
+from ..uncertainty.inputs import Drawn
+
+if TYPE_CHECKING:
+    from ...laws.base import AbstractParticleLaw
+    from ...populations.materials import Material, MaterialPair
+    from .problem import Limit, Objective, Suspension
+
+__all__ = ["AMOUNT", "Point", "Task", "Variable"]
+
+Array = NDArray[np.float64]
+Numbers = Mapping[str, float]
+Materials = dict[str, "Material"]
+
+DENSITY, AMOUNT = "particles.areal_density", "particles.concentration"
+GRID, SAMPLES, LINE = 64, 384, 16
+"""Points along one variable, points of several, and amounts of particles of one size."""
+STARTS, STEPS = 3, 80
+"""Places that the search of several variables starts from, and points tried from each."""
+FEWEST = 1.0
+"""Particles per nominal area that never jam [1/m²]."""
+AT_ONCE = 200_000
+"""States solved together."""
+MOST_AREA, MOST_COVERED, MOST_BURIED = 0.2, 0.3, 0.05
+"""Real area, projected particle area, and share of the whole load on particles that sit deeper
+than their radius, above which the model is not meant."""
+CLOSE = 0.01
+"""A limit is active when so little of it is left."""
+
+
+class Variable(NamedTuple):
+    """What may be chosen between two ends: numbers of the contact, or a concentration."""
+
+    name: str
+    low: float
+    high: float
+    moved: Input | None
+    """None for a concentration."""
+
+    @property
+    def span(self) -> Span:
+        """Positive ranges by ratio."""
+        return Span(self.low, self.high, "log" if self.low > 0 else "linear")
+
+    def place(self, value: float) -> float:
+        """Where in the range: 0 to 1."""
+        if self.low > 0:
+            return math.log(value / self.low) / math.log(self.high / self.low)
+        return (value - self.low) / (self.high - self.low)
+
+    def changes(self, value: Any) -> dict[str, Any]:
+        """Every number that moves with it."""
+        if self.moved is None:
+            return {self.name: value}
+        return self.moved.at((value - self.moved.values[0]) / self.moved.scales[0])
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point tried."""
+
+    numbers: Numbers
+    materials: Materials
+    costs: dict[str, float]
+    """By label, less is better."""
+    broken: dict[str, float]
+    """By how much of itself each limit is broken; ≤ 0 where it holds."""
+    reason: str
+    """Why it is not feasible."""
+
+    @property
+    def rank(self) -> float:
+        """The first cost; behind every feasible point the others, by how much they break."""
+        if self.reason:
+            return 1e30 * (1 + min(max(self.broken.values()), 1e6))
+        return next(iter(self.costs.values()))
+
+    @property
+    def active(self) -> tuple[str, ...]:
+        return tuple(what for what, excess in self.broken.items() if -CLOSE < excess <= 0)
+
+
+@dataclass(kw_only=True)
+class Task:
+    """Everything that is asked, and every point tried so far."""
+
+    contact: Contact
+    variables: dict[str, Variable]
+    materials: dict[str, list[Material]]
+    objectives: list[Objective]
+    limits: list[Limit]
+    load: str
+    loads: Array
+    weights: Array
+    scatter: tuple[Drawn, Array] | None
+    suspension: Suspension | None
+    seed: int
+    report: Callable[[int], None] = lambda _: None
+    tried: list[Point] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        asked = (*(o.of for o in self.objectives), *(g.of for g in self.limits))
+        self.columns = list(dict.fromkeys(asked))
+        outputs = {name for each in self.contact.outputs for name in each.columns}
+        if not outputs & set(self.columns):
+            self.contact = self.contact.replace(outputs=())
+
+    # ------------------------------------------------------------------ coordinates
+    def choices(self) -> list[Materials]:
+        """Every combination of materials."""
+        names, lists = list(self.materials), list(self.materials.values())
+        return [dict(zip(names, pick, strict=True)) for pick in itertools.product(*lists)]
+
+    def at(self, u: Array) -> list[dict[str, float]]:
+        """Values of the variables at points of the unit cube (P, k)."""
+        return [
+            {
+                each.name: float(np.clip(each.span.at(part), each.low, each.high))
+                for part, each in zip(row, self.variables.values(), strict=True)
+            }
+            for row in np.clip(u, 0.0, 1.0)
+        ]
+
+    def where(self, numbers: Numbers) -> Array:
+        """Coordinates of a point in the unit cube (k,)."""
+        return np.array([each.place(numbers[name]) for name, each in self.variables.items()])
+
+    # ------------------------------------------------------------------ contacts
+    def made(self, numbers: Numbers, materials: Materials) -> Contact:
+        """The contact of a point."""
+        changes: dict[str, Any] = {}
+        for name, value in numbers.items():
+            changes |= self.variables[name].changes(value)
+        return self._filled(self.contact.replace(**materials), changes)
+
+    def _filled(self, contact: Contact, changes: dict[str, Any]) -> Contact:
+        """The contact with these numbers, and as many particles as the fluid then brings."""
+        plain = {name: float(value) for name, value in changes.items() if name != AMOUNT}
+        if self.suspension is None:
+            return contact.replace(**plain)
+        few = contact.replace(**plain, **{DENSITY: FEWEST})
+        (dust,) = few.populations
+        density = self.suspension.areal_density(dust, changes.get(AMOUNT))
+        return few.replace(**{DENSITY: density})
+
+    def _moving(
+        self, numbers: Sequence[Numbers], contact: Contact, samples: bool
+    ) -> dict[str, Array]:
+        """Every number that moves (P, 1 + samples), sample 0 nominal."""
+        S = 1 + (len(self.scatter[1]) if samples and self.scatter else 0)
+        out: dict[str, Array] = {}
+        for name, each in self.variables.items():
+            for moved, column in each.changes(np.array([p[name] for p in numbers])).items():
+                out[moved] = np.repeat(column[:, None], S, axis=1)
+        if S > 1 and self.scatter is not None:
+            drawn, u = self.scatter
+            nominal = inputs(contact)
+            for name, sample in drawn.points(u).items():
+                own = np.append(nominal[name], sample)
+                if name not in out:
+                    out[name] = np.broadcast_to(own, (len(numbers), S))
+                elif nominal[name]:  # about each value of a variable by the same factors
+                    out[name] = out[name] * own / nominal[name]
+                else:
+                    out[name] = out[name] + own
+        return out
+
+    # ------------------------------------------------------------------ metrics
+    def metrics(
+        self, numbers: Sequence[Numbers], materials: Materials, *, samples: bool = True
+    ) -> dict[str, Array]:
+        """Every metric (P, 1 + samples, loads), and coverage (P, 1 + samples).
+
+        NaN where there is no such contact, with an infinite coverage, or no state.
+        """
+        contact = self.contact.replace(**materials) if materials else self.contact
+        vary = self._moving(numbers, contact, samples)
+        P, J = len(numbers), len(self.loads)
+        S = 1 + (len(self.scatter[1]) if samples and self.scatter else 0)
+        bare = contact.replace(outputs=())
+        covered, density = np.full((P, S), math.inf), np.full((P, S), math.nan)
+        for i, j in np.ndindex(P, S):
+            try:
+                one = self._filled(bare, {name: v[i, j] for name, v in vary.items()})
+            except InvalidValue:
+                continue
+            covered[i, j] = sum(each.coverage for each in one.populations)
+            if self.suspension is not None:
+                density[i, j] = one.populations[0].areal_density
+        vary.pop(AMOUNT, None)
+        if self.suspension is not None:
+            vary[DENSITY] = density
+        possible = np.isfinite(covered)
+        asked = dict.fromkeys((*self.columns, "A_t", "h", "d", "particle_load_share"))
+        out = {name: np.full((P, S, J), math.nan) for name in asked}
+        if possible.any():
+            count = np.count_nonzero(possible)
+            flat = {name: np.repeat(values[possible], J) for name, values in vary.items()}
+            given: dict[str, Any] = {self.load: np.tile(self.loads, count)}
+            states = state_columns(contact, vary=flat or None, **given)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                states["plastic_share"] = states["A_p"] / states["A_t"]
+            for name, values in out.items():
+                values[possible] = np.asarray(states[name], float).reshape(count, J)
+        nominal = {name: values[:, 0] for name, values in vary.items()}
+        return {**out, "coverage": covered, "buried_share": self._buried(bare, nominal, out)}
+
+    def _buried(self, contact: Contact, vary: dict[str, Array], found: dict[str, Array]) -> Array:
+        """Share of the load on particles deeper than their radius, nominal: (P, loads)."""
+        d, share = found["d"][:, 0], found["particle_load_share"][:, 0]
+        out = np.where(np.isnan(d), math.nan, 0.0)
+        # where particles carry less than that, no more can be on buried ones
+        many = np.flatnonzero(np.nanmax(share, axis=1, initial=0) > MOST_BURIED)
+        alike: dict[tuple[float, ...], list[int]] = {}
+        for i in many:
+            key = tuple(float(v[i]) for name, v in vary.items() if name != DENSITY)
+            alike.setdefault(key, []).append(int(i))
+        for which in alike.values():
+            own = contact.replace(**{name: float(v[which[0]]) for name, v in vary.items()})
+            known = np.isfinite(d[which])
+            part = np.zeros(known.shape)
+            part[known] = buried(own, d[which][known])
+            out[which] += np.nan_to_num(part * share[which])
+        return out
+
+    # ------------------------------------------------------------------ points
+    def evaluate(self, numbers: Sequence[Numbers], materials: Materials) -> list[Point]:
+        """Points, which are kept."""
+        samples = len(self.scatter[1]) if self.scatter else 0
+        fit = max(1, AT_ONCE // ((1 + samples) * len(self.loads)))
+        rows: list[Point] = []
+        for start in range(0, len(numbers), fit):
+            rows += self.judged(numbers[start : start + fit], materials)
+            self.report(len(self.tried) + len(rows))
+        self.tried += rows
+        return rows
+
+    def judged(self, numbers: Sequence[Numbers], materials: Materials) -> list[Point]:
+        """What points cost, and which limits they break."""
+        metric = self.metrics(numbers, materials)
+        costs = {each.label: each.cost(metric[each.of], self.weights) for each in self.objectives}
+        broken = {str(limit): limit.excess(metric[limit.of]) for limit in self.limits}
+        broken |= {
+            f"A_t < {MOST_AREA}": np.max(metric["A_t"][:, 0], axis=1) / MOST_AREA - 1,
+            f"coverage < {MOST_COVERED}": metric["coverage"][:, 0] / MOST_COVERED - 1,
+            f"load on particles deeper than their radius < {percent(MOST_BURIED)}": (
+                np.max(metric["buried_share"], axis=1) / MOST_BURIED - 1
+            ),
+        }
+        unsolved = np.atleast_1d(np.any(np.isnan(metric["A_t"]), axis=(1, 2)))
+        jammed = np.atleast_1d(np.any(np.isinf(metric["coverage"]), axis=1))
+        rows = []
+        for i, point in enumerate(numbers):
+            own = {what: _number(excess[i]) for what, excess in broken.items()}
+            cost = {label: float(values[i]) for label, values in costs.items()}
+            reasons = [
+                f"{what} is broken by {excess:.3g} of it"
+                for what, excess in own.items()
+                if excess > 0
+            ]
+            if unsolved[i]:
+                own["solved"] = math.inf
+                reasons = ["a load has no equilibrium"]
+                if jammed[i]:
+                    reasons = [f"coverage < {MOST_COVERED} is broken: the particles jam"]
+            elif any(math.isnan(value) for value in cost.values()):
+                own["value"] = math.inf
+                reasons = ["an objective has no value there"]
+            rows.append(Point(point, materials, cost, own, "; ".join(reasons)))
+        return rows
+
+    # ------------------------------------------------------------------ search
+    def explore(self, materials: Materials, points: int | None) -> None:
+        """Points all over the ranges."""
+        width = len(self.variables)
+        if not width:
+            self.evaluate([{}], materials)
+            return
+        if width == 1:
+            u = np.linspace(0, 1, points or GRID)[:, None]
+        else:
+            u = self._spread(points or SAMPLES)
+        self.evaluate(self.at(u), materials)
+
+    def _spread(self, count: int) -> Array:
+        """Points of the unit cube; sizes with several amounts each, which cost little more."""
+        names = list(self.variables)
+        amounts = [i for i, name in enumerate(names) if name in (DENSITY, AMOUNT)]
+        others = [i for i in range(len(names)) if i not in amounts]
+        if not (amounts and others):
+            return _cube(count, len(names), self.seed)
+        line = np.linspace(0, 1, min(LINE, max(3, math.isqrt(count))))
+        few = _cube(max(2, count // len(line)), len(others), self.seed)
+        u = np.empty((len(few), len(line), len(names)))
+        u[..., others] = few[:, None, :]
+        u[..., amounts] = line[:, None]
+        return u.reshape(-1, len(names))
+
+    def refine(self, materials: Materials) -> None:
+        """A local search about the best points found with these materials."""
+        rows = [point for point in self.tried if point.materials == materials]
+        rows.sort(key=lambda point: point.rank)
+        if len(self.variables) == 1:
+            self._along(rows, materials)
+            return
+        starts: list[Array] = []
+        apart = 1.5 * len(rows) ** (-1 / len(self.variables))
+        for point in rows:
+            u = self.where(point.numbers)
+            if all(np.max(np.abs(u - other)) > apart for other in starts):
+                starts.append(u)
+            if len(starts) == STARTS:
+                break
+        for u in starts:
+            self._from(u, apart, rows[0], materials)
+
+    def _along(self, rows: list[Point], materials: Materials) -> None:
+        """One variable, between the neighbours of the best point."""
+        from scipy.optimize import minimize_scalar
+
+        u = np.array([self.where(point.numbers)[0] for point in rows])
+        every = np.sort(u)
+        place = int(np.searchsorted(every, u[0]))
+        low, high = every[max(place - 1, 0)], every[min(place + 1, len(every) - 1)]
+        minimize_scalar(
+            lambda t: self.evaluate(self.at(np.array([[t]])), materials)[0].rank,
+            bounds=(low, high),
+            method="bounded",
+            options={"xatol": 1e-4 * (high - low)},
+        )
+
+    def _from(self, start: Array, apart: float, best: Point, materials: Materials) -> None:
+        """Several variables: one start."""
+        from scipy.optimize import Bounds, NonlinearConstraint, minimize
+
+        unit = abs(next(iter(best.costs.values()))) or 1.0
+        names = [what for what in best.broken if what not in ("solved", "value")]
+        known: dict[bytes, Array] = {}
+
+        def values(u: Array) -> Array:
+            """Cost and what is broken, finite."""
+            if u.tobytes() not in known:
+                (point,) = self.evaluate(self.at(u[None]), materials)
+                cost = next(iter(point.costs.values())) / unit
+                # a little inside, so that what is found there is feasible
+                broken = [min(point.broken.get(what, 1.0), 1.0) + 1e-6 for what in names]
+                if not math.isfinite(cost):
+                    cost, broken = 1e3, [1.0] * len(names)
+                known[u.tobytes()] = np.array([cost, *np.maximum(broken, -1.0)])
+            return known[u.tobytes()]
+
+        minimize(
+            lambda u: values(u)[0],
+            start,
+            method="COBYQA",
+            bounds=Bounds(0.0, 1.0),
+            constraints=NonlinearConstraint(lambda u: values(u)[1:], -np.inf, 0.0),
+            options={
+                "maxfev": STEPS,
+                "initial_tr_radius": min(0.5 * apart, 0.25),
+                "final_tr_radius": 1e-4,
+            },
+        )
+
+    def best(self) -> Point:
+        """The point that ranks first; of several that are as good, one in their middle."""
+        ranks = np.array([point.rank for point in self.tried])
+        alike = np.flatnonzero(ranks <= ranks.min() + 1e-12 * abs(ranks.min()))
+        materials = self.tried[alike[0]].materials
+        ties = [self.tried[i] for i in alike if self.tried[i].materials == materials]
+        u = np.array([self.where(point.numbers) for point in ties])
+        return ties[int(np.argmin(np.sum((u - np.median(u, axis=0)) ** 2, axis=1)))]
+
+
+def _cube(count: int, width: int, seed: int) -> Array:
+    """Points of the unit cube: even along one axis, otherwise a design and the corners."""
+    if width == 1:
+        return np.linspace(0, 1, count)[:, None]
+    # what falls or rises everywhere is best in a corner
+    corners = np.array(list(itertools.product((0.0, 1.0), repeat=min(width, 4))))
+    corners = np.pad(corners, ((0, 0), (0, width - corners.shape[1])), constant_values=0.5)
+    return np.concatenate([corners, sobol(count, width, seed, 0, count)])
+
+
+def _number(excess: float) -> float:
+    """An excess without value counts as broken."""
+    return math.inf if math.isnan(excess) else float(excess)
+
+
+# -------------------------------------------------------------------------- buried particles
+def buried(contact: Contact, d: Array) -> Array:
+    """Share of the particles' load on those that sit deeper than their radius: (N,).
+
+    Zero where the particle law knows no single particles.
+    """
+    total, deep = np.zeros(len(d)), np.zeros(len(d))
+    for each, response in zip(contact.populations, interface(contact).populations, strict=True):
+        try:
+            split = _radius_squeeze(contact.law_of(each), contact.surfaces, each.material)
+            groups = response.spots(d, split)
+        except InvalidValue:
+            continue
+        for spots in groups:
+            total += spots.total(spots.load)
+            deep += spots.total(spots.load * (np.maximum(*spots.depths) > spots.radius))
+    return np.divide(deep, total, out=np.zeros_like(deep), where=total > 0)
+
+
+@lru_cache(maxsize=512)
+def _radius_squeeze(
+    law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+) -> tuple[float, ...]:
+    """Squeeze over diameter at which a particle sits as deep as its radius."""
+    from scipy.optimize import brentq
+
+    def beyond(eps: float) -> float:
+        one = law.probe(np.array([eps]), surfaces=surfaces, particle=particle)
+        return float((np.maximum(*one.depths) - one.radius)[0, 0])
+
+    return (brentq(beyond, 1e-6, 4.0, xtol=1e-12),) if beyond(1e-6) < 0 < beyond(4.0) else ()

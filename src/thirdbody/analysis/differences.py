@@ -1,0 +1,263 @@
+"""Derivatives of solved states by differences, with their doubts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..contact.contact import Contact
+from ..contact.interface import interface
+from ..equilibrium.states import state_columns
+from .inputs import CENTRAL, DOWN, UP, Input, _room
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Offsets = NDArray[np.intp]
+
+STEPS = (1e-2, 2e-3, 2e-4)
+"""Relative changes of an input between neighbouring states; the later ones where the first fail."""
+STEPS_OF_D = (3e-2, 3e-3, 3e-4)
+"""Changes of d, over the length σ_s²/|d| in which the load changes (or σ_s)."""
+GOOD = 1e-9
+"""Estimated error, as that of an elasticity, with which no smaller step is tried."""
+JUMPS = 1e-7
+"""Jump of an elasticity from which `Sensitivity.status` gives the slopes of both sides."""
+FAR = 1e-3
+"""Jump of a slope, over the slope, from which there is no derivative."""
+DOUBTFUL = 1e-6
+"""Estimated error from which `Sensitivity.status` says so."""
+MIDDLE = 4
+
+
+def _slope_weights(offsets: Offsets) -> Array:
+    """Weights of f′(0) from f at all offsets, and from all but the two farthest: (2, 9)."""
+    near = np.argsort(np.abs(offsets), kind="stable")[:-2]
+    out = np.zeros((2, len(offsets)))
+    for row, which in zip(out, (np.arange(len(offsets)), near), strict=True):
+        powers = np.vander(offsets[which].astype(float), increasing=True).T
+        row[which] = np.linalg.solve(powers, np.eye(len(which))[1])
+    return out
+
+
+def _jump_weights() -> Array:
+    """Weights of f′(+0) − f′(−0) from f at the central offsets, exact through |t|⁷ (t⁶): (9,)."""
+    k = np.arange(1.0, 5.0)
+    half = np.linalg.solve(np.stack([k, k**2, k**4, k**6]), [1.0, 0.0, 0.0, 0.0])
+    return np.concatenate([half[::-1], [-2 * half.sum()], half])
+
+
+WEIGHTS = {tuple(offsets): _slope_weights(offsets) for offsets in (CENTRAL, UP, DOWN)}
+SIDES = np.zeros((3, 9))
+"""Weights, at the central offsets, of the jump of f′, and of f′(−0) and f′(+0)."""
+SIDES[0] = _jump_weights()
+SIDES[1, MIDDLE::-1] = _slope_weights(-np.arange(5))[0]
+SIDES[2, MIDDLE:] = _slope_weights(np.arange(5))[0]
+
+
+class Slope(NamedTuple):
+    """Derivatives, their estimated errors, their jumps, and those of each side: each (M, C)."""
+
+    value: Array
+    error: Array
+    jump: Array
+    below: Array
+    above: Array
+
+    def better(self, other: Slope) -> Slope:
+        """From each of two the derivatives with the smaller error."""
+        best = self.error <= other.error
+        return Slope(*(np.where(best, a, b) for a, b in zip(self, other, strict=True)))
+
+    def less(self, ratio: Slope, own: Slope) -> Slope:
+        """c_p − (c_d/g_d) g_p."""
+        error = np.abs(ratio.value) * own.error + ratio.error * np.abs(own.value)
+        rest = (part - ratio.value * other for part, other in zip(self, own, strict=True))
+        return Slope(*rest)._replace(error=self.error + error)
+
+
+def _slope(values: Array, offsets: Offsets, step: float) -> Slope:
+    """Derivatives of values (M, 9, C) at the offsets."""
+    fine, coarse = np.einsum("wk,mkc->wmc", WEIGHTS[tuple(offsets)], values) / step
+    # no difference knows more than the digits of its values
+    rounding = 2 * np.finfo(float).eps * np.max(np.abs(values), axis=1) / step
+    sides = np.zeros_like(fine), fine, fine
+    if offsets is CENTRAL:
+        sides = tuple(np.einsum("wk,mkc->wmc", SIDES, values) / step)
+    return Slope(fine, np.abs(fine - coarse) + rounding, *sides)
+
+
+class Entry(NamedTuple):
+    """Derivatives of one result with one input, their errors and what to say of them: each (M,)."""
+
+    derivative: Array
+    error: Array
+    status: NDArray[Any]
+
+
+def _entries(total: Slope, size: Array, scale: Any) -> list[Entry]:
+    """What to tell of derivatives (M, C) over ``scale``, with columns of this size."""
+    value, error, _, below, above = (part / scale for part in total)
+    error = np.abs(error)
+    status = np.full(value.shape, "ok", dtype=object)
+    worst = np.divide(total.error, size, out=np.zeros_like(size), where=size > 0)
+    broken = (np.abs(total.jump) > JUMPS * size) & (np.abs(total.jump) > 1e3 * total.error)
+    for at in zip(*np.nonzero((worst > DOUBTFUL) & ~broken), strict=True):
+        status[at] = (
+            f"uncertain: the elasticity is known to {worst[at]:.1g} only, because the result is "
+            "not smooth around this input"
+        )
+    for at in zip(*np.nonzero(broken), strict=True):
+        status[at] = (
+            f"the slope jumps: {below[at]:.6g} towards smaller values of the input "
+            f"and {above[at]:.6g} towards larger ones (of equal bodies the softer "
+            "decides: move both, joined by '+')"
+        )
+    between = np.abs(above - below)
+    error = np.where(broken, np.maximum(error, between / 2), error)
+    far = broken & (between > FAR * np.maximum(np.abs(above), np.abs(below)))
+    value, error = np.where(far, np.nan, value), np.where(far, np.nan, error)
+    return [Entry(value[:, c], error[:, c], status[:, c]) for c in range(value.shape[1])]
+
+
+# -------------------------------------------------------------------------- states
+class Places:
+    """States at which derivatives are taken: separations d (M,), and what is held at them.
+
+    The values of a state are its ``columns`` and, last, what is held while an input moves: a
+    column; nothing but d, for None; or at a ``peak`` the slope of the column with d.
+    """
+
+    def __init__(
+        self,
+        contact: Contact,
+        d: Array,
+        held: str | None,
+        columns: Sequence[str],
+        *,
+        peak: bool = False,
+    ):
+        self.contact, self.d, self.held, self.columns = contact, d, held, tuple(columns)
+        self.peak = peak
+        asperities = interface(contact).asperities
+        h = (d - asperities.centre) / asperities.sigma_s
+        self.length = asperities.sigma_s / np.maximum(1.0, np.abs(h))
+        """Length in which the load changes [m]."""
+
+    def values(self, d: Array, changes: Mapping[str, Array]) -> Array:
+        """Values (M, ..., C) at separations (M, ...) and with inputs of that shape."""
+        step = 0.0 * d
+        if self.peak:
+            step = np.broadcast_to(self.length.reshape(-1, *(1,) * (d.ndim - 1)), d.shape)
+            step = STEPS_OF_D[0] * step
+            d = d[..., None] + step[..., None] * CENTRAL
+            changes = {name: np.broadcast_to(v[..., None], d.shape) for name, v in changes.items()}
+        vary = {name: values.ravel() for name, values in changes.items()}
+        states = state_columns(self.contact, d=d.ravel(), vary=vary or None)
+        columns = [states[name].astype(float).reshape(d.shape) for name in self.columns]
+        held = np.zeros(d.shape)
+        if self.held:
+            held = states[self.held].astype(float).reshape(d.shape)
+        if self.peak:
+            columns = [values[..., MIDDLE] for values in columns]
+            held = held @ WEIGHTS[tuple(CENTRAL)][0] / step
+        return np.stack([*columns, held], axis=-1)
+
+    def along_d(self) -> tuple[Array, Slope]:
+        """Values (M, C), and their derivatives with d over `length`."""
+        best = None
+        for step in STEPS_OF_D:
+            values = self.values(self.d[:, None] + step * CENTRAL * self.length[:, None], {})
+            slope = _slope(values, CENTRAL, step)
+            best = slope if best is None else best.better(slope)
+            if _good(best, values[:, MIDDLE]):
+                break
+        assert best is not None
+        return values[:, MIDDLE], best
+
+    def along(self, moved: Sequence[Input], slope_of_held: Array) -> list[Slope]:
+        """Derivatives with every input moved on a path on which what is held stays nearly."""
+        found: dict[int, Slope] = {}
+        pending = list(range(len(moved)))
+        paths = self._paths(moved, slope_of_held) if pending else np.empty((len(self.d), 0))
+        for step in STEPS:
+            inputs = [moved[j] for j in pending]
+            offsets = [_room(self.contact, each, step) for each in inputs]
+            if inputs:
+                values = self._on_paths(inputs, paths[:, pending], offsets, step)
+            left = []
+            for i, j in enumerate(pending):
+                slope = _slope(values[:, i], offsets[i], step)
+                found[j] = found[j].better(slope) if j in found else slope
+                if not _good(found[j], values[:, i, np.flatnonzero(offsets[i] == 0)[0]]):
+                    left.append(j)
+            pending = left
+        return [found[j] for j in range(len(moved))]
+
+    def _paths(self, moved: Sequence[Input], slope_of_held: Array) -> Array:
+        """dd/dt of every input (M, J) on its path, from two states each."""
+        if self.held is None:
+            return np.zeros((len(self.d), len(moved)))
+        step = STEPS[0]
+        rooms = [_room(self.contact, each, step) for each in moved]
+        pairs = [
+            room[MIDDLE - 1 : MIDDLE + 2 : 2] if room is CENTRAL else room[:2] for room in rooms
+        ]
+        still = np.zeros((len(self.d), len(moved)))
+        low, high = np.moveaxis(self._on_paths(moved, still, pairs, step)[..., -1], -1, 0)
+        run = step * np.array([pair[1] - pair[0] for pair in pairs])
+        rise = high - low
+        if self.held in ("F_star", "pressure"):
+            # a load changes like an exponential
+            rise = np.sqrt(low * high) * np.log(high / low)
+        return -rise / run * (self.length / slope_of_held)[:, None]
+
+    def _on_paths(
+        self, moved: Sequence[Input], paths: Array, offsets: Sequence[Offsets], step: float
+    ) -> Array:
+        """Values (M, J, K, C) with each input moved by its offsets on its path, all at once."""
+        t = step * np.stack(offsets)
+        d = self.d[:, None, None] + paths[..., None] * t
+        changes: dict[str, Array] = {}
+        for j, each in enumerate(moved):
+            for name, values in each.at(t[j]).items():
+                start = each.values[each.names.index(name)]
+                changes.setdefault(name, np.full(d.shape, start))[:, j] = values
+        return self.values(d, changes)
+
+    def entries(self, moved: Sequence[Input], load: str) -> dict[str, list[Entry]]:
+        """Derivatives of every column with every input, and with the load where it has a name."""
+        centre, slope = self.along_d()
+        size = np.abs(centre[:, :-1])
+        columns, own = _last_apart(slope)
+        steep = np.where(own.value == 0, 1.0, own.value)
+        ratio = Slope(*(part / steep for part in columns))
+        ratio = ratio._replace(
+            error=(columns.error + np.abs(ratio.value) * own.error) / np.abs(steep)
+        )
+        out = {}
+        partial = self.along(moved, slope.value[:, -1])
+        for each, (of_columns, of_held) in zip(moved, map(_last_apart, partial), strict=True):
+            total = of_columns.less(ratio, of_held)
+            out[each.label] = _entries(total, size, each.scales[0])
+        if load == self.held:
+            level = centre[:, -1:]
+            out[load] = _entries(Slope(*(level * part for part in ratio)), size, level)
+        elif load == "d" and self.held is None:
+            out[load] = _entries(columns, size, self.length[:, None])
+        elif load:
+            out[load] = _entries(Slope(*(0 * part for part in columns)), size, 1.0)
+        return out
+
+
+def _last_apart(slope: Slope) -> tuple[Slope, Slope]:
+    """Slopes of the columns and of what is held."""
+    return Slope(*(part[:, :-1] for part in slope)), Slope(*(part[:, -1:] for part in slope))
+
+
+def _good(slope: Slope, centre: Array) -> bool:
+    """Whether every error is small, as that of an elasticity."""
+    return bool(np.all(slope.error <= GOOD * (np.abs(centre) + np.abs(slope.value))))

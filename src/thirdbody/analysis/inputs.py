@@ -1,0 +1,152 @@
+"""The numbers that a contact is made of, by name."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..contact.contact import Contact
+from ..contact.output import AbstractOutput
+from ..equilibrium.columns import COLUMNS
+from ..equilibrium.states import carries, varied
+from ..errors import InvalidValue
+from ..populations.roughness import ETA_R_SIGMA
+from ..quantities.value import Value
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Offsets = NDArray[np.intp]
+
+__all__ = ["inputs"]
+
+NOT_NUMBERS = ("mode", "status", "residual", "iterations")
+NUMBERS = tuple(name for name in COLUMNS if name not in NOT_NUMBERS)
+"""Columns with a derivative."""
+
+
+# -------------------------------------------------------------------------- inputs
+def inputs(contact: Contact) -> dict[str, float]:
+    """Every number that a contact is made of and that can be varied, by its dotted name.
+
+    Several populations are numbered, ``particles.0.areal_density``; outputs go by their names,
+    ``outputs.friction.tau_ss``.
+    """
+    out = dict(_numbers(contact, ""))
+    if not contact.outputs:
+        out = {name: v for name, v in out.items() if carries(name)}
+    rough = contact.roughness
+    if rough.eta is None and rough.eta_R_sigma is None:
+        out["roughness.eta_R_sigma"] = ETA_R_SIGMA
+    if contact.two_body:
+        out = {name: v for name, v in out.items() if not name.startswith("particle")}
+    return out
+
+
+def _numbers(value: Value, prefix: str) -> Iterator[tuple[str, float]]:
+    for item in dataclasses.fields(value):  # type: ignore[arg-type]
+        part = getattr(value, item.name)
+        if "quantity" in item.metadata and part is not None:
+            yield prefix + item.name, part
+        elif isinstance(part, Value):
+            yield from _numbers(part, f"{prefix}{item.name}.")
+        elif isinstance(part, tuple):
+            for place, each in enumerate(part):
+                label = each.name if isinstance(each, AbstractOutput) else place
+                if isinstance(each, Value):
+                    yield from _numbers(each, f"{prefix}{item.name}.{label}.")
+
+
+class Input(NamedTuple):
+    """Numbers of a contact that move by one factor: at t each is value + scale·t."""
+
+    label: str
+    names: tuple[str, ...]
+    values: tuple[float, ...]
+    scales: tuple[float, ...]
+
+    def at(self, t: Any) -> dict[str, Any]:
+        parts = zip(self.names, self.values, self.scales, strict=True)
+        return {name: value + scale * t for name, value, scale in parts}
+
+
+def input_of(contact: Contact, label: str) -> Input:
+    """The input of a dotted name, or of several joined by "+"."""
+    names = tuple(name.strip() for name in label.split("+"))
+    known = inputs(contact)
+    if problems := [_no_input(contact, name, known) for name in names if name not in known]:
+        raise InvalidValue(*problems)
+    values = tuple(known[name] for name in names)
+    if len(names) > 1:
+        if problems := [
+            f"to = {label!r} moves its inputs by one factor, but {name} is zero"
+            for name, value in zip(names, values, strict=True)
+            if value == 0
+        ]:
+            raise InvalidValue(*problems)
+        return Input(label, names, values, values)
+    return Input(label, names, values, (_scale(contact, names[0], values[0]),))
+
+
+def _scale(contact: Contact, name: str, value: float) -> float:
+    """By how much an input changes when it changes a lot."""
+    about = declared(contact, name)
+    if value > 0 and 0 in (about["gt"], about["ge"]):
+        return value
+    usual = {"1": 1.0, "m": contact.roughness.sigma}.get(about["unit"], 0.0)
+    if not (scale := max(abs(value), usual)):
+        raise InvalidValue(f"to = {name!r} is zero; give it a value to say what a small change is")
+    return scale
+
+
+def declared(contact: Contact, name: str) -> dict[str, Any]:
+    """Symbol, unit and range of an input."""
+    path, _, last = name.rpartition(".")
+    owner = contact.part(path)
+    (about,) = (i.metadata["quantity"] for i in dataclasses.fields(owner) if i.name == last)
+    return about
+
+
+def _no_input(contact: Contact, name: str, known: Iterable[str]) -> str:
+    """Why a name is not an input that can be varied."""
+    import difflib
+
+    if contact.two_body and name.startswith("particle"):
+        return f"to = {name!r} says nothing of a contact without particles"
+    try:
+        owner = contact.part(name)
+    except InvalidValue:
+        near = difflib.get_close_matches(name, list(known), n=1)
+        guess = f"did you mean {near[0]!r}?" if near else f"the inputs are {', '.join(known)}"
+        return f"to = {name!r} is not an input; {guess}"
+    if name in ("roughness.eta", "roughness.eta_R_sigma"):
+        given = "eta_R_sigma" if name.endswith("eta") else "eta"
+        return f"to = {name!r} is not given; the density follows from 'roughness.{given}', use that"
+    if owner is None:
+        return (
+            f"to = {name!r} is None: the contact finds it from its other inputs; vary those, or "
+            "give it a value"
+        )
+    return f"to = {name!r} is not a number that could change a little"
+
+
+# -------------------------------------------------------------------------- differences
+CENTRAL, UP, DOWN = np.arange(-4, 5), np.arange(9), -np.arange(9)
+"""Where the states of a difference lie, in steps; on one side at the end of an input's range."""
+
+
+def _room(contact: Contact, moved: Input, step: float) -> Offsets:
+    """Offsets of a difference on both sides, or on the side to which the input may go."""
+    why = ""
+    for offsets in (CENTRAL, UP, DOWN):
+        try:
+            for end in (offsets[0], offsets[-1]):
+                varied(contact, moved.at(float(step * end)))
+        except InvalidValue as refused:
+            why = why or str(refused)
+        else:
+            return offsets
+    raise InvalidValue(f"to = {moved.label!r} can be moved to neither side: {why}")

@@ -1,0 +1,373 @@
+r"""Sensitivities: how every column and every critical load answers to every input.
+
+At a state where a column :math:`g(d; p)` is held while the input p moves,
+
+.. math:: \frac{\mathrm dc}{\mathrm dp} = \partial_p c - \frac{\partial_d c}{\partial_d g}\,
+          \partial_p g
+
+with the load for g at a given load, the particle share for g at a critical load. The partial
+derivatives are eighth-order differences of states at given separations: nothing is solved again.
+They are taken along a straight path d(p) on which g stays nearly constant, so that no two large
+numbers cancel.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.contact import Contact
+from ..equilibrium.columns import EPS_1, EPS_2, Equilibrium, quantity_of
+from ..equilibrium.solve import given_load, solve
+from ..equilibrium.transitions import transitions
+from ..errors import InvalidValue
+from ..quantities import notebook
+from .differences import STEPS, Entry, Places
+from .inputs import NUMBERS, Input, _room, input_of, inputs
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Sensitivity", "sensitivity"]
+
+AT_ONCE = 500
+"""Loads differentiated at a time."""
+CRITICAL = {
+    "F_cr1": ("particle_area_share", 1 - EPS_1),
+    "F_cr2": ("particle_area_share", EPS_2),
+    "F_tpca.A": ("particle_area_share", None),
+    "F_tpca.B": ("particle_load_share", 0.5),
+    "F_tpca.C": ("", None),
+}
+"""Critical loads, the share that is held there and its value; None: the share has its maximum."""
+
+
+# -------------------------------------------------------------------------- result
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sensitivity:
+    """Derivatives of results with respect to inputs: floats, or arrays over several loads.
+
+    Made by `sensitivity`, where accuracy stands.
+
+    Attributes
+    ----------
+    contact : Contact
+        The contact whose results are moved.
+    load : dict
+        What was given: pressure, F_star or d; empty for critical loads alone.
+    inputs : dict
+        Every input and its value; of inputs that move together, the first one's.
+    value : dict
+        Every result.
+    derivative : dict of dict
+        ``derivative[of][to]``, dc/dp in SI.
+    elasticity : dict of dict
+        d ln c/d ln p = (p/c) dc/dp [1]: per cent of change for one per cent.
+    error : dict of dict
+        Estimated error of the derivative: by how much two orders of difference differ.
+    status : dict of dict
+        "ok", or why there is no derivative, or how uncertain it is.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> found = tb.sensitivity(contact, of=["A_t"], to=["roughness.sigma"], pressure=5e6)
+    >>> round(found.elasticity["A_t"]["roughness.sigma"], 3), found.status["A_t"]["roughness.sigma"]
+    (0.21, 'ok')
+    """
+
+    contact: Contact = field(repr=False)
+    load: dict[str, Any]
+    inputs: dict[str, Any]
+    value: dict[str, Any]
+    derivative: dict[str, dict[str, Any]]
+    elasticity: dict[str, dict[str, Any]]
+    error: dict[str, dict[str, Any]]
+    status: dict[str, dict[str, Any]]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the contact, ready for JSON: None for NaN, lists for arrays."""
+        names = (item.name for item in dataclasses.fields(self) if item.name != "contact")
+        return {name: _plain(getattr(self, name)) for name in names}
+
+    def table(self, at: int = 0) -> str:
+        """The elasticities at one load as lines of text, the strongest input first.
+
+        Parameters
+        ----------
+        at : int, optional
+            Number of the load, where several were given.
+        """
+
+        def one(value: Any) -> float:
+            return float(value if np.ndim(value) == 0 else value[at])
+
+        rows = {to: [one(row[to]) for row in self.elasticity.values()] for to in self.inputs}
+        order = sorted(rows, key=lambda to: -max(np.nan_to_num(np.abs(rows[to]))))
+        width = max(len(to) for to in (*rows, "input"))
+        wide = [max(10, len(of)) for of in self.elasticity]
+        lines = [
+            ["input".ljust(width), *(of.rjust(w) for of, w in zip(self.value, wide, strict=True))]
+        ]
+        for to in order:
+            numbers = (f"{round(x, 4) + 0.0:{w}.4f}" for x, w in zip(rows[to], wide, strict=True))
+            lines.append([to.ljust(width), *numbers])
+        return "\n".join("  ".join(line) for line in lines)
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: the elasticities, an input a row; of several loads the first."""
+        rows = [notebook.Row("input", list(self.elasticity))]
+        rows += [
+            notebook.Row(
+                to,
+                [notebook.words_of(np.ravel(row[to])[0]) for row in self.elasticity.values()],
+                "" if (told := quantity_of(self.contact, to)) is None else told["meaning"],
+            )
+            for to in self.inputs
+        ]
+        return notebook.card("Elasticities d ln c/d ln p", rows)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _plain(part) for name, part in value.items()}
+    if isinstance(value, np.ndarray):
+        return [_plain(part) for part in value.tolist()]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _default_inputs(contact: Contact) -> list[str]:
+    """Every input that may move; joined where several decide (who is softer, which side wider)."""
+    known = inputs(contact)
+    pair = contact.surfaces
+    alike = pair.first == pair.second
+    groups: dict[Any, list[str]] = {}
+    for name, value in known.items():
+        side, _, last = name.rpartition(".")
+        body = side in ("surfaces.first", "surfaces.second") or side.endswith(".material")
+        if body and last == "H":
+            key: Any = ("H", value)
+        elif body and alike and value and not side.endswith(".material"):
+            key = (last, "surfaces")
+        else:
+            key = name
+        groups.setdefault(key, []).append(name)
+    return [label for names in groups.values() if _moves(contact, label := "+".join(names))]
+
+
+def _moves(contact: Contact, label: str) -> bool:
+    """Whether an input may change: not so the height of a seat that has none."""
+    try:
+        _room(contact, input_of(contact, label), STEPS[0])
+    except InvalidValue:
+        return False
+    return True
+
+
+# -------------------------------------------------------------------------- sensitivities
+def sensitivity(
+    contact: Contact,
+    *,
+    of: str | Sequence[str],
+    to: str | Sequence[str] | None = None,
+    pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
+    d: ArrayLike | None = None,
+) -> Sensitivity:
+    r"""Derivatives of columns and critical loads with respect to inputs of the contact.
+
+    .. math:: \frac{\mathrm dc}{\mathrm dp} = \partial_p c -
+              \frac{\partial_d c}{\partial_d g}\,\partial_p g, \qquad
+              e = \frac{p}{c}\,\frac{\mathrm dc}{\mathrm dp}
+
+    Parameters
+    ----------
+    contact : Contact
+    of : str or list of str
+        Columns of `Equilibrium` and of the contact's outputs at the given load, and critical
+        loads F* of `transitions`: "F_cr1", "F_cr2", "F_tpca.A", "F_tpca.B".
+    to : str or list of str, optional
+        Dotted names of numbers of the contact, such as "roughness.sigma" or
+        "particles.diameter.mean"; "F_star", "pressure" or "d", whichever is given; or several
+        names joined by "+", which move by one factor. Every number and the load when left out,
+        with E, ν and H of two equal surfaces, and equal hardnesses, joined: which body is the
+        softer changes there, so that the slopes on both sides differ.
+    pressure, F_star, d : float or array (N,)
+        The load as in `solve`, held while an input moves; at most one, none for critical loads
+        alone. F* is held in units of E_ss, which moves with the moduli.
+
+    Returns
+    -------
+    Sensitivity
+        ``derivative[of][to]`` in SI, ``elasticity`` (d ln c/d ln p), and ``error`` and
+        ``status`` beside each.
+
+    Raises
+    ------
+    InvalidValue
+        A name that is no number, or a number that is not given or must not move.
+    NoEquilibrium
+        A single load that the contact does not carry.
+
+    Notes
+    -----
+    Eighth-order differences of states at given d, ten a load and input; the estimated error is
+    the difference from sixth order, and steps are made smaller where it is large. Relative error
+    1e-8 or better against differences of solved states where the column is smooth. A slope that
+    jumps (two bodies of equal hardness, one of them varied) has both slopes in ``status``, and is
+    NaN where they differ by more than 1e-3. Critical loads that do not exist have no derivative,
+    nor has F_tpca.C, which `transitions` takes from a grid. At the maximum of the share
+    (F_tpca.A) derivatives are exact to 1e-6.
+
+    References
+    ----------
+    Implicit function theorem; differences after Fornberg 1988, Math. Comp. 51, 699,
+    doi:10.1090/S0025-5718-1988-0935077-0.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> found = tb.sensitivity(contact, of="A_t", to=["roughness.sigma", "pressure"], pressure=1e7)
+    >>> round(found.elasticity["A_t"]["roughness.sigma"], 3)
+    -0.206
+    >>> round(found.elasticity["A_t"]["pressure"], 3)
+    0.976
+    """
+    results = _results(of, contact)
+    plain = [name for name in results if name not in CRITICAL]
+    if not set(plain) - set(NUMBERS):
+        contact = contact.replace(outputs=())
+    loads = {"F_star": F_star, "pressure": pressure, "d": d}
+    given = {name: value for name, value in loads.items() if value is not None}
+    load = ""
+    if given or plain:
+        load, _, _ = given_load(contact, pressure, F_star, d)
+    labels = [to] if isinstance(to, str) else list(to if to is not None else ())
+    if to is None:
+        labels = _default_inputs(contact) + [load] * bool(load)
+    for name in labels:
+        if name in loads and name != load:
+            raise InvalidValue(f"to = {name!r} needs {name} as the given load")
+    moved = [input_of(contact, name) for name in dict.fromkeys(labels) if name != load]
+
+    value: dict[str, Array] = {}
+    entries: dict[str, dict[str, Entry]] = {}
+    if plain:
+        state = solve(contact, **given)  # type: ignore[arg-type]
+        columns = state.columns()
+        value = {name: columns[name] for name in plain}
+        entries = _of_columns(contact, state, moved, load, plain)
+    for name in results:
+        if name in CRITICAL:
+            value[name], entries[name] = _of_critical(contact, name, moved, load)
+
+    start: dict[str, Any] = {each.label: each.values[0] for each in moved}
+    if load in labels:
+        start[load] = np.atleast_1d(np.asarray(given[load], dtype=float))
+    one = {name: name in CRITICAL or np.ndim(given[load]) == 0 for name in results}
+
+    def number(values: NDArray[Any], name: str) -> Any:
+        return values.tolist()[0] if one[name] else values
+
+    def elasticity(name: str, label: str) -> Array:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return entries[name][label].derivative * (start[label] / value[name])
+
+    def table(of: Callable[[str, str], Any]) -> dict[str, dict[str, Any]]:
+        return {
+            name: {label: number(np.asarray(of(name, label)), name) for label in labels}
+            for name in results
+        }
+
+    return Sensitivity(
+        contact=contact,
+        load={load: given[load]} if load else {},
+        inputs={label: given[load] if label == load else start[label] for label in labels},
+        value={name: number(value[name], name) for name in results},
+        derivative=table(lambda name, label: entries[name][label].derivative),
+        elasticity=table(elasticity),
+        error=table(lambda name, label: entries[name][label].error),
+        status=table(lambda name, label: entries[name][label].status),
+    )
+
+
+def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
+    """The names of ``of``, each once."""
+    known = (*NUMBERS, *(name for each in contact.outputs for name in each.columns), *CRITICAL)
+    names = list(dict.fromkeys([of] if isinstance(of, str) else of))
+    if not names:
+        raise InvalidValue("of is empty; name a column of Equilibrium or a critical load")
+    if problems := [
+        f"of = {name!r} has no derivative; it must be one of {', '.join(known)}"
+        for name in names
+        if name not in known
+    ]:
+        raise InvalidValue(*problems)
+    return names
+
+
+def _of_columns(
+    contact: Contact, state: Equilibrium, moved: Sequence[Input], load: str, columns: Sequence[str]
+) -> dict[str, dict[str, Entry]]:
+    """Derivatives of columns at solved states; NaN with the reason where there is none."""
+    d, words = np.atleast_1d(state.d), np.atleast_1d(state.status)
+    nothing = np.full(len(d), np.nan)
+    out = {
+        name: {
+            label: Entry(nothing.copy(), nothing.copy(), words.astype(object))
+            for label in (*(each.label for each in moved), load)
+        }
+        for name in columns
+    }
+    known = np.flatnonzero(np.isfinite(d))
+    for start in range(0, len(known), AT_ONCE):
+        here = known[start : start + AT_ONCE]
+        places = Places(contact, d[here], None if load == "d" else load, columns)
+        for label, entries in places.entries(moved, load).items():
+            for name, entry in zip(columns, entries, strict=True):
+                for whole, part in zip(out[name][label], entry, strict=True):
+                    whole[here] = part
+    return out
+
+
+def _of_critical(
+    contact: Contact, name: str, moved: Sequence[Input], load: str
+) -> tuple[Array, dict[str, Entry]]:
+    """A critical load to rounding, and its derivatives: there the share keeps its value."""
+    share, level = CRITICAL[name]
+    found: Any = transitions(contact)
+    for part in name.split("."):
+        found = getattr(found, part)
+    why = "" if found.status == "found" else found.status
+    if not why and not share:
+        why = "the strongest bend is taken from a grid of loads and has no derivative"
+    if why:
+        none = Entry(np.array([np.nan]), np.array([np.nan]), np.array([why], dtype=object))
+        value = np.nan if found.value is None else found.value
+        return np.array([value]), dict.fromkeys((*(each.label for each in moved), load), none)
+    d = np.atleast_1d(solve(contact, F_star=found.value).d)
+    for _ in range(8):
+        places = Places(contact, d, share, ["F_star"], peak=level is None)
+        centre, slope = places.along_d()
+        step = ((level or 0.0) - centre[:, -1]) / slope.value[:, -1]
+        if abs(step[0]) < 1e-13:
+            break
+        d = d + step * places.length
+    entries = places.entries(moved, load)
+    return centre[:, 0], {label: column for label, (column,) in entries.items()}

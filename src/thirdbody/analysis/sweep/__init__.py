@@ -1,0 +1,1 @@
+"""Sweeps: many states into memory, into a folder, on a cluster."""

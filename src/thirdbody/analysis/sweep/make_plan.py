@@ -1,0 +1,200 @@
+"""A plan from what is asked of a sweep."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...contact.contact import Contact
+from ...equilibrium.columns import columns_of, quantity_of
+from ...equilibrium.solve import given_load
+from ...errors import InvalidValue
+from ...numerics.sampling import DESIGNS, Span
+from ...quantities.value import Value, problem_with
+from .plan import CHUNK, Arrays, Listed, Plan, Sampled
+from .reduction import Reduction
+
+CELL = 100_000_000
+"""Numbers of one cell that may be held in memory for exact quantiles (0.8 GB)."""
+ABSENT = ("particles.diameter.mean", "particles.areal_density")
+
+
+# -------------------------------------------------------------------------- making a plan
+def make_plan(
+    contact: Contact,
+    *,
+    pressure: Any = None,
+    F_star: Any = None,
+    d: Any = None,
+    vary: Mapping[str, Any] | None = None,
+    design: str = "grid",
+    samples: int | None = None,
+    seed: int = 0,
+    columns: Sequence[str] | None = None,
+    reduce: Mapping[str, Any] | None = None,
+    chunk: int = CHUNK,
+) -> Plan:
+    """The plan that these arguments describe; see `sweep`."""
+    given = {"pressure": pressure, "F_star": F_star, "d": d}
+    given = {name: value for name, value in given.items() if value is not None}
+    if len(given) != 1:
+        names = ", ".join(given) or "none"
+        raise InvalidValue(f"give exactly one of pressure, F_star, d; got {names}")
+    ((load, loads),) = given.items()
+    problems = _not_known("design", design, ("grid", "zip", *DESIGNS))
+    entries: dict[str, Any] = dict(vary or {})
+    if load in entries:
+        raise InvalidValue(f"vary[{load!r}] is the load, which is given already")
+    entries[load] = loads
+    spans: dict[str, Span] = {}
+    listed: Arrays = {}
+    for name, entry in entries.items():
+        label = load if name == load else f"vary[{name!r}]"
+        if isinstance(entry, Mapping) or (design in DESIGNS and isinstance(entry, tuple)):
+            if design not in DESIGNS:
+                problems.append(
+                    f"{label} = {entry!r} is a range to be sampled, which needs design = 'latin' "
+                    "or 'sobol'"
+                )
+                continue
+            span, why = _span(label, entry)
+            problems += why
+            spans |= {name: span} if span else {}
+            values = np.array([span.low, span.high]) if span else np.empty(0)
+        else:
+            values = _as_array(entry)
+            if not len(values):
+                problems.append(f"{label} is empty; give at least one value")
+            listed[name] = values
+        problems += _refused(contact, label, name, values) if name != load else []
+        if name == load and len(values) and values.dtype != object:
+            try:
+                given_load(contact, **{"pressure": None, "F_star": None, "d": None, load: values})
+            except InvalidValue as error:
+                problems += error.problems
+        elif name == load and len(values):
+            problems.append(f"{load} = {entry!r} must be a number or an array of numbers")
+    if design in DESIGNS and not spans and not problems:
+        problems.append(
+            f"design = {design!r} samples ranges and none is given; a range is (low, high) or "
+            "{'low': ..., 'high': ..., 'scale': 'log'}"
+        )
+    problems += _sampling_problems(design, samples, seed)
+    if isinstance(chunk, bool) or not isinstance(chunk, int) or chunk < 1:
+        problems.append(f"chunk = {chunk!r} must be a whole number of states, at least 1")
+    sizes = {name: len(values) for name, values in listed.items()}
+    if design == "zip" and len({size for size in sizes.values() if size != 1}) > 1:
+        shown = ", ".join(f"{name} {size}" for name, size in sizes.items())
+        problems.append(f"design = 'zip' needs inputs of one length, and got {shown}")
+    known = columns_of(contact)
+    if columns is not None:
+        problems += [p for name in columns for p in _not_known("column", name, known)]
+    if problems:
+        raise InvalidValue(*problems)
+
+    dims: list[Listed | Sampled]
+    if design == "zip":
+        length = max(sizes.values())
+        together = {name: np.broadcast_to(v, (length,)) for name, v in listed.items()}
+        dims = [Listed("state", together)]
+    else:
+        dims = [Listed(name, {name: values}) for name, values in listed.items()]
+        if spans:
+            assert samples is not None
+            dims.append(Sampled(spans, design, samples, seed, 0, samples))
+    kept = tuple(name for name in known if name != load and name in (columns or known))
+    if reduce is None:
+        return Plan(contact, load, tuple(dims), kept, None, chunk)
+    words = ("mode", "status", "iterations", *(() if columns else ("residual",)))
+    kept = tuple(name for name in kept if name not in words)
+    reduction = Reduction.read(reduce, {dim.name: dim.names for dim in dims}, kept)
+    dims.sort(key=lambda dim: dim.name in reduction.over)
+    plan = Plan(contact, load, tuple(dims), kept, reduction, chunk)
+    return _with_whole_cells(plan) if reduction.quantiles else plan
+
+
+def _with_whole_cells(plan: Plan) -> Plan:
+    """Blocks that hold every sample of a cell, as exact quantiles need."""
+    cell = math.prod(plan.whole.sizes[plan.outer :])
+    numbers = cell * (len(plan.columns) + 3)
+    if numbers > CELL:
+        raise InvalidValue(
+            f"reduce['quantiles']: a cell has {cell:,} samples of {len(plan.columns)} columns, and "
+            f"exact quantiles need them in memory, which holds {CELL:,} numbers; name fewer "
+            f"columns, take at most {CELL // 4:,} samples, or leave the quantiles out (mean, "
+            "extrema and exceed have no limit)"
+        )
+    return dataclasses.replace(plan, chunk=max(plan.chunk, cell))
+
+
+def _span(label: str, entry: Any) -> tuple[Span | None, list[str]]:
+    """A range, or what is wrong with it."""
+    pair = not isinstance(entry, Mapping)
+    keys = {"low": entry[0], "high": entry[-1]} if pair and len(entry) == 2 else {}
+    keys = keys if pair else dict(entry)
+    if not {"low", "high"} <= set(keys) <= {"low", "high", "scale"}:
+        return None, [f"{label} = {entry!r} must be (low, high) or have the keys low, high, scale"]
+    low, high, scale = keys["low"], keys["high"], keys.get("scale", "linear")
+    problems = _not_known(f"{label} scale", scale, ("linear", "log"))
+    for end in (low, high):
+        about = {"unit": "SI", "gt": None, "ge": None, "lt": None, "le": None, "hint": ""}
+        if problem_with(about, end):
+            problems.append(f"{label}: {end!r} must be a finite number in SI units")
+    if problems:
+        return None, problems
+    if not low < high:
+        return None, [f"{label}: low = {low:g} must be below high = {high:g}"]
+    if scale == "log" and low <= 0:
+        return None, [f"{label}: low = {low:g} must be > 0 with scale = 'log'"]
+    return Span(float(low), float(high), scale), []
+
+
+def _sampling_problems(design: str, samples: Any, seed: Any) -> list[str]:
+    out = []
+    if design in DESIGNS:
+        if isinstance(samples, bool) or not isinstance(samples, int) or samples < 1:
+            out.append(f"samples = {samples!r} must be a whole number, at least 1")
+        elif samples > 2**48:
+            out.append(f"samples = {samples:,} must be at most {2**48:,}")
+        if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
+            out.append(f"seed = {seed!r} must be a whole number, at least 0")
+    elif samples is not None:
+        out.append(f"samples = {samples!r} goes with design = 'latin' or 'sobol'")
+    return out
+
+
+def _not_known(what: str, word: Any, options: Sequence[str]) -> list[str]:
+    if word in options:
+        return []
+    return [f"{what} = {word!r} must be one of {', '.join(map(repr, options))}"]
+
+
+def _as_array(entry: Any) -> NDArray[Any]:
+    """Numbers as they are; anything else as objects."""
+    if isinstance(entry, (str, Value)) or not np.iterable(entry):
+        entry = [entry]
+    values = list(entry) if not isinstance(entry, np.ndarray) else entry.ravel()
+    if isinstance(values, np.ndarray) and values.dtype.kind in "fiub":
+        return values
+    numbers = (int, float, np.number, np.bool_)
+    if len(values) and all(isinstance(value, numbers) for value in values):
+        return np.asarray(values)
+    out = np.empty(len(values), dtype=object)
+    out[:] = values
+    return out
+
+
+def _refused(contact: Contact, label: str, name: str, values: NDArray[Any]) -> list[str]:
+    """Numbers that the field never takes; the rest is for the contact to judge."""
+    about = quantity_of(contact, name)
+    if about is None or values.dtype.kind not in "fiu" or not len(values):
+        return []
+    some = values[values != 0] if name in ABSENT else values
+    ends = [] if not len(some) else [some.min(), some.max()]
+    bad = [value for value in ends if problem_with(about, value)]
+    return [f"{label}: {value:g} {problem_with(about, value)}" for value in bad[:1]]

@@ -1,0 +1,461 @@
+"""What a sweep solves: plan, blocks, tasks, and how they are stored."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import itertools
+import json
+import math
+import re
+import warnings
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...contact.citations import cite
+from ...contact.contact import Contact
+from ...equilibrium.columns import labels, labels_of
+from ...equilibrium.solve import about_particles, solve
+from ...equilibrium.states import state_columns, varied
+from ...errors import InvalidValue, RangeWarning
+from ...numerics.sampling import DESIGNS, Span
+from ...quantities.value import Value
+from .reduction import Reduction
+
+__all__ = ["Block", "Layout", "Plan", "Task"]
+
+Arrays = dict[str, NDArray[Any]]
+Box = tuple[slice, ...]
+
+CHUNK = 262_144
+"""States of a block: the most that are lost when a run is killed, and written at once."""
+LOOKED_AT = 200
+"""States whose inputs are looked at before a run."""
+MODES = ("", "p-s", "hybrid", "s-s")
+STATUSES = ("ok", "no_equilibrium_above", "no_equilibrium_below", "no_equilibrium", "jump")
+CODES = {
+    "mode": ("none", *(mode.replace("-", "") for mode in MODES[1:])),
+    "status": STATUSES,
+}
+"""Words of the columns that are stored as codes 0, 1, 2 ... (CF ``flag_meanings``)."""
+STORED = {"mode": "i1", "status": "i1", "iterations": "i2"}
+"""Stored types, other than 8-byte floats."""
+
+
+# -------------------------------------------------------------------------- which states
+@dataclass(frozen=True, eq=False)
+class Listed:
+    """A dimension along which inputs take listed values."""
+
+    name: str
+    values: Arrays
+    start: int = 0
+
+    @property
+    def size(self) -> int:
+        return len(next(iter(self.values.values())))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Its inputs, in order."""
+        return tuple(self.values)
+
+    def cut(self, part: slice) -> Listed:
+        cut = {name: values[part] for name, values in self.values.items()}
+        return Listed(self.name, cut, self.start + part.start)
+
+    def inputs(self) -> Arrays:
+        return self.values
+
+    def to_dict(self) -> dict[str, Any]:
+        return {name: _listed(values) for name, values in self.values.items()}
+
+
+@dataclass(frozen=True, eq=False)
+class Sampled:
+    """A dimension along which inputs are sampled from ranges."""
+
+    spans: dict[str, Span]
+    design: str
+    count: int
+    seed: int
+    start: int
+    stop: int
+    name: str = "sample"
+
+    @property
+    def size(self) -> int:
+        return self.stop - self.start
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Its inputs, in order."""
+        return tuple(self.spans)
+
+    def cut(self, part: slice) -> Sampled:
+        ends = {"start": self.start + part.start, "stop": self.start + part.stop}
+        return dataclasses.replace(self, **ends)
+
+    def inputs(self) -> Arrays:
+        draw = DESIGNS[self.design]
+        u = draw(self.count, len(self.spans), self.seed, self.start, self.stop)
+        return {name: span.at(u[:, j]) for j, (name, span) in enumerate(self.spans.items())}
+
+    def to_dict(self) -> dict[str, Any]:
+        own = {"design": self.design, "samples": self.count, "seed": self.seed}
+        return own | {name: dataclasses.asdict(span) for name, span in self.spans.items()}
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """Some states of a plan: a box along its dimensions."""
+
+    contact: Contact
+    load: str
+    dims: tuple[Listed | Sampled, ...]
+
+    @property
+    def sizes(self) -> tuple[int, ...]:
+        return tuple(dim.size for dim in self.dims)
+
+    def inputs(self) -> Arrays:
+        """Every input of every state, flat in C order."""
+        out = {}
+        for axis, dim in enumerate(self.dims):
+            shape = [1] * len(self.dims)
+            shape[axis] = dim.size
+            for name, values in dim.inputs().items():
+                out[name] = np.broadcast_to(values.reshape(shape), self.sizes).ravel()
+        return out
+
+    def solve(self) -> Arrays:
+        """Every column, in the shape of the block."""
+        inputs = self.inputs()
+        loads = inputs.pop(self.load)
+        words = {name: v for name, v in inputs.items() if v.dtype == object}
+        numbers = {name: v for name, v in inputs.items() if v.dtype != object}
+        out: Arrays = {}
+        for changes, which in _alike(words, len(loads)):
+            contact = varied(self.contact, changes) if changes else self.contact
+            given: dict[str, Any] = {self.load: loads[which]}
+            vary = {name: values[which] for name, values in numbers.items()}
+            for name, column in state_columns(contact, **given, vary=vary or None).items():
+                if name not in out:
+                    kind = object if column.dtype.kind in "UO" else column.dtype
+                    out[name] = np.empty(len(loads), dtype=kind)
+                out[name][which] = column
+        return {name: column.reshape(self.sizes) for name, column in out.items()}
+
+    def parts(self, most: int) -> Iterator[tuple[Box, Block]]:
+        """The block in boxes of at most so many states."""
+        for part in _boxes(self.sizes, _box(self.sizes, most)):
+            yield part, self.cut(part)
+
+    def cut(self, part: Box) -> Block:
+        dims = tuple(dim.cut(s) for dim, s in zip(self.dims, part, strict=True))
+        return dataclasses.replace(self, dims=dims)
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """The work on one block: solve it, and keep what is asked for."""
+
+    block: Block
+    columns: tuple[str, ...]
+    reduction: Reduction | None
+    outer: int
+    coded: bool
+    version: str
+
+    def __call__(self) -> tuple[Arrays, dict[str, Any]]:
+        """The arrays to store, and a summary: states, unsolved states, largest area, shadow."""
+        from ...version import __version__
+
+        if self.version != __version__:
+            raise InvalidValue(
+                f"this worker runs thirdbody {__version__} and the sweep needs {self.version}; "
+                "install the same version everywhere"
+            )
+        needed = dict.fromkeys((*self.columns, "status", "engine", "A_t", "shadow"))
+        solved: Arrays = {}
+        for part, block in self.block.parts(CHUNK):
+            columns = block.solve()
+            for name in needed:
+                if name not in solved:
+                    solved[name] = np.empty(self.block.sizes, dtype=columns[name].dtype)
+                solved[name][part] = columns[name]
+        summary: dict[str, Any] = {
+            "states": math.prod(self.block.sizes),
+            "unsolved": int(np.sum(solved["status"] != "ok")),
+            "A_t": _largest(solved["A_t"]),
+            "shadow": _largest(solved["shadow"]),
+            "engine": dict(Counter(solved["engine"].ravel().tolist())),
+        }
+        if self.reduction is not None:
+            kept = {name: solved[name] for name in (*self.columns, "status")}
+            return self.reduction.part(kept, self.outer), summary
+        out = {name: solved[name] for name in self.columns}
+        if self.coded:
+            out |= {name: _codes(name, values) for name, values in out.items() if name in CODES}
+        for dim in self.block.dims:
+            # made by whoever comes first along the other dimensions
+            if isinstance(dim, Sampled) and all(d.start == 0 for d in self.block.dims if d != dim):
+                out |= dim.inputs()
+        return out, summary
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The data set that a plan makes, without its numbers."""
+
+    sizes: dict[str, int]
+    chunks: dict[str, int]
+    variables: dict[str, tuple[tuple[str, ...], str, dict[str, Any]]]
+    """Dimensions, type and attributes of every variable that blocks write."""
+    coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]]
+    """Dimensions, values and attributes of every coordinate known beforehand."""
+    inputs: tuple[str, ...]
+    """Those of the variables that are coordinates: sampled inputs."""
+    attrs: dict[str, Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Which states there are, what is kept of them, and how they are cut into blocks."""
+
+    contact: Contact
+    load: str
+    dims: tuple[Listed | Sampled, ...]
+    columns: tuple[str, ...]
+    reduction: Reduction | None
+    chunk: int
+
+    @property
+    def whole(self) -> Block:
+        return Block(self.contact, self.load, self.dims)
+
+    @property
+    def outer(self) -> int:
+        """Number of dimensions that are kept."""
+        return len(self.dims) - (0 if self.reduction is None else len(self.reduction.over))
+
+    @property
+    def states(self) -> int:
+        return math.prod(self.whole.sizes)
+
+    @property
+    def samples(self) -> int:
+        """Samples of every combination of the listed inputs, 0 without a sampled design."""
+        return sum(dim.count for dim in self.dims if isinstance(dim, Sampled))
+
+    @property
+    def box(self) -> tuple[int, ...]:
+        """Size of a block along each dimension."""
+        return _box(self.whole.sizes, self.chunk)
+
+    @property
+    def grid(self) -> tuple[int, ...]:
+        """Number of blocks along each dimension."""
+        return tuple(-(-n // b) for n, b in zip(self.whole.sizes, self.box, strict=True))
+
+    @property
+    def count(self) -> int:
+        """Number of blocks."""
+        return math.prod(self.grid)
+
+    def region(self, number: int) -> Box:
+        """Where a block lies."""
+        place = np.unravel_index(number, self.grid)
+        sizes = zip(place, self.box, self.whole.sizes, strict=True)
+        return tuple(slice(int(i) * b, min((int(i) + 1) * b, n)) for i, b, n in sizes)
+
+    def task(self, number: int, *, coded: bool) -> Task:
+        from ...version import __version__
+
+        block = self.whole.cut(self.region(number))
+        return Task(block, self.columns, self.reduction, self.outer, coded, __version__)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything that decides the numbers, ready for JSON."""
+        from ...version import __version__
+
+        return {
+            "version": __version__,
+            "contact": self.contact.to_dict(),
+            "load": self.load,
+            "vary": {dim.name: dim.to_dict() for dim in self.dims},
+            # a mapping forgets its order, which decides the samples of an input and the blocks
+            "order": [name for dim in self.dims for name in dim.names],
+            "columns": list(self.columns),
+            "reduce": None if self.reduction is None else dataclasses.asdict(self.reduction),
+            "chunk": self.chunk,
+        }
+
+    def layout(self) -> Layout:
+        from ...version import __version__
+
+        kept = self.dims[: self.outer]
+        names = tuple(dim.name for dim in kept)
+        sizes = {dim.name: dim.size for dim in kept}
+        variables: dict[str, tuple[tuple[str, ...], str, dict[str, Any]]] = {}
+        coords: dict[str, tuple[tuple[str, ...], NDArray[Any], dict[str, Any]]] = {}
+        for dim in kept:
+            for name in dim.names:
+                about = labels_of(self.contact, name)
+                if isinstance(dim, Listed):
+                    coords[name] = ((dim.name,), _shown(dim.values[name]), about)
+                else:
+                    variables[name] = ((dim.name,), "f8", about)
+        inputs = tuple(variables)
+        if self.reduction is None:
+            for name in self.columns:
+                variables[name] = (names, STORED.get(name, "f8"), _attributes(name))
+        else:
+            if self.reduction.quantiles:
+                sizes["quantile"] = len(self.reduction.quantiles)
+                levels = np.array(self.reduction.quantiles)
+                coords["quantile"] = (("quantile",), levels, {"units": "1"})
+            for name, (deep, attrs) in self.reduction.variables(self.columns).items():
+                variables[name] = ((*names, "quantile") if deep else names, "f8", attrs)
+        attrs = {
+            "inputs": json.dumps(self.contact.to_dict(), ensure_ascii=False),
+            "version": __version__,
+            "citations": cite(self.contact),
+        }
+        chunks = dict(zip(sizes, self.box[: self.outer], strict=False))
+        return Layout(sizes, sizes | chunks, variables, coords, inputs, attrs)
+
+    def notes(self) -> list[str]:
+        """What the inputs of some states, evenly spread, say about the model's validity.
+
+        Raises
+        ------
+        InvalidValue
+            One of these states has inputs that the library refuses.
+        """
+        found: dict[str, str] = {}
+        hardest: tuple[float, float, Contact] | None = None
+        listed = [1 if isinstance(dim, Sampled) else dim.size for dim in self.dims]
+        spread = np.linspace(0, math.prod(listed) - 1, LOOKED_AT).astype(np.int64)
+        for i, number in enumerate(spread if self.samples else np.unique(spread)):
+            # the first samples: the later ones cost time to come to
+            place = np.unravel_index(number, listed)
+            at = [
+                i % dim.size if isinstance(dim, Sampled) else int(k)
+                for dim, k in zip(self.dims, place, strict=True)
+            ]
+            one = self.whole.cut(tuple(slice(k, k + 1) for k in at)).inputs()
+            inputs = {name: values[0] for name, values in one.items()}
+            inputs = {k: v.item() if isinstance(v, np.generic) else v for k, v in inputs.items()}
+            load = inputs.pop(self.load)
+            contact = varied(self.contact, inputs)
+            sign = -1 if self.load == "d" else 1
+            if hardest is None or sign * load > hardest[0]:
+                hardest = sign * load, load, contact
+            for sentence in about_particles(contact):
+                found.setdefault(_wording(sentence), sentence)
+        if hardest is not None:
+            _, load, contact = hardest
+            given: dict[str, Any] = {self.load: np.array([load])}
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", RangeWarning)
+                state = solve(contact, **given)
+            for sentence in state.warnings:
+                found.setdefault(_wording(sentence), sentence)
+        return list(found.values())
+
+
+def _wording(sentence: str) -> str:
+    """A sentence without its numbers, to say it once."""
+    return re.sub(r"[\d.e+-]+", "", sentence)
+
+
+def all_notes(notes: list[str], summary: Mapping[str, Any]) -> list[str]:
+    """The sentences of a finished run: about its inputs, and about its states."""
+    out = [note for note in notes if not note.startswith(("A_t reaches", "particles shadow"))]
+    if summary["A_t"] > 0.2:
+        out.append(
+            f"A_t reaches {summary['A_t']:.3g}: above 0.2 neighbouring contacts interact, "
+            "which this model neglects"
+        )
+    if summary["shadow"] >= 1:
+        out.append("particles shadow the whole area: the area correction was cut at zero")
+    return out
+
+
+# -------------------------------------------------------------------------- small parts
+def _box(sizes: Sequence[int], most: int) -> tuple[int, ...]:
+    """The largest box of at most so many states, whole along the last dimensions."""
+    out: list[int] = []
+    for size in reversed(sizes):
+        out.append(min(size, most))
+        most = most // size if most >= size else 1
+        most = max(most, 1)
+    return tuple(reversed(out))
+
+
+def _boxes(sizes: Sequence[int], box: Sequence[int]) -> Iterator[Box]:
+    cuts = [
+        [slice(i, min(i + step, size)) for i in range(0, size, step)]
+        for size, step in zip(sizes, box, strict=True)
+    ]
+    return itertools.product(*cuts)
+
+
+def _alike(words: Arrays, count: int) -> Iterator[tuple[dict[str, Any], Any]]:
+    """States with equal words: those words, and which states."""
+    if not words:
+        yield {}, slice(None)
+        return
+    numbers: dict[tuple[str, ...], list[int]] = {}
+    shown = {id(value): repr(value) for values in words.values() for value in values}
+    for i, key in enumerate(zip(*words.values(), strict=True)):
+        numbers.setdefault(tuple(shown[id(value)] for value in key), []).append(i)
+    for which in numbers.values():
+        yield {name: values[which[0]] for name, values in words.items()}, np.array(which)
+
+
+def _codes(name: str, words: NDArray[Any]) -> NDArray[np.int8]:
+    if name == "mode":
+        return sum(
+            ((words == mode) * np.int8(code) for code, mode in enumerate(MODES)),
+            start=np.zeros(words.shape, np.int8),
+        )
+    codes = np.zeros(words.shape, np.int8)
+    for place in zip(*np.nonzero(words != "ok"), strict=True):
+        text = str(words[place])
+        jump = text.startswith("jump")
+        codes[place] = 4 if jump else 1 if "beyond" in text else 2 if "below the" in text else 3
+    return codes
+
+
+def _largest(values: NDArray[Any]) -> float:
+    return float(np.fmax.reduce(values, axis=None, initial=0.0))
+
+
+def _listed(values: NDArray[Any]) -> Any:
+    """Values of an axis for JSON: themselves, or their fingerprint when there are many."""
+    if values.dtype == object:
+        return [v.to_dict() if isinstance(v, Value) else v for v in values]
+    if len(values) <= 1000:
+        return values.tolist()
+    digest = hashlib.sha256(np.ascontiguousarray(values).data).hexdigest()
+    ends = {"first": values[0].item(), "last": values[-1].item()}
+    return {"values": len(values), **ends, "sha256": digest}
+
+
+def _shown(values: NDArray[Any]) -> NDArray[Any]:
+    return values.astype(str) if values.dtype == object else values
+
+
+def _attributes(name: str) -> dict[str, Any]:
+    out = labels(name)
+    if name in CODES:
+        words = CODES[name]
+        out |= {"flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}
+    return out

@@ -1,0 +1,188 @@
+"""Reductions at the source: what remains of the samples of a cell when they are not stored."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...equilibrium.columns import about
+from ...errors import InvalidValue
+
+__all__ = ["Reduction"]
+
+Arrays = dict[str, NDArray[Any]]
+
+KEYS = ("over", "quantiles", "exceed", "extrema", "mean")
+SUMS: dict[str, Any] = {
+    "count": np.sum,
+    "solved": np.sum,
+    "sum": np.sum,
+    "over": np.sum,
+    "min": np.min,
+}
+SUMS |= {"max": np.max}
+"""How the parts of a cell are put together."""
+
+
+@dataclass(frozen=True)
+class Reduction:
+    """What is kept of every cell.
+
+    A state without equilibrium, and a share of nothing (NaN), counts for no statistic; ``solved``
+    says which part of the samples was solved.
+
+    Parameters
+    ----------
+    over : tuple of str
+        Dimensions that are reduced; the others make the cells.
+    quantiles : tuple of float
+        Probabilities; linear interpolation between order statistics, exact.
+    exceed : mapping
+        A threshold for each of some columns: the share of samples above it.
+    extrema, mean : bool
+        Smallest and largest value; arithmetic mean.
+    """
+
+    over: tuple[str, ...]
+    quantiles: tuple[float, ...] = ()
+    exceed: tuple[tuple[str, float], ...] = ()
+    extrema: bool = False
+    mean: bool = False
+
+    @staticmethod
+    def read(
+        asked: Mapping[str, Any], dims: Mapping[str, Sequence[str]], columns: Sequence[str]
+    ) -> Reduction:
+        """From what a user writes; ``dims`` are the dimensions and the inputs along each."""
+        problems = [
+            f"reduce[{key!r}] is not known; it has {', '.join(KEYS)}"
+            for key in asked
+            if key not in KEYS
+        ]
+        over: list[str] = []
+        given = asked.get("over", ["sample"] if "sample" in dims else None)
+        if given is None:
+            problems.append("reduce['over'] is missing: the varied inputs to reduce over")
+        for name in [given] if isinstance(given, str) else given or ():
+            home = next((dim for dim, inputs in dims.items() if name in (dim, *inputs)), None)
+            if home is None:
+                known = ", ".join(dict.fromkeys(n for dim in dims for n in (dim, *dims[dim])))
+                problems.append(f"reduce['over'] names {name!r}, which is not varied: {known}")
+            else:
+                over.append(home)
+        quantiles = tuple(float(q) for q in np.atleast_1d(asked.get("quantiles", ())))
+        problems += [
+            f"reduce['quantiles'] = {q:g} must be from 0 to 1" for q in quantiles if not 0 <= q <= 1
+        ]
+        exceed = dict(asked.get("exceed", {}))
+        for name, threshold in exceed.items():
+            if name not in columns:
+                problems.append(
+                    f"reduce['exceed'] names {name!r}, which is not among the columns "
+                    f"{', '.join(columns)}"
+                )
+            elif isinstance(threshold, bool) or not isinstance(threshold, (int, float)):
+                problems.append(f"reduce['exceed'][{name!r}] = {threshold!r} must be a number")
+        extrema, mean = asked.get("extrema", False), asked.get("mean", False)
+        if not (set(asked) - {"over"}):
+            problems.append("reduce keeps nothing: give quantiles, exceed, extrema or mean")
+        if problems:
+            raise InvalidValue(*problems)
+        return Reduction(
+            over=tuple(dim for dim in dims if dim in over),
+            quantiles=quantiles,
+            exceed=tuple((name, float(value)) for name, value in exceed.items()),
+            extrema=bool(extrema),
+            mean=bool(mean),
+        )
+
+    # ------------------------------------------------------------------ one part of cells
+    def part(self, columns: Arrays, outer: int) -> Arrays:
+        """What is kept of the samples of these cells; the first ``outer`` axes make the cells."""
+        out: Arrays = {}
+        shape = next(iter(columns.values())).shape[:outer]
+        flat = {name: values.reshape(*shape, -1) for name, values in columns.items()}
+        ok = flat.pop("status") == "ok"
+        out["solved"], out["count"] = ok.sum(-1), np.full(shape, ok.shape[-1])
+        thresholds = dict(self.exceed)
+        for name, values in flat.items():
+            known = ~np.isnan(values)
+            every = bool(known.all())
+            out[f"{name}:count"] = known.sum(-1)
+            if name in thresholds:
+                out[f"{name}:over"] = (values > thresholds[name]).sum(-1)
+            if self.mean:
+                out[f"{name}:sum"] = np.where(known, values, 0).sum(-1)
+            if self.extrema:
+                out[f"{name}:min"] = np.where(known, values, np.inf).min(-1)
+                out[f"{name}:max"] = np.where(known, values, -np.inf).max(-1)
+            if self.quantiles:
+                out[f"{name}:quantile"] = _quantiles(values, self.quantiles, every)
+        return out
+
+    @staticmethod
+    def merged(parts: Sequence[Arrays]) -> Arrays:
+        """Parts of the same cells, put together."""
+        if len(parts) == 1:
+            return dict(parts[0])
+        return {
+            key: SUMS[key.rpartition(":")[2]](np.stack([part[key] for part in parts]), axis=0)
+            for key in parts[0]
+        }
+
+    def result(self, part: Arrays) -> Arrays:
+        """The stored variables."""
+        out = {"solved": part["solved"] / part["count"]}
+        for name in (key.removesuffix(":count") for key in part if key.endswith(":count")):
+            count = part[f"{name}:count"]
+            with np.errstate(invalid="ignore", divide="ignore"):
+                none = np.where(count > 0, 0.0, np.nan)
+                if self.mean:
+                    out[f"{name}_mean"] = part[f"{name}:sum"] / count
+                if f"{name}:over" in part:
+                    out[f"{name}_exceeds"] = part[f"{name}:over"] / count
+            if self.extrema:
+                out[f"{name}_min"] = part[f"{name}:min"] + none
+                out[f"{name}_max"] = part[f"{name}:max"] + none
+            if self.quantiles:
+                out[f"{name}_quantile"] = part[f"{name}:quantile"]
+        return out
+
+    def variables(self, columns: Sequence[str]) -> dict[str, tuple[bool, dict[str, Any]]]:
+        """Every stored variable: whether it has quantiles as its last dimension, and attributes."""
+        words = {"mean": "mean of the {}", "min": "smallest {}", "max": "largest {}"}
+        kinds = ["mean"] if self.mean else []
+        kinds += ["min", "max"] if self.extrema else []
+        thresholds = dict(self.exceed)
+        out: dict[str, tuple[bool, dict[str, Any]]] = {
+            "solved": (False, {"units": "1", "long_name": "share of samples that were solved"})
+        }
+        for name in columns:
+            told = about(name)
+            unit = {"units": told["unit"], "symbol": told["symbol"]}
+            for kind in kinds:
+                words_of = {"long_name": words[kind].format(told["meaning"])}
+                out[f"{name}_{kind}"] = (False, unit | words_of)
+            if name in thresholds:
+                said = f"share of samples with {told['symbol']} > {thresholds[name]:g}"
+                extra = {"units": "1", "long_name": said, "threshold": thresholds[name]}
+                out[f"{name}_exceeds"] = (False, extra)
+            if self.quantiles:
+                words_of = {"long_name": f"quantiles of the {told['meaning']}"}
+                out[f"{name}_quantile"] = (True, unit | words_of)
+        return out
+
+
+def _quantiles(values: NDArray[Any], probabilities: tuple[float, ...], every: bool) -> NDArray[Any]:
+    if every:
+        return np.moveaxis(np.quantile(values, probabilities, axis=-1), 0, -1)
+    out = np.full((*values.shape[:-1], len(probabilities)), np.nan)
+    for cell in np.ndindex(*values.shape[:-1]):
+        known = values[cell][~np.isnan(values[cell])]
+        if len(known):
+            out[cell] = np.quantile(known, probabilities)
+    return out

@@ -1,0 +1,1 @@
+"""Uncertainty: inputs with distributions, and what they do to results."""

@@ -1,0 +1,283 @@
+"""Uncertain inputs: their distributions, and drawing them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ...contact.contact import Contact
+from ...errors import InvalidValue
+from ...quantities.value import problem_with
+from ..inputs import Input as Moved
+from ..inputs import declared, input_of, inputs
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+    Arrays = dict[str, NDArray[Any]]
+
+__all__ = ["Uncertain", "Uncertainty", "library_ranges"]
+
+TAIL = 1e-9
+"""Probability beyond which no sample is drawn, on either side (six standard deviations)."""
+KINDS = {
+    "uniform": ("low", "high"),
+    "log-uniform": ("low", "high"),
+    "normal": ("mean", "std"),
+    "lognormal": ("median", "gsd"),
+}
+"""Distributions of an input and what each is given by."""
+
+
+# -------------------------------------------------------------------------- one input
+@dataclass(frozen=True, slots=True)
+class Uncertain:
+    """What is known of one input: its distribution, in SI.
+
+    Parameters
+    ----------
+    kind : {"uniform", "log-uniform", "normal", "lognormal"}
+    first, second : float
+        Lowest and highest value; mean and standard deviation; or median and geometric standard
+        deviation σ_g [1], above 1.
+
+    Raises
+    ------
+    InvalidValue
+        Ends in the wrong order, or a spread that is none.
+
+    Notes
+    -----
+    No sample is drawn beyond a probability of 1e-9 on either side.
+
+    Examples
+    --------
+    >>> Uncertain.uniform(80e-9, 120e-9).at(0.5)
+    1e-07
+    >>> round(Uncertain.normal(7.7e9, 0.5e9).at(0.975) / 1e9, 3)
+    8.68
+    >>> Uncertain.lognormal(1e11, 1.5).cdf(1e11)
+    0.5
+    """
+
+    kind: str
+    first: float
+    second: float
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise InvalidValue(f"kind = {self.kind!r} must be one of {', '.join(KINDS)}")
+        one, two = KINDS[self.kind]
+        problems = []
+        for name, item in ((one, self.first), (two, self.second)):
+            number = isinstance(item, (int, float, np.number)) and not isinstance(item, bool)
+            if not (number and math.isfinite(item)):
+                problems.append(f"{name} = {item!r} must be a finite number")
+        if not problems:
+            for name in ("first", "second"):
+                object.__setattr__(self, name, float(getattr(self, name)))
+            first, second = self.first, self.second
+            shown = f"{one} = {first:g}"
+            if two == "high" and not first < second:
+                swap = "; exchange them" if first > second else "; what is exact needs no range"
+                problems.append(f"{shown} must be below high = {second:g}{swap}")
+            elif self.kind == "log-uniform" and first <= 0:
+                problems.append(f"{shown} must be > 0 for a range even in the logarithm")
+            elif two == "std" and second <= 0:
+                problems.append(f"std = {second:g} must be > 0; what is exact needs no range")
+            elif two == "gsd" and not 1 < second <= 20:
+                problems.append(
+                    f"gsd = {second:g} must be above 1, at most 20: a factor, 1.2 for about 20 %"
+                )
+            if two == "gsd" and first <= 0:
+                problems.append(f"{shown} must be > 0")
+        if problems:
+            raise InvalidValue(*problems)
+
+    @classmethod
+    def uniform(cls, low: float, high: float) -> Uncertain:
+        """Anything between two ends, equally likely."""
+        return cls("uniform", low, high)
+
+    @classmethod
+    def log_uniform(cls, low: float, high: float) -> Uncertain:
+        """Anything between two ends, equally likely in the logarithm."""
+        return cls("log-uniform", low, high)
+
+    @classmethod
+    def normal(cls, mean: float, std: float) -> Uncertain:
+        """A measured value and its standard uncertainty."""
+        return cls("normal", mean, std)
+
+    @classmethod
+    def lognormal(cls, median: float, gsd: float) -> Uncertain:
+        """A value known to a factor: two in three between median/gsd and median·gsd."""
+        return cls("lognormal", median, gsd)
+
+    def at(self, u: ArrayLike) -> Any:
+        """The value that is exceeded with probability 1 − u."""
+        from scipy.special import ndtri
+
+        x: Any = np.clip(np.asarray(u, float), TAIL, 1 - TAIL)
+        if self.kind == "uniform":
+            out = self.first + x * (self.second - self.first)
+        elif self.kind == "log-uniform":
+            out = self.first * (self.second / self.first) ** x
+        elif self.kind == "normal":
+            out = self.first + self.second * ndtri(x)
+        else:
+            out = self.first * self.second ** ndtri(x)
+        return out if np.ndim(u) else float(out)
+
+    def cdf(self, value: float) -> float:
+        """Probability that the input is at most ``value``."""
+        from scipy.special import ndtr
+
+        if self.kind in ("log-uniform", "lognormal") and value <= 0:
+            return 0.0
+        if self.kind == "uniform":
+            u = (value - self.first) / (self.second - self.first)
+        elif self.kind == "log-uniform":
+            u = math.log(value / self.first) / math.log(self.second / self.first)
+        elif self.kind == "normal":
+            u = ndtr((value - self.first) / self.second)
+        else:
+            u = ndtr(math.log(value / self.first) / math.log(self.second))
+        return float(min(max(u, 0.0), 1.0))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Kind and numbers, as a study file has them."""
+        names = KINDS[self.kind]
+        return {"kind": self.kind} | dict(zip(names, (self.first, self.second), strict=True))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Uncertainty:
+    """What the table [uncertainty] of a study file says.
+
+    Parameters
+    ----------
+    inputs : dict
+        Dotted names, several joined by "+", and what is known of each.
+    samples, seed : int
+        As in `propagate`.
+    """
+
+    inputs: dict[str, Uncertain]
+    samples: int = 2**14
+    seed: int = 0
+
+
+def library_ranges(contact: Contact) -> dict[str, Uncertain]:
+    """Ranges that the materials library states for the bodies of a contact, as uniform."""
+    from ...populations.materials import materials
+
+    entries = materials.entries()
+    known = inputs(contact)
+    bodies = {"surfaces.first": contact.surfaces.first, "surfaces.second": contact.surfaces.second}
+    if (one := getattr(contact.particles, "material", None)) is not None:
+        bodies["particles.material"] = one
+    alike = contact.surfaces.first == contact.surfaces.second
+    out = {}
+    for name, body in bodies.items():
+        for key, (low, high) in entries.get(body.name, {}).get("range", {}).items():
+            if not low < high or f"{name}.{key}" not in known:
+                continue
+            label = f"{name}.{key}"
+            if alike and name.startswith("surfaces"):
+                label = f"surfaces.first.{key}+surfaces.second.{key}"
+            if getattr(body, key) == entries[body.name][key]:
+                out[label] = Uncertain.uniform(low, high)
+    return out
+
+
+class Drawn(NamedTuple):
+    """Uncertain inputs of a contact: what moves, and how it is distributed."""
+
+    moved: tuple[Moved | str, ...]
+    known: tuple[Uncertain, ...]
+
+    def at(self, values: Sequence[Any]) -> Arrays:
+        """Every number of the contact that moves, from the values of the inputs."""
+        out: Arrays = {}
+        for moved, value in zip(self.moved, values, strict=True):
+            if isinstance(moved, str):
+                out[moved] = np.asarray(value)
+            else:
+                out |= moved.at((np.asarray(value) - moved.values[0]) / moved.scales[0])
+        return out
+
+    def points(self, u: Array) -> Arrays:
+        """Numbers of the contact at points of the unit cube (N, k)."""
+        return self.at([known.at(u[:, j]) for j, known in enumerate(self.known)])
+
+    @property
+    def nominal(self) -> list[Any]:
+        """The values that the contact has; NaN for the load."""
+        return [math.nan if isinstance(m, str) else m.values[0] for m in self.moved]
+
+
+def drawn_inputs(contact: Contact, inputs: Mapping[str, Any], load: str, loads: ArrayLike) -> Drawn:
+    """The uncertain inputs, every mistake in them told."""
+    moved: list[Moved | str] = []
+    known: list[Uncertain] = []
+    taken: dict[str, str] = {}
+    problems: list[str] = []
+    if not inputs:
+        problems.append(
+            'vary is empty; say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}'
+        )
+    for label, given in inputs.items():
+        where = f"vary[{label!r}]"
+        try:
+            each: Moved | str = label
+            if label not in ("pressure", "F_star", "d"):
+                each = input_of(contact, label)
+            elif label != load:
+                problems.append(f"{where}: the given load is {load}; only that can be uncertain")
+                continue
+            elif np.ndim(loads):
+                problems.append(f"{where}: give one load where the load is uncertain")
+                continue
+            one = given if isinstance(given, Uncertain) else Uncertain("uniform", *given)
+        except InvalidValue as error:
+            problems += [f"{where}: {text.removeprefix('to = ')}" for text in error.problems]
+            continue
+        except TypeError:
+            problems.append(
+                f"{where} = {given!r} must be (low, high), or one of Uncertain.uniform, "
+                "log_uniform, normal, lognormal"
+            )
+            continue
+        names = (each,) if isinstance(each, str) else each.names
+        for name in names:
+            if name in taken:
+                problems.append(f"{where} and vary[{taken[name]!r}] both move {name}")
+            taken[name] = label
+        problems += [f"{where}: {text}" for text in _beyond(contact, each, one)]
+        moved.append(each)
+        known.append(one)
+    if problems:
+        raise InvalidValue(*problems)
+    return Drawn(tuple(moved), tuple(known))
+
+
+def _beyond(contact: Contact, moved: Moved | str, known: Uncertain) -> list[str]:
+    """Why the ends of a distribution cannot stand for the input."""
+    for end in (known.at(0.0), known.at(1.0)):
+        if isinstance(moved, str):
+            why = None if moved == "d" or end > 0 else "must be > 0"
+        else:
+            values = moved.at((end - moved.values[0]) / moved.scales[0])
+            found = (problem_with(declared(contact, n), float(v)) for n, v in values.items())
+            why = next(filter(None, found), None)
+        if why:
+            cause = "; a lognormal stays positive" if known.kind == "normal" else ""
+            far = ", six standard deviations from the mean," if known.kind == "normal" else ""
+            return [f"the value {end:.4g}{far} {why}{cause}"]
+    return []

@@ -1,0 +1,597 @@
+r"""Uncertain inputs: bands on every result and on the critical loads, by quasi-Monte Carlo.
+
+Inputs are independent, each with a distribution; scrambled Sobol points u in the unit cube become
+inputs by their inverse distribution functions,
+
+.. math:: p_i = F_i^{-1}(u_i), \qquad
+          q_\alpha(c) \approx \text{the } \alpha\text{-quantile of } c(p^{(1)}), \dots, c(p^{(N)})
+
+The points are eight scramblings of one sequence, each of which answers alone: by how much the
+eight differ is the error of what they say together.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...contact.citations import cite
+from ...contact.contact import Contact
+from ...equilibrium.columns import COLUMNS, about
+from ...equilibrium.solve import given_load
+from ...equilibrium.states import FEWEST, state_columns
+from ...errors import InvalidValue
+from ...numerics.sampling import sobol
+from ...quantities import notebook
+from ..inputs import NUMBERS
+from .critical_loads import CRITICAL, _bare, _falls, critical_loads
+from .inputs import Drawn, Uncertain, drawn_inputs
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+    Arrays = dict[str, NDArray[Any]]
+
+__all__ = ["OUTPUTS", "Propagation", "propagate"]
+
+REPLICATES = 8
+"""Scramblings of the sequence."""
+LEAST, MOST_CRITICAL = 64, 2_048
+"""Fewest samples, and samples for which critical loads are sought unless more are asked for."""
+PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
+MARGINS = {"F/F_cr1": "F_cr1", "F/F_cr2": "F_cr2"}
+MODES = ("p-s", "hybrid", "s-s", "none")
+OUTPUTS: dict[str, dict[str, str]] = {
+    **{name: COLUMNS[name] for name in NUMBERS},
+    "plastic_share": {"symbol": "A_p/A_t", "unit": "1", "meaning": "plastic part of the real area"},
+    "F_cr1": {"symbol": "F_cr1*", "unit": "1", "meaning": "critical load, p-s to hybrid"},
+    "F_cr2": {"symbol": "F_cr2*", "unit": "1", "meaning": "critical load, hybrid to s-s"},
+    "F_tpca.A": {"symbol": "F_tpca,A*", "unit": "1", "meaning": "load of the largest area share"},
+    "F_tpca.B": {"symbol": "F_tpca,B*", "unit": "1", "meaning": "load of equal load shares"},
+    "F/F_cr1": {"symbol": "F/F_cr1", "unit": "1", "meaning": "load over the first critical load"},
+    "F/F_cr2": {"symbol": "F/F_cr2", "unit": "1", "meaning": "load over the second critical load"},
+}
+"""Symbol, unit and meaning of everything that gets a band, beside the outputs of the contact."""
+MOST_OUTPUTS = 512
+"""Samples of outputs: each is a contact of its own, with spots of its own."""
+
+
+# -------------------------------------------------------------------------- result
+@dataclass(frozen=True, kw_only=True)
+class Propagation:
+    """Bands on the results of a contact with uncertain inputs: floats, or arrays over loads.
+
+    Attributes
+    ----------
+    contact : Contact
+    inputs : dict
+        What was uncertain, and how.
+    load, loads : str, float or array (L,)
+        Which load was given, and its values.
+    samples, critical_samples, seed : int
+        Samples of states, and of critical loads.
+    probabilities : tuple of float
+        Of the quantiles (Q,).
+    nominal : dict
+        Every output with the contact's own inputs.
+    bands, error : dict
+        Quantiles of every output, (Q,) or (L, Q), and the standard error of each.
+    mode_probability, mode_error : dict
+        Probability of "p-s", "hybrid", "s-s" and "none", and its standard error.
+    critical_status : dict of dict
+        Share of the samples with each status of every critical load.
+    solved : float or array (L,)
+        Share of samples with an equilibrium; the others count for no band.
+    """
+
+    contact: Contact = field(repr=False)
+    inputs: dict[str, Uncertain]
+    load: str
+    loads: Any
+    samples: int
+    critical_samples: int
+    seed: int
+    probabilities: tuple[float, ...]
+    nominal: dict[str, Any]
+    bands: dict[str, Any]
+    error: dict[str, Any]
+    mode_probability: dict[str, Any]
+    mode_error: dict[str, Any]
+    critical_status: dict[str, dict[str, float]]
+    solved: Any
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the contact, ready for JSON: None for what is not a finite number."""
+        out = {item.name: getattr(self, item.name) for item in dataclasses.fields(self)}
+        del out["contact"]
+        out["inputs"] = {name: known.to_dict() for name, known in self.inputs.items()}
+        return plain(out)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Bands and errors as labelled data, with units, version and citations."""
+        import json
+
+        import xarray
+
+        from ...version import __version__
+
+        one = np.ndim(self.loads) == 0
+        dims = () if one else (self.load,)
+        data: dict[str, Any] = {}
+        for name, band in self.bands.items():
+            if name == self.load and not one:
+                continue  # a coordinate
+            told = about_result(name)
+            of = (*dims, "quantile") if np.ndim(band) > 1 else ("quantile",)
+            words = {"units": told["unit"], "symbol": told["symbol"]}
+            data[name] = (of, band, words | {"long_name": f"quantiles of the {told['meaning']}"})
+            said = {"long_name": f"standard error of the quantiles of the {told['meaning']}"}
+            data[f"{name}_error"] = (of, self.error[name], words | said)
+        for name, table in (("probability", self.mode_probability), ("error", self.mode_error)):
+            values = np.stack([np.asarray(table[mode]) for mode in MODES], axis=-1)
+            said = {"units": "1", "long_name": f"{name} of each contact mode"}
+            data[f"mode_{name}"] = ((*dims, "mode"), values, said)
+        coordinates: dict[str, Any] = {"quantile": list(self.probabilities), "mode": list(MODES)}
+        if not one:
+            coordinates[self.load] = np.asarray(self.loads)
+        attributes = {
+            "version": __version__,
+            "contact": json.dumps(self.contact.to_dict()),
+            "inputs": json.dumps({name: known.to_dict() for name, known in self.inputs.items()}),
+            "samples": self.samples,
+            "seed": self.seed,
+            "citations": cite(self.contact),
+        }
+        return xarray.Dataset(data, coords=coordinates, attrs=attributes)
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: quantiles of every output; of several loads at the first."""
+        rows = [notebook.Row("", [f"{100 * q:g} %" for q in self.probabilities])]
+        for name, band in self.bands.items():
+            told = about_result(name)
+            first = np.reshape(band, (-1, len(self.probabilities)))[0]
+            values = [notebook.words_of(value, told["unit"]) for value in first]
+            rows.append(notebook.Row(name, values, told["meaning"]))
+        for mode, share in self.mode_probability.items():
+            values = [notebook.words_of(np.ravel(share)[0])]
+            values += [""] * (len(self.probabilities) - 1)
+            rows.append(notebook.Row(mode, values, "probability of the contact mode"))
+        return notebook.card(f"Propagation, {self.samples} samples", rows)
+
+    # ------------------------------------------------------------------ one input at a time
+    def tornado(
+        self,
+        of: str | Sequence[str],
+        *,
+        at: int = 0,
+        probabilities: tuple[float, float] = (0.05, 0.95),
+    ) -> dict[str, dict[str, tuple[float, float]]]:
+        """Outputs with one input at each end of its range, the others as the contact has them.
+
+        Parameters
+        ----------
+        of : str or list of str
+            Which outputs.
+        at : int, optional
+            Number of the load, where several were given.
+        probabilities : (float, float), optional
+            Where the range of an input ends.
+
+        Returns
+        -------
+        dict of dict
+            ``tornado[of][input]``: the output at the low and at the high end of the input; the
+            strongest input of the first output comes first.
+        """
+        names = _outputs([of] if isinstance(of, str) else of, self.contact)
+        problem = self._problem()
+        rows: list[list[float]] = []
+        for j, known in enumerate(problem.known):
+            for probability in probabilities:
+                row = list(problem.nominal)
+                row[j] = known.at(probability)
+                rows.append(row)
+        values = np.array(rows)
+        load = float(np.atleast_1d(self.loads)[at])
+        values[np.isnan(values)] = load
+        # the compiled engine takes no fewer states
+        spare = problem.points(_points(FEWEST, len(self.inputs), 0, 0))
+        vary = {
+            name: np.append(column, spare[name])
+            for name, column in problem.at(list(values.T)).items()
+        }
+        solved = _evaluated(self.contact, self.load, load, vary, len(values) + FEWEST, names)
+        out = {
+            name: {
+                label: (float(solved[name][2 * j]), float(solved[name][2 * j + 1]))
+                for j, label in enumerate(self.inputs)
+            }
+            for name in names
+        }
+        first = out[names[0]]
+        order = sorted(first, key=lambda label: -swing(*first[label]))
+        return {name: {label: table[label] for label in order} for name, table in out.items()}
+
+    def sobol_indices(
+        self, of: str | Sequence[str], *, at: int = 0, samples: int = 1024
+    ) -> dict[str, dict[str, dict[str, float]]]:
+        r"""What part of the variance of an output each input has: which measurement to improve.
+
+        .. math:: S_i = \frac{\operatorname{Var}\,\mathrm E[c|p_i]}{\operatorname{Var}\,c}, \qquad
+                  S_{Ti} = 1 - \frac{\operatorname{Var}\,\mathrm E[c|p_{\sim i}]}
+                  {\operatorname{Var}\,c}
+
+        Parameters
+        ----------
+        of : str or list of str
+            Which outputs. Of critical loads and margins the logarithm is taken.
+        at : int, optional
+            Number of the load, where several were given.
+        samples : int, optional
+            Base samples N, a power of two; N (k + 2) states are solved for k inputs.
+
+        Returns
+        -------
+        dict of dict of dict
+            ``indices[of][input]`` with "S1", the part of the variance that goes when this input
+            is known exactly, "ST", the part that stays when all others are, and "S1_error" and
+            "ST_error", half widths of their 95 % intervals (bootstrap).
+
+        Raises
+        ------
+        InvalidValue
+            SALib is not installed, or the output has no value in more than half of the samples.
+
+        Notes
+        -----
+        A sample in which the output has no value is left out with the whole group it belongs to.
+
+        References
+        ----------
+        Saltelli et al. 2010, Comput. Phys. Commun. 181, 259, doi:10.1016/j.cpc.2009.09.018;
+        SALib: Iwanaga, Usher, Herman 2022, doi:10.18174/sesmo.18155.
+        """
+        try:
+            from SALib.analyze import sobol as analyse
+            from SALib.sample import sobol as sample
+        except ImportError:
+            raise InvalidValue(
+                "Sobol indices need SALib; pip install 'thirdbody[uncertainty]'"
+            ) from None
+        if samples < 2 or samples & (samples - 1):
+            raise InvalidValue(f"samples = {samples} must be a power of two")
+        names = _outputs([of] if isinstance(of, str) else of, self.contact)
+        width = len(self.inputs)
+        cube = {"num_vars": width, "names": list(self.inputs), "bounds": [[0.0, 1.0]] * width}
+        u = sample.sample(cube, samples, calc_second_order=False, seed=self.seed)
+        load = float(np.atleast_1d(self.loads)[at])
+        vary = self._problem().points(u)
+        solved = _evaluated(self.contact, self.load, load, vary, len(u), names)
+        out: dict[str, dict[str, dict[str, float]]] = {}
+        for name in names:
+            values = solved[name]
+            if name in CRITICAL or name in MARGINS:
+                with np.errstate(divide="ignore"):
+                    values = np.log(values)
+            groups = values.reshape(samples, width + 2)
+            groups = groups[np.isfinite(groups).all(1)]
+            if len(groups) < samples / 2:
+                raise InvalidValue(
+                    f"of = {name!r} has a value in only {len(groups)} of {samples} groups of "
+                    "samples; its variance is none of the inputs' alone"
+                )
+            if np.ptp(groups) == 0:
+                raise InvalidValue(f"of = {name!r} is the same in every sample: no variance")
+            # SALib takes a seed of zero for none
+            found = analyse.analyze(
+                cube, groups.ravel(), calc_second_order=False, seed=self.seed + 1
+            )
+            out[name] = {
+                label: {
+                    "S1": float(found["S1"][j]),
+                    "S1_error": float(found["S1_conf"][j]),
+                    "ST": float(found["ST"][j]),
+                    "ST_error": float(found["ST_conf"][j]),
+                }
+                for j, label in enumerate(self.inputs)
+            }
+        return out
+
+    def _problem(self) -> Drawn:
+        one = np.asarray(self.loads).flat[0]
+        return drawn_inputs(self.contact, self.inputs, self.load, one)
+
+
+def plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: plain(part) for name, part in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return plain(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [plain(part) for part in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def swing(low: float, high: float) -> float:
+    """How far an output goes from end to end; beyond everything where one end is not finite."""
+    swing = abs(high - low)
+    return swing if math.isfinite(swing) else (0.0 if low == high else math.inf)
+
+
+# -------------------------------------------------------------------------- propagation
+def propagate(
+    contact: Contact,
+    *,
+    pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
+    d: ArrayLike | None = None,
+    vary: Mapping[str, Uncertain | tuple[float, float]],
+    samples: int = 2**14,
+    seed: int = 0,
+    outputs: Sequence[str] | None = None,
+    quantiles: Sequence[float] = PROBABILITIES,
+    critical_samples: int | None = None,
+) -> Propagation:
+    r"""Bands on results and critical loads from what is known of the inputs.
+
+    .. math:: p_i = F_i^{-1}(u_i), \qquad P(c \le q_\alpha) = \alpha
+
+    Parameters
+    ----------
+    contact : Contact
+        Every input that is known; the uncertain ones have their nominal values here.
+    vary : mapping
+        Dotted names of numbers of the contact, or several joined by "+", which move by one factor
+        (``"surfaces.first.H+surfaces.second.H"``; values are those of the first), and for each an
+        `Uncertain`, or ``(low, high)`` for a uniform range. The given load may be one of them.
+    pressure, F_star, d : float or array (L,)
+        Loads, as in `solve`; exactly one.
+    samples : int, optional
+        Samples N for each load, at least 64, rounded up to a power of two.
+    seed : int, optional
+        The same seed gives the same bands, to the last digit with the same versions of
+        thirdbody, NumPy, SciPy and numba on the same type of processor.
+    outputs : sequence of str, optional
+        Columns of `Equilibrium`, "plastic_share" (A_p/A_t), critical loads "F_cr1", "F_cr2",
+        "F_tpca.A", "F_tpca.B", and margins "F/F_cr1", "F/F_cr2". All that the contact has by
+        default.
+    quantiles : sequence of float, optional
+        Probabilities α of the bands.
+    critical_samples : int, optional
+        Samples in which critical loads are sought, some fifty times the work of a state; by
+        default as many as ``samples``, at most 2048.
+
+    Returns
+    -------
+    Propagation
+
+    Raises
+    ------
+    InvalidValue
+        An unknown name, a range that the input does not take, or no load.
+
+    Notes
+    -----
+    Inputs are independent; correlated ones are not offered. What moves together stands joined by
+    "+". Standard errors are the spread of eight scramblings over √8: for smooth results
+    some 1e-3 of the width of a band at 2¹⁴ samples, falling faster than 1/√N. A critical load
+    below the window of `transitions` counts as 0 and one above it as ∞, so that quantiles hold
+    for all samples.
+    On the rough seat a state costs about 12 µs of a core where sizes vary, or the hardness of both
+    surfaces alike; 80 µs and more where the contacts of a particle with both surfaces become
+    unlike. On the plane seat, under `asperity_law` options and for heights that are not Gaussian,
+    states with other inputs are solved one by one, tens in a second.
+
+    References
+    ----------
+    Owen 1998, ACM Trans. Model. Comput. Simul. 8, 71, doi:10.1145/272991.273010.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> found = tb.propagate(contact, vary={"roughness.sigma": (80e-9, 120e-9)}, pressure=5e6,
+    ...                      samples=256, outputs=["A_t"], quantiles=[0.05, 0.95])
+    >>> low, high = found.bands["A_t"]
+    >>> bool(low < found.nominal["A_t"] < high)
+    True
+    """
+    load, _, one = given_load(contact, pressure, F_star, d)
+    loads = np.atleast_1d(np.asarray({"pressure": pressure, "F_star": F_star, "d": d}[load], float))
+    drawn = drawn_inputs(contact, vary, load, loads[0] if one else loads)
+    names = _outputs(outputs, contact)
+    probabilities = tuple(float(q) for q in quantiles)
+    problems = [f"quantiles: {q:g} must be between 0 and 1" for q in probabilities if not 0 < q < 1]
+    for name, value, least in (
+        ("samples", samples, LEAST),
+        ("critical_samples", LEAST if critical_samples is None else critical_samples, LEAST),
+        ("seed", seed, 0),
+    ):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+            problems.append(f"{name} = {value!r} must be a whole number, at least {least}")
+    if problems:
+        raise InvalidValue(*problems)
+    each = _power_of_two(samples) // REPLICATES
+    few = min(each, _power_of_two(critical_samples or MOST_CRITICAL) // REPLICATES)
+    u = _points(each, len(vary), int(seed), REPLICATES)
+    drawn_values = drawn.points(u)
+
+    critical: Arrays = {}
+    sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
+    first_few = np.arange(len(u)).reshape(REPLICATES, each)[:, :few]
+    statuses: dict[str, dict[str, float]] = {}
+    nominal_critical: Arrays = {}
+    if sought:
+        some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
+        found = critical_loads(contact, vary=some, count=first_few.size)
+        critical = {name: found[name][0].reshape(first_few.shape) for name in CRITICAL}
+        for name in (name for name in CRITICAL if name in sought):
+            words, counts = np.unique(found[name][1], return_counts=True)
+            shares = (counts / first_few.size).tolist()
+            statuses[name] = dict(zip(map(str, words), shares, strict=True))
+        nominal_critical = {n: v[0] for n, v in critical_loads(contact, vary={}, count=1).items()}
+
+    of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
+    some_outputs = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)]
+
+    bands: dict[str, list[Array]] = {name: [] for name in names}
+    errors: dict[str, list[Array]] = {name: [] for name in names}
+    nominal: dict[str, list[float]] = {name: [] for name in names}
+    modes: dict[str, list[float]] = {mode: [] for mode in MODES}
+    mode_errors: dict[str, list[float]] = {mode: [] for mode in MODES}
+    solved: list[float] = []
+    fixed = {name for name in names if name in CRITICAL}
+    for number, value in enumerate(loads):
+        state = columns_at(contact, load, value, drawn_values, len(u))
+        middle = columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs))
+        if of_outputs:
+            some = {n: v[some_outputs.ravel()] for n, v in drawn_values.items()}
+            told = columns_at(contact, load, value, some, some_outputs.size, outputs=True)
+            state |= {name: told[name] for name in of_outputs}
+        for name in names:
+            if name in fixed and number:
+                continue
+            few_of = first_few if name in CRITICAL or name in MARGINS else None
+            values = _output(name, state, critical, few_of).reshape(REPLICATES, -1)
+            band, error = _quantiles(values, probabilities)
+            bands[name].append(band)
+            errors[name].append(error)
+            own = _output(name, middle, nominal_critical, np.zeros(1, int))
+            nominal[name].append(float(own.flat[0]))
+        words = np.asarray(state["mode"]).reshape(REPLICATES, -1)
+        for mode in MODES:
+            share = np.mean(words == ("" if mode == "none" else mode), axis=1)
+            modes[mode].append(float(share.mean()))
+            mode_errors[mode].append(float(share.std(ddof=1) / math.sqrt(REPLICATES)))
+        solved.append(float(np.mean(state["status"] == "ok")))
+
+    def shaped(table: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
+        flat = {n for n in table if one or n in fixed}
+        return {n: part[0] if n in flat else np.array(part) for n, part in table.items()}
+
+    return Propagation(
+        contact=contact,
+        inputs=dict(zip(vary, drawn.known, strict=True)),
+        load=load,
+        loads=float(loads[0]) if one else loads,
+        samples=len(u),
+        critical_samples=first_few.size if sought else 0,
+        seed=int(seed),
+        probabilities=probabilities,
+        nominal=shaped(nominal),
+        bands=shaped(bands),
+        error=shaped(errors),
+        mode_probability=shaped(modes),
+        mode_error=shaped(mode_errors),
+        critical_status=statuses,
+        solved=solved[0] if one else np.array(solved),
+    )
+
+
+def about_result(name: str) -> dict[str, str]:
+    """Symbol, unit and meaning of what has a band."""
+    return OUTPUTS[name] if name in OUTPUTS else about(name)
+
+
+def _outputs(asked: Sequence[str] | None, contact: Contact) -> list[str]:
+    """The outputs, each once, that the contact has."""
+    about_loads = (*CRITICAL, *MARGINS)
+    without = contact.two_body or not _falls(contact)
+    known = [*OUTPUTS, *(name for each in contact.outputs for name in each.columns)]
+    if asked is None:
+        return [name for name in known if not (without and name in about_loads)]
+    names = list(dict.fromkeys(asked))
+    problems = [
+        f"{name!r} has no band; it must be one of {', '.join(known)}"
+        for name in names
+        if name not in known
+    ]
+    if not names:
+        problems.append("outputs is empty; name a column of Equilibrium or a critical load")
+    if contact.two_body:
+        problems += [
+            f"{name!r} needs particles: a two-body contact is always s-s"
+            for name in names
+            if name in about_loads
+        ]
+    if problems:
+        raise InvalidValue(*problems)
+    return names
+
+
+def _power_of_two(count: int) -> int:
+    return 1 << (int(count) - 1).bit_length()
+
+
+def _points(each: int, width: int, seed: int, replicates: int) -> Array:
+    """Scramblings of the Sobol sequence, one after another; a short one of its own for none."""
+    rows: Iterator[int] = iter(range(replicates)) if replicates else iter([REPLICATES])
+    seeds = [int(np.random.SeedSequence([seed, r]).generate_state(1)[0]) for r in rows]
+    return np.concatenate([sobol(each, width, one, 0, each) for one in seeds])
+
+
+def columns_at(
+    contact: Contact, load: str, value: float, vary: Arrays, count: int, *, outputs: bool = False
+) -> Arrays:
+    """States at one load, bare unless outputs are asked; the load may be among what varies."""
+    if outputs:
+        vary = dict(vary)
+    else:
+        contact, vary = _bare(contact, vary)
+    loads = vary.pop(load, np.full(count, value))
+    return state_columns(contact, **{load: loads}, vary=vary or None)
+
+
+def _evaluated(
+    contact: Contact, load: str, value: float, vary: Arrays, count: int, names: Sequence[str]
+) -> dict[str, Array]:
+    """Outputs (N,) of samples at one load."""
+    critical: Arrays = {}
+    if any(name in CRITICAL or name in MARGINS for name in names):
+        rest = {n: v for n, v in vary.items() if n != load}
+        critical = {
+            name: v[0] for name, v in critical_loads(contact, vary=rest, count=count).items()
+        }
+    asked = any(name in each.columns for each in contact.outputs for name in names)
+    state = columns_at(contact, load, value, vary, count, outputs=asked)
+    return {name: _output(name, state, critical, np.arange(count)) for name in names}
+
+
+def _output(
+    name: str, state: Arrays, critical: Mapping[str, Array], few: NDArray[np.intp] | None
+) -> Array:
+    """One output of every sample; critical loads and margins of a few of them."""
+    if name in CRITICAL:
+        return critical[name]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if name in MARGINS:
+            return state["F_star"][few] / critical[MARGINS[name]]
+        if name == "plastic_share":
+            return state["A_p"] / state["A_t"]
+    return state[name]
+
+
+def _quantiles(values: Array, probabilities: Sequence[float]) -> tuple[Array, Array]:
+    """Quantiles (Q,) of all samples (R, n), and their standard errors from the replicates."""
+    apart = np.array([_quantile(row, probabilities) for row in values])
+    with np.errstate(invalid="ignore"):
+        error = apart.std(axis=0, ddof=1) / math.sqrt(len(values))
+    return _quantile(values.ravel(), probabilities), error
+
+
+def _quantile(values: Array, probabilities: Sequence[float]) -> Array:
+    known = values[~np.isnan(values)]
+    if not len(known):
+        return np.full(len(probabilities), np.nan)
+    # N points in N equal cells: the i-th smallest stands in the middle of its cell
+    method = "hazen" if np.isfinite(known).all() else "inverted_cdf"
+    return np.quantile(known, probabilities, method=method)  # type: ignore[call-overload]

@@ -1,0 +1,1 @@
+"""A contact: laws integrated over populations, at a given separation."""

@@ -1,0 +1,154 @@
+"""A contact: two rough surfaces, their laws, and what lies between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ..laws.asperity import ZMC, AbstractAsperityLaw
+from ..laws.particle import AbstractParticleLaw, Series
+from ..populations.materials import MaterialPair
+from ..populations.particles import Particles
+from ..populations.roughness import Roughness
+from ..quantities.value import Value, warn_of_slips
+from .output import AbstractOutput, problems_of
+
+__all__ = ["Contact"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Contact(Value):
+    """Two rough surfaces and what lies between them.
+
+    Parameters
+    ----------
+    surfaces : MaterialPair
+        The two bodies.
+    roughness : Roughness
+        The equivalent rough surface.
+    asperity_law : AbstractAsperityLaw, optional
+        What one asperity does; `ZMC` by default.
+    particles : Particles or tuple of Particles, optional
+        None, or a density of zero, is two-body contact. Several populations (wear debris, dust,
+        an additive) lie side by side, each with its material, sizes and, if it has one, its law;
+        dotted names number them, ``particles.0.areal_density``.
+    particle_law : AbstractParticleLaw, optional
+        What one particle does; `Series` on the rough seat by default.
+    outputs : AbstractOutput or tuple of them, optional
+        What else its states tell: friction, temperature, conductance, wear (`thirdbody.outputs`).
+
+    Warns
+    -----
+    RangeWarning
+        A length of 1 cm and more, or a modulus, hardness or stress below 0.1 MPa: mostly a
+        forgotten unit.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                   roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> contact.two_body
+    True
+    """
+
+    surfaces: MaterialPair
+    roughness: Roughness
+    asperity_law: AbstractAsperityLaw = field(default_factory=ZMC)
+    particles: Particles | tuple[Particles, ...] | None = None
+    particle_law: AbstractParticleLaw = field(default_factory=Series)
+    outputs: tuple[AbstractOutput, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.particle_law is None:
+            object.__setattr__(self, "particle_law", Series())
+        if isinstance(self.particles, list):
+            object.__setattr__(self, "particles", tuple(self.particles))
+        if isinstance(self.outputs, AbstractOutput):
+            object.__setattr__(self, "outputs", (self.outputs,))
+        object.__setattr__(self, "outputs", tuple(self.outputs))
+        Value.__post_init__(self)
+        warn_of_slips(self, stacklevel=3)
+
+    def _problems(self) -> list[str]:
+        kinds = {
+            "surfaces": MaterialPair,
+            "roughness": Roughness,
+            "asperity_law": AbstractAsperityLaw,
+            "particle_law": AbstractParticleLaw,
+        }
+        out = [
+            f"Contact.{name} = {getattr(self, name)!r} must be a {kind.__name__}"
+            for name, kind in kinds.items()
+            if not isinstance(getattr(self, name), kind)
+        ]
+        given = self.particles if isinstance(self.particles, tuple) else (self.particles,)
+        if not all(isinstance(each, Particles) for each in given) and given != (None,):
+            out.append(
+                f"Contact.particles = {self.particles!r} must be Particles, several, or None"
+            )
+        out = out or self._population_problems()
+        if not out and self.roughness.ellipticity is not None:
+            out += _shape_problems(self.asperity_law)
+        return out or problems_of(self.outputs, self)
+
+    def _population_problems(self) -> list[str]:
+        """Mistakes that concern several populations."""
+        out = []
+        covered = sum(each.coverage for each in self.populations)
+        if covered >= 1:
+            out.append(
+                f"Contact.particles are jammed: together they would cover {covered:.3g} of the "
+                "nominal area and it must stay below 1"
+            )
+        for each in self.populations:
+            if each.law is not None and not isinstance(each.law, AbstractParticleLaw):
+                out.append(
+                    f"Particles.law = {each.law!r} must be a particle law, e.g. "
+                    "particle.Series(seat='plane')"
+                )
+        if not out and len({self.law_of(each).centre for each in self.populations}) > 1:
+            out.append(
+                "Contact.particles follow laws that count d from different planes (Horng2022 and "
+                "others); give all of them one kind of law"
+            )
+        return out
+
+    @property
+    def populations(self) -> tuple[Particles, ...]:
+        """The populations of particles that have a density."""
+        if self.particles is None:
+            return ()
+        given = self.particles if isinstance(self.particles, tuple) else (self.particles,)
+        return tuple(each for each in given if each.areal_density > 0)
+
+    def law_of(self, particles: Particles) -> AbstractParticleLaw:
+        """The law that a population follows."""
+        law = particles.law
+        return law if isinstance(law, AbstractParticleLaw) else self.particle_law
+
+    @property
+    def E_ss(self) -> float:
+        """Contact modulus E* of the two surfaces [Pa], the scale of F*."""
+        return self.surfaces.E_star
+
+    @property
+    def two_body(self) -> bool:
+        """No particles between the surfaces."""
+        return not self.populations
+
+
+def _shape_problems(law: AbstractAsperityLaw) -> list[str]:
+    """Why a law cannot take its ratio of radii from an ellipticity."""
+    if not hasattr(law, "ratio"):
+        able = [name for name, kind in law.registry.items() if hasattr(kind, "ratio")]
+        return [
+            f"Contact.asperity_law is {law.name}, whose tips are round, but the roughness has an "
+            f"ellipticity; take {' or '.join(able)}, or remove the ellipticity"
+        ]
+    if law.ratio != 1:
+        return [
+            f"Contact.asperity_law.ratio = {law.ratio:g} and the ellipticity of the roughness both "
+            "say how slender the tips are; leave one of them out"
+        ]
+    return []

@@ -1,0 +1,145 @@
+"""The outputs of a contact, evaluated on the spots of its states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .output import AbstractOutput
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..laws.base import AbstractParticleLaw
+    from ..laws.spots import ParticleSpots
+    from ..populations.materials import Material, MaterialPair
+    from .contact import Contact
+    from .interface import Interface
+    from .spots import AsperitySpots
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Solved"]
+
+AT_ONCE = 4096
+"""States whose spots are laid out together."""
+
+
+@dataclass(frozen=True)
+class Solved:
+    """N solved states of one contact, and every spot in them: what `AbstractOutput.of` is given.
+
+    Sums over spots agree with load and area of the state to 1e-9.
+
+    Examples
+    --------
+    An output that counts the contacts of asperities would be
+
+    >>> def of(state):
+    ...     return {"n_ss": state.total(lambda spots: 1.0)}
+    """
+
+    contact: Contact
+    d: Array
+    """Separation as `solve` counts it [m]: (N,)"""
+    h: Array
+    """Separation from the mean surface plane [m]: (N,)"""
+    pressure: Array
+    """Nominal pressure [Pa]: (N,)"""
+    A_t: Array
+    """Real contact area per nominal area [1]: (N,)"""
+    asperities: Sequence[AsperitySpots]
+    particles: Sequence[ParticleSpots]
+
+    def total(self, of_asperities: Callable[[AsperitySpots], Any]) -> Array:
+        """Σ n q over the asperities: (N,)."""
+        return _sum(self.d, self.asperities, of_asperities)
+
+    def total_of_particles(self, of_particles: Callable[[ParticleSpots], Any]) -> Array:
+        """Σ n q over the particles: (N,)."""
+        return _sum(self.d, self.particles, of_particles)
+
+    def output(self, name: str) -> Any:
+        """The output of this name that the contact carries."""
+        return next(each for each in self.contact.outputs if each.name == name)
+
+
+def _sum(d: Array, groups: Sequence[Any], q: Callable[[Any], Any]) -> Array:
+    return sum((spots.total(q(spots)) for spots in groups), np.zeros_like(d))
+
+
+def bodies_of(contact: Contact) -> dict[str, Material]:
+    """The two surfaces and every population's material by what a message calls them."""
+    out = {"surface 1": contact.surfaces.first, "surface 2": contact.surfaces.second}
+    for number, each in enumerate(contact.populations):
+        out[f"the particles {each.name or number + 1}"] = each.material
+    return out
+
+
+def spots_of(
+    contact: Contact, bound: Interface, d: Array, shadow: Array
+) -> tuple[list[AsperitySpots], list[ParticleSpots]]:
+    """Every spot of the states at d: asperities out of the shadow, and loaded particles."""
+    asperities = [spots.thinned(1 - shadow) for spots in bound.asperities.spots(d)]
+    particles = []
+    for each, response in zip(contact.populations, bound.populations, strict=True):
+        law = contact.law_of(each)
+        splits = {
+            eps
+            for output in contact.outputs
+            for eps in _splits(output, law, contact.surfaces, each.material)
+        }
+        found = response.spots(d, sorted(splits))
+        particles += [replace(spots, material=each.material, population=each) for spots in found]
+    return asperities, particles
+
+
+@lru_cache(maxsize=256)
+def _splits(
+    output: AbstractOutput, law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+) -> tuple[float, ...]:
+    """Where q of an output jumps or bends, for particles of one material."""
+
+    def probe(eps: Array) -> ParticleSpots:
+        found = law.probe(eps, surfaces=surfaces, particle=particle)
+        return replace(found, material=particle)
+
+    return tuple(float(eps) for eps in output.splits(probe))
+
+
+def evaluate(
+    contact: Contact, bound: Interface, columns: Mapping[str, Array], crowd: Array | None = None
+) -> tuple[dict[str, Array], list[str]]:
+    """Every column of the outputs of a contact, NaN for unsolved states, and the warnings.
+
+    Parameters
+    ----------
+    contact : Contact
+    bound : Interface
+        Of an equal contact.
+    columns : mapping
+        d, h, pressure, A_t and shadow of the states: arrays (N,).
+    crowd : array (N,), optional
+        How many particles each state has for one of the contact.
+    """
+    names = [name for output in contact.outputs for name in output.columns]
+    values = {name: np.full(len(columns["d"]), np.nan) for name in names}
+    notes: dict[str, None] = {}
+    known = np.flatnonzero(np.isfinite(columns["d"]))
+    for start in range(0, len(known), AT_ONCE):
+        part = known[start : start + AT_ONCE]
+        here = {name: columns[name][part] for name in ("d", "h", "pressure", "A_t")}
+        asperities, particles = spots_of(contact, bound, here["d"], columns["shadow"][part])
+        if crowd is not None:
+            particles = [spots.thinned(crowd[part]) for spots in particles]
+        state = Solved(contact, **here, asperities=asperities, particles=particles)
+        for output in contact.outputs:
+            found = output.of(state)
+            for name, value in found.items():
+                values[name][part] = value
+            notes |= dict.fromkeys(output.warnings(state, found))
+    return values, list(notes)

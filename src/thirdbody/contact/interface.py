@@ -1,0 +1,97 @@
+r"""A contact: laws integrated over populations, at a given separation.
+
+.. math:: F_{ss}(d) = \eta\int_d^\infty F(z-d)\,\phi(z)\,dz, \qquad
+          F_t = (1-\varsigma)F_{ss} + F_{sa}
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .asperity_sums import asperity_sum
+from .contact import Contact
+from .particle_sums import particle_sum, together_in
+
+Array = NDArray[np.float64]
+
+
+class Interface:
+    """A contact bound to its numbers: total load and every field as functions of d [m]."""
+
+    def __init__(self, contact: Contact):
+        self.contact = contact
+        laws = [contact.law_of(each) for each in contact.populations]
+        self.asperities = asperity_sum(
+            contact.asperity_law,
+            contact.roughness,
+            contact.surfaces,
+            laws[0].centre if laws else 0.0,
+        )
+        self.populations = [
+            particle_sum(law, contact.surfaces, contact.roughness, each)
+            for law, each in zip(laws, contact.populations, strict=True)
+        ]
+        self.particles = together_in(self.populations) if self.populations else None
+
+    @property
+    def mean_plane(self) -> float:
+        """h − d [m]: separation from the mean surface plane minus d."""
+        return self.contact.roughness.y_s - self.asperities.centre
+
+    def load(self, d: Array) -> Array:
+        """F_t [Pa] with first and second derivative: (N, 3)."""
+        two_body = self.asperities.load(d)
+        if self.particles is None:
+            return two_body
+        force, shadow = self.particles.load(d)
+        f, f1, f2 = two_body.T
+        bare = 1 - shadow[:, 0]
+        out = force.copy()
+        out[:, 0] += bare * f
+        out[:, 1] += bare * f1 - shadow[:, 1] * f
+        out[:, 2] += bare * f2 - 2 * shadow[:, 1] * f1 - shadow[:, 2] * f
+        return out
+
+    def fields(self, d: Array) -> dict[str, Array]:
+        """Pressures [Pa] and areas per nominal area at d."""
+        F, *areas = self.asperities.fields(d).T
+        zero = np.zeros_like(d)
+        part = dict.fromkeys(("F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow"), zero)
+        if self.particles is not None:
+            part = self.particles.fields(d)
+        return together(F, areas, part)
+
+
+def together(F: Array, areas: Sequence[Array], part: Mapping[str, Array]) -> dict[str, Array]:
+    """Asperities (load, areas by regime) under the shadow of the particles, and both in sum."""
+    bare = 1 - part["shadow"]
+    split = {
+        name: bare * area + part[name]
+        for name, area in zip(("A_e", "A_ep", "A_p"), areas, strict=True)
+    }
+    A_ss = bare * sum(areas)
+    A_sa = part["A_e"] + part["A_ep"] + part["A_p"]
+    return {
+        "F_ss": bare * F,
+        "F_sa": part["F_sa"],
+        "A_t": A_ss + A_sa,
+        "A_ss": A_ss,
+        "A_sa": A_sa,
+        "A_sa2": part["A_sa2"],
+        **split,
+        "shadow": part["shadow"],
+    }
+
+
+def interface(contact: Contact) -> Interface:
+    """The cached `Interface` of a contact: one for all that carry load alike, whatever else."""
+    return _interface(contact.replace(outputs=()) if contact.outputs else contact)
+
+
+@lru_cache(maxsize=512)
+def _interface(contact: Contact) -> Interface:
+    return Interface(contact)

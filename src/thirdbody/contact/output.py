@@ -1,0 +1,144 @@
+r"""What an output is.
+
+An output says what the solved contact does besides carrying load. It is a frozen value that holds
+its own numbers (shear strengths, speeds, wear coefficients), names its columns, and computes them
+from the spots of solved states, mostly as
+
+.. math:: Q = \sum_{ss} n\,q_{ss} + \sum_{sa} n\,q_{sa}
+
+per nominal area. A contact carries its outputs; `solve`, sweeps, sensitivities and error bars then
+hold their columns beside the others. A new output is one file and one line.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from ..errors import InvalidValue
+from ..laws.base import Law
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..laws.spots import ParticleSpots
+    from ..populations.materials import Material
+
+    Array = NDArray[np.float64]
+    Probe = Callable[[Array], ParticleSpots]
+
+__all__ = ["AbstractOutput", "Column"]
+
+
+class Column(NamedTuple):
+    """One number of every state.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> tb.outputs.Friction.columns["mu"]
+    Column(symbol='μ', unit='1', meaning='coefficient of friction')
+    """
+
+    symbol: str
+    """As in figures."""
+    unit: str
+    """SI, "1" for none."""
+    meaning: str
+    """In words."""
+
+
+class AbstractOutput(Law):
+    """A result of the solved contact besides load, area and mode.
+
+    A subclass is a frozen, slotted, keyword-only dataclass with the class data of `Law` and
+    `columns`. Numbers that nobody can predict are fields without a default. The book's page "Add an
+    output" writes one out.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> sorted(tb.outputs.REGISTRY)[:3]
+    ['counts', 'dents', 'electrical_conductance']
+    """
+
+    __slots__ = ()
+    registry: ClassVar[dict[str, type[Law]]] = {}
+    columns: ClassVar[Mapping[str, Column]]
+    """Name, symbol, unit and meaning of every number it gives."""
+    needs: ClassVar[tuple[str, ...]] = ()
+    """Names of the outputs that this one reads: the contact must carry them too."""
+
+    @abstractmethod
+    def of(self, state: Any) -> dict[str, Array]:
+        """Every column: arrays (N,)."""
+
+    def splits(self, probe: Probe) -> Sequence[float]:
+        """Squeezes over diameter ε at which q of a particle jumps or bends.
+
+        ``probe(ε)`` gives particles of unit size, one a row.
+        """
+        return ()
+
+    def problems(self, contact: Any) -> list[str]:
+        """Why this contact cannot have this output, one sentence each."""
+        return []
+
+    def warnings(self, state: Any, values: Mapping[str, Array]) -> list[str]:
+        """Where these states leave the range of the output, one sentence each."""
+        return []
+
+
+def missing(output: AbstractOutput, bodies: Mapping[str, Material], *names: str) -> list[str]:
+    """One sentence for each property of a body that an output needs and that is not known."""
+    return [
+        f"outputs.{output.name} needs {name} of {label}"
+        + (f" ({body.name})" if body.name else "")
+        + f"; give it with the material, e.g. material.replace({name}=...)"
+        for label, body in bodies.items()
+        for name in names
+        if getattr(body, name) is None
+    ]
+
+
+def problems_of(outputs: Sequence[Any], contact: Any) -> list[str]:
+    """Mistakes in the outputs of a contact."""
+    wrong = [each for each in outputs if not isinstance(each, AbstractOutput)]
+    if wrong:
+        return [
+            f"Contact.outputs holds {each!r}; give outputs, e.g. outputs.Counts()" for each in wrong
+        ]
+    names = [each.name for each in outputs]
+    if len(set(names)) < len(names):
+        return [f"Contact.outputs names {', '.join(names)}: each output once"]
+    out = []
+    for each in outputs:
+        out += [
+            f"outputs.{each.name} needs outputs.{other} beside it"
+            for other in each.needs
+            if other not in names
+        ]
+        out += each.problems(contact)
+    return out
+
+
+def every_column() -> dict[str, Column]:
+    """Every column of every output by name."""
+    kinds: list[Any] = list(AbstractOutput.registry.values())
+    return {name: told for kind in kinds for name, told in kind.columns.items()}
+
+
+def column(name: str) -> Column:
+    """Symbol, unit and meaning of an output's column.
+
+    Raises
+    ------
+    InvalidValue
+        No output has this column.
+    """
+    if (told := every_column().get(name)) is None:
+        raise InvalidValue(f"no output has a column {name!r}")
+    return told

@@ -1,0 +1,376 @@
+"""Averages of one particle over sizes and over seats, tabulated once and shared."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy import special
+
+from ..errors import InvalidValue
+from ..laws.base import COLUMNS, KINDS, OneParticle
+from ..laws.spots import ParticleSpots
+from ..numerics.chebyshev import PiecewiseChebyshev
+from ..numerics.products import in_pieces
+from ..numerics.quadrature import gauss_legendre, panel_rule, subdivide
+from ..populations.distributions import Distribution, Monodisperse
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["SeatAverage", "SizeAverage", "seat_average", "size_average"]
+
+
+class SizeAverage:
+    r"""The particle response averaged over sizes, as a function of the gap under it.
+
+    .. math:: P(g) = \int_g^\infty \varphi_a(x)\, x^2\,\hat q\!\left(\frac{x-g}{x}\right) dx
+
+    Tabulated once per particle and shape of the distribution as Chebyshev series between
+    the gaps where a size or a regime sets in: in the gap itself for small gaps, and in
+    :math:`u=\sqrt{x_{max}-g}` near the largest size, where P sets in like a power of u.
+    Lengths are those of the standardised distribution.
+    """
+
+    def __init__(self, particle: OneParticle, sizes: Distribution):
+        self.particle, self.sizes = particle, sizes
+        low, self.top = sizes.support
+        last = particle.kinks[-1]
+        self.bottom = low * (1 - last) if last <= 1 else self.top * (1 - last)
+        # leading powers of u as the last particle loses contact
+        edge = 0 if isinstance(sizes, Monodisperse) else 2
+        load, area = (2 * power + edge for power in particle.onset)
+        self.powers = np.array([load] + [area] * 5 + [float(edge)])
+        self.join = self.bottom
+        if 0.5 * self.top - self.bottom > 1e-12 * self.top:  # a sliver is rounding
+            self.join = 0.5 * self.top
+        gaps = [x * (1 - eps) for x in sizes.kinks for eps in (0.0, *particle.kinks)]
+        gaps += [x * f for x in sizes.pieces for f in (0.25, 0.5) if x > 1e-4 * self.top]
+        known = np.array(sorted({g for g in gaps if self.bottom < g < self.top}))
+        rise = np.sqrt(self.top - np.array([self.join, *known[known > self.join]]))
+        self.rises = _distinct(np.array([0.0, *np.sort(rise)]))
+        """Breakpoints in u above the join."""
+        self.gaps_below = np.empty(0)
+        """Breakpoints in the gap below the join, if there are gaps."""
+        if self.bottom < self.join:
+            below = [self.bottom, *known[known < self.join], self.join]
+            self.gaps_below = _distinct(np.array(below))
+        bottom = np.array([self.bottom])
+        self.floor = self.average(bottom, self.top - bottom)[0]
+
+    @cached_property
+    def upper(self) -> PiecewiseChebyshev:
+        """P/u^powers as a function of u, above the join."""
+        return PiecewiseChebyshev(self._reduced, self.rises, tolerance=1e-13, kinds=KINDS)
+
+    @cached_property
+    def lower(self) -> PiecewiseChebyshev | None:
+        """P as a function of the gap, below the join."""
+        if not len(self.gaps_below):
+            return None
+        return PiecewiseChebyshev(
+            lambda g: self.average(g, self.top - g),
+            self.gaps_below,
+            tolerance=1e-13,
+            kinds=KINDS,
+        )
+
+    def _reduced(self, u: Array) -> Array:
+        return self.average(self.top - u * u, u * u) / u[:, None] ** self.powers
+
+    def average(self, gap: Array, rise: Array) -> Array:
+        """P(gap) by direct quadrature: (N, 7). Panels in √δ, split at every regime.
+
+        ``rise`` = x_max − gap is given beside the gap because near the largest size the gap
+        alone would lose it to rounding.
+        """
+        if isinstance(self.sizes, Monodisperse):
+            return self.sizes.mean**2 * self.particle(rise / self.sizes.mean)
+        out = np.empty((len(gap), len(COLUMNS)))
+        for part in np.array_split(np.arange(len(gap)), max(1, len(gap) // 200)):
+            out[part] = self._average(gap[part, None], rise[part, None])
+        return out
+
+    def of_sizes(
+        self, gap: Array, rise: Array, splits: Sequence[float] = (), nodes: int = 16
+    ) -> tuple[Array, Array, Array]:
+        """Diameters, squeezes and weights φ_a(x) dx of sums over sizes: (N, n) for (N, 1)."""
+        particle, sizes = self.particle, self.sizes
+        if isinstance(sizes, Monodisperse):
+            return np.full_like(gap, sizes.mean), rise, (rise > 0).astype(float)
+        low, high = sizes.support
+        pieces = np.array(sizes.pieces)
+        # sizes are counted from `zero`, the largest of them where they lie close together, so
+        # that their densities and how far they lie apart keep all digits; edges of panels
+        # likewise, or where sizes begin to be squeezed from the gap, as squeezes δ
+        close = low > 0.5 * high
+        zero = high if close else 0.0
+        gap_at = -rise if close else gap
+        start = rise <= 2 * (high - low)
+        above = np.where(gap > 0.5 * high, rise - (high - pieces), pieces - gap)
+        of_sizes = np.where(start, above, pieces - zero)
+        # where a regime of some size sets in: δ = εx, so x = g/(1 − ε), which must be positive
+        eps = np.concatenate([particle.panels, splits])
+        whole = eps == 1
+        part = np.where(whole, 1.0, 1 - eps)
+        of_regimes = gap / part - zero
+        if close:
+            of_regimes = np.where(gap > 0.5 * high, (high * eps - rise) / part, of_regimes)
+        of_regimes = np.where(start, gap * eps / part, of_regimes)
+        edges = np.concatenate([of_sizes, np.where(whole, -np.inf, of_regimes)], axis=1)
+        first = np.maximum(of_sizes[:, :1], np.where(start, 0.0, gap_at))
+        edges = np.sort(np.clip(edges, first, of_sizes[:, -1:]), axis=1)
+        # Gauss panels in √δ, in which the response is smooth where it sets in
+        root = np.sqrt(np.maximum(np.where(start, edges, edges - gap_at), 0.0))
+        sums = root[:, 1:] + root[:, :-1]
+        step = np.divide(np.diff(edges, axis=1), sums, out=np.zeros_like(sums), where=sums > 0)
+        x, weight = gauss_legendre(nodes)
+        from_edge = 0.5 * step[..., None] * (1 + x)
+        root = root[:, :-1, None]
+        place = edges[:, :-1, None] + from_edge * (2 * root + from_edge)
+        root = root + from_edge
+        weight = root * step[..., None] * weight
+        root, place, weight = (each.reshape(len(gap), -1) for each in (root, place, weight))
+        place = np.where(start, place + gap_at, place)
+        diameter = np.clip(zero + place, low, high)
+        density = sizes.pdf_below(-place) if close else sizes.pdf(diameter)
+        return diameter, root * root, density * weight
+
+    def _average(self, gap: Array, rise: Array) -> Array:
+        diameter, delta, weight = self.of_sizes(gap, rise)
+        density = weight * diameter**2
+        used = density > 0
+        values = np.zeros((*density.shape, len(COLUMNS)))
+        values[used] = self.particle(delta[used] / diameter[used])
+        return np.einsum("gn,gnk->gk", density, values)
+
+    def __call__(self, gaps: Array) -> Array:
+        """P(g) from the tables: (N, 7)."""
+        u = np.sqrt(np.maximum(self.top - gaps, 0.0))
+        values = self.upper(np.minimum(u, self.upper.edges[-1])) * u[:, None] ** self.powers
+        if self.lower is not None and np.any(low := gaps < self.join):
+            values[low] = self.lower(np.maximum(gaps[low], self.bottom))
+        values[gaps < self.bottom] = self.floor
+        values[gaps >= self.top] = 0.0
+        return values
+
+    def derivatives(self, gaps: Array, columns: tuple[int, ...]) -> Array:
+        """P, P′ and P″ of some columns: (N, len(columns), 3)."""
+        u = np.sqrt(np.maximum(self.top - gaps, 0.0))
+        v = np.clip(u, 1e-60, self.upper.edges[-1])[:, None]
+        c = self.upper.derivatives(v[:, 0], columns)
+        p = self.powers[list(columns)]
+        value, first, second = c[..., 0], c[..., 1], c[..., 2]
+        lead = v**p
+        # with respect to u, then dg = −2u du
+        du = lead * (first + p * value / v)
+        ddu = lead * (second + 2 * p * first / v + p * (p - 1) * value / v**2)
+        out = np.empty_like(c)
+        out[..., 0] = lead * value
+        out[..., 1] = -du / (2 * v)
+        out[..., 2] = (ddu - du / v) / (4 * v * v)
+        out[u == 0] = 0.0
+        if self.lower is not None and np.any(low := gaps < self.join):
+            out[low] = self.lower.derivatives(np.maximum(gaps[low], self.bottom), columns)
+        below = gaps < self.bottom
+        out[below] = 0.0
+        out[below, :, 0] = self.floor[list(columns)]
+        return out
+
+    def nodes(self, width: float) -> tuple[Array, Array, Array]:
+        """Gauss nodes in the gap, weights and P there, for sums over a seat of this width.
+
+        The panels of the tables, cut where they are wider than the seat: increasing gaps (M,),
+        weights (M,), values (M, 7).
+        """
+        lower = None if self.lower is None else self.lower.edges
+        gaps, rise, weights = self._gaps(self.upper.edges, lower, width, SEAT_NODES)
+        values = np.empty((len(gaps), len(COLUMNS)))
+        upper = gaps >= self.join
+        u = np.sqrt(rise[upper])
+        values[upper] = self.upper(u) * u[:, None] ** self.powers
+        if self.lower is not None:
+            values[~upper] = self.lower(gaps[~upper])
+        return gaps, weights, values
+
+    def gaps(self, width: float, splits: Sequence[float] = ()) -> tuple[Array, Array, Array]:
+        """As `nodes` without the tables: gaps, x_max − gap, weights (M,); relative error 1e-9.
+
+        ``splits`` are more values of ε at which sums over gaps have a kink.
+        """
+        # without a gap particles of every size are squeezed by ε = 1: up to their middles
+        more = np.array([0.0, *(x * (1 - eps) for x in self.sizes.kinks for eps in splits)])
+        more = more[(more > self.bottom) & (more < self.top)]
+        upper = np.sqrt(self.top - more[more > self.join])
+        lower = None
+        if len(self.gaps_below):
+            lower = _distinct(np.sort([*self.gaps_below, *more[more < self.join]]))
+        upper = _distinct(np.sort([*self.rises, *upper]))
+        return self._gaps(upper, lower, SPOT_WIDTHS * width, SPOT_NODES)
+
+    def _gaps(
+        self, upper: Array, lower: Array | None, width: float, nodes: tuple[int, int]
+    ) -> tuple[Array, Array, Array]:
+        """Nodes on panels between edges in u and, below the join, in the gap."""
+        u, weight = _seat_rule(_cut(upper**2, width) ** 0.5, width, np.square, nodes)
+        rise, weights = u * u, 2 * u * weight
+        if lower is not None:
+            g, weight = _seat_rule(_cut(lower, width), width, np.asarray, nodes)
+            rise = np.concatenate([rise, self.top - g[::-1]])
+            weights = np.concatenate([weights, weight[::-1]])
+        return self.top - rise[::-1], rise[::-1], weights[::-1]
+
+    def spots(self, gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
+        """Every particle squeezed in gaps (N,) under which they rest on a plane."""
+        rows = gap[:, None], self.top - gap[:, None]
+        x, delta, weight = self.of_sizes(*rows, splits, SIZE_NODES)
+        return self.particle.spots(x, np.maximum(delta, 0.0), share=None, number=weight)
+
+
+def _seat_rule(
+    edges: Array, width: float, gap: Callable[[Array], Array], nodes: tuple[int, int]
+) -> tuple[Array, Array]:
+    """Gauss rule over panels, of fewer nodes where the seat is wide against a panel."""
+    narrow = np.abs(np.diff(gap(edges))) < 0.25 * width
+    ends = [0, *(np.flatnonzero(np.diff(narrow)) + 1), len(narrow)]
+    rules = [
+        panel_rule(edges[a : b + 1], nodes[int(narrow[a])]) for a, b in itertools.pairwise(ends)
+    ]
+    places, weights = zip(*rules, strict=True)
+    return np.concatenate(places), np.concatenate(weights)
+
+
+def _distinct(edges: Array) -> Array:
+    """Increasing edges without the slivers that rounding leaves between equal ones."""
+    wide = np.diff(edges) > 1e-12 * np.max(np.abs(edges))
+    return np.append(edges[:-1][wide], edges[-1])
+
+
+def _cut(edges: Array, width: float) -> Array:
+    return np.concatenate([edges[:1], subdivide(edges, width=width)[1:]])
+
+
+@lru_cache(maxsize=256)
+def size_average(particle: OneParticle, sizes: Distribution) -> SizeAverage:
+    """The cached size average: one for equal particles of equal sizes."""
+    return SizeAverage(particle, sizes)
+
+
+class SeatAverage:
+    """A size average over a Gaussian seat of some width; lengths in the size of the particles.
+
+    The average over seats is a sum over local gaps weighted with the density of ζ, tabulated
+    once as Chebyshev series in the mean gap.
+    """
+
+    def __init__(self, average: SizeAverage, width: float):
+        self.average, self.width, self.particle = average, width, average.particle
+        span = (average.top - average.bottom) / width
+        if span > WIDEST:
+            raise InvalidValue(
+                f"particle diameters range over {span:.3g} widths of the seat, more than "
+                f"{WIDEST:g}: the surface is smooth for such particles, use seat = 'plane'"
+            )
+        self.floor = average.floor
+        self.low = average.bottom - NORMAL_REACH * width
+        self.high = average.top + NORMAL_REACH * width
+
+    @cached_property
+    def nodes(self) -> tuple[Array, Array]:
+        """Gaps, and the weighted columns there."""
+        gaps, weight, values = self.average.nodes(self.width)
+        return gaps, weight[:, None] * values / (self.width * math.sqrt(2 * math.pi))
+
+    @cached_property
+    def table(self) -> PiecewiseChebyshev:
+        """Every column as a function of the mean gap."""
+        panels = min(math.ceil((self.high - self.low) / (3 * self.width)), 32)
+        return PiecewiseChebyshev(
+            self._over_seats,
+            np.linspace(self.low, self.high, panels + 1),
+            tolerance=1e-12,
+            max_depth=20,
+            kinds=KINDS,
+        )
+
+    def _over_seats(self, mean_gap: Array) -> Array:
+        """The columns averaged over seats by quadrature: (N, 7)."""
+        gaps, weights = self.nodes
+        z = (self.average.bottom - mean_gap) / self.width
+        out = special.ndtr(z)[:, None] * self.floor
+        order = np.argsort(mean_gap)
+        for piece in in_pieces(len(order), weights[:1000].size):
+            part = order[piece]
+            lowest, highest = mean_gap[part[0]], min(mean_gap[part[-1]], gaps[-1])
+            near = slice(
+                np.searchsorted(gaps, min(lowest, highest) - 2 * NORMAL_REACH * self.width),
+                np.searchsorted(gaps, highest + NORMAL_REACH * self.width),
+            )
+            z = (mean_gap[part, None] - gaps[near]) / self.width
+            out[part] += np.exp(-0.5 * z * z) @ weights[near]
+        return out
+
+    def __call__(self, gap: Array) -> Array:
+        """Every column: (N, 7)."""
+        low, high = self.low, self.high
+        out = self.table(np.clip(gap, low, high))
+        out[gap > high] = 0.0
+        out[gap < low] = self.floor
+        return out
+
+    def spots(self, mean_gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
+        """Every squeezed particle at mean gaps (N,)."""
+        average = self.average
+        reach = NORMAL_REACH * self.width
+        lowest, highest = mean_gap.min() - reach, mean_gap.max() + reach
+        gaps, rise, weights = average.gaps(self.width, splits)
+        near = slice(*np.searchsorted(gaps, [lowest, highest]))
+        gaps, rise, weights = gaps[near], rise[near], weights[near]
+        if lowest < average.bottom:
+            # loads no longer change there, but depths do
+            edges = np.array(
+                sorted({lowest, min(max(lowest, 0.0), average.bottom), average.bottom})
+            )
+            edges = _cut(edges, SPOT_WIDTHS * self.width)
+            below, weight = panel_rule(edges, SPOT_NODES[0])
+            gaps = np.concatenate([below, gaps])
+            rise = np.concatenate([average.top - below, rise])
+            weights = np.concatenate([weight, weights])
+        x, delta, weight = average.of_sizes(gaps[:, None], rise[:, None], splits, SIZE_NODES)
+        z = (mean_gap[:, None] - gaps) / self.width
+        return self.particle.spots(
+            x,
+            np.maximum(delta, 0.0),
+            share=np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi)),
+            number=weight * weights[:, None],
+        )
+
+    def derivatives(self, gap: Array, columns: tuple[int, ...]) -> Array:
+        """Some columns with two derivatives: (N, len(columns), 3)."""
+        low, high = self.low, self.high
+        out = self.table.derivatives(np.clip(gap, low, high), columns)
+        out[gap > high] = 0.0
+        out[gap < low] = 0.0
+        out[gap < low, :, 0] = self.floor[list(columns)]
+        return out
+
+
+@lru_cache(maxsize=512)
+def seat_average(average: SizeAverage, width: float) -> SeatAverage:
+    """The cached average over seats."""
+    return SeatAverage(average, width)
+
+
+NORMAL_REACH = 9.0
+"""Standard deviations of the seat beyond which nothing is counted."""
+SEAT_NODES = (14, 10)
+"""Nodes of a panel in the gap as wide as the seat, and of a much narrower one."""
+SPOT_NODES, SPOT_WIDTHS, SIZE_NODES = (14, 12), 2.0, 10
+"""The same for spots, whose sums need 1e-9 of the load; width of their panels; nodes of sizes."""
+WIDEST = 1e5

@@ -1,0 +1,346 @@
+r"""Sums over all particles between two surfaces, as functions of the separation.
+
+.. math:: F_{sa} = \eta_a \int \varphi_a(x) \int_0^\infty f(x,\delta)\,
+          p_\zeta(h - x + \delta)\,d\delta\,dx
+
+and areas alike, for every law that says what one particle does. A law whose authors print the
+sum itself registers it with `particle_sum`.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from functools import singledispatch
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import InvalidValue
+from ..laws.base import COLUMNS, AbstractParticleLaw, SeatedLaw
+from ..laws.particle.horng2022 import NO_ONE_PARTICLE, Horng2022
+from ..populations.materials import MaterialPair, reduced_modulus
+from ..populations.particles import Particles
+from ..populations.roughness import Roughness
+from .particle_averages import SeatAverage, SizeAverage, seat_average, size_average
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..laws.spots import ParticleSpots
+    from ..populations.distributions import Distribution
+
+    Array = NDArray[np.float64]
+
+__all__ = ["ParticleSum", "particle_sum", "together_in"]
+
+
+@singledispatch
+def particle_sum(
+    law: AbstractParticleLaw, surfaces: MaterialPair, roughness: Roughness, particles: Particles
+) -> ParticleSum:
+    """The sum over one population, by the kind of its law."""
+    raise InvalidValue(
+        f"the particle law {law.name} has no sum: derive it from SeatedLaw, or register its sum "
+        "with thirdbody.contact.particle_sums.particle_sum"
+    )
+
+
+@particle_sum.register(SeatedLaw)
+def _over_sizes_and_seats(
+    law: SeatedLaw, surfaces: MaterialPair, roughness: Roughness, particles: Particles
+) -> ParticleSum:
+    one = law.one(surfaces=surfaces, particle=particles.material)
+    if (coverage := one.breadth * particles.coverage) >= 1:
+        raise InvalidValue(law.jammed(coverage))
+    parts = []
+    for weight, sizes in particles.diameter.components:
+        scale, shape = sizes.standardised()
+        average: SizeAverage | SeatAverage = size_average(one, shape)
+        if law.seat == "rough":
+            average = seat_average(average, law.zeta_std * roughness.sigma / scale)
+        density = particles.areal_density * weight
+        parts.append(Part(average, scale, density, offset=law.seat_offset(roughness)))
+    return SeatedParticles(parts, law.shadow, coverage)
+
+
+@particle_sum.register(Horng2022)
+def _as_printed(
+    law: Horng2022, surfaces: MaterialPair, roughness: Roughness, particles: Particles
+) -> ParticleSum:
+    return PrintedIntegrals(law, surfaces, roughness, particles)
+
+
+class ParticleSum(ABC):
+    """Particles between two surfaces, per nominal area, as functions of the separation d [m].
+
+    Made by `particle_sum`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e11,
+    ...                     diameter=tb.Monodisperse(mean=300e-9))
+    >>> made = particle_sum(tb.particle.Series(seat="plane"), tb.MaterialPair(steel, steel),
+    ...                     tb.Roughness(sigma=100e-9, R=2.8e-6), dust)
+    >>> f"{made.reach:.1e}", f"{made.fields(np.array([250e-9]))['F_sa'][0]:.3g} Pa"
+    ('3.0e-07', '7.49e+06 Pa')
+    """
+
+    reach: float
+    """Separation [m] above which no particle is loaded (or the load is negligible)."""
+    monotone: bool = True
+    """The load falls with d everywhere."""
+    resolution: float = np.inf
+    """Step of d [m] that resolves the load, where it is not monotone."""
+    marks: Array | tuple[float, ...] = ()
+    """Separations d [m] between which load and shadow are smooth, where the law knows them."""
+
+    @abstractmethod
+    def load(self, d: Array) -> tuple[Array, Array]:
+        """Pressure F_sa and shadow ς with first and second derivative: two arrays (N, 3)."""
+
+    @abstractmethod
+    def fields(self, d: Array) -> dict[str, Array]:
+        """F_sa [Pa], A_e, A_ep, A_p on surface 1, A_sa2 on surface 2, and the shadow ς."""
+
+    @abstractmethod
+    def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
+        """Every loaded particle at d (N,), in groups.
+
+        Parameters
+        ----------
+        d : array (N,)
+        splits : sequence of float, optional
+            Squeezes over diameter ε where what is asked of a particle changes its formula.
+        """
+
+
+class ParticlesTogether(ParticleSum):
+    """Several populations side by side: loads, areas and shadows add."""
+
+    def __init__(self, sums: Sequence[ParticleSum]):
+        self.sums = sums
+        self.reach = max(each.reach for each in sums)
+        self.monotone = all(each.monotone for each in sums)
+        self.resolution = min(each.resolution for each in sums)
+        self.marks = np.concatenate([np.asarray(each.marks, float) for each in sums])
+
+    def load(self, d: Array) -> tuple[Array, Array]:
+        loads, shadows = zip(*(each.load(d) for each in self.sums), strict=True)
+        return np.sum(loads, axis=0), np.sum(shadows, axis=0)
+
+    def fields(self, d: Array) -> dict[str, Array]:
+        parts = [each.fields(d) for each in self.sums]
+        return {name: np.sum([part[name] for part in parts], axis=0) for name in parts[0]}
+
+    def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
+        return [spots for each in self.sums for spots in each.spots(d, splits)]
+
+
+class Part:
+    """Particles of one shape of size distribution: an average, scaled; gap = d + offset."""
+
+    def __init__(
+        self, average: SizeAverage | SeatAverage, scale: float, density: float, *, offset: float
+    ):
+        self.average, self.scale, self.offset = average, scale, offset
+        self.density = density
+        self.factor = density * scale**2
+        top = average.top if isinstance(average, SizeAverage) else average.high
+        self.reach = scale * top - offset
+
+    @property
+    def marks(self) -> Array:
+        """Ends of the panels of the tables, as separations d [m]."""
+        average = self.average
+        if isinstance(average, SeatAverage):
+            gaps = average.table.edges
+        else:
+            below = average.lower.edges if average.lower is not None else np.empty(0)
+            gaps = np.concatenate([below, average.top - average.upper.edges**2])
+        return self.scale * gaps - self.offset
+
+    def load(self, d: Array, shadow: int) -> Array:
+        values = self.average.derivatives((d + self.offset) / self.scale, (0, shadow))
+        return self.factor / self.scale ** np.arange(3) * values
+
+    def columns(self, d: Array) -> Array:
+        return self.factor * self.average((d + self.offset) / self.scale)
+
+    def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
+        found = self.average.spots((d + self.offset) / self.scale, splits)
+        return found.of_size(self.scale, self.density)
+
+
+class SeatedParticles(ParticleSum):
+    """The sum over the components of the size distribution."""
+
+    def __init__(self, parts: list[Part], shadow: str, coverage: float):
+        self.parts, self.coverage = parts, coverage
+        self.shadow = shadow
+        self.reach = max(part.reach for part in parts)
+        self._shadow_column = COLUMNS.index(shadow) if shadow in COLUMNS else 0
+
+    @property
+    def marks(self) -> Array:  # type: ignore[override]
+        if self.shadow not in COLUMNS:  # what does not change takes no load from asperities
+            return np.empty(0)
+        return np.concatenate([part.marks for part in self.parts])
+
+    def load(self, d: Array) -> tuple[Array, Array]:
+        total = np.sum([part.load(d, self._shadow_column) for part in self.parts], axis=0)
+        force, shadow = total[:, 0], total[:, 1]
+        return force, self._shadow(shadow)
+
+    def _shadow(self, values: Array) -> Array:
+        if self.shadow in COLUMNS:
+            return values
+        fixed = np.zeros_like(values)
+        if self.shadow == "covered":
+            fixed[..., 0] = self.coverage
+        return fixed
+
+    def fields(self, d: Array) -> dict[str, Array]:
+        total = np.sum([part.columns(d) for part in self.parts], axis=0)
+        total = np.maximum(total, 0.0)  # rounding of the other regimes
+        return {
+            "F_sa": total[:, 0],
+            "A_e": total[:, 1],
+            "A_ep": total[:, 2],
+            "A_p": total[:, 3],
+            "A_sa2": total[:, 4],
+            "shadow": self._shadow(total[:, self._shadow_column][:, None])[:, 0],
+        }
+
+    def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
+        return [part.spots(d, splits) for part in self.parts]
+
+
+def together_in(sums: Sequence[ParticleSum]) -> ParticleSum:
+    """Populations side by side, as one sum where their shadows follow one rule."""
+    if len(sums) == 1:
+        return sums[0]
+    seated = [each for each in sums if isinstance(each, SeatedParticles)]
+    if len(seated) < len(sums) or len({each.shadow for each in seated}) > 1:
+        return ParticlesTogether(sums)
+    return SeatedParticles(
+        [part for each in seated for part in each.parts],
+        seated[0].shadow,
+        sum(each.coverage for each in seated),
+    )
+
+
+class PrintedIntegrals(ParticleSum):
+    """The printed integrals in closed form, as functions of d."""
+
+    monotone = False
+
+    def __init__(
+        self, law: Horng2022, surfaces: MaterialPair, roughness: Roughness, particles: Particles
+    ):
+        self.law, self.sizes = law, particles.diameter
+        H1, H2, Ha = surfaces.first.H, surfaces.second.H, particles.material.H
+        if law.hardness_rule == "softer":
+            H1, H2 = min(H1, Ha), min(H2, Ha)
+        elif law.hardness_rule == "replace2":
+            H2 = Ha
+        E1 = law.kappa_C * reduced_modulus(surfaces.first, particles.material)
+        second = (
+            surfaces.E_star
+            if law.second_modulus == "ss"
+            else reduced_modulus(surfaces.second, particles.material)
+        )
+        self.C = 9 * math.pi**2 / 4 * ((H1 / E1) ** 2 + (H2 / (law.kappa_C * second)) ** 2)
+        self.x_a = nominal_diameter(self.sizes)
+        if law.h_e_rule == "approach":
+            self.h_e = self.C * self.x_a / 2
+        else:
+            self.h_e = law.h_e_sigma * roughness.sigma + law.h_e_diameter * self.x_a
+        eta = law.chi * particles.areal_density
+        if not law.normalise:
+            eta *= self.sizes.retained_mass
+        if law.hardness_rule == "sum":
+            self.area_factor = math.pi * eta * Ha / (H1 + Ha)
+            self.pressure = H1 + Ha
+        else:
+            self.area_factor = math.pi * eta * H2 / (H1 + H2)
+            self.pressure = H1
+        self.shadow_factor = math.pi * eta * H1 / (H1 + H2)
+        low, high = self.sizes.support
+        self.reach = high + self.h_e
+        width = (high - low) / 6 or self.x_a
+        self.resolution = min(roughness.sigma, self.h_e or np.inf, width) / 40
+
+    def _moment(self, weight: str, a: Array | float, b: Array | float) -> Array:
+        if weight == "xa2":
+            return self.x_a**2 * self.sizes.partial_moment(0, a, b)
+        return self.sizes.partial_moment(2, a, b)
+
+    def _density(self, x: Array) -> Array:
+        """w(x) φ_a(x)."""
+        scale = self.x_a if self.law.weight == "xa2" else x
+        return scale**2 * self.sizes.pdf(x)
+
+    def _window(self, d: Array) -> Array:
+        return self.C * self._moment(self.law.weight, d - self.h_e, d)
+
+    def _above(self, d: Array) -> Array:
+        """∫_d^x_max w_p φ_a dx, the plastic footprint."""
+        if not self.law.plastic:
+            return np.zeros_like(d)
+        if self.law.plastic_weight == "xxd":
+            m2 = self.sizes.partial_moment(2, d, np.inf)
+            return m2 - d * self.sizes.partial_moment(1, d, np.inf)
+        return self._moment(self.law.weight, d, np.inf)
+
+    def _above_slope(self, d: Array) -> Array:
+        if not self.law.plastic:
+            return np.zeros_like(d)
+        if self.law.plastic_weight == "xxd":
+            return -self.sizes.partial_moment(1, d, np.inf)
+        return -self._density(d)
+
+    def _shadow(self, d: Array) -> Array:
+        if self.law.shadow == "none":
+            return np.zeros_like(d)
+        lower = d if self.law.shadow == "d" else np.zeros_like(d)
+        return self.shadow_factor * self._above(lower)
+
+    def load(self, d: Array) -> tuple[Array, Array]:
+        force, shadow = np.zeros((len(d), 3)), np.zeros((len(d), 3))
+        window_slope = self.C * (self._density(d) - self._density(d - self.h_e))
+        force[:, 0] = self._window(d) + self._above(d)
+        with np.errstate(invalid="ignore"):  # where particles of one size jump in and out
+            force[:, 1] = window_slope + self._above_slope(d)
+        force *= self.pressure * self.area_factor
+        shadow[:, 0] = self._shadow(d)
+        if self.law.shadow == "d":
+            shadow[:, 1] = self.shadow_factor * self._above_slope(d)
+        over = shadow[:, 0] >= 1
+        shadow[over] = [1.0, 0.0, 0.0]
+        return force, shadow
+
+    def fields(self, d: Array) -> dict[str, Array]:
+        window, above = (self.area_factor * part for part in (self._window(d), self._above(d)))
+        elastic = window if self.law.particle_regime == "split" else np.zeros_like(d)
+        total = window + above
+        return {
+            "F_sa": self.pressure * total,
+            "A_e": elastic,
+            "A_ep": np.zeros_like(d),
+            "A_p": total - elastic,
+            "A_sa2": total,
+            "shadow": np.minimum(self._shadow(d), 1.0),
+        }
+
+    def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
+        raise InvalidValue(NO_ONE_PARTICLE)
+
+
+def nominal_diameter(sizes: Distribution) -> float:
+    """x_a as the paper means it: the centre of the Gaussian, or the mean of another law [m]."""
+    return getattr(sizes, "mean", None) or sizes.mean_diameter

@@ -1,0 +1,215 @@
+r"""The model as it is meant, slow and plain: two integrals and a balance.
+
+.. math:: F_t(d) = (1-\varsigma)\,\eta\int F_1(\omega)\,\phi(z)\,dz
+          + \eta_a\int\varphi_a(x)\int f(x, x-g)\,p_\zeta(g)\,dg\,dx = F
+
+Every formula is a law's own, every integral is `scipy.integrate.cubature`'s, every balance a root
+of SciPy: no tables, no engine. All that is faster in this library is held to this module by a test.
+The particle law is `Series` or `Flakes`; `Horng2022` prints its integrals in closed form.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+from scipy.integrate import cubature
+from scipy.optimize import brentq
+from scipy.optimize.elementwise import find_root
+from scipy.special import ndtr
+
+from .laws.base import REGIMES
+from .populations.distributions import Monodisperse
+from .populations.materials import reduced_modulus
+
+__all__ = ["Side", "Tip", "asperities", "particles", "separation", "squeezed", "state"]
+
+
+def separation(contact: Any, pressure: float) -> float:
+    """The separation d [m] that carries a pressure [Pa], where the load falls with d."""
+
+    def excess(d: float) -> float:
+        found = state(contact, d)
+        return float(np.log((found["F_ss"] + found["F_sa"]) / pressure))
+
+    low = high = 0.0
+    while excess(low) < 0:
+        low -= contact.roughness.sigma
+    while excess(high) > 0:
+        high = 1.2 * high + contact.roughness.sigma
+    return brentq(excess, low, high, xtol=1e-14 * contact.roughness.sigma)
+
+
+def state(contact: Any, d: float) -> dict[str, float]:
+    """Loads [Pa] and areas per nominal area at a separation d [m] of the mean asperity plane."""
+    F, *bare_areas = asperities(contact, d)
+    parts = [particles(contact, some, d) for some in contact.populations]
+    F_sa, A_e, A_ep, A_p, A_sa2, shadow = np.sum([np.zeros(6), *parts], axis=0)
+    areas = (1 - shadow) * np.array(bare_areas) + (A_e, A_ep, A_p)
+    A_t, A_sa = areas.sum(), A_e + A_ep + A_p
+    split = dict(zip(("A_e", "A_ep", "A_p"), areas, strict=True))
+    own = {"A_t": A_t, "A_ss": A_t - A_sa, "A_sa": A_sa, "A_sa2": A_sa2, "shadow": shadow}
+    return {"F_ss": (1 - shadow) * F, "F_sa": F_sa, **own, **split}
+
+
+# ---------------------------------------------------------------- asperities
+def asperities(contact: Any, d: float) -> Any:
+    """η∫F_1(ω) φ(z) dz with ω = σ_s z − d, and the area of each regime alike: (4,)."""
+    rough, pair, heights = contact.roughness, contact.surfaces, contact.roughness.heights
+    datum = contact.law_of(contact.populations[0]).centre if contact.populations else 0.0
+    h = (d - datum * rough.sigma) / rough.sigma_s
+    shapes = [(None, 1.0, 1.0)] if rough.ellipticity is None else rough.ellipticity.classes
+    total = np.zeros(4)
+    for ratio, radius, share in shapes:
+        law = contact.asperity_law if ratio is None else contact.asperity_law.replace(ratio=ratio)
+        tip = Tip(law, radius * rough.R, pair.E_star, pair.H, pair.softer.nu)
+
+        def pressed(z: Any, tip: Any = tip) -> Any:
+            return heights.pdf(z) * tip(rough.sigma_s * (z - h))
+
+        starts, end = h + tip.kinks / rough.sigma_s, heights.pieces[-1]
+        z = between(starts[0], end, [*starts, *heights.pieces])
+        total += share * rough.density * integral(pressed, z)
+    return total
+
+
+class Tip:
+    """One tip pressed into a flat by ω [m]: load [N], and area [m²] under its regime, (4, ...)."""
+
+    def __init__(self, law: Any, R: float, E_star: float, H: float, nu: float):
+        self.law = law.bound(R=R, E_star=E_star, H=H, nu=nu)
+        self.omega_1 = self.law.yield_interference(R=R, E_star=E_star, H=H)
+        self.unit, self.H = np.pi * R * self.omega_1, H
+        self.kinks = self.omega_1 * np.array([self.law.start, *self.law.breakpoints])
+
+    def __call__(self, omega: Any) -> Any:
+        y = np.asarray(omega) / self.omega_1
+        branch = np.searchsorted(self.law.breakpoints, y, side="right")
+        regime = np.array([each.regime for each in self.law.branches])[branch]
+        area = self.unit * self.law.reduced("area", y)
+        areas = [np.where(regime == name, area, 0.0) for name in REGIMES]
+        return np.stack([self.unit * self.H * self.law.reduced("force", y), *areas])
+
+
+# ---------------------------------------------------------------- particles
+def particles(contact: Any, some: Any, d: float) -> Any:
+    """F_sa, areas on surface 1 by regime, area on surface 2, shadow ς, of one population: (6,)."""
+    law, rough = contact.law_of(some), contact.roughness
+    one, two = [
+        Side(law.law, law.tip_radius, reduced_modulus(body, some.material), softer.H, softer.nu)
+        for body in (contact.surfaces.first, contact.surfaces.second)
+        for softer in [min(body, some.material, key=lambda each: each.H)]
+    ]
+    eps = squeezes(one, two)
+    width = law.zeta_std * rough.sigma if law.seat == "rough" else 0.0
+    gap = d - law.h_0 if law.seat != "rough" else d + rough.y_s - law.zeta_mean * rough.sigma
+
+    def on_plane(x: Any) -> Any:
+        return x**2 * squeezed(one, two, 1 - gap / x)
+
+    def on_seats(x: Any, e: Any) -> Any:
+        z = (gap - x * (1 - e)) / width
+        return x**3 * np.exp(-0.5 * z**2) / (np.sqrt(2 * np.pi) * width) * squeezed(one, two, e)
+
+    def embedded(x: Any) -> Any:  # what a particle carries no longer changes beyond eps[-1]
+        z = (x * (1 - eps[-1]) - gap) / width
+        return x**2 * ndtr(z) * squeezed(one, two, 2 * eps[-1:] * np.ones_like(x))
+
+    total = np.zeros(7)
+    for share, sizes in some.diameter.components:
+        if width:
+            found = over_sizes(sizes, on_seats, eps) + over_sizes(sizes, embedded)
+        else:
+            found = over_sizes(sizes, on_plane, splits=gap / (1 - eps[eps != 1]))
+        total += share * some.areal_density * found
+    footprint, projected = total[5:]
+    covered = 2 * law.tip_radius * some.coverage
+    shadows = dict(footprint=footprint, projected=projected, covered=covered, none=0.0)
+    return np.array([*total[:5], shadows[law.shadow]])
+
+
+class Side(Tip):
+    """A particle of size 1 on one surface: its contact ends at its great circle."""
+
+    def __init__(self, law: Any, R: float, E_star: float, H: float, nu: float):
+        super().__init__(law, R, E_star, H, nu)
+        self.full = 0.5 * np.pi * R
+        self.plastic = self.law.branches[-1].regime == "plastic"
+        self.cap = brentq(lambda u: super(Side, self).__call__(u)[1:].sum() - self.full, 0, 10)
+        self.kinks = np.sort([*self.kinks[1:], self.cap])
+
+    def __call__(self, delta: Any) -> Any:
+        """As `Tip`; from the great circle on, the mean pressure alone may still rise."""
+        delta = np.asarray(delta)
+        out = super().__call__(delta if self.plastic else np.minimum(delta, self.cap))
+        over, area = delta >= self.cap, out[1:].sum(axis=0)
+        out[0] *= np.divide(self.full, area, out=np.ones_like(area), where=over)
+        if self.plastic:
+            out[1:, over] = [[0.0], [0.0], [self.full]]
+        return out
+
+
+def squeezed(one: Side, two: Side, eps: Any) -> Any:
+    """A particle of size 1 squeezed by ε: both sides carry one load, F_1(δ_1) = F_2(ε − δ_1).
+
+    Load, area on side 1 by regime, area on side 2, the larger of both, projected area: (7, ...).
+    """
+    e = np.maximum(eps, 1e-300)
+    share = find_root(
+        lambda share, e: one(share * e)[0] - two((1 - share) * e)[0], (0 * e, 0 * e + 1), args=(e,)
+    ).x
+    first, second = one(share * e), two((1 - share) * e)
+    a, b = first[1:].sum(axis=0), second[1:].sum(axis=0)
+    load, great_circle = np.minimum(first[0], second[0]), np.full_like(a, one.full)
+    rows = np.stack([load, *first[1:], b, np.maximum(a, b), great_circle])
+    return np.where(np.asarray(eps) > 0, rows, 0.0)
+
+
+def squeezes(one: Side, two: Side) -> Any:
+    """Increasing ε at which a side changes its formula, from 0 to where nothing changes more."""
+    out = [0.0]
+    for side, other in ((one, two), (two, one)):
+        end = other.kinks[-1]
+        most = other(end)[0]
+        for delta, load in zip(side.kinks, side(side.kinks)[0], strict=True):
+            if abs(load / most - 1) < 1e-12:
+                out.append(delta + end)
+            elif load < most:
+                out.append(delta + brentq(_excess, 0, end, args=(other, load), xtol=1e-18))
+    return np.unique(out)
+
+
+def _excess(delta: float, side: Side, load: float) -> float:
+    return side(delta)[0] - load
+
+
+# ---------------------------------------------------------------- integrals
+def over_sizes(sizes: Any, f: Any, *edges: Any, splits: Any = ()) -> Any:
+    """∫φ_a(x) f(x, ...) dx and over the other variables."""
+    if isinstance(sizes, Monodisperse):
+        return integral(lambda *others: f(np.array([sizes.mean]), *others), *edges)
+    low, high = sizes.support
+    x = between(low, high, [*sizes.pieces, *splits])
+    return integral(lambda x, *others: sizes.pdf(x) * f(x, *others), x, *edges)
+
+
+def integral(f: Any, *edges: Any) -> Any:
+    """∫f over the boxes between increasing edges, one sequence a variable; f gives (m, points)."""
+    if not edges:
+        return f()[:, 0]
+    boxes = [
+        tuple(zip(*box, strict=True)) for box in itertools.product(*map(itertools.pairwise, edges))
+    ]
+
+    def total(f: Any, rtol: float, atol: float) -> Any:
+        return sum(cubature(f, *box, rtol=rtol, atol=atol).estimate for box in boxes)
+
+    size = np.abs(total(lambda v: f(*v.T).T, 0.1, 0.0))
+    size[size == 0] = 1.0
+    return size * total(lambda v: f(*v.T).T / size, 1e-11, 1e-12)
+
+
+def between(low: float, high: float, points: Any) -> Any:
+    """The distinct points from low to high, both ends among them; none where low is above high."""
+    return np.unique([low, *(p for p in points if low < p < high), high]) if low < high else []

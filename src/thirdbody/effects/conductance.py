@@ -1,0 +1,316 @@
+"""How well the contact conducts heat and current: through asperities, particles, and the gap."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.evaluation import bodies_of
+from ..contact.output import AbstractOutput, Column, missing
+from ..populations.materials import Material
+from ..quantities.say import percent
+from ..quantities.value import choice, quantity
+from .single.heat import (
+    absolute_slope,
+    cooper_mikic_yovanovich,
+    sphere_resistance,
+    spot_resistance,
+    spreading,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from ..contact.contact import Contact
+    from ..contact.evaluation import Solved
+    from ..contact.spots import AsperitySpots
+    from ..laws.spots import ParticleSpots
+
+    Array = NDArray[np.float64]
+    Resistivity = Callable[[Material], float]
+
+__all__ = ["ElectricalConductance", "ThermalConductance"]
+
+WIDE = 0.5
+"""Contact radius over particle radius above which the particle's resistance is far off."""
+
+
+def _through_asperities(
+    state: Solved, rho: Resistivity, form: str, *, film: float = 0.0, mean_free_path: float = 0.0
+) -> Array:
+    """Σ n/(ψR) of the asperities per nominal area: (N,)."""
+    pair = state.contact.surfaces
+
+    def conductance(spots: AsperitySpots) -> Array:
+        touches = spots.area > 0
+        b = np.sqrt(np.where(touches, spots.area, 1.0) / np.pi)
+        R = spot_resistance(
+            b, rho(pair.first), rho(pair.second), film=film, mean_free_path=mean_free_path
+        )
+        return np.where(touches, 1 / R, 0.0)
+
+    A_ss = state.total(lambda spots: spots.area)
+    psi = spreading(np.sqrt(np.minimum(A_ss, 1.0)), form=form)
+    return state.total(conductance) / psi
+
+
+def _through_particles(
+    state: Solved, rho: Resistivity, *, film: float = 0.0, mean_free_path: float = 0.0
+) -> Array:
+    """Σ n/R of the particles per nominal area: (N,)."""
+    pair = state.contact.surfaces
+
+    def conductance(spots: ParticleSpots) -> Array:
+        assert spots.population is not None
+        own = rho(spots.population.material)
+        touches = (spots.areas[0] > 0) & (spots.areas[1] > 0)
+        b_1, b_2 = (np.sqrt(np.where(touches, area, 1.0) / np.pi) for area in spots.areas)
+        radius = np.where(touches, spots.x / 2, 1.0)
+        R = sphere_resistance(b_1, b_2, r=radius, k=1 / own)
+        # its own constrictions are part of that; the other body, film and Γ come on top
+        for b, material in ((b_1, pair.first), (b_2, pair.second)):
+            spot = spot_resistance(b, rho(material), own, film=film, mean_free_path=mean_free_path)
+            R = R + spot - own / (4 * b)
+        return np.where(touches, 1 / R, 0.0)
+
+    return state.total_of_particles(conductance)
+
+
+def _wide(state: Solved) -> float:
+    """Largest share of the particle load on particles with contacts wider than half of them."""
+    wide = state.total_of_particles(
+        lambda spots: spots.load * (np.maximum(*spots.areas) > np.pi * (WIDE * spots.x / 2) ** 2)
+    )
+    load = state.total_of_particles(lambda spots: spots.load)
+    return float(np.max(wide / np.where(load > 0, load, 1.0), initial=0.0))
+
+
+def _warnings(output: AbstractOutput, state: Solved, particles: str) -> list[str]:
+    out = []
+    if particles == "conduct" and (share := _wide(state)) > 0.01:
+        out.append(
+            f"outputs.{output.name}: particles with {percent(share, digits=2)} of the particle "
+            "load touch on more than half their radius, where their resistance is overestimated "
+            "by 7 % and more"
+        )
+    return out
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ThermalConductance(AbstractOutput):
+    r"""Thermal conductance of the contact per nominal area: asperities, particles, and gap.
+
+    .. math:: h_{ss} = \frac{2k_h}{\psi}\sum_{ss} n\,b, \qquad
+              h_{sa} = \sum_{sa}\frac{n}{R}, \qquad h_{gap} = \frac{k_g}{Y+M},
+
+    with :math:`k_h = 2k_1k_2/(k_1+k_2)`, b = √(a/π), ψ = (1−√A_ss)^1.5, and the resistance of a
+    particle :math:`R = 1/(4k_1b_1)+1/(4k_2b_2)+R_{sphere}`
+    (`thirdbody.effects.single.heat.sphere_resistance`).
+
+    Parameters
+    ----------
+    particles : {"conduct", "insulate"}, optional
+        Insulating particles still hold the surfaces apart, which is most of what they do.
+    film : float, optional
+        Resistance of a surface film times its area at every spot [m² K/W]; two on a particle.
+    k_gap : float, optional
+        Conductivity of what fills the gap [W/(m K)]; 0 is a vacuum.
+    M : float, optional
+        Length M that a gas adds to the gap, its molecules being sparse [m]; air at 1 bar about
+        0.4 µm (from memory: not confirmed in a source).
+    form : {"power", "series", "none"}, optional
+        Factor ψ, see `thirdbody.effects.single.heat.spreading`.
+
+    Notes
+    -----
+    ``hc_cmy`` is the conductance after Cooper, Mikic and Yovanovich of the clean plastic surfaces
+    at the same pressure, with the mean absolute slope of
+    `thirdbody.effects.single.heat.absolute_slope`: a check
+    of magnitude for a contact without particles. Elastic-plastic asperities have more spots and
+    1 to 2 times its value. Y is the separation of the mean planes h.
+
+    Particles do not take part in ψ: most of their resistance is their own. Grains below 0.1 µm
+    conduct worse than the bulk of their crystal: give them their own conductivity. Flakes conduct
+    at least as well as the ball of their thickness that is used here.
+
+    References
+    ----------
+    Cooper, Mikic, Yovanovich 1969, Int. J. Heat Mass Transfer 12, 279,
+    doi:10.1016/0017-9310(69)90011-8; Yovanovich 2005, IEEE Trans. Compon. Packag. Technol. 28,
+    182, doi:10.1109/TCAPT.2005.848483; the particle is derived.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"].replace(thermal_conductivity=50)
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), outputs=ThermalConductance(),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> state = tb.solve(contact, pressure=5e6)
+    >>> f"{state.outputs['hc']:.4g} W/(m² K)"
+    '1.179e+05 W/(m² K)'
+    """
+
+    particles: str = choice("what particles do", "conduct", "insulate", default="conduct")
+    film: float = quantity("R_f", "m^2*K/W", "resistance of a film", default=0.0, ge=0)
+    k_gap: float = quantity("k_g", "W/m/K", "conductivity of the gap", default=0.0, ge=0)
+    M: float = quantity("M", "m", "length that a gas adds to the gap", default=0.0, ge=0)
+    form: str = choice("spreading factor", "power", "series", "none", default="power")
+
+    name = "thermal_conductance"
+    title = "Thermal contact conductance"
+    year = 1969
+    citation = (
+        "Cooper, Mikic, Yovanovich 1969, Int. J. Heat Mass Transfer 12, 279; particles derived"
+    )
+    doi = "10.1016/0017-9310(69)90011-8"
+    provenance = "derived"
+    valid_range = "A_t < 0.2; b < x/4 for particles"
+    columns = {
+        "hc": Column("h", "W/m^2/K", "thermal conductance"),
+        "hc_ss": Column("h_ss", "W/m^2/K", "thermal conductance of asperities"),
+        "hc_sa": Column("h_sa", "W/m^2/K", "thermal conductance of particles"),
+        "hc_gap": Column("h_gap", "W/m^2/K", "thermal conductance of the gap"),
+        "hc_cmy": Column("h_CMY", "W/m^2/K", "thermal conductance of clean plastic surfaces"),
+    }
+
+    def problems(self, contact: Contact) -> list[str]:
+        return missing(self, _asked(contact, self.particles), "thermal_conductivity")
+
+    def of(self, state: Solved) -> dict[str, Array]:
+        asperities = _through_asperities(state, _thermal, self.form, film=self.film)
+        particles = np.zeros_like(state.d)
+        if self.particles == "conduct":
+            particles = _through_particles(state, _thermal, film=self.film)
+        gap = np.zeros_like(state.d)
+        if self.k_gap:
+            with np.errstate(divide="ignore"):
+                gap = self.k_gap / (np.maximum(state.h, 0.0) + self.M)
+        return {
+            "hc": asperities + particles + gap,
+            "hc_ss": asperities,
+            "hc_sa": particles,
+            "hc_gap": gap,
+            "hc_cmy": self._clean(state),
+        }
+
+    def _clean(self, state: Solved) -> Array:
+        """Conductance of clean plastic surfaces; NaN where they would touch by half."""
+        pair, rough = state.contact.surfaces, state.contact.roughness
+        k = 2 / (_thermal(pair.first) + _thermal(pair.second))
+        m = absolute_slope(sigma=rough.sigma, R=rough.R, alpha=rough.alpha)
+        part = np.where(state.pressure < 0.5 * pair.H, state.pressure, np.nan)
+        return cooper_mikic_yovanovich(part, H=pair.H, k=k, m=float(m), sigma=rough.sigma)
+
+    def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
+        return _warnings(self, state, self.particles)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ElectricalConductance(AbstractOutput):
+    r"""Electrical conductance of the contact per nominal area, and its specific resistance.
+
+    .. math:: g_{ss} = \frac1\psi\sum_{ss}\frac{n}{R_{spot}}, \qquad
+              g_{sa} = \sum_{sa}\frac nR, \qquad \rho_c = \frac1{g_{ss}+g_{sa}},
+
+    with :math:`R_{spot}` after Wexler (`thirdbody.effects.single.heat.spot_resistance`): Holm's
+    constriction, what a spot smaller than the mean free path adds, and a surface film.
+
+    Parameters
+    ----------
+    particles : {"insulate", "conduct"}, optional
+        Insulating particles still hold the surfaces apart. "conduct" needs their resistivity.
+    film : float, optional
+        Resistance of a surface film times its area at every spot, σ_f [Ω m²]; two on a particle.
+    mean_free_path : float, optional
+        Of the electrons [m], about 40 nm in copper and silver (from memory: not confirmed in a
+        source); 0 leaves the effect out.
+    form : {"power", "series", "none"}, optional
+        Factor ψ, see `thirdbody.effects.single.heat.spreading`.
+
+    Notes
+    -----
+    Without films and with the electrons as the only carriers of heat, the thermal conductance is
+    :math:`L\,T` times this one (Wiedemann and Franz; `thirdbody.effects.single.heat.LORENZ`).
+
+    References
+    ----------
+    Holm 1967, Electric Contacts; Wexler 1966, Proc. Phys. Soc. 89, 927,
+    doi:10.1088/0370-1328/89/4/316; the particle is derived.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> brass = tb.Material(E=110e9, nu=0.34, H=1.3e9, resistivity=6.4e-8)
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(brass, brass),
+    ...                      roughness=tb.Roughness(sigma=200e-9, R=5e-6),
+    ...                      outputs=ElectricalConductance())
+    >>> state = tb.solve(contact, pressure=5e6)
+    >>> f"{state.outputs['rho_c'] / 1e-6 * 1e6:.1f} µΩ on 1 mm²"
+    '21.8 µΩ on 1 mm²'
+    """
+
+    particles: str = choice("what particles do", "insulate", "conduct", default="insulate")
+    film: float = quantity("σ_f", "ohm*m^2", "resistance of a film", default=0.0, ge=0)
+    mean_free_path: float = quantity("l", "m", "mean free path", default=0.0, ge=0)
+    form: str = choice("spreading factor", "power", "series", "none", default="power")
+
+    name = "electrical_conductance"
+    title = "Electrical contact conductance"
+    year = 1967
+    citation = (
+        "Holm 1967, Electric Contacts; Wexler 1966, Proc. Phys. Soc. 89, 927; particles derived"
+    )
+    doi = "10.1088/0370-1328/89/4/316"
+    provenance = "derived"
+    valid_range = "A_t < 0.2; b < x/4 for particles"
+    columns = {
+        "gc": Column("g", "S/m^2", "electrical conductance"),
+        "gc_ss": Column("g_ss", "S/m^2", "electrical conductance of asperities"),
+        "gc_sa": Column("g_sa", "S/m^2", "electrical conductance of particles"),
+        "rho_c": Column("ρ_c", "ohm*m^2", "specific contact resistance"),
+    }
+
+    def problems(self, contact: Contact) -> list[str]:
+        return missing(self, _asked(contact, self.particles), "resistivity")
+
+    def of(self, state: Solved) -> dict[str, Array]:
+        small: dict[str, Any] = dict(film=self.film, mean_free_path=self.mean_free_path)
+        asperities = _through_asperities(state, _electrical, self.form, **small)
+        particles = np.zeros_like(state.d)
+        if self.particles == "conduct":
+            particles = _through_particles(state, _electrical, **small)
+        with np.errstate(divide="ignore"):
+            return {
+                "gc": asperities + particles,
+                "gc_ss": asperities,
+                "gc_sa": particles,
+                "rho_c": 1 / (asperities + particles),
+            }
+
+    def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
+        return _warnings(self, state, self.particles)
+
+
+def _asked(contact: Contact, particles: str) -> dict[str, Material]:
+    """Bodies whose conductivity counts."""
+    bodies = bodies_of(contact)
+    if particles == "conduct":
+        return bodies
+    return {name: bodies[name] for name in ("surface 1", "surface 2")}
+
+
+def _thermal(material: Material) -> float:
+    """1/k [m K/W]."""
+    assert material.thermal_conductivity is not None
+    return 1 / material.thermal_conductivity
+
+
+def _electrical(material: Material) -> float:
+    """ρ [Ω m]."""
+    assert material.resistivity is not None
+    return material.resistivity

@@ -1,0 +1,472 @@
+"""What resists sliding: sheared contacts, ploughed surfaces, and particles that roll or slide."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..contact.evaluation import bodies_of
+from ..contact.output import AbstractOutput, Column
+from ..quantities.say import percent
+from ..quantities.value import choice, quantity
+from .single.ploughing import coefficient, rear_support
+from .single.severity import severity, threshold
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    from ..contact.contact import Contact
+    from ..contact.evaluation import Solved
+    from ..contact.output import Probe
+    from ..contact.spots import AsperitySpots
+    from ..laws.spots import ParticleSpots
+
+    Array = NDArray[np.float64]
+    Flags = NDArray[np.bool_]
+    Sides = NDArray[np.intp]
+
+__all__ = ["Friction", "Motion", "changes"]
+
+PARTS = ("ss_shear", "ss_plough", "sa_shear", "sa_plough", "sa_roll")
+TUMBLES = 1.74
+"""Longest axis over gap below which a particle that is no sphere can turn over."""
+SQUEEZES = np.geomspace(1e-6, 2.0, 300)
+"""Where jumps of a particle's force are looked for: δ/x."""
+ROUNDS, FINER = 5, 100
+"""A jump is narrowed down so many times, each time so many times finer."""
+TIE = 1e-12
+"""Two ways of sliding that differ by less, relatively, cost the same."""
+
+
+class Motion(NamedTuple):
+    """How particles move, and what that costs each of them: arrays (M, n).
+
+    A particle takes the cheapest of three motions; see `Friction`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> one, two = np.array([[0.2]]), np.array([[0.3]])
+    >>> Motion(rolls=one < two, side=np.array([[0]]), shear=np.array([[1e-6]]), plough=(one, two),
+    ...        resistance=(one + two) / 2).resistance.item()
+    0.25
+    """
+
+    rolls: Flags
+    """Whether it rolls."""
+    side: Sides
+    """Surface it slides over where it does not roll: 0 the first, 1 the second."""
+    shear: Array
+    """Force [N] of shear on that side."""
+    plough: tuple[Array, Array]
+    """Ploughing force of sliding over either surface, over the load [1]."""
+    resistance: Array
+    """Rolling force over the load [1]."""
+
+
+def changes(probe: Probe, kind: Callable[[ParticleSpots], NDArray[np.intp]]) -> list[float]:
+    """Squeezes over diameter ε at which particles become of another kind.
+
+    Parameters
+    ----------
+    probe : callable
+        ``probe(ε)`` gives particles of unit size, one a row; see `AbstractOutput.splits`.
+    kind : callable
+        A whole number for each particle of such a group: (M, n).
+
+    Returns
+    -------
+    list of float
+        Every ε between 1e-6 and 2 [1] at which that number changes, to 1e-10 of the spacing of the
+        300 first looked at; two changes between neighbours of these are not seen.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> found = changes(lambda eps: SimpleNamespace(x=eps[:, None]), lambda it: (it.x > 0.1) * 1)
+    >>> [round(eps, 9) for eps in found]
+    [0.1]
+    """
+
+    def at(eps: Array) -> NDArray[np.intp]:
+        return kind(probe(eps.ravel())).reshape(eps.shape)
+
+    jumps = np.flatnonzero(np.diff(at(SQUEEZES)))
+    low, high = SQUEEZES[jumps], SQUEEZES[jumps + 1]
+    steps, row = np.linspace(0.0, 1.0, FINER + 1), np.arange(len(jumps))
+    for _ in range(ROUNDS if len(jumps) else 0):
+        eps = low[:, None] + (high - low)[:, None] * steps
+        found = at(eps)
+        first = np.argmax(found != found[:, :1], axis=1)
+        low, high = eps[row, first - 1], eps[row, first]
+    return [float(eps) for eps in high]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Friction(AbstractOutput):
+    r"""Coefficient of friction with its parts: shear, ploughing and rolling.
+
+    .. math:: \mu\,p = \sum_{ss} n\,(\tau_{ss} a+\mu_p f) + \sum_{sa} n\,T, \qquad
+              T = \begin{cases}\tfrac12(\mu_{p1}+\mu_{p2}) f & \text{rolls}\\
+              \mu_{pi} f+\tau_{sa} a_i & \text{slides over } i\end{cases}
+
+    A particle slides where that costs less. It rolls when that costs less than both ways of
+    sliding, which for a sphere is when the shear force it can pass on balances the moments:
+    :math:`\tfrac12|\mu_{p1}-\mu_{p2}|\,f < \tau_{sa} a_i` on the side of smaller ploughing. It
+    then rolls between equal surfaces, and between unequal ones sits in the softer one and
+    grooves the harder.
+
+    Parameters
+    ----------
+    tau_ss, tau_sa : float
+        Shear strength of the contacts between the surfaces, and between particles and surfaces
+        [Pa]. Nobody can predict them: one of τ and m is required for each kind of contact.
+    m_ss, m_sa : float, instead of tau_ss, tau_sa
+        Shear strength over that of the softer body, k = H/(3√3) (H = 3 Y and Mises) [1].
+    alpha_ss, alpha_sa : float, optional
+        Growth of the shear strength with the mean pressure of a contact, τ = τ_0 + α p [1].
+    alpha_T : float, optional
+        Turns on junction growth: a contact yields at p² + α_T τ² = H² and grows until its
+        pressure obeys that. About 9 (from memory: not confirmed in a source). The shear strength
+        of m is then that of the same criterion, k = H/√α_T.
+    rear : "recovery", "rigid" or float, optional
+        Support κ of the rear half of a ploughing contact over that of the front half: by elastic
+        recovery (`thirdbody.effects.single.ploughing.rear_support`), none, or a number from 0 to 1.
+    angle : {"depth", "area"}, optional
+        Angle of a ploughing contact from its depth, cos θ = 1−δ/r, or area, sin θ = √(a/πr²).
+    hardness_ratio : float, optional
+        Asperities plough the softer surface when the other is harder by more than this factor;
+        otherwise they flatten. 1.2 (from memory: not confirmed in a source).
+    soft_particles : {"flatten", "plough"}, optional
+        A particle softer than a surface is deformed itself, and ploughs nothing when it slides
+        there; "plough" treats it like a hard one.
+    rolling : {"moment", "severity"}, optional
+        Cheapest motion as above, or the severity of the contact below a threshold from tests
+        with angular abrasive (`thirdbody.effects.single.severity`), the softer surface being the
+        specimen.
+    aspect : float, optional
+        Longest axis of a particle over its size x, 1 for spheres [1]. A longer one rolls only if
+        it can turn over besides: longest axis over gap below 1.74 (Williams and Hyncica; from
+        memory: not confirmed in a source).
+
+    Notes
+    -----
+    Depth and area are those of the normal load alone; with κ < 1 a contact held at constant load
+    would sink in deeper, so that ``rear="rigid"`` at the solved depth is an upper bound. The
+    vertical part of the shear traction, of order θ²τ/H, and drag of a fluid are left out. What
+    holds for a sphere is used for flakes with the radius of their tips.
+
+    The verdict depends on the squeeze ε of a particle alone, also where τ depends on pressure or
+    hardness, as every pressure does. Sums are split where it changes, and then as accurate as the
+    contact itself (measured: 1e-9; 1e-5 where asperities' junctions grow).
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> silica = tb.Particles(material=tb.materials["SiO2"], areal_density=1e10,
+    ...                       diameter=tb.TruncatedGaussian(mean=500e-9, std=100e-9))
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), particles=silica,
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...                      outputs=Friction(tau_ss=580e6, tau_sa=200e6))
+    >>> state = tb.solve(contact, pressure=5e6)
+    >>> f"μ = {state.outputs['mu']:.3f}, rolling {state.outputs['rolling_share']:.0%}"
+    'μ = 0.212, rolling 100%'
+    """
+
+    tau_ss: float | None = quantity(
+        "τ_ss", "Pa", "shear strength between the surfaces", default=None, ge=0
+    )
+    tau_sa: float | None = quantity(
+        "τ_sa", "Pa", "shear strength between particles and surfaces", default=None, ge=0
+    )
+    m_ss: float | None = quantity(
+        "m_ss", "1", "τ_ss over the shear strength of the softer body", default=None, ge=0, le=1
+    )
+    m_sa: float | None = quantity(
+        "m_sa", "1", "τ_sa over the shear strength of the softer body", default=None, ge=0, le=1
+    )
+    alpha_ss: float = quantity("α_ss", "1", "growth of τ_ss with pressure", default=0.0, ge=0)
+    alpha_sa: float = quantity("α_sa", "1", "growth of τ_sa with pressure", default=0.0, ge=0)
+    alpha_T: float | None = quantity(
+        "α_T", "1", "weight of shear in the yield of a growing contact", default=None, gt=0
+    )
+    rear: str | float = "recovery"
+    angle: str = choice(
+        "what the angle of a ploughing contact follows from", "depth", "area", default="depth"
+    )
+    hardness_ratio: float = quantity(
+        "H_1/H_2", "1", "hardness ratio above which asperities plough", default=1.2, ge=1
+    )
+    soft_particles: str = choice(
+        "particles softer than a surface", "flatten", "plough", default="flatten"
+    )
+    rolling: str = choice(
+        "what decides that a particle rolls", "moment", "severity", default="moment"
+    )
+    aspect: float = quantity("D_l/x", "1", "longest axis over size", default=1.0, ge=1)
+
+    name = "friction"
+    title = "Friction"
+    year = 2026
+    citation = "thirdbody: shear, ploughing and rolling of the contacts of a solved state"
+    provenance = "derived"
+    valid_range = "dry sliding; depths up to the radius of what ploughs"
+    columns = {
+        "mu": Column("μ", "1", "coefficient of friction"),
+        "mu_ss_shear": Column("μ_ss,τ", "1", "part of μ: shear of asperities"),
+        "mu_ss_plough": Column("μ_ss,p", "1", "part of μ: ploughing by asperities"),
+        "mu_sa_shear": Column("μ_sa,τ", "1", "part of μ: shear of sliding particles"),
+        "mu_sa_plough": Column("μ_sa,p", "1", "part of μ: ploughing by sliding particles"),
+        "mu_sa_roll": Column("μ_sa,r", "1", "part of μ: rolling particles"),
+        "mu_plough_1": Column("μ_p,1", "1", "part of μ: tracks in surface 1"),
+        "mu_plough_2": Column("μ_p,2", "1", "part of μ: tracks in surface 2"),
+        "mu_ss": Column("μ_ss", "1", "friction of the asperities over their load"),
+        "mu_sa": Column("μ_sa", "1", "friction of the particles over their load"),
+        "rolling_share": Column("w_r", "1", "share of the particles' load on rolling ones"),
+    }
+
+    def _problems(self) -> list[str]:
+        out = []
+        if self.tau_ss is None and self.m_ss is None:
+            out.append(
+                "Friction.tau_ss is missing: give the shear strength between the surfaces [Pa], "
+                "or m_ss; no value fits all surfaces"
+            )
+        for kind in ("ss", "sa"):
+            tau, m, _ = self._strength(kind)
+            if tau is not None and m is not None:
+                out.append(f"Friction.tau_{kind} = {tau:g} and m_{kind} = {m:g}: give one of them")
+        if self.rear not in ("recovery", "rigid"):
+            number = isinstance(self.rear, int | float) and not isinstance(self.rear, bool)
+            if not (number and 0 <= self.rear <= 1):  # type: ignore[operator]
+                out.append(
+                    f"Friction.rear = {self.rear!r} must be 'recovery', 'rigid', or a number from "
+                    "0 to 1"
+                )
+        return out
+
+    def problems(self, contact: Contact) -> list[str]:
+        out = []
+        if contact.populations and self.tau_sa is None and self.m_sa is None:
+            out.append(
+                "outputs.friction needs tau_sa, the shear strength between particles and surfaces "
+                "[Pa], or m_sa"
+            )
+        if self.alpha_T is None:
+            return out
+        one, two, *particles = (body.H for body in bodies_of(contact).values())
+        softest = {"ss": min(one, two), "sa": min(one, two, *particles)}
+        for kind in ("ss", "sa") if particles else ("ss",):
+            tau, m, _ = self._strength(kind)
+            k = softest[kind] / math.sqrt(self.alpha_T)
+            if m == 1:
+                out.append(f"outputs.friction: junctions of m_{kind} = 1 would grow without end")
+            if tau is not None and tau >= k:
+                out.append(
+                    f"outputs.friction: junctions of tau_{kind} = {tau:g} Pa would grow without "
+                    f"end; with alpha_T = {self.alpha_T:g} it must be < {k:.4g} Pa"
+                )
+        return out
+
+    # ------------------------------------------------------------------ one contact
+    def _strength(self, kind: str) -> tuple[float | None, float | None, float]:
+        """τ, m and α of one kind of contact."""
+        if kind == "ss":
+            return self.tau_ss, self.m_ss, self.alpha_ss
+        return self.tau_sa, self.m_sa, self.alpha_sa
+
+    def shear_force(self, kind: str, area: Array, load: Array, H: float) -> Array:
+        """Force of shear [N] of contacts of one kind.
+
+        Parameters
+        ----------
+        kind : {"ss", "sa"}
+        area, load : array
+            Area [m²] and load [N] of one contact.
+        H : float
+            Hardness of its softer body [Pa].
+        """
+        tau_0, alpha, _ = self._law(kind, H)
+        return tau_0 * self._growth(kind, area, load, H) * area + alpha * load
+
+    def _law(self, kind: str, H: float) -> tuple[float, float, float]:
+        """τ_0, α, and the pressure at which a contact under full shear yields (0: no growth)."""
+        tau, m, alpha = self._strength(kind)
+        shear_yield = H / (3 * math.sqrt(3) if self.alpha_T is None else math.sqrt(self.alpha_T))
+        tau_0 = tau if tau is not None else (m or 0.0) * shear_yield
+        if self.alpha_T is None:
+            return tau_0, alpha, 0.0
+        # p² + α_T (τ_0 + αp)² = H²
+        a, b = 1 + self.alpha_T * alpha**2, self.alpha_T * tau_0 * alpha
+        c = H**2 - self.alpha_T * tau_0**2
+        return tau_0, alpha, c / (b + math.sqrt(b**2 + a * c))
+
+    def _growth(self, kind: str, area: Array, load: Array, H: float) -> Array | float:
+        """Grown area over the area of the normal load alone."""
+        if self.alpha_T is None:
+            return 1.0
+        reached = self._law(kind, H)[2] * area
+        return np.maximum(1.0, np.divide(load, reached, out=np.ones_like(load), where=reached > 0))
+
+    def _plough(self, depth: Array, radius: Array | float, area: Array, yielding: Any) -> Array:
+        """μ_p of a tip; ``yielding`` is its depth at first yield [m]."""
+        kappa: Any = self.rear
+        if kappa == "recovery":
+            kappa = rear_support(np.divide(depth, yielding, where=depth > 0, out=0.0 * depth))
+        elif kappa == "rigid":
+            kappa = 0.0
+        if self.angle == "area":
+            part = np.minimum(area / (np.pi * np.square(radius)), 1.0)
+            depth = radius * part / (1 + np.sqrt(1 - part))
+        return coefficient(depth, radius, kappa)
+
+    def ratio(self, contact: Contact) -> float:
+        """Hardness of the harder surface over that of the softer."""
+        one, two = contact.surfaces.first.H, contact.surfaces.second.H
+        return max(one, two) / min(one, two)
+
+    def of_asperities(self, spots: AsperitySpots, ratio: float = 1.0) -> dict[str, Array]:
+        """Tangential force of one asperity [N] by cause: arrays (M, n).
+
+        Parameters
+        ----------
+        spots : AsperitySpots
+        ratio : float, optional
+            Hardness of the harder surface over that of the softer.
+        """
+        force = {
+            "ss_shear": self.shear_force("ss", spots.area, spots.load, spots.H),
+            "ss_plough": np.zeros_like(spots.load),
+        }
+        if ratio > self.hardness_ratio:
+            law = spots.law.bound(R=spots.R, E_star=spots.E_star, H=spots.H)
+            omega_1 = law.yield_interference(R=spots.R, E_star=spots.E_star, H=spots.H)
+            depth = np.maximum(spots.depth, 0.0)
+            force["ss_plough"] = self._plough(depth, spots.R, spots.area, omega_1) * spots.load
+        return force
+
+    def indents(self, spots: ParticleSpots) -> tuple[bool, bool]:
+        """Whether the particles plough surface 1, and surface 2."""
+        if self.soft_particles == "plough" or spots.material is None:
+            return True, True
+        # the softer body of a contact with a softer particle is the particle
+        one, two = (spots.material.H > H for H in spots.hardness)
+        return one, two
+
+    def motion(self, spots: ParticleSpots) -> Motion:
+        """How every particle moves; found once for all outputs that ask."""
+        if self not in spots.kept:
+            spots.kept[self] = self._motion(spots)
+        return spots.kept[self]
+
+    def _motion(self, spots: ParticleSpots) -> Motion:
+        acting = self.indents(spots)
+        sides = list(zip(spots.depths, spots.areas, spots.yields, spots.hardness, strict=True))
+        deform = [
+            self._plough(depth, spots.radius, area, first * spots.x)
+            for depth, area, first, _ in sides
+        ]
+        one, two = (mu * acts for mu, acts in zip(deform, acting, strict=True))
+        resistance = 0.5 * (deform[0] + deform[1])
+        shear = [self.shear_force("sa", area, spots.load, H) for _, area, _, H in sides]
+        slide = (one * spots.load + shear[0], two * spots.load + shear[1])
+        side = (slide[1] < slide[0] * (1 - TIE)).astype(np.intp)
+        if self.rolling == "moment":
+            rolls = resistance * spots.load < np.minimum(*slide) * (1 - TIE)
+        else:
+            softer, harder = sorted(spots.hardness)
+            S = severity(spots.load, spots.x, *spots.hardness)
+            rolls = (threshold(softer, harder) > S) & (spots.load > 0)
+        if self.aspect > 1:
+            gap = spots.x - spots.depths[0] - spots.depths[1]
+            rolls &= self.aspect * spots.x < TUMBLES * gap
+        return Motion(rolls, side, np.where(side, shear[1], shear[0]), (one, two), resistance)
+
+    def of_particles(self, spots: ParticleSpots) -> dict[str, Array]:
+        """Tangential force of one particle [N] by cause: arrays (M, n)."""
+        motion = self.motion(spots)
+        slides = ~motion.rolls
+        return {
+            "sa_shear": slides * motion.shear,
+            "sa_plough": slides * np.where(motion.side, *motion.plough[::-1]) * spots.load,
+            "sa_roll": motion.rolls * motion.resistance * spots.load,
+        }
+
+    def rolls(self, spots: ParticleSpots) -> Flags:
+        """Which particles roll: (M, n)."""
+        return self.motion(spots).rolls
+
+    def sliding_side(self, spots: ParticleSpots) -> Sides:
+        """Surface that a particle slides over: 0 the first, 1 the second; (M, n).
+
+        Meaningless where it rolls; 0 where both surfaces resist alike.
+        """
+        return self.motion(spots).side
+
+    # ------------------------------------------------------------------ the interface
+    def of(self, state: Solved) -> dict[str, Array]:
+        nothing = np.zeros_like(state.d)
+        force = dict.fromkeys((*PARTS, "plough_1", "plough_2", "rolling"), nothing)
+
+        def add(spots: AsperitySpots | ParticleSpots, values: Mapping[str, Array]) -> None:
+            for name, each in values.items():
+                force[name] = force[name] + spots.total(each)
+
+        ratio = self.ratio(state.contact)
+        for asperities in state.asperities:
+            add(asperities, self.of_asperities(asperities, ratio))
+        surfaces = state.contact.surfaces
+        softer = 1 if surfaces.first.H < surfaces.second.H else 2
+        force[f"plough_{softer}"] = force["ss_plough"]
+        for particles in state.particles:
+            motion = self.motion(particles)
+            add(particles, self.of_particles(particles))
+            add(particles, {"rolling": motion.rolls * particles.load})
+            for i, track in enumerate(motion.plough):
+                # a rolling particle leaves half a track on either side
+                part = np.where(motion.rolls, 0.5, motion.side == i)
+                add(particles, {f"plough_{i + 1}": part * track * particles.load})
+        F_ss = state.total(lambda spots: spots.load)
+        F_sa = state.total_of_particles(lambda spots: spots.load)
+        T_ss = force["ss_shear"] + force["ss_plough"]
+        T_sa = force["sa_shear"] + force["sa_plough"] + force["sa_roll"]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return {
+                "mu": (T_ss + T_sa) / state.pressure,
+                **{f"mu_{part}": force[part] / state.pressure for part in PARTS},
+                "mu_plough_1": force["plough_1"] / state.pressure,
+                "mu_plough_2": force["plough_2"] / state.pressure,
+                "mu_ss": T_ss / F_ss,
+                "mu_sa": T_sa / F_sa,
+                "rolling_share": force["rolling"] / F_sa,
+            }
+
+    def splits(self, probe: Probe) -> Sequence[float]:
+        def kind(spots: ParticleSpots) -> NDArray[np.intp]:
+            motion = self.motion(spots)
+            out = np.where(motion.rolls, 2, motion.side)
+            for depth, area, H in zip(spots.depths, spots.areas, spots.hardness, strict=True):
+                grown = self._growth("sa", area, spots.load, H) > 1.0
+                out = 4 * out + 2 * grown + (depth > spots.radius)
+            return out
+
+        return changes(probe, kind)
+
+    def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
+        F_sa = state.total_of_particles(lambda spots: spots.load)
+        sunk = state.total_of_particles(
+            lambda spots: spots.load * (np.maximum(*spots.depths) > spots.radius)
+        )
+        share = np.max(np.divide(sunk, F_sa, out=np.zeros_like(sunk), where=F_sa > 0), initial=0)
+        if share <= 0.01:
+            return []
+        return [
+            f"outputs.friction: {percent(share, digits=2)} of the particles' load is on particles "
+            "that sit deeper than their radius, where the ploughing formula ends"
+        ]

@@ -1,0 +1,1 @@
+"""Effects of one spot: heat, ploughing, severity of abrasion, dents."""

@@ -1,0 +1,233 @@
+"""The dent that one particle leaves, and what breaks or flattens it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ...populations.materials import Material
+from .ploughing import residual_depth
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from ...laws.spots import ParticleSpots
+
+    Array = NDArray[np.float64]
+
+__all__ = [
+    "Dent",
+    "dent_diameter",
+    "dent_of",
+    "dent_volume",
+    "dents_after",
+    "flattened_diameter",
+    "fragments",
+]
+
+
+# ------------------------------------------------------------------------------ one particle
+def dent_diameter(depth: ArrayLike, radius: ArrayLike) -> Array:
+    r"""Diameter of the dent of a hard sphere pressed δ deep.
+
+    .. math:: D = 2\sqrt{2 r \delta - \delta^2}, \qquad D = 2 r \text{ for } \delta \ge r
+
+    Parameters
+    ----------
+    depth, radius : array_like
+        δ under load and r [m].
+
+    Returns
+    -------
+    array
+        D [m]; unloading recovers depth, hardly width (assumption).
+
+    Examples
+    --------
+    >>> float(dent_diameter(1.0, 5.0))
+    6.0
+    """
+    depth = np.clip(depth, 0.0, radius)
+    return 2 * np.sqrt(depth * (2 * np.asarray(radius) - depth))
+
+
+def dent_volume(residual: ArrayLike, depth: ArrayLike, radius: ArrayLike) -> Array:
+    r"""Volume of a dent: a spherical cap as wide as under load and as deep as what stays.
+
+    .. math:: V = \frac{\pi}{6}\,\delta_{res}\left(\tfrac34 D^2+\delta_{res}^2\right)
+
+    Below δ_res = r the cap ends, and a cylinder of radius r goes on.
+
+    Parameters
+    ----------
+    residual, depth, radius : array_like
+        Depth left δ_res, depth under load δ, and r [m].
+
+    Returns
+    -------
+    array
+        V [m³].
+
+    Examples
+    --------
+    >>> round(float(dent_volume(1.0, 1.0, 1.0)) / np.pi, 12)  # half a sphere
+    0.666666666667
+    """
+    radius = np.asarray(radius, dtype=float)
+    width = dent_diameter(depth, radius)
+    cap = np.minimum(residual, radius)
+    shaft = np.maximum(np.asarray(residual) - radius, 0.0)
+    return np.pi / 6 * cap * (0.75 * width**2 + cap**2) + np.pi * radius**2 * shaft
+
+
+def flattened_diameter(x: ArrayLike, gap: ArrayLike) -> Array:
+    r"""Diameter of the disc that a ductile sphere becomes in a gap, its volume kept.
+
+    .. math:: D = x\sqrt{\frac{2x}{3g}}, \qquad g < \tfrac23 x
+
+    Parameters
+    ----------
+    x, gap : array_like
+        Diameter of the sphere and gap g [m].
+
+    Returns
+    -------
+    array
+        D [m]; never below x: in a wider gap the sphere is barrelled, not yet a disc.
+
+    Examples
+    --------
+    >>> float(flattened_diameter(6.0, 1.0))
+    12.0
+    """
+    x = np.asarray(x, dtype=float)
+    return x * np.sqrt(np.maximum(2 * x / (3 * np.asarray(gap)), 1.0))
+
+
+def fragments(x: ArrayLike, size: float) -> Array:
+    r"""Fragments of one size that a brittle particle of size x breaks into, its volume kept.
+
+    .. math:: N = \max\left[(x/x_f)^3,\,1\right]
+
+    Parameters
+    ----------
+    x : array_like
+        Size of the particle [m]; up to ``size`` it stays whole.
+    size : float
+        Size of a fragment x_f [m].
+
+    Returns
+    -------
+    array
+        N [1], not rounded: a mean over many particles.
+
+    Examples
+    --------
+    >>> fragments([0.5, 2.0], 1.0).tolist()
+    [1.0, 8.0]
+    """
+    return np.maximum(np.asarray(x, dtype=float) / size, 1.0) ** 3
+
+
+def dents_after(rate: ArrayLike, overrollings: ArrayLike, area: ArrayLike) -> Array:
+    r"""Dents that one can tell apart after many overrollings.
+
+    .. math:: N_d = \frac{1-e^{-N\eta a}}{a} \to N\eta\ \text{(few)},\quad 1/a\ \text{(many)}
+
+    Parameters
+    ----------
+    rate : array_like
+        Dents per area and overrolling η [1/m²].
+    overrollings : array_like
+        N [1]; fresh oil each time.
+    area : array_like
+        Mean area of a dent a [m²].
+
+    Returns
+    -------
+    array
+        N_d [1/m²]; N_d a is the share of the surface that is dented, exact for dents thrown at
+        random places.
+
+    Examples
+    --------
+    >>> print(dents_after(10.0, [1.0, 1e6], 1e-3).round(2))
+    [   9.95 1000.  ]
+    """
+    thrown = np.multiply(rate, overrollings)
+    covered = thrown * area
+    # (1 − e^(−c))/c
+    share = np.where(covered > 0, -np.expm1(-covered) / np.where(covered > 0, covered, 1.0), 1.0)
+    return thrown * share
+
+
+class Dent(NamedTuple):
+    """What particles leave in one surface: arrays (M, n), made by `dent_of`.
+
+    Examples
+    --------
+    >>> from thirdbody.systems.oil_particles import FilmParticles
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
+    ...                                  material=silica, film=0.5e-6, entry=1.0)
+    >>> dent = dent_of(oil.single([2e-6, 5e-6]), 0, silica)
+    >>> (dent.diameter.ravel() * 1e6).round(2).tolist()  # µm
+    [1.94, 4.97]
+    """
+
+    depth: Array
+    """Depth left δ_res [m]; 0 where nothing stays."""
+    diameter: Array
+    """Its diameter, that under load [m]."""
+    volume: Array
+    """Its volume [m³]."""
+
+
+def dent_of(spots: ParticleSpots, side: int, particle: Material) -> Dent:
+    """The dents of particles in surface 1 (side 0) or 2 (side 1).
+
+    Only a particle that is harder than the surface dents it; otherwise it is deformed itself. No
+    dent is deeper than the particle is thick.
+
+    Parameters
+    ----------
+    spots : ParticleSpots
+        Particles and how deep each sits, as `FilmParticles.single` or a solved state has them.
+    side : {0, 1}
+        Surface 1 or 2.
+    particle : Material
+        Of the particles.
+
+    Returns
+    -------
+    Dent
+        Depth left and diameter [m] and volume [m³] of each spot: arrays (M, n).
+
+    Notes
+    -----
+    Depth left by `thirdbody.effects.single.ploughing.residual_depth`, where the source stands; the
+    width is that under load.
+
+    Examples
+    --------
+    >>> from thirdbody.systems.oil_particles import FilmParticles
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
+    ...                                  material=silica, film=0.5e-6, entry=1.0)
+    >>> depth = dent_of(oil.single(2e-6), 0, silica).depth[0, 0]
+    >>> f"{depth * 1e6:.2f} µm"
+    '0.52 µm'
+    """
+    depth = np.minimum(spots.depths[side], spots.x)
+    first = spots.yields[side] * spots.x
+    ratio = np.divide(depth, first, out=np.zeros_like(depth), where=first > 0)
+    left = residual_depth(depth, ratio) * (particle.H > spots.hardness[side])
+    there = left > 0
+    return Dent(
+        left,
+        there * dent_diameter(depth, spots.radius),
+        there * dent_volume(left, depth, spots.radius),
+    )

@@ -1,0 +1,1 @@
+"""Equilibrium: the separation that carries the load, and the loads that matter."""

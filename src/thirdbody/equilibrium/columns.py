@@ -1,0 +1,361 @@
+"""What a state is: its columns, their symbols and units, its mode."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..contact.citations import cite
+from ..contact.contact import Contact
+from ..contact.output import column
+from ..errors import InvalidValue
+from ..quantities import notebook
+from ..version import __version__
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+__all__ = ["Equilibrium"]
+
+Array = NDArray[np.float64]
+
+Number = float | Array
+
+P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
+MODES = np.array(["", S_S, HYBRID, P_S])
+EPS_1, EPS_2 = 0.02, 0.05
+"""Default shares that separate the contact modes: read-off resolution, and the paper's 95 %."""
+
+
+def _column(symbol: str, unit: str, meaning: str) -> Any:
+    return field(metadata={"symbol": symbol, "unit": unit, "meaning": meaning})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Equilibrium:
+    """The solved contact: floats for one load, arrays for several.
+
+    Areas are real areas per nominal area; F* = F/(A_n E_ss). A state that could not be solved
+    holds NaN and a sentence in `status`.
+
+    `d` counts from the datum of the particle law: the mean asperity height, except for
+    `Horng2022`, which like the paper's eq. (8) puts that height at σ. `h`, from the mean surface
+    plane, is the separation to compare between models.
+
+    Made by `solve`, where accuracy and source stand. The columns are named as in the
+    nomenclature.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> state = tb.solve(contact, pressure=[1e6, 5e6, 2e7])  # Pa
+    >>> state.mode.tolist(), state.d_star.round(2).tolist()
+    (['hybrid', 'hybrid', 'hybrid'], [3.27, 2.43, 1.64])
+    >>> state.modes(eps_1=0.05).tolist()  # 95 % of the area count as all of it
+    ['p-s', 'hybrid', 'hybrid']
+    """
+
+    contact: Contact = field(repr=False)
+    d: Number = _column("d", "m", "separation from the mean asperity height")
+    h: Number = _column("h", "m", "separation from the mean surface plane")
+    d_star: Number = _column("d*", "1", "separation d/σ")
+    F_star: Number = _column("F_t*", "1", "load F/(A_n E_ss)")
+    pressure: Number = _column("p", "Pa", "nominal pressure")
+    F_ss_star: Number = _column("F_ss*", "1", "load on asperities")
+    F_sa_star: Number = _column("F_sa*", "1", "load on particles")
+    A_t: Number = _column("A_t*", "1", "real contact area")
+    A_ss: Number = _column("A_ss*", "1", "real area of asperities")
+    A_sa: Number = _column("A_sa*", "1", "real area of particles on surface 1")
+    A_sa2: Number = _column("A_sa2*", "1", "real area of particles on surface 2")
+    A_e: Number = _column("A_e*", "1", "elastic area")
+    A_ep: Number = _column("A_ep*", "1", "elastoplastic area")
+    A_p: Number = _column("A_p*", "1", "plastic area")
+    shadow: Number = _column("ς", "1", "share of area in which particles keep asperities apart")
+    particle_load_share: Number = _column("F_sa/F_t", "1", "load share of particles")
+    particle_area_share: Number = _column("A_sa,t*", "1", "area share of particles")
+    mode: str | NDArray[np.str_] = _column("mode", "", "contact mode")
+    """p-s, hybrid or s-s by area; empty where nothing touches, and in a state without a number."""
+    status: str | NDArray[np.str_] = _column("status", "", "ok, or why there is no state")
+    residual: Number = _column("r", "1", "relative imbalance |F_t/F − 1|")
+    iterations: int | NDArray[np.int_] = _column("n", "", "evaluations of the load")
+    warnings: tuple[str, ...] = ()
+    populations: tuple[PopulationShare, ...] = ()
+    """What each of several populations carries; empty for one."""
+    outputs: Mapping[str, Number] = field(default_factory=dict)
+    """Every column of the outputs that the contact carries, by name."""
+    engine: str = "numpy"
+    """What found the separations: "compiled", or "numpy: " and why the compiled engine did not."""
+
+    @property
+    def scales(self) -> dict[str, float]:
+        """What makes the starred quantities: E_ss [Pa] and σ [m]."""
+        return {"E_ss": self.contact.E_ss, "sigma": self.contact.roughness.sigma}
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Every column as a 1-D array, those of the outputs last."""
+        own = {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
+        return own | {name: np.atleast_1d(values) for name, values in self.outputs.items()}
+
+    def to_dataset(self, *, title: str = "") -> xarray.Dataset:
+        """The states as labelled data, one along the dimension ``state``.
+
+        Parameters
+        ----------
+        title : str, optional
+            What the data are of; kept with them.
+
+        Returns
+        -------
+        xarray.Dataset
+            Every column with ``units``, ``long_name`` and ``symbol``; title, inputs, version,
+            engine, warnings and citations as attributes. What each of several populations
+            carries has the dimension ``population`` too.
+
+        Examples
+        --------
+        >>> import thirdbody as tb
+        >>> steel = tb.materials["S45C"]
+        >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+        ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+        >>> data = tb.solve(contact, pressure=[1e6, 5e6]).to_dataset(title="Two loads")
+        >>> data.A_t.dims, data.pressure.units, data.title
+        (('state',), 'Pa', 'Two loads')
+        """
+        said = {
+            "title": title,
+            "engine": self.engine,
+            "warnings": "\n".join(self.warnings),
+        }
+        data = dataset(self.contact, self.columns(), {}, said)
+        if self.populations:
+            dims = ("state", "population")
+            parts = self.populations
+            for name, told in POPULATION_COLUMNS.items():
+                values = np.stack([np.atleast_1d(getattr(part, name)) for part in parts], axis=-1)
+                data[f"population_{name}"] = (dims, values, told)
+            data = data.assign_coords(population=[part.name for part in parts])
+        return data
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The states as a pandas table, one a row; units and symbols in ``attrs``.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Every column. ``attrs["units"]``, ``attrs["symbol"]`` and ``attrs["long_name"]`` say
+            of each what it is.
+
+        Raises
+        ------
+        ImportError
+            Pandas is not installed.
+
+        Examples
+        --------
+        >>> import thirdbody as tb
+        >>> steel = tb.materials["S45C"]
+        >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+        ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+        >>> table = tb.solve(contact, pressure=[1e6, 5e6]).to_dataframe()
+        >>> table["mode"].tolist(), table.attrs["units"]["pressure"]
+        (['s-s', 's-s'], 'Pa')
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise ImportError(
+                "a table of states needs pandas; install it with pip install pandas, or take "
+                "to_dataset()"
+            ) from None
+        columns = self.columns()
+        table = pandas.DataFrame(columns)
+        table.index.name = "state"
+        said = {name: labels(name) for name in columns}
+        for key in ("units", "symbol", "long_name"):
+            table.attrs[key] = {name: told[key] for name, told in said.items()}
+        return table
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: a row for each column, the first and the last states."""
+        count = len(self.columns()["d"])
+        rows = [
+            notebook.Row(told["symbol"], _shown(values, told["units"]), told["long_name"])
+            for name, values in self.columns().items()
+            for told in (labels(name),)
+        ]
+        states = "1 state" if count == 1 else f"{count} states"
+        return notebook.card(f"Equilibrium, {states}", rows, self.warnings)
+
+    def modes(
+        self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: str = "area"
+    ) -> str | NDArray[np.str_]:
+        """Contact mode with other thresholds, by area (as in the paper) or by load."""
+        share = self.particle_area_share if basis == "area" else self.particle_load_share
+        return _mode(share, eps_1, eps_2)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PopulationShare:
+    """What one of several populations of particles carries: floats for one load, else arrays.
+
+    Part of `Equilibrium.populations`; the shares of all populations add up to
+    ``particle_load_share`` and ``particle_area_share``.
+    """
+
+    name: str
+    F_sa_star: Number
+    """Load over A_n E_ss [1]"""
+    A_sa: Number
+    """Real area on surface 1 over A_n [1]"""
+    load_share: Number
+    """of the total load [1]"""
+    area_share: Number
+    """of the total real area [1]"""
+
+
+POPULATION_COLUMNS = {
+    "F_sa_star": {"units": "1", "long_name": "load on the particles of a population"},
+    "A_sa": {"units": "1", "long_name": "real area of a population on surface 1"},
+    "load_share": {"units": "1", "long_name": "load share of a population"},
+    "area_share": {"units": "1", "long_name": "area share of a population"},
+}
+"""Attributes of what each of several populations carries."""
+ENGINE = "what found the separation"
+
+COLUMNS = {item.name: dict(item.metadata) for item in fields(Equilibrium) if item.metadata}
+"""Symbol, unit and meaning of every column of a result."""
+
+
+def about(name: str) -> dict[str, str]:
+    """Symbol, unit and meaning of a column, of the state itself or of an output."""
+    return COLUMNS[name] if name in COLUMNS else column(name)._asdict()
+
+
+def labels(name: str) -> dict[str, Any]:
+    """Attributes of a column in a data set."""
+    told = about(name)
+    return {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
+
+
+def quantity_of(contact: Contact, name: str) -> dict[str, Any] | None:
+    """Symbol, unit and range of an input by its dotted name."""
+    path, _, last = name.rpartition(".")
+    try:
+        owner = contact.part(path)
+    except InvalidValue:
+        return None
+    if not is_dataclass(owner):
+        return None
+    return {item.name: item.metadata.get("quantity") for item in fields(owner)}.get(last)
+
+
+def labels_of(contact: Contact, name: str) -> dict[str, Any]:
+    """Attributes of an input or load in a data set."""
+    if name in COLUMNS:
+        return labels(name)
+    told = quantity_of(contact, name)
+    if told is None:
+        return {}
+    return {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
+
+
+def dataset(
+    contact: Contact,
+    columns: Mapping[str, NDArray[Any]],
+    inputs: Mapping[str, NDArray[Any]],
+    attrs: Mapping[str, str],
+) -> xarray.Dataset:
+    """States (N,) as labelled data; ``inputs``, which they were given, are coordinates."""
+    import xarray
+
+    data = {
+        name: ("state", values, labels(name) if name != "engine" else {"long_name": ENGINE})
+        for name, values in columns.items()
+        if name not in inputs
+    }
+    coords = {
+        name: (
+            "state",
+            values.astype(str) if values.dtype == object else values,
+            labels_of(contact, name),
+        )
+        for name, values in inputs.items()
+    }
+    own = {
+        "inputs": json.dumps(contact.to_dict(), ensure_ascii=False),
+        "version": __version__,
+        "citations": cite(contact),
+    }
+    return xarray.Dataset(data, coords=coords, attrs={**attrs, **own})
+
+
+MOST_SHOWN = 6
+"""States that a notebook shows; of more the first and the last."""
+
+
+def _shown(values: NDArray[Any], unit: str) -> list[str]:
+    """Values of some states in words."""
+    words = [notebook.words_of(value, unit) for value in values[:MOST_SHOWN]]
+    if len(values) <= MOST_SHOWN:
+        return words
+    half = MOST_SHOWN // 2
+    return [*words[:half], "…", *(notebook.words_of(v, unit) for v in values[-half:])]
+
+
+def columns_of(contact: Contact) -> tuple[str, ...]:
+    """Names of the columns that states of a contact have."""
+    return (*COLUMNS, *(name for output in contact.outputs for name in output.columns))
+
+
+def _mode(particle_share: ArrayLike, eps_1: float, eps_2: float) -> Any:
+    share = np.asarray(particle_share)
+    # codes first: choosing among strings is slow
+    sliding = np.where(1 - share >= 1 - eps_2, 1, 2)
+    code = np.where(share >= 1 - eps_1, 3, sliding)
+    out = MODES[np.where(np.isnan(share), 0, code)]
+    return out if out.ndim else str(out)
+
+
+def as_columns(
+    raw: Mapping[str, Array],
+    d: Array,
+    mean_plane: Number,
+    sigma: Number,
+    E: Number,
+    *,
+    target: Array | None,
+    F_star: Array | None = None,
+) -> dict[str, Any]:
+    """Every numeric column of a result, and the mode, from pressures and areas at d."""
+    F = raw["F_ss"] + raw["F_sa"]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        area_share = raw["A_sa"] / raw["A_t"]
+        load_share = raw["F_sa"] / F
+        residual = np.abs(F / target - 1) if target is not None else np.where(np.isnan(d), d, 0.0)
+    load = F if target is None else target
+    return {
+        "d": d,
+        "h": d + mean_plane,
+        "d_star": d / sigma,
+        "F_star": load / E if F_star is None else F_star,
+        "pressure": load,
+        "F_ss_star": raw["F_ss"] / E,
+        "F_sa_star": raw["F_sa"] / E,
+        **{name: raw[name] for name in COLUMNS if name in raw},
+        "particle_load_share": load_share,
+        "particle_area_share": area_share,
+        "mode": _mode(area_share, EPS_1, EPS_2),
+        "residual": residual,
+    }

@@ -1,0 +1,236 @@
+"""The load over all separations, and the roots in it."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..contact.interface import Interface
+from ..numerics.roots import halley_root
+
+Array = NDArray[np.float64]
+
+Index = NDArray[np.intp]
+
+
+DEEPEST = -3.0
+"""Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
+CHUNK = 16_384
+"""States solved together: their arrays stay in the processor's cache."""
+RESIDUAL, ULPS = 1e-9, 4
+"""Largest imbalance |F_t/F − 1| of a state that is "ok", unless so many ulp of d explain it."""
+RISE = 1e-6
+"""Rise of the load with d, over the load, that counts as one."""
+HALVINGS = 64
+
+
+def explained(F: Array, slope: Array, target: Array, ulp: float) -> NDArray[np.bool_]:
+    """Whether a load is carried: to `RESIDUAL` of it, or to what `ULPS` ulp of d change."""
+    steep = np.where(np.isfinite(slope), ULPS * ulp * np.abs(slope), 0.0)  # infinite at a jump
+    return np.abs(F - target) <= RESIDUAL * target + steep
+
+
+class LoadScan:
+    """The total load on a grid of separations, from the highest down, ready to bracket loads.
+
+    Attributes
+    ----------
+    d, log_F : array (M,)
+        Falling separations and ln of the load there, from the highest that carries a load.
+    monotone : bool
+        The load grows by no more than `RISE` of itself while d grows.
+    """
+
+    def __init__(self, bound: Interface):
+        self.bound = bound
+        asperities = bound.asperities
+        sigma_s, centre = asperities.sigma_s, asperities.centre
+        low = centre + DEEPEST * sigma_s
+        near = np.arange(DEEPEST, min(10.0, asperities.highest), 0.2)
+        far = np.arange(10.0, asperities.highest, 1.0)
+        # the last asperity of a bounded distribution sets in like a power of its distance
+        edge = asperities.highest - np.geomspace(1e-6, 0.2, 12)
+        grid = [centre + sigma_s * np.concatenate([near, far, edge])]
+        particles = bound.particles
+        if particles is not None:
+            top = particles.reach
+            grid.append(np.linspace(low, max(top, low), 65)[1:])
+            if len(marks := np.unique(particles.marks)):
+                marks = np.unique(np.clip(marks, low, max(top, low)))
+                grid.append(np.interp(np.arange(0, len(marks), 0.25), np.arange(len(marks)), marks))
+            if particles.monotone:
+                # the last particle sets in like a power of its distance
+                grid.append(top - (top - low) * np.geomspace(1e-8, 1e-2, 13))
+            else:
+                count = int(np.ceil((top - low) / particles.resolution))
+                grid.append(np.linspace(low, top, min(max(count, 2), 20_000)))
+        d = np.unique(np.concatenate(grid))
+        F, slope, _ = bound.load(d).T
+        if np.any(F < 0):
+            # adhesion: the load sets in at a separation where it changes its sign
+            d = np.append(d, self._onset(d, F) - sigma_s * np.geomspace(1e-9, 0.2, 30))
+            d = np.unique(d)
+            F, slope, _ = bound.load(d).T
+        self.ulp = float(np.spacing(np.abs(d[[0, -1]]).max()))
+        if len(turns := self._turns(d, F, slope)):
+            d = np.unique(np.append(d, turns))
+            F = bound.load(d)[:, 0]
+        highest = np.flatnonzero(F > 0)[-1] + 1
+        with np.errstate(divide="ignore"):
+            self.d, self.log_F = d[:highest][::-1], np.log(np.maximum(F[:highest][::-1], 0.0))
+        most = np.maximum.accumulate(self.log_F)
+        self.monotone = bool(np.all(most - self.log_F <= RISE))
+
+    def _turns(self, d: Array, F: Array, slope: Array) -> Array:
+        """Separations where the load turns between falling and rising with d, or jumps up."""
+        low, high, size = d[:-1], d[1:], np.maximum(np.abs(F[:-1]), np.abs(F[1:]))
+        rises = slope * (d[-1] - d[0]) > RESIDUAL * np.abs(F)  # else rounding of what is flat
+        jumps = ~rises[:-1] & ~rises[1:] & (F[1:] - F[:-1] > RESIDUAL * size)
+        cells = np.flatnonzero((rises[:-1] != rises[1:]) | jumps)
+        low, high, by_load, first = low[cells], high[cells], jumps[cells], rises[:-1][cells]
+        F_low = F[:-1][cells]
+        for _ in range(HALVINGS if len(cells) else 0):
+            middle = 0.5 * (low + high)
+            F_m, slope_m, _ = self.bound.load(middle).T
+            right = np.where(by_load, F_m <= F_low, (slope_m > 0) == first)
+            low, high = np.where(right, middle, low), np.where(right, high, middle)
+            F_low = np.where(right, F_m, F_low)
+        return np.concatenate([low, high])
+
+    def _onset(self, d: Array, F: Array) -> float:
+        """The highest separation at which the load changes its sign."""
+        from scipy.optimize import brentq
+
+        above = np.flatnonzero(F > 0)
+        if not len(above) or above[-1] == len(d) - 1:
+            return float(d[-1])
+        low, high = d[above[-1]], d[above[-1] + 1]
+        return float(brentq(lambda x: self.bound.load(np.array([x]))[0, 0], low, high, xtol=1e-24))
+
+    # ------------------------------------------------------------------ brackets
+    def cells(self, target: Array, branch: str) -> Index:
+        """Index i of the cell d[i] > root >= d[i+1] for each load, −1 where there is none."""
+        log_target = np.log(target)
+        if branch == "loading" or load_scan(self.bound).monotone:
+            # first separation, coming down, at which the load is reached
+            reached = np.maximum.accumulate(self.log_F)
+            cell = np.searchsorted(reached, log_target, side="left") - 1
+            cell = np.where(cell >= len(self.d) - 1, -1, cell)
+        else:
+            # going up from the deepest, the last separation at which the load is still carried
+            carried = np.minimum.accumulate(self.log_F[::-1])[::-1]
+            cell = np.searchsorted(carried, log_target, side="left") - 1
+            cell = np.where(cell >= len(self.d) - 1, -1, cell)
+        return np.where(log_target <= self.log_F[0], -1, cell)
+
+    def all_cells(self, target: float) -> tuple[Index, Index]:
+        """Every cell in which the load is crossed, and whether the load falls with d there."""
+        above = self.log_F >= np.log(target)
+        cells = np.flatnonzero(above[1:] != above[:-1])
+        return cells, above[1:][cells]
+
+    def separations(self, target: Array) -> Index:
+        """How many separations carry each load, those beside a jump of the load among them."""
+        with np.errstate(invalid="ignore"):
+            ends = np.sort(np.stack([self.log_F[:-1], self.log_F[1:]]), axis=0)
+        begun, ended = (np.searchsorted(np.sort(row), np.log(target)) for row in ends)
+        return begun - ended
+
+    def why_not(self, target: float) -> str:
+        """Why no separation carries this load."""
+        E = self.bound.contact.E_ss
+        top = float(np.exp(self.log_F.max()))
+        if target > top:
+            return (
+                f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is beyond "
+                f"{top:.4g} Pa (F* = {top / E:.3g}), the most this model carries down to a "
+                f"separation of {DEEPEST:g} sigma_s; check the unit of the load"
+            )
+        return (
+            f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is below the "
+            "smallest load this model resolves; check the unit of the load"
+        )
+
+    # ------------------------------------------------------------------ roots
+    def polish(
+        self, target: Array, cells: Index, *, falling: bool = True
+    ) -> tuple[Array, Array, dict[int, str]]:
+        """Roots inside their cells, to rounding; evaluations; and where the load jumps, how.
+
+        At a jump the separation is the next one that carries the load and more.
+        """
+        high, low = self.d[cells], self.d[cells + 1]
+        log_target = np.log(target)
+        top, bottom = self.log_F[cells], self.log_F[cells + 1]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            part = (log_target - top) / (bottom - top)
+        part = np.where(np.isfinite(part), np.clip(part, 0.0, 1.0), 0.5)
+        start = high + part * (low - high)
+
+        def imbalance(d: Array, which: Index) -> tuple[Array, Array, Array]:
+            F, F1, F2 = self.bound.load(d).T
+            with np.errstate(divide="ignore", invalid="ignore"):
+                slope = F1 / F
+                return np.log(F) - log_target[which], slope, F2 / F - slope**2
+
+        d, residual, iterations = halley_root(imbalance, low, high, start, falling=falling)
+        # beside what is steep for floats, or jumps
+        rest = np.flatnonzero(~(np.abs(residual) <= 0.5 * RESIDUAL))
+        jumps = {}
+        if len(rest):
+            d[rest], found = self._beside(target[rest], low[rest], high[rest], falling)
+            jumps = {int(rest[i]): text for i, text in found.items()}
+        return d, iterations, jumps
+
+    def _beside(
+        self, target: Array, low: Array, high: Array, falling: bool
+    ) -> tuple[Array, dict[int, str]]:
+        """The float whose load is next to each load in its bracket, and where that is a jump."""
+        low, high = low.copy(), high.copy()
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            right = (self.bound.load(middle)[:, 0] >= target) == falling
+            low, high = np.where(right, middle, low), np.where(right, high, middle)
+        carries, less = (low, high) if falling else (high, low)
+        (F, slope, _), (F_less, slope_less, _) = (self.bound.load(x).T for x in (carries, less))
+        good = explained(F, slope, target, self.ulp)
+        other = explained(F_less, slope_less, target, self.ulp)
+        closer = other & (~good | (np.abs(F_less - target) < np.abs(F - target)))
+        E = self.bound.contact.E_ss
+        jumps = {
+            int(i): f"jump: the load {target[i]:.4g} Pa (F* = {target[i] / E:.3g}) lies in a jump "
+            f"of the load from F* = {F_less[i] / E:.3g} to {F[i] / E:.3g} at d = {carries[i]:.6g} "
+            "m, and no separation there carries it"
+            for i in np.flatnonzero(~good & ~other)
+        }
+        return np.where(closer, less, carries), jumps
+
+    def solve(self, target: Array, branch: str) -> tuple[Array, Array, NDArray[Any]]:
+        """Separation, number of evaluations and status of every load."""
+        d, iterations, status = self.met(target, branch)
+        d[status != "ok"] = np.nan
+        return d, iterations, status
+
+    def met(self, target: Array, branch: str) -> tuple[Array, Array, NDArray[Any]]:
+        """As `solve`; where the load jumps over a load, the separation at which it does."""
+        d = np.full(len(target), np.nan)
+        iterations = np.zeros(len(target), dtype=int)
+        status = np.full(len(target), "ok", dtype=object)
+        cells = self.cells(target, branch)
+        found = np.flatnonzero(cells >= 0)
+        for start in range(0, len(found), CHUNK):
+            part = found[start : start + CHUNK]
+            d[part], iterations[part], jumps = self.polish(target[part], cells[part])
+            status[part[list(jumps)]] = list(jumps.values())
+        for i in np.flatnonzero(cells < 0):
+            status[i] = self.why_not(float(target[i]))
+        return d, iterations, status
+
+
+@lru_cache(maxsize=512)
+def load_scan(bound: Interface) -> LoadScan:
+    """The cached scan of an interface."""
+    return LoadScan(bound)

@@ -1,0 +1,329 @@
+"""Many states at once, each with its own inputs and its own load."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..contact.contact import Contact
+from ..contact.evaluation import evaluate
+from ..contact.interface import interface
+from ..errors import InvalidValue, NotCompiled, RangeWarning
+from ..populations.materials import BULK
+from ..quantities.value import warn_of_slip
+from .columns import COLUMNS, dataset, quantity_of
+from .compiled import batch as engine
+from .solve import TOO_DEEP, given_load, solve
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["solve_states", "state_columns", "varied"]
+
+
+def solve_states(
+    contact: Contact,
+    *,
+    pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
+    d: ArrayLike | None = None,
+    vary: Mapping[str, ArrayLike] | None = None,
+) -> xarray.Dataset:
+    """N states of a contact: state i has the i-th load and the i-th value of every varied input.
+
+    Parameters
+    ----------
+    contact : Contact
+        The inputs that are not varied.
+    pressure, F_star, d : float or array (N,)
+        Loads, as in `solve`; exactly one.
+    vary : mapping, optional
+        Dotted names of inputs and their values, each a number or an array (N,), e.g.
+        ``{"roughness.sigma": sigma, "particles.diameter.mean": x_a}``. A mean diameter or an
+        areal density of zero stands for two-body contact.
+
+    Returns
+    -------
+    xarray.Dataset
+        Every column of `Equilibrium` along ``state``, with ``units``, ``long_name`` and
+        ``symbol``; load and varied inputs are coordinates. A state without equilibrium, or at a
+        separation below −5 σ_s, is NaN with its reason in ``status``. ``engine`` says what found
+        each state, as in `Equilibrium`. Inputs, version and citations are attributes.
+
+    Raises
+    ------
+    InvalidValue
+        An unknown name, lengths that do not fit, or a value that the field refuses.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> sigma = np.array([50e-9, 100e-9, 200e-9])
+    >>> states = tb.solve_states(contact, pressure=1e6, vary={"roughness.sigma": sigma})
+    >>> states.A_t.dims, states["roughness.sigma"].units
+    (('state',), 'm')
+    """
+    load, loads, arrays = _given(contact, pressure, F_star, d, vary)
+    columns = _columns(contact, arrays, load, loads)
+    return dataset(contact, columns, {load: loads, **arrays}, {})
+
+
+def state_columns(
+    contact: Contact,
+    *,
+    pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
+    d: ArrayLike | None = None,
+    vary: Mapping[str, ArrayLike] | None = None,
+) -> Columns:
+    """The columns of `solve_states` as plain arrays (N,)."""
+    load, loads, arrays = _given(contact, pressure, F_star, d, vary)
+    return _columns(contact, arrays, load, loads)
+
+
+def _given(
+    contact: Contact,
+    pressure: ArrayLike | None,
+    F_star: ArrayLike | None,
+    d: ArrayLike | None,
+    vary: Mapping[str, ArrayLike] | None,
+) -> tuple[str, NDArray[np.float64], dict[str, NDArray[Any]]]:
+    """Which load is given, its values and those of every varied input, all (N,)."""
+    load, _, _ = given_load(contact, pressure, F_star, d)
+    given = {"pressure": pressure, "F_star": F_star, "d": d}[load]
+    inputs = {load: np.asarray(given, float), **{k: np.asarray(v) for k, v in (vary or {}).items()}}
+    try:
+        arrays = dict(zip(inputs, np.broadcast_arrays(*inputs.values()), strict=True))
+    except ValueError:
+        sizes = ", ".join(f"{name} {values.shape}" for name, values in inputs.items())
+        raise InvalidValue(f"inputs of different lengths: {sizes}; each must be one or N") from None
+    loads = np.atleast_1d(arrays.pop(load))
+    arrays = {name: np.atleast_1d(values) for name, values in arrays.items()}
+    if loads.ndim > 1:
+        raise InvalidValue(f"inputs have {loads.ndim} dimensions; give numbers or 1-D arrays")
+    for name, values in arrays.items():
+        if values.dtype.kind in "iuf" and (told := quantity_of(contact, name)):
+            for extreme in dict.fromkeys((float(values.min()), float(values.max()))):
+                warn_of_slip(name, told, extreme, stacklevel=3)
+    return load, loads, arrays
+
+
+def _columns(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
+    """Every column of the states."""
+    if contact.outputs:
+        return _with_outputs(contact, arrays, load, loads)
+    absent = np.zeros(len(loads), bool)
+    for name in ABSENT:
+        absent |= arrays.get(name, np.ones(1)) == 0
+    bare = {name: v for name, v in arrays.items() if not name.startswith("particles.")}
+    if not absent.any():
+        return _solve(contact, arrays, load, loads)
+    parts = []
+    if not absent.all():
+        parts.append((contact, arrays, np.flatnonzero(~absent)))
+    parts.append((contact.replace(particles=None), bare, np.flatnonzero(absent)))
+    return _joined(
+        len(loads),
+        [
+            (which, _solve(base, _taken(inputs, which), load, loads[which]))
+            for base, inputs, which in parts
+        ],
+    )
+
+
+DENSITY = "particles.areal_density"
+ABSENT = ("particles.diameter.mean", DENSITY)
+"""Inputs that are zero where there are no particles."""
+DEMANDING = ("asperity_law.", "particle_law.law.", "particles.diameter.", *engine.MATERIALS)
+"""Inputs that change the contact of one asperity or particle, which nodes may share."""
+FEWEST = 20
+"""Different states for which nodes are quicker than tables of each."""
+FIRST, AT_ONCE = 256, 16_384
+"""States laid out first, and at most at a time."""
+ALIKE = 2.0
+"""Spread of particle sizes over roughness within which states take about as many nodes."""
+ROOM = 3_000_000
+"""Numbers in the rules of states laid out together, where each has rules of its own."""
+FATES = np.array(
+    [
+        "ok",
+        "no equilibrium: the load is beyond the most this model carries down to a separation of "
+        "-3 sigma_s; check the unit of the load",
+        "no equilibrium: the load is below the smallest load this model resolves; check the unit "
+        "of the load",
+        "not solved: no separation was found at which the load is in balance",
+        TOO_DEEP,
+    ],
+    dtype=object,
+)
+
+Arrays = Mapping[str, NDArray[Any]]
+Columns = dict[str, NDArray[Any]]
+
+
+def _taken(arrays: Arrays, which: Any) -> dict[str, NDArray[Any]]:
+    return {name: values[which] for name, values in arrays.items()}
+
+
+def _joined(count: int, parts: Iterable[tuple[Any, Columns]]) -> Columns:
+    """Columns of all states from those of some, in the order in which they come."""
+    out: Columns = {}
+    for which, columns in parts:
+        for name in (*COLUMNS, "engine"):
+            if name not in out:
+                # sentences are few and long
+                kind = object if name in ("status", "engine") else columns[name].dtype
+                out[name] = np.empty(count, dtype=kind)
+            out[name][which] = columns[name]
+    return out
+
+
+def carries(name: str) -> bool:
+    """Whether an input decides how the contact carries load, not only what outputs say."""
+    return not name.startswith("outputs.") and name.rpartition(".")[2] not in BULK
+
+
+def _with_outputs(
+    contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]
+) -> Columns:
+    """Every column of the states, then the outputs of each contact among them."""
+    inputs = {name: v for name, v in arrays.items() if carries(name)}
+    out = _columns(contact.replace(outputs=()), inputs, load, loads)
+    # states of one contact share their spots; those of one surface share its tables, and those
+    # that differ in the number of particles alone share the spots of one particle
+    count = arrays.get(DENSITY, np.ones(len(loads)))
+    groups = _groups({**arrays, DENSITY: count == 0}, len(loads))
+    order = np.argsort(groups, kind="stable")
+    for which in np.split(order, np.flatnonzero(np.diff(groups[order])) + 1):
+        own = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
+        crowd = count[which] / (count[which[0]] or 1.0)
+        values, _ = evaluate(own, interface(own), _taken(out, which), crowd)
+        for name, column in values.items():
+            out.setdefault(name, np.full(len(loads), np.nan))[which] = column
+    return out
+
+
+def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
+    """Every column: by nodes that states share where they can, the others one by one."""
+    numeric = all(values.dtype.kind in "iuf" for values in arrays.values())
+    if not (numeric and engine.available() and _differ(arrays, len(loads))):
+        return _by_groups(contact, arrays, load, loads)
+    numbers = {name: values.astype(float) for name, values in arrays.items()}
+    try:
+        return _by_nodes(contact, numbers, load, loads)
+    except NotCompiled as error:
+        why = str(error)
+        odd = np.zeros(len(loads), bool)
+        for name, values in numbers.items():
+            if name.startswith(DEMANDING):
+                odd |= values != _own(contact, name)
+    parts = []
+    if len(even := np.flatnonzero(~odd)):
+        plain = {k: v[even] for k, v in numbers.items() if not k.startswith(DEMANDING)}
+        try:
+            parts.append((even, _by_nodes(contact, plain, load, loads[even])))
+        except NotCompiled as error:
+            why = str(error)
+            odd[:] = True
+    if len(rest := np.flatnonzero(odd)):
+        some = _taken(arrays, rest)
+        parts.append((rest, _by_groups(contact, some, load, loads[rest], why)))
+    return _joined(len(loads), parts)
+
+
+def _own(contact: Contact, name: str) -> Any:
+    """The value of an input in the contact itself."""
+    value: Any = contact
+    for part in name.split("."):
+        value = getattr(value, part, None)
+    return np.nan if value is None else value
+
+
+def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
+    """Every column by the compiled engine; `NotCompiled` where it does not know these inputs."""
+    own = not engine.bare(contact, arrays) and engine.own_particles(contact, arrays)
+    order = None
+    if own and np.ptp(fine := engine.fineness(arrays)) > ALIKE * fine.min():
+        order = np.argsort(fine, kind="stable")  # those that need as many nodes side by side
+
+    def part(here: Any) -> tuple[Any, Columns, int]:
+        if order is not None:
+            here = order[here]
+        given = loads[here]
+        batch = engine.States(contact, _taken(arrays, here), len(given))
+        columns = batch.columns(load, given)
+        doubt = columns.pop("doubt")
+        words = {"status": FATES[columns["status"]], "engine": np.where(doubt, doubt, "compiled")}
+        return here, columns | words, batch.own
+
+    here, columns, size = part(slice(0, FIRST))  # refused, or compiled, once
+    at_once = max(min(AT_ONCE, ROOM * FIRST // max(size, 1)), 1)
+    starts = range(FIRST, len(loads), at_once)
+    with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
+        rest = pool.map(part, (slice(start, start + at_once) for start in starts))
+        out = _joined(len(loads), chain([(here, columns)], (found[:2] for found in rest)))
+    # what the compiled engine doubts is for the other one to judge
+    for why in (engine.NOT_BALANCED, engine.NOT_MONOTONE):
+        if len(which := np.flatnonzero(out["engine"] == why)):
+            again = _by_groups(contact, _taken(arrays, which), load, loads[which], why)
+            for name, column in again.items():
+                out[name][which] = column
+    return out
+
+
+def _all(count: int, word: str) -> NDArray[Any]:
+    return np.full(count, word, dtype=object)
+
+
+def _by_groups(
+    contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64], why: str = ""
+) -> Columns:
+    """Every column, one contact after another; ``why`` not by nodes."""
+    groups = _groups(arrays, len(loads))
+    order = np.argsort(groups, kind="stable")
+    parts = []
+    for which in np.split(order, np.flatnonzero(np.diff(groups[order])) + 1):
+        state = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RangeWarning)
+            result = solve(state, **{load: loads[which]})  # type: ignore[arg-type]
+        path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
+        parts.append((which, result.columns() | {"engine": _all(len(which), path)}))
+    return _joined(len(loads), parts)
+
+
+def _differ(arrays: Arrays, count: int) -> bool:
+    """Whether there are FEWEST different states; mostly the first of them tell."""
+    first = _taken(arrays, np.arange(min(count, 50 * FEWEST)))
+    return any(
+        _groups(some, n).max() + 1 >= FEWEST
+        for some, n in ((first, min(count, 50 * FEWEST)), (arrays, count))
+    )
+
+
+def _groups(arrays: Arrays, count: int) -> NDArray[np.intp]:
+    """A number for each state, the same for equal inputs, from zero without a gap."""
+    group = np.zeros(count, np.intp)
+    for values in arrays.values():
+        codes = np.unique(values, return_inverse=True)[1].ravel()
+        both = group * (codes.max() + 1) + codes
+        group = np.unique(both, return_inverse=True)[1].ravel()
+    return group
+
+
+def varied(contact: Contact, changes: Mapping[str, Any]) -> Contact:
+    """The contact with some inputs changed; a size or density of zero removes the particles."""
+    if any(changes.get(name, 1) == 0 for name in ABSENT):
+        kept = {name: v for name, v in changes.items() if not name.startswith("particles.")}
+        return contact.replace(particles=None).replace(**kept)
+    return contact.replace(**changes)

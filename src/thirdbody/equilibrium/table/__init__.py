@@ -1,0 +1,1 @@
+"""Pressure and area against the gap as a table for other solvers."""

@@ -1,0 +1,308 @@
+"""Critical loads between contact modes, and the turning point of the contact area."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..contact.contact import Contact
+from ..contact.interface import interface
+from ..errors import InvalidValue
+from ..quantities import notebook
+from .columns import EPS_1, EPS_2
+from .load_scan import load_scan
+
+__all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Critical:
+    """A load F* [1] where something changes, or why there is none.
+
+    Attributes
+    ----------
+    value : float or None
+        F* = F/(A_n E_ss) [1]; None where there is none.
+    status : str
+        "found", "jump", or why there is none, as `transitions` lists them.
+
+    Examples
+    --------
+    >>> Critical(7.15e-06, "found").to_dict()
+    {'value': 7.15e-06, 'status': 'found'}
+    """
+
+    value: float | None
+    status: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """Value and status for JSON."""
+        return {"value": self.value, "status": self.status}
+
+
+@dataclass(frozen=True, slots=True)
+class TurningPoint:
+    """The turning point of the contact area by three definitions; they differ by factors of 1–3.
+
+    The paper (Horng et al. 2022, doi:10.3390/lubricants10070164) gives it no formula.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> point = tb.transitions(contact).F_tpca
+    >>> point.A.status, f"{point.B.value:.2e}"
+    ('none', '2.59e-04')
+    """
+
+    A: Critical
+    """Largest particle share, where the share falls on both sides (the paper's recurrence)."""
+    B: Critical
+    """Asperities and particles carry equal loads."""
+    C: Critical
+    """Strongest bend of ln A_t against ln F* in the hybrid mode."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """The three of them for JSON."""
+        return {name: getattr(self, name).to_dict() for name in ("A", "B", "C")}
+
+
+@dataclass(frozen=True, slots=True)
+class Transitions:
+    """Critical loads F* [1] and turning point of one contact; made by `transitions`.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> found = tb.transitions(contact)
+    >>> f"{found.F_cr1.value:.2e}", found.F_cr2.status
+    ('7.15e-06', 'found')
+    """
+
+    F_cr1: Critical
+    """Up to it particles alone carry."""
+    F_cr2: Critical
+    """From it on surfaces alone carry."""
+    F_tpca: TurningPoint
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything for JSON."""
+        return {
+            "F_cr1": self.F_cr1.to_dict(),
+            "F_cr2": self.F_cr2.to_dict(),
+            "F_tpca": self.F_tpca.to_dict(),
+        }
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: each load, its status, and what it is."""
+        found = {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2}
+        found |= {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
+        rows = [
+            notebook.Row(name, [notebook.words_of(load.value), load.status], MEANINGS[name])
+            for name, load in found.items()
+        ]
+        return notebook.card("Transitions, F* = F/(A_n E_ss)", rows)
+
+
+MEANINGS = {
+    "F_cr1": "up to it particles alone carry",
+    "F_cr2": "from it on surfaces alone carry",
+    "F_tpca.A": "largest particle share",
+    "F_tpca.B": "asperities and particles carry equal loads",
+    "F_tpca.C": "strongest bend of the area against the load",
+}
+"""Every load in words."""
+
+
+def transitions(
+    contact: Contact,
+    *,
+    window: tuple[float, float] = (1e-8, 1e-2),
+    eps_1: float = EPS_1,
+    eps_2: float = EPS_2,
+    basis: str = "area",
+) -> Transitions:
+    r"""Loads at which the contact changes its mode, and its turning point.
+
+    With S(F) the particle share (A_sa/A_t, or F_sa/F_t with ``basis="load"``):
+
+    - F_cr1, p-s to hybrid: the smallest load at which S falls below 1 − ε_1;
+    - F_cr2, hybrid to s-s: the load above which S stays below ε_2;
+    - F_tpca: A, the interior maximum of S with S below 0.9 of it on both sides; B, equal loads
+      on asperities and particles; C, the strongest bend of ln A_t over ln F* in hybrid mode.
+
+    Parameters
+    ----------
+    contact : Contact
+    window : (float, float), optional
+        Loads F* searched [1]; loads that the model cannot carry are left out.
+    eps_1, eps_2 : float, optional
+        Thresholds ε_1 (read-off resolution of "100 %") and ε_2 (the paper's 95 %).
+    basis : {"area", "load"}, optional
+        Which share; the paper uses the area.
+
+    Returns
+    -------
+    Transitions
+        Each load with a status: ``found``; ``jump`` (the share jumps over the threshold, which
+        happens where the load is not monotone in d); ``never p-s``, ``always p-s``,
+        ``always s-s``, ``never s-s``; ``none``.
+
+    Notes
+    -----
+    A scan of 200 loads, refined around each crossing to 1e-9 of the load.
+
+    References
+    ----------
+    Horng et al. 2022, section 3, doi:10.3390/lubricants10070164.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel),
+    ...     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+    ...     particles=tb.Particles(material=silica, areal_density=1e11,
+    ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
+    >>> tb.transitions(contact).F_cr1.status
+    'found'
+    """
+    low, high = (float(load) for load in window)
+    if not 0 < low < high:
+        raise InvalidValue(f"window = {window!r} must be two loads F* with 0 < first < second")
+    if basis not in ("area", "load"):
+        raise InvalidValue(f"basis = {basis!r} must be 'area' or 'load'")
+    for name, eps in (("eps_1", eps_1), ("eps_2", eps_2)):
+        if not 0 < eps < 1:
+            raise InvalidValue(f"{name} = {eps!r} must lie between 0 and 1")
+    if contact.two_body:
+        none = Critical(None, "none")
+        two_body = TurningPoint(none, none, none)
+        return Transitions(Critical(None, "never p-s"), Critical(0.0, "always s-s"), two_body)
+
+    bound = interface(contact.replace(outputs=()))
+    scan = load_scan(bound)
+    carried = np.exp([scan.log_F[0], scan.log_F.max()]) / contact.E_ss
+    low, high = max(low, 1.0001 * carried[0]), min(high, 0.9999 * carried[1])
+    if low >= high:
+        none = Critical(None, "none: no load of the window can be carried")
+        return Transitions(none, none, TurningPoint(none, none, none))
+
+    def states(loads: Array) -> tuple[Array, Array, Array]:
+        """Shares of area and load of the particles, and A_t: where the load jumps, below it."""
+        d, _, _ = scan.met(loads * contact.E_ss, "loading")
+        raw = bound.fields(d)
+        F = raw["F_ss"] + raw["F_sa"]
+        return raw["A_sa"] / raw["A_t"], raw["F_sa"] / F, raw["A_t"]
+
+    def share(loads: Array) -> Array:
+        return states(loads)[0 if basis == "area" else 1]
+
+    def load_share(loads: Array) -> Array:
+        return states(loads)[1]
+
+    loads = np.geomspace(low, high, 200)
+    area, load, A_t = states(loads)
+    S = area if basis == "area" else load
+    return Transitions(
+        _first_critical(loads, S, share, 1 - eps_1),
+        _second_critical(loads, S, share, eps_2),
+        TurningPoint(
+            _recurrence(loads, S, share, eps_2),
+            _equal_loads(loads, load, load_share),
+            _bend(loads, A_t, S, eps_1, eps_2),
+        ),
+    )
+
+
+def _crossing(
+    low: float, high: float, share: Callable[[Array], Array], threshold: float, *, last: bool
+) -> Critical:
+    """The first or last load between two at which the share falls below a threshold."""
+    a, b = low, high
+    for _ in range(6):
+        loads = np.geomspace(a, b, 33)
+        below = share(loads) < threshold
+        i = np.flatnonzero(~below)[-1] if last else np.flatnonzero(below)[0] - 1
+        a, b = loads[i], loads[i + 1]
+        if b / a - 1 < 1e-9:
+            break
+    step = np.ptp(share(np.array([a, b])))
+    return Critical(float(np.sqrt(a * b)), "jump" if step > 1e-4 else "found")
+
+
+def _first_critical(loads: Array, S: Array, share, threshold: float) -> Critical:
+    if S[0] < threshold:
+        return Critical(None, "never p-s")
+    below = np.flatnonzero(S < threshold)
+    if not len(below):
+        return Critical(None, "always p-s")
+    i = below[0]
+    return _crossing(loads[i - 1], loads[i], share, threshold, last=False)
+
+
+def _second_critical(loads: Array, S: Array, share, threshold: float) -> Critical:
+    above = np.flatnonzero(S >= threshold)
+    if not len(above):
+        return Critical(0.0, "always s-s")
+    i = above[-1]
+    if i == len(loads) - 1:
+        return Critical(None, "never s-s")
+    return _crossing(loads[i], loads[i + 1], share, threshold, last=True)
+
+
+def _recurrence(loads: Array, S: Array, share, threshold: float) -> Critical:
+    peak = int(np.argmax(S))
+    interior = 0 < peak < len(S) - 1
+    if not interior or max(S[0], S[-1]) > 0.9 * S[peak] or S[peak] < 1e-6:
+        return Critical(None, "none")
+    a, b = loads[peak - 1], loads[peak + 1]
+    for _ in range(6):
+        fine = np.geomspace(a, b, 33)
+        top = int(np.clip(np.argmax(share(fine)), 1, 31))
+        a, b = fine[top - 1], fine[top + 1]
+    return Critical(float(np.sqrt(a * b)), "found")
+
+
+def _equal_loads(loads: Array, shares: Array, load_share) -> Critical:
+    above = shares >= 0.5
+    changes = np.flatnonzero(above[1:] != above[:-1])
+    if not len(changes):
+        return Critical(None, "none")
+    i = changes[-1]
+    sign = 1.0 if above[i] else -1.0
+
+    def share(loads: Array) -> Array:
+        return sign * load_share(loads)
+
+    return _crossing(loads[i], loads[i + 1], share, sign * 0.5, last=False)
+
+
+def _bend(loads: Array, area: Array, S: Array, eps_1: float, eps_2: float) -> Critical:
+    """Where |d²ln A_t/d(ln F)²| is largest inside the hybrid interval."""
+    hybrid = np.flatnonzero((S < 1 - eps_1) & (S > eps_2))
+    inside = hybrid[(hybrid > 0) & (hybrid < len(loads) - 1)]
+    if not len(inside):
+        return Critical(None, "none")
+    x, y = np.log(loads), np.log(area)
+    bend = np.abs(y[inside + 1] - 2 * y[inside] + y[inside - 1]) / (x[1] - x[0]) ** 2
+    best = inside[int(np.argmax(bend))]
+    return Critical(float(loads[best]), "found")

@@ -1,0 +1,184 @@
+"""What modes, critical loads and their statuses are called, for all who tell of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+
+from ..quantities.say import number, percent, plural, value_of
+from .columns import HYBRID, P_S, S_S
+
+__all__ = [
+    "BANDS",
+    "CRITICAL",
+    "MODES",
+    "NO_CONTACT",
+    "carried",
+    "critical_load",
+    "critical_name",
+    "happens",
+    "load_of",
+    "mode_of",
+    "mode_path",
+    "not_met",
+    "two_bodies",
+    "unsolved",
+]
+
+MODES = (P_S, HYBRID, S_S)
+NO_CONTACT = "no contact"
+MEANS = {
+    P_S: "nearly all real contact is on particles",
+    HYBRID: "real contact is on particles and on asperities",
+    S_S: "nearly all real contact is on asperities",
+}
+"""Modes are parts of the area, whatever the load does."""
+BANDS = "bands: p-s real contact on particles, hybrid on both, s-s on asperities"
+CRITICAL = {
+    "F_cr1": "asperities come into contact (p-s to hybrid)",
+    "F_cr2": "particles have little of the contact left (hybrid to s-s)",
+    "F_tpca A": "particles have their largest share of the real area",
+    "F_tpca B": "asperities and particles carry equal loads",
+    "F_tpca C": "the area bends most over the load",
+}
+"""What happens at each critical load."""
+WINDOW = (1e-8, 1e-2)
+"""Loads F* searched."""
+BELOW, ABOVE = ("never p-s", "always s-s"), ("always p-s", "never s-s")
+"""Statuses of critical loads that lie below, or above, every load searched."""
+STATUS = {
+    ("F_cr1", BELOW): "never p-s",
+    ("F_cr2", BELOW): "always s-s",
+    ("F_cr1", ABOVE): "always p-s",
+    ("F_cr2", ABOVE): "never s-s",
+}
+
+
+def mode_of(mode: str | None) -> str:
+    """A mode as a clause.
+
+    >>> mode_of("hybrid"), mode_of(None)
+    ('real contact is on particles and on asperities (hybrid)', 'there is no contact')
+    """
+    if mode == "none":
+        return "there is no equilibrium"
+    return f"{MEANS[mode]} ({mode})" if mode else "there is no contact"
+
+
+def two_bodies() -> str:
+    """What stands for the mode of a contact without particles.
+
+    >>> two_bodies()
+    'asperities carry the whole load, because there are no particles'
+    """
+    return "asperities carry the whole load, because there are no particles"
+
+
+def load_of(pressure: float | None, F_star: float | None) -> str:
+    """A load in both of its measures.
+
+    >>> load_of(5e6, 4.4676e-5)
+    '5 MPa (F* = 4.468×10⁻⁵)'
+    """
+    return f"{value_of(pressure, 'Pa')} (F* = {number(F_star)})"
+
+
+def carried(share: float | None, parts: Mapping[str, float | None] | None = None) -> str:
+    """How much of the load is on particles, and on each population.
+
+    >>> carried(0.884, {"dust": 0.8, "debris": 0.084})
+    'particles carry 88.4 % of the load (dust 80 %, debris 8.4 %)'
+    """
+    each = ", ".join(f"{name} {percent(part)}" for name, part in (parts or {}).items())
+    return f"particles carry {percent(share)} of the load" + (f" ({each})" if each else "")
+
+
+def mode_path(modes: Iterable[str | None]) -> str:
+    """Modes along rising loads as a sentence.
+
+    >>> mode_path(["p-s", "p-s", "hybrid"]), mode_path(["s-s"])
+    ('In between the mode goes p-s → hybrid', 'The mode is s-s at every load of the study')
+    """
+    met = [mode or NO_CONTACT for mode in modes]
+    path = [mode for i, mode in enumerate(met) if i == 0 or mode != met[i - 1]]
+    if len(path) > 1:
+        return f"In between the mode goes {' → '.join(path)}"
+    if path[0] == NO_CONTACT:
+        return "There is no contact at any load of the study"
+    return f"The mode is {path[0]} at every load of the study"
+
+
+def critical_name(name: str) -> str:
+    """The name of a critical load; data join its parts by a dot.
+
+    >>> critical_name("F_tpca.A")
+    'F_tpca A'
+    """
+    return name.replace(".", " ")
+
+
+def happens(name: str) -> str:
+    """What happens at a critical load.
+
+    >>> happens("F_tpca.B")
+    'asperities and particles carry equal loads'
+    """
+    return CRITICAL[critical_name(name)]
+
+
+def _side(value: float | None, status: str) -> tuple[str, str] | None:
+    """Statuses of the side of the window on which a critical load lies; None inside."""
+    for side, there in ((BELOW, 0.0), (ABOVE, math.inf)):
+        if status in side or (not status and value == there):
+            return side
+    return None
+
+
+def critical_load(value: float | None, status: str = "", E_ss: float | None = None) -> str:
+    """A critical load F*, or its pressure where E_ss is given, or on which side it lies.
+
+    A load that does not exist is "-"; one outside the loads searched lies below or above them,
+    be it told by its status or by 0 and ∞.
+
+    >>> critical_load(2.59e-5, "found"), critical_load(2.59e-5, "found", 1e11)
+    ('2.59×10⁻⁵', '2.59 MPa')
+    >>> critical_load(None, "never p-s"), critical_load(0.0), critical_load(None, "none")
+    ('below 1×10⁻⁸', 'below 1×10⁻⁸', '-')
+    """
+    side = _side(value, status)
+    if side is None and (value is None or math.isnan(value)):
+        return "-"
+    factor, unit = (1.0, "1") if E_ss is None else (E_ss, "Pa")
+    if side is not None:
+        end = value_of(WINDOW[side is ABOVE] * factor, unit)
+        return f"{'below' if side is BELOW else 'above'} {end}"
+    assert value is not None
+    return value_of(value * factor, unit)
+
+
+def not_met(name: str, value: float | None, status: str = "") -> str:
+    """Why a load is not compared with F_cr1 or F_cr2.
+
+    >>> not_met("F_cr1", None, "never p-s")
+    'F_cr1 lies below every load searched: the mode is never p-s.'
+    >>> not_met("F_cr2", math.inf)
+    'F_cr2 lies above every load searched: the mode is never s-s.'
+    """
+    side = _side(value, status)
+    if side is None:
+        return f"{name} was not found."
+    word = "below" if side is BELOW else "above"
+    return f"{name} lies {word} every load searched: the mode is {STATUS[name, side]}."
+
+
+def unsolved(statuses: Sequence[str]) -> list[str]:
+    """How many states have no number, and why: a sentence for each reason.
+
+    >>> unsolved(["ok", "no equilibrium"])
+    ['1 of 2 states unsolved: no equilibrium']
+    """
+    return [
+        f"{statuses.count(status)} of {plural(len(statuses), 'state')} unsolved: {status}"
+        for status in dict.fromkeys(statuses)
+        if status != "ok"
+    ]

@@ -1,0 +1,342 @@
+"""One particle between two flats: two contacts in series, in lengths of its size."""
+
+from __future__ import annotations
+
+import copy
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...errors import InvalidValue
+from ...numerics.chebyshev import PiecewiseChebyshev
+from ...populations.materials import reduced_modulus
+from ..base import REGIMES, AbstractAsperityLaw, OneParticle, Squeezed
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from ...populations.materials import Material, MaterialPair
+
+    Array = NDArray[np.float64]
+    Number = float | Array
+    Index = NDArray[np.intp]
+    Body = tuple[float, float, float]
+
+__all__ = ["SqueezedParticle", "contact_sides"]
+
+
+class Side:
+    """One contact of a particle of unit size: load and area against indentation.
+
+    Lengths are in units of the size x, loads in x²·Pa, areas in x². The tip radius is R. The
+    area stops at the great circle, πR/2 (π/4 for a sphere); from there on the load is mean
+    pressure × great circle, and constant where the law has no plastic pressure to go on to.
+
+    E* and H may be arrays (M, 1), one row a material, for a law that all bind alike.
+
+    Attributes
+    ----------
+    kinks : array (..., k)
+        Increasing reduced indentations where the formula changes; constant beyond the last.
+    """
+
+    def __init__(
+        self, law: AbstractAsperityLaw, E_star: Number, H: Number, nu: float, R: float = 0.5
+    ):
+        self.law, self.H, self.R = law.bound(R=R, E_star=E_star, H=H, nu=nu), H, R
+        self.delta_1 = self.law.yield_interference(R=R, E_star=E_star, H=H)
+        self.full = 0.5 / self.delta_1  # reduced area of the great circle
+        self.cap = self._cap()
+        self.unit = self.R * math.pi * self.delta_1 * self.H
+        self.plateau = self.law.branches[-1].regime == "plastic"
+        kinks = [self.cap]
+        for y in self.law.breakpoints:
+            if self.plateau:
+                kinks.append(np.full_like(self.cap, y))
+            elif np.any(y < self.cap):
+                kinks.append(np.minimum(y, self.cap))
+        self.kinks = np.sort(np.concatenate([np.atleast_1d(y) for y in kinks], axis=-1), axis=-1)
+        self.limit = self.unit * self.reduced_force(2 * self.kinks[..., -1:])
+
+    def _cap(self) -> Array:
+        """Reduced interference at which the area reaches the great circle."""
+        from scipy.optimize.elementwise import find_root
+
+        full = np.asarray(self.full, dtype=float)
+
+        def excess(y: Array, full: Array) -> Array:
+            return self.law.reduced("area", y) - full
+
+        points = self.law.breakpoints or (1.0,)
+        ends = np.array([0.5 * points[0], 2 * points[-1]])
+        # most areas grow like the indentation while elastic, and again when plastic
+        elastic, plastic = full * (ends / self.law.reduced("area", ends))[:, *(None,) * full.ndim]
+        y = np.where(elastic <= points[0], elastic, plastic)
+        rest = np.abs(excess(y, full)) > 4e-16 * full
+        if np.any(rest):
+            low, high = 0.4 * full[rest], np.maximum(full[rest], 1.0)
+            low = np.where(excess(low, full[rest]) < 0, low, 0.0)
+            found = find_root(
+                excess,
+                (low, high),
+                args=(full[rest],),
+                tolerances={"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0},
+            )
+            y[rest] = np.where(excess(high, full[rest]) <= 0, high, found.x)
+        return y
+
+    @staticmethod
+    def chosen(first: NDArray[np.bool_], one: Side, two: Side) -> Side:
+        """For each material side one where ``first``, else side two."""
+        out = copy.copy(one)
+        for name in ("H", "delta_1", "full", "cap", "unit", "kinks", "limit"):
+            setattr(out, name, np.where(first, getattr(one, name), getattr(two, name)))
+        return out
+
+    def reduced_force(self, y: Array) -> Array:
+        """Load over `unit` at y = δ/δ_1."""
+        if not self.plateau:
+            y = np.minimum(y, self.cap)
+        force = self.law.reduced("force", y)
+        over = y > self.cap
+        if np.any(over):
+            full = np.broadcast_to(self.full, y.shape)[over]
+            force[over] *= full / self.law.reduced("area", y[over])
+        return force
+
+    def reduced_area(self, y: Array) -> Array:
+        """Area over πRδ_1 at y = δ/δ_1."""
+        return np.minimum(self.law.reduced("area", y), self.full)
+
+    def force(self, delta: Array) -> Array:
+        return self.unit * self.reduced_force(delta / self.delta_1)
+
+    def area(self, delta: Array) -> Array:
+        return self.R * math.pi * self.delta_1 * self.reduced_area(delta / self.delta_1)
+
+    def regime(self, delta: Array) -> Index:
+        """Index into `REGIMES`; beyond the great circle a contact that can yield is plastic."""
+        y = delta / self.delta_1
+        order = np.array([REGIMES.index(branch.regime) for branch in self.law.branches])
+        index = order[np.searchsorted(self.law.breakpoints, y, side="right")]
+        return np.where((y >= self.cap) & self.plateau, REGIMES.index("plastic"), index)
+
+    def around(self, y: float) -> tuple[float, float]:
+        """Loads just below and at y = δ/δ_1, for one material; equal where the law is smooth."""
+        below, at = self.unit * self.reduced_force(np.array([np.nextafter(y, 0), y]))
+        return (float(at), float(at)) if math.isclose(below, at, rel_tol=1e-9) else (below, at)
+
+    def indentation(self, force: float) -> float:
+        """Where `force` below the limit is first reached, for one material; also in a jump."""
+        from scipy.optimize import brentq
+
+        def excess(log_delta: float) -> float:
+            return float(self.force(np.array([math.exp(log_delta)]))[0]) - force
+
+        top = math.log(2 * self.kinks[-1] * self.delta_1)
+        bottom = top - 600
+        for y in self.kinks:
+            below, at = self.around(y)
+            edge = math.log(y * self.delta_1)
+            if below == at:
+                continue
+            if force <= below:
+                top = edge - 1e-15 * abs(edge)
+                break
+            if force <= at:
+                return float(y * self.delta_1)
+            bottom = edge + 1e-15 * abs(edge)
+        if excess(top) <= 0:
+            return math.exp(top)
+        if excess(bottom) >= 0:
+            return math.exp(bottom)
+        return math.exp(brentq(excess, bottom, top, xtol=1e-15, rtol=1e-15))
+
+
+class SqueezedParticle(OneParticle):
+    r"""One particle of unit size squeezed by ε = δ/x between two flats.
+
+    Solves :math:`F_1(\delta_1) = F_2(\delta-\delta_1)`; a particle of size x carries
+    :math:`x^2` times the load and the area found here. A sphere has the tip radius R = 1/2.
+    A side whose load jumps up stays there until the other has caught up; one whose load jumps
+    down lets go where loading first reaches the jump.
+
+    Attributes
+    ----------
+    kinks : array
+        Values of ε where the response changes its formula; beyond the last it is constant.
+    held : list of (float, float, int, float)
+        From ε to ε side 0 or 1 stays at the indentation δ at which its load jumps up, while the
+        load rises by the jump.
+    let_go : list of (float, int, float)
+        From ε on side 0 or 1 is past the indentation δ at which its load jumps down.
+    """
+
+    def __init__(self, law: AbstractAsperityLaw, first: Body, second: Body, R: float = 0.5):
+        self.key = (law, first, second, R)
+        self.sides = (Side(law, *first, R), Side(law, *second, R))
+        self.tip_radius, self.breadth = R, 2 * R
+        self.yields = (float(self.sides[0].delta_1), float(self.sides[1].delta_1))
+        self.hardness = (float(self.sides[0].H), float(self.sides[1].H))
+        self.great_circle = R * math.pi / 2
+        self.equal = first == second
+        one, two = self.sides
+        kinks = set()
+        self.held: list[tuple[float, float, int, float]] = []
+        self.let_go: list[tuple[float, int, float]] = []
+        for number, (side, other) in enumerate(((one, two), (two, one))):
+            limit = float(other.limit[0])
+            for y in side.kinks:
+                delta = y * side.delta_1
+                if self.equal:
+                    kinks.add(2 * delta)
+                    continue
+                below, at = side.around(y)
+                ends = []
+                for force in sorted({below, max(below, at)}):
+                    if force < limit * (1 - 1e-12):
+                        ends.append(delta + other.indentation(force))
+                    elif force < limit * (1 + 1e-12):
+                        ends.append(delta + other.kinks[-1] * other.delta_1)
+                kinks.update(ends)
+                if at > below and ends:
+                    self.held.append((ends[0], ends[1] if len(ends) > 1 else np.inf, number, delta))
+                elif at < below and ends:
+                    self.let_go.append((ends[0], number, delta))
+        self.kinks = np.array(sorted(kinks))
+        if self.kinks[-1] > DEEPEST_SQUEEZE:
+            raise InvalidValue(
+                f"the hardness {max(side.H for side in self.sides):.3g} Pa is so high against the "
+                f"contact modulus {min(first[0], second[0]):.3g} Pa that a particle would stay "
+                f"elastic beyond {self.kinks[-1]:.3g} times its diameter; the contact law holds "
+                "for small indentations only (check the units of E and H)"
+            )
+        self._split_table = None if self.equal else self._tabulate_split()
+        if not self.equal:
+            self.kinks = np.array(sorted({*self.kinks, *self._area_crossings()}))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, SqueezedParticle) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def _solve_split(self, eps: Array) -> Array:
+        from scipy.optimize.elementwise import find_root
+
+        one, two = self.sides
+
+        def excess(t: Array, e: Array) -> Array:
+            return one.force(t * e) - two.force((1 - t) * e)
+
+        low, high = np.zeros_like(eps), np.ones_like(eps)
+        for since, number, delta in self.let_go:
+            share = delta / eps if number == 0 else 1 - delta / eps
+            above = (eps > since) == (number == 0)  # the jump lies below the share of side 0
+            low = np.where(above, np.maximum(low, share + 1e-15), low)
+            high = np.where(above, high, np.minimum(high, share - 1e-15))
+        if self.let_go:
+            good = (low < high) & (excess(low, eps) <= 0) & (excess(high, eps) >= 0)
+            low, high = np.where(good, low, 0.0), np.where(good, high, 1.0)
+        root = find_root(
+            excess,
+            (low, high),
+            args=(eps,),
+            tolerances={"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0},
+        )
+        return root.x
+
+    def _tabulate_split(self) -> PiecewiseChebyshev:
+        v = np.log(self.kinks)
+        v = np.append(v[0] - 1, v)  # elastic up to the first: one share
+        return PiecewiseChebyshev(lambda x: self._solve_split(np.exp(x))[:, None], v)
+
+    def _area_crossings(self) -> list[float]:
+        """Values of ε at which the two contact areas change order."""
+        from scipy.optimize import brentq
+
+        grid = np.geomspace(self.kinks[0], self.kinks[-1], 400)
+        smallest = 1e-13 * self.great_circle
+
+        def difference(eps: ArrayLike) -> Array:
+            one, two = self.indentations(np.atleast_1d(np.asarray(eps, dtype=float)))
+            return self.sides[0].area(one) - self.sides[1].area(two)
+
+        values = difference(grid)
+        sign = np.where(np.abs(values) > smallest, np.sign(values), 0.0)
+        return [
+            brentq(lambda e: float(difference(e)[0]), grid[i], grid[i + 1], xtol=1e-16)
+            for i in np.flatnonzero(sign[1:] * sign[:-1] < 0)
+        ]
+
+    def indentations(self, eps: Array) -> tuple[Array, Array]:
+        """δ_1 and δ_2 over x."""
+        if self._split_table is None:
+            return 0.5 * eps, 0.5 * eps
+        low, high = 0.5 * self.kinks[0], self.kinks[-1]
+        share = self._split_table(np.log(np.clip(eps, low, high)))[:, 0]
+        one = share * eps
+        # beyond the last kink the softer side takes the rest; two equal limits share it
+        past = eps > high
+        if np.any(past):
+            limits = [float(side.limit[0]) for side in self.sides]
+            rest = eps - high
+            if math.isclose(*limits, rel_tol=1e-12):
+                gained = 0.5 * rest
+            else:
+                gained = rest if limits[0] < limits[1] else 0.0 * rest
+            one = np.where(past, share * high + gained, one)
+        two = eps - one
+        for begin, end, number, delta in self.held:
+            here = (eps > begin) & (eps < min(end, high))
+            stays = delta * (1 - 1e-15)  # not past its jump, whatever rounding does
+            one = np.where(here, stays if number == 0 else eps - stays, one)
+            two = np.where(here, stays if number == 1 else eps - stays, two)
+        return one, two
+
+    def force(self, eps: Array, one: Array) -> Array:
+        """Load over x² at ε, of which ``one`` is the first side's."""
+        force = self.sides[0].force(one)
+        if self.equal:
+            return force
+        for begin, end, number, _ in self.held:
+            if number == 0 and np.any(here := (eps > begin) & (eps < end)):
+                force = np.where(here, self.sides[1].force(eps - one), force)
+        limit = min(float(side.limit[0]) for side in self.sides)
+        return np.where(eps > self.kinks[-1], limit, force)
+
+    def at(self, eps: Array) -> Squeezed:
+        one, two = depths = self.indentations(eps)
+        first, second = self.sides
+        return Squeezed(
+            load=self.force(eps, one),
+            depths=depths,
+            areas=(first.area(one), second.area(two)),
+        )
+
+    def regime(self, side: int, depth: Array) -> Index:
+        return self.sides[side].regime(depth)
+
+
+@lru_cache(maxsize=512)
+def squeezed_particle(
+    law: AbstractAsperityLaw, first: Body, second: Body, R: float = 0.5
+) -> SqueezedParticle:
+    """The cached response of one particle; sides are (E*, H, ν)."""
+    return SqueezedParticle(law, first, second, R)
+
+
+def contact_sides(surfaces: MaterialPair, particle: Material) -> tuple[Body, Body]:
+    """E*, and H and ν of the softer body, where the particle meets surface 1 and surface 2."""
+
+    def side(surface: Material) -> Body:
+        softer = min(surface, particle, key=lambda body: body.H)
+        return reduced_modulus(surface, particle), softer.H, softer.nu
+
+    return side(surfaces.first), side(surfaces.second)
+
+
+DEEPEST_SQUEEZE = 1e3
+"""Squeeze over diameter at which a particle must be fully plastic for the law to have a meaning."""

@@ -1,0 +1,107 @@
+"""Spots of particles: every contact of a particle, as an output sees it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..populations.materials import Material
+    from ..populations.particles import Particles
+
+    Array = NDArray[np.float64]
+
+__all__ = ["ParticleSpots", "Spots"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spots:
+    r"""Contacts of one kind in N states: M classes of n spots each.
+
+    State i holds :math:`n_{ijk} = s_{ij} m_{jk}` spots (j, k) per nominal area.
+
+    Parameters
+    ----------
+    share : array (N, M) or None
+        s_ij [1]; None where class i belongs to state i alone (M = N).
+    number : array (M, n)
+        m_jk [1/m²].
+    load : array (M, n)
+        Load of one spot [N].
+    """
+
+    share: Array | None
+    number: Array
+    load: Array
+    kept: dict[Any, Any] = field(init=False, repr=False, compare=False, default_factory=dict)
+    """What outputs found for these spots, for each other."""
+
+    def total(self, q: Array | float) -> Array:
+        """Σ n q per nominal area: (N,) for q that broadcasts with (M, n)."""
+        each = np.sum(self.number * q, axis=-1)
+        return each if self.share is None else self.share @ each
+
+    def above(self, values: Array, levels: Array, weight: Array | float = 1.0) -> Array:
+        """Σ n weight over the spots whose value exceeds a level: (N, L) for increasing levels."""
+        below = np.searchsorted(levels, np.broadcast_to(values, self.number.shape), side="left")
+        rows = np.arange(len(self.number))[:, None]
+        counts = np.zeros((len(self.number), len(levels) + 1))
+        np.add.at(counts, (rows, below), self.number * weight)
+        over = np.cumsum(counts[:, ::-1], axis=1)[:, -2::-1]
+        return over if self.share is None else self.share @ over
+
+    def thinned(self, factor: Array) -> Self:
+        """A part of the spots of each state: factor (N,)."""
+        if self.share is None:
+            return replace(self, number=self.number * factor[:, None])
+        return replace(self, share=self.share * factor[:, None])
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParticleSpots(Spots):
+    """Particles of one population; each has a contact with surface 1 and one with surface 2.
+
+    Parameters
+    ----------
+    x, radius : array (M, n)
+        Diameter (thickness of flakes), and radius of its tips [m].
+    depths, areas : two arrays (M, n)
+        Indentation δ_1, δ_2 [m], and contact area a_1, a_2 [m²].
+    regimes : two arrays (M, n)
+        Index into `thirdbody.laws.base.REGIMES`.
+    yields : two floats
+        Indentation of first yield over the diameter.
+    hardness : two floats
+        Of the softer body of each contact [Pa].
+    material : Material
+        Of the particles.
+    population : Particles
+    """
+
+    x: Array
+    radius: Array
+    depths: tuple[Array, Array]
+    areas: tuple[Array, Array]
+    regimes: tuple[NDArray[np.intp], NDArray[np.intp]]
+    yields: tuple[float, float]
+    hardness: tuple[float, float]
+    material: Material | None = None
+    population: Particles | None = None
+
+    def of_size(self, scale: float, density: float) -> ParticleSpots:
+        """So many particles per nominal area, every length ``scale`` times as large."""
+        one, two = self.depths
+        first, second = self.areas
+        return replace(
+            self,
+            number=density * self.number,
+            load=scale**2 * self.load,
+            x=scale * self.x,
+            radius=scale * self.radius,
+            depths=(scale * one, scale * two),
+            areas=(scale**2 * first, scale**2 * second),
+        )

@@ -1,0 +1,1 @@
+"""Numerics that know no physics: quadrature, Chebyshev series, roots, sampling."""

@@ -1,0 +1,749 @@
+"""The panels of Figs. 3 to 12, as data and as drawings.
+
+Colour and marker tell the particle size (the roughness in Figs. 5 and 11), filled markers on a
+full line are silica, open markers on a dashed line steel debris, and the broad grey line is the
+contact without particles. Numbers that the paper quotes stand beside dotted lines and crosses.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .ledger import critical_load_1, critical_load_2
+from .readings import RANGE, SILICA, STEEL, Curve, Curves
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["PANELS", "Panel", "draw", "panels", "table"]
+
+Array = NDArray[np.float64]
+
+BOTH = (SILICA, STEEL)
+ROUGHNESSES = (50, 100, 300, 500)
+SEPARATION_LOAD = 1e-5
+"""Load of Fig. 11, which the paper does not state."""
+
+LOAD = r"load $F_t^* = F_t/(A_n E_{ss})$ [1]"
+AREA = r"real area $A_t^* = A_t/A_n$ [1]"
+SHARE_SS = r"asperities $A_{ss}/A_t$ [%]"
+SHARE_SA = r"particles $A_{sa}/A_t$ [%]"
+
+
+@dataclass(frozen=True)
+class Line:
+    """One curve: what it stands for, abscissa, and one ordinate for each axes of the panel."""
+
+    material: str
+    sigma: float
+    x_a: float
+    x: Array
+    ys: tuple[Array, ...]
+    by: float
+    """The size or roughness that colour and marker tell."""
+    marked: bool = True
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A number quoted in the paper: a load, a range of loads, or a point."""
+
+    label: str
+    x: float | tuple[float, float]
+    y: float | None = None
+    by: float | None = None
+    dashed: bool = False
+    left: bool = False
+    """Write the number towards the left of the line, or below the point."""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One panel of a figure."""
+
+    name: str
+    about: str
+    columns: tuple[str, ...]
+    """Names of abscissa and ordinates in the table."""
+    xlabel: str
+    ylabels: tuple[str, ...]
+    lines: list[Line]
+    by: str = "size"
+    """What colour and marker tell: "size" or "roughness"."""
+    xlog: bool = True
+    ylog: bool = True
+    percent: bool = False
+    xlim: tuple[float, float | None] = (4e-7, 3e-4)
+    ylim: tuple[float, float | None] | None = None
+    marks: list[Mark] = field(default_factory=list)
+    levels: list[tuple[float, str]] = field(default_factory=list)
+    """Quoted ordinates."""
+    band: tuple[Array, Array, Array, str] | None = None
+    """A quoted range about a curve: abscissa, lower and upper limit, label."""
+    note: str = ""
+
+
+# ------------------------------------------------------------------ what each panel shows
+Ordinate = Callable[[Curve], Array]
+
+
+def _over_load(
+    curves: Curves,
+    sigma: float,
+    sizes: Sequence[float],
+    *ordinates: Ordinate,
+    materials: Sequence[str] = BOTH,
+) -> list[Line]:
+    """Lines over the loads of the paper, for sizes in nm; 0 is drawn once."""
+    out = []
+    for x_a in sizes:
+        for material in materials if x_a else ("",):
+            curve = curves(material, sigma, x_a)
+            part = (curve.F >= RANGE[0]) & (curve.F <= RANGE[1] * (1 + 1e-9))
+            ys = tuple(ordinate(curve)[part] for ordinate in ordinates)
+            out.append(Line(material, sigma, x_a, curve.F[part], ys, by=x_a))
+    return out
+
+
+def _area(curve: Curve) -> Array:
+    return curve.A_t
+
+
+def _shares(curves: Curves, sigma: float, sizes: Sequence[float], **rest: Any) -> list[Line]:
+    return _over_load(
+        curves, sigma, sizes, lambda c: c.asperity_share, lambda c: c.particle_share, **rest
+    )
+
+
+SIZES_100 = (25, 100, 300, 500, 1000)
+SIZES_300 = (100, 150, 200, 300, 500, 1000)
+SIZES_500 = (100, 200, 250, 300, 500, 1000)
+SIZES_10 = (0, 25, 100, 200, 300, 1000)
+SIZES_12 = (0, 100, 300, 500, 1000)
+CRITICAL_300 = [
+    Mark("$F_{cr1}^*$, SiO$_2$ 300 nm", 7.5e-6, by=300),
+    Mark("$F_{cr2}^*$, SiO$_2$ 300 nm", 5.1e-5, by=300),
+]
+
+
+def fig_3a(curves: Curves) -> Panel:
+    bare = curves.two_body(100)
+    return Panel(
+        "3a",
+        "real contact area, σ = 100 nm",
+        ("F_star", "A_t"),
+        LOAD,
+        (AREA,),
+        _over_load(curves, 100, (0, *SIZES_100), _area),
+        ylim=(3e-6, 3e-2),
+        marks=CRITICAL_300,
+        band=(bare.F, 0.15 * bare.A_t, 0.22 * bare.A_t, "15–22 % of bare, 1000 nm"),
+    )
+
+
+def fig_3b(curves: Curves) -> Panel:
+    return Panel(
+        "3b",
+        "shares of the contact area, σ = 100 nm",
+        ("F_star", "A_ss_t", "A_sa_t"),
+        LOAD,
+        (SHARE_SS, SHARE_SA),
+        _shares(curves, 100, SIZES_100),
+        ylog=False,
+        percent=True,
+        marks=[
+            *CRITICAL_300,
+            Mark("$F_{cr1}^*$, S45C 300 nm", 2.0e-6, by=300, dashed=True),
+            Mark("$F_{cr2}^*$, S45C 300 nm", 4.0e-5, by=300, dashed=True, left=True),
+        ],
+    )
+
+
+def fig_4a(curves: Curves) -> Panel:
+    return Panel(
+        "4a",
+        "area on asperities, σ = 100 nm",
+        ("F_star", "A_ss_n"),
+        LOAD,
+        (r"area on asperities $A_{ss}/A_n$ [1]",),
+        _over_load(curves, 100, (0, *SIZES_100), lambda c: c.A_ss),
+        ylim=(1e-7, 3e-2),
+        marks=[Mark("asperities touch, SiO$_2$ 1000 nm", 1.5e-4, by=1000, left=True)],
+    )
+
+
+def fig_4b(curves: Curves) -> Panel:
+    return Panel(
+        "4b",
+        "area on particles, σ = 100 nm",
+        ("F_star", "A_sa_n"),
+        LOAD,
+        (r"area on particles $A_{sa}/A_n$ [1]",),
+        _over_load(curves, 100, SIZES_100, lambda c: c.A_sa),
+        ylim=(1e-9, 3e-2),
+        marks=[Mark("25 nm touch", 5.1e-5, by=25)],
+    )
+
+
+def fig_5(curves: Curves) -> Panel:
+    lines = []
+    for sigma in ROUGHNESSES:
+        for x_a in (25, 1000):
+            for line in _over_load(curves, sigma, (x_a,), _area):
+                lines.append(
+                    Line(line.material, sigma, x_a, line.x, line.ys, by=sigma, marked=x_a == 1000)
+                )
+    return Panel(
+        "5",
+        "real contact area at 25 nm (no markers) and 1000 nm (markers)",
+        ("F_star", "A_t"),
+        LOAD,
+        (AREA,),
+        lines,
+        by="roughness",
+        ylim=(3e-6, 3e-2),
+        marks=[
+            Mark("1000 nm begins to rise", 3e-5, left=True),
+            Mark("1000 nm: all $\\sigma$ alike below", 6e-5),
+        ],
+    )
+
+
+TPCA_300 = Mark("turning point, 200 nm", 1.9e-6, by=200)
+TPCA_500 = Mark("turning point, 300 nm", 3.0e-6, by=300)
+
+
+def fig_6a(curves: Curves) -> Panel:
+    return Panel(
+        "6a",
+        "shares of the contact area, SiO₂, σ = 100 nm",
+        ("F_star", "A_ss_t", "A_sa_t"),
+        LOAD,
+        (SHARE_SS, SHARE_SA),
+        _shares(curves, 100, SIZES_100, materials=[SILICA]),
+        ylog=False,
+        percent=True,
+        marks=CRITICAL_300,
+    )
+
+
+def fig_6b(curves: Curves) -> Panel:
+    return Panel(
+        "6b",
+        "shares of the contact area, SiO₂, σ = 300 nm",
+        ("F_star", "A_ss_t", "A_sa_t"),
+        LOAD,
+        (SHARE_SS, SHARE_SA),
+        _shares(curves, 300, SIZES_300, materials=[SILICA]),
+        ylog=False,
+        percent=True,
+        marks=[TPCA_300, Mark("200 nm shares the load", (4.5e-7, 4.5e-6), by=200)],
+    )
+
+
+def fig_6c(curves: Curves) -> Panel:
+    return Panel(
+        "6c",
+        "real contact area, SiO₂, σ = 300 nm",
+        ("F_star", "A_t"),
+        LOAD,
+        (AREA,),
+        _over_load(curves, 300, (0, *SIZES_300), _area, materials=[SILICA]),
+        ylim=(3e-6, 3e-2),
+        marks=[TPCA_300],
+    )
+
+
+def fig_7a(curves: Curves) -> Panel:
+    return Panel(
+        "7a",
+        "shares of the contact area, SiO₂, σ = 500 nm",
+        ("F_star", "A_ss_t", "A_sa_t"),
+        LOAD,
+        (SHARE_SS, SHARE_SA),
+        _shares(curves, 500, SIZES_500, materials=[SILICA]),
+        ylog=False,
+        percent=True,
+        marks=[TPCA_500],
+    )
+
+
+def fig_7b(curves: Curves) -> Panel:
+    return Panel(
+        "7b",
+        "real contact area, SiO₂, σ = 500 nm",
+        ("F_star", "A_t"),
+        LOAD,
+        (AREA,),
+        _over_load(curves, 500, (0, *SIZES_500), _area, materials=[SILICA]),
+        ylim=(3e-6, 3e-2),
+        marks=[TPCA_500],
+    )
+
+
+def fig_8(curves: Curves) -> Panel:
+    return Panel(
+        "8",
+        "share of asperities, σ = 300 nm",
+        ("F_star", "A_ss_t"),
+        LOAD,
+        (r"asperities $A_{ss}/A_t$ [%]",),
+        _over_load(curves, 300, (100, 150, 200, 300, 500), lambda c: c.asperity_share),
+        ylog=False,
+        percent=True,
+        marks=[Mark("turning point, SiO$_2$ 200 nm", 1.9e-6, by=200)],
+    )
+
+
+CRITICAL_SIZES = (100, 300, 500, 1000)
+CRITICAL_ROUGHNESSES = (50, 75, 100, 150, 200, 300, 400, 500)
+
+
+def _critical(
+    curves: Curves, name: str, critical: Callable[[Curve], float], number: str, words: str
+) -> Panel:
+    lines = []
+    for x_a in CRITICAL_SIZES:
+        for material in BOTH:
+            loads = np.array(
+                [critical(curves(material, sigma, x_a)) for sigma in CRITICAL_ROUGHNESSES]
+            )
+            # a load at the first grid point only says that the mode was there from the start
+            loads = np.where(np.isfinite(loads) & (loads > RANGE[0]), loads, np.nan)
+            sigmas = np.array(CRITICAL_ROUGHNESSES, dtype=float)
+            lines.append(Line(material, np.nan, x_a, sigmas, (loads,), by=x_a))
+    return Panel(
+        name,
+        f"{words} critical load",
+        ("sigma_nm", f"F_cr{number}"),
+        "roughness $\\sigma$ [nm]",
+        (rf"{words} critical load $F_{{cr{number}}}^*$ [1]",),
+        lines,
+        xlog=False,
+        xlim=(25, 525),
+        ylim=(4e-7, 5e-4),
+        note="No point: no such load between 4.8e-7 and 4e-4.",
+    )
+
+
+def fig_9a(curves: Curves) -> Panel:
+    panel = _critical(curves, "9a", critical_load_1, "1", "first")
+    panel.marks.extend(
+        [
+            Mark("SiO$_2$ 300 nm", 100, 7.5e-6, by=300),
+            Mark("S45C 300 nm", 100, 2.0e-6, by=300, dashed=True),
+            Mark("SiO$_2$ 1000 nm", 100, 1.5e-4, by=1000, left=True),
+        ]
+    )
+    return panel
+
+
+def fig_9b(curves: Curves) -> Panel:
+    panel = _critical(curves, "9b", critical_load_2, "2", "second")
+    panel.marks.extend(
+        [
+            Mark("SiO$_2$ 300 nm", 100, 5.1e-5, by=300),
+            Mark("S45C 300 nm", 100, 4.0e-5, by=300, dashed=True, left=True),
+        ]
+    )
+    return panel
+
+
+def _regime(curves: Curves, name: str, regime: str, words: str, **rest: Any) -> Panel:
+    return Panel(
+        name,
+        f"{words} share of the contact area, σ = 100 nm",
+        ("F_star", f"A_{regime}_t"),
+        LOAD,
+        (rf"{words} share $A_{{{regime}}}/A_t$ [%]",),
+        _over_load(curves, 100, SIZES_10, lambda curve: curve.share(regime)),
+        ylog=False,
+        percent=True,
+        note="The paper does not state σ; 100 nm is taken.",
+        **rest,
+    )
+
+
+CRITICAL_10 = Mark("$F_{cr1}^*$, SiO$_2$ 300 nm", 7.4e-6, by=300)
+
+
+def fig_10a(curves: Curves) -> Panel:
+    return _regime(
+        curves,
+        "10a",
+        "e",
+        "elastic",
+        ylim=(-0.01, 0.25),
+        marks=[CRITICAL_10],
+        levels=[(0.2, "upper limit 20 %")],
+    )
+
+
+def fig_10b(curves: Curves) -> Panel:
+    return _regime(
+        curves,
+        "10b",
+        "ep",
+        "elastoplastic",
+        marks=[CRITICAL_10],
+        levels=[(0.8, "lower limit 80 %, $x_a$ < 100 nm")],
+    )
+
+
+def fig_10c(curves: Curves) -> Panel:
+    return _regime(
+        curves,
+        "10c",
+        "p",
+        "plastic",
+        marks=[
+            CRITICAL_10,
+            Mark("turning point, 200 nm", (1.86e-6, 6.0e-6), by=200),
+        ],
+    )
+
+
+SEPARATION_SIZES = (*range(0, 300, 25), *range(300, 1001, 50))
+
+
+def _separation(curves: Curves, name: str, starred: bool) -> Panel:
+    lines = []
+    for sigma in ROUGHNESSES:
+        for material in BOTH:
+            states = [curves.at(SEPARATION_LOAD, material, sigma, x) for x in SEPARATION_SIZES]
+            y = np.array([s.d_star[0] if starred else 1e9 * s.d[0] for s in states])
+            x = np.array(SEPARATION_SIZES, dtype=float)
+            lines.append(Line(material, sigma, np.nan, x, (y,), by=sigma))
+    label = r"separation $d^* = d/\sigma$ [1]" if starred else "separation $d$ [nm]"
+    note = f"At F* = {SEPARATION_LOAD:g}; the paper does not state the load."
+    if starred:
+        note += " The paper reads d*(SiO₂)/d*(S45C) ≈ 2.5 at 1000 nm."
+    return Panel(
+        name,
+        "separation" if not starred else "separation over roughness",
+        ("x_a_nm", "d_star" if starred else "d_nm"),
+        "particle size $x_a$ [nm]",
+        (label,),
+        lines,
+        by="roughness",
+        xlog=False,
+        ylog=False,
+        xlim=(-20, 1020),
+        note=note,
+    )
+
+
+def fig_11a(curves: Curves) -> Panel:
+    return _separation(curves, "11a", starred=False)
+
+
+def fig_11b(curves: Curves) -> Panel:
+    return _separation(curves, "11b", starred=True)
+
+
+def fig_12a(curves: Curves) -> Panel:
+    return Panel(
+        "12a",
+        "separation under load, σ = 100 nm",
+        ("F_star", "d_star"),
+        LOAD,
+        (r"separation $d^* = d/\sigma$ [1]",),
+        _over_load(curves, 100, SIZES_12, lambda c: c.d_star),
+        ylog=False,
+        ylim=(0, None),
+        marks=[
+            Mark("SiO$_2$ 500 nm", 5e-7, 9.15, by=500),
+            Mark("SiO$_2$ 500 nm", 7e-6, 8.52, by=500),
+            Mark("SiO$_2$ 500 nm", 3e-5, 2.62, by=500, left=True),
+        ],
+        note="The paper does not state σ; 100 nm is taken. It reads d* up to 5.8 (1000 nm) and 2 "
+        "times (500 nm)\nthat of bare surfaces; 9.15 follows from 8.52 and −6.89 %.",
+    )
+
+
+def fig_12b(curves: Curves) -> Panel:
+    lines = []
+    for line in _over_load(curves, 100, SIZES_12, lambda c: c.d_star, _area):
+        d_star, A_t = line.ys
+        lines.append(Line(line.material, line.sigma, line.x_a, d_star, (A_t,), by=line.x_a))
+    return Panel(
+        "12b",
+        "real contact area over separation, σ = 100 nm",
+        ("d_star", "A_t"),
+        r"separation $d^* = d/\sigma$ [1]",
+        (AREA,),
+        lines,
+        xlog=False,
+        xlim=(0, None),
+        ylim=(3e-6, 3e-2),
+        note="The paper does not state σ; 100 nm is taken. It reads 30 % more d* for 9 % less area "
+        "in the hybrid mode of 500 nm SiO₂.",
+    )
+
+
+PANELS: dict[str, Callable[[Curves], Panel]] = {
+    function.__name__.removeprefix("fig_"): function
+    for function in (
+        *(fig_3a, fig_3b, fig_4a, fig_4b, fig_5, fig_6a, fig_6b, fig_6c, fig_7a, fig_7b),
+        *(fig_8, fig_9a, fig_9b, fig_10a, fig_10b, fig_10c, fig_11a, fig_11b, fig_12a, fig_12b),
+    )
+}
+"""The twenty panels by the name the paper gives them."""
+
+
+def panels(curves: Curves) -> Iterator[Panel]:
+    """Every panel in one reading."""
+    for function in PANELS.values():
+        yield function(curves)
+
+
+def table(panel: Panel) -> str:
+    """The panel's numbers as CSV: one row a point, sizes and roughness in nm."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    columns = panel.columns
+    known = [name for name in ("sigma_nm", "x_a_nm") if name not in columns]
+    writer.writerow(["material", *known, *columns])
+    for line in panel.lines:
+        value = {"sigma_nm": line.sigma, "x_a_nm": line.x_a}
+        about = [line.material or "none", *(f"{value[name]:g}" for name in known)]
+        for row in zip(line.x, *line.ys, strict=True):
+            writer.writerow([*about, *("" if np.isnan(v) else f"{v:.8g}" for v in row)])
+    return out.getvalue()
+
+
+# ------------------------------------------------------------------ drawing
+def _styles() -> dict[str, dict[float, tuple[str, str]]]:
+    """Colour and marker for each size and roughness in nm."""
+    from ...views.plot.style import OKABE_ITO as colour
+
+    grey = "#777777"
+    return {
+        "size": {
+            0: ("0.72", ""),
+            25: (colour["purple"], "v"),
+            100: (colour["orange"], "s"),
+            150: (grey, "P"),
+            200: (colour["sky"], "^"),
+            250: (grey, "X"),
+            300: (colour["green"], "o"),
+            500: (colour["blue"], "D"),
+            1000: (colour["vermilion"], "*"),
+        },
+        "roughness": {
+            50: (colour["blue"], "o"),
+            100: (colour["orange"], "s"),
+            300: (colour["green"], "^"),
+            500: (colour["vermilion"], "D"),
+        },
+    }
+
+
+def draw(panel: Panel, subtitle: str = "") -> Figure:
+    """The panel as a matplotlib figure, without any global state."""
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import PercentFormatter
+
+    count = len(panel.ylabels)
+    figure = Figure(figsize=(7.2, 4.6 if count == 1 else 5.9))
+    figure.patch.set_facecolor("white")
+    grid = figure.subplots(count, 1, sharex=True, squeeze=False)[:, 0]
+    high = figure.get_figheight()
+    figure.subplots_adjust(
+        left=0.11,
+        right=0.69,
+        bottom=(0.85 if panel.note else 0.6) / high,
+        top=1 - 0.65 / high,
+        hspace=0.08,
+    )
+    styles = _styles()[panel.by]
+    for ax, ordinate, label in zip(grid, range(count), panel.ylabels, strict=True):
+        if panel.xlog:
+            ax.set_xscale("log")
+        if panel.ylog:
+            ax.set_yscale("log")
+        for i, line in enumerate(panel.lines):
+            _draw_line(ax, line, ordinate, styles, i, few=len(line.x) < 40)
+        if panel.percent:
+            ax.yaxis.set_major_formatter(PercentFormatter(1, decimals=0, symbol=""))
+            ax.set_ylim(-0.03, 1.03)
+        if panel.ylim:
+            ax.set_ylim(*panel.ylim)
+        ax.set_xlim(*panel.xlim)
+        ax.set_ylabel(label)
+        ax.tick_params(which="both", direction="in", top=True, right=True)
+        ax.grid(visible=True, which="major", color="0.92", linewidth=0.6)
+        ax.set_axisbelow(True)
+        _draw_quoted(ax, panel, styles, numbers=ordinate == 0)
+    grid[-1].set_xlabel(panel.xlabel)
+    small: dict[str, Any] = dict(fontsize=7.5, color="0.3")
+    figure.text(
+        0.02, 1 - 0.17 / high, f"Fig. {panel.name}: {panel.about}", fontsize=10, va="center"
+    )
+    figure.text(0.02, 1 - 0.35 / high, as_mathtext(subtitle), va="center", **small)
+    figure.text(0.02, 0.07 / high, panel.note, va="bottom", linespacing=1.25, **small)
+    _legend(figure, panel, styles)
+    if all(np.isnan(y).all() for line in panel.lines for y in line.ys):
+        grid[0].text(0.5, 0.5, "none in this reading", transform=grid[0].transAxes, ha="center")
+    return figure
+
+
+def _draw_line(
+    ax: Axes, line: Line, ordinate: int, styles: dict[float, tuple[str, str]], i: int, few: bool
+) -> None:
+    colour, marker = styles[line.by]
+    if line.material == "":
+        ax.plot(line.x, line.ys[ordinate], color=colour, linewidth=4.5, zorder=1.5)
+        return
+    steel = line.material == STEEL
+    step = max(1, len(line.x) // 9)
+    start = (i * 7 + (step // 2 if steel else 0)) % step
+    ax.plot(
+        line.x,
+        line.ys[ordinate],
+        color=colour,
+        linestyle=(0, (4, 2)) if steel else "-",
+        linewidth=1.4,
+        marker=marker if line.marked else "",
+        markevery=1 if few else (start, step),
+        markersize=(6.5 if marker == "*" else 4.5) * (0.8 if few else 1),
+        markerfacecolor="white" if steel else colour,
+        markeredgewidth=0.9,
+        zorder=3,
+    )
+
+
+def _draw_quoted(
+    ax: Axes, panel: Panel, styles: dict[float, tuple[str, str]], numbers: bool
+) -> None:
+    from matplotlib.patheffects import withStroke
+
+    halo = [withStroke(linewidth=2.5, foreground="white")]
+    if panel.band:
+        x, low, high, _ = panel.band
+        ax.fill_between(x, low, high, color=_styles()["size"][1000][0], alpha=0.18, linewidth=0)
+    for level, _ in panel.levels:
+        ax.axhline(level, color="0.3", linestyle="-.", linewidth=0.9)
+    for mark in panel.marks:
+        colour = "0.25" if mark.by is None else styles[mark.by][0]
+        if isinstance(mark.x, tuple):
+            ax.axvspan(*mark.x, color=colour, alpha=0.13, linewidth=0, zorder=0.5)
+            continue
+        if mark.y is not None:
+            ax.plot(mark.x, mark.y, marker="x", color="black", markersize=9, zorder=5, mew=2.6)
+            ax.plot(mark.x, mark.y, marker="x", color=colour, markersize=8, zorder=5.1, mew=1.4)
+            ax.annotate(
+                _power(mark.y) if panel.ylog else f"{mark.y:g}",
+                (mark.x, mark.y),
+                xytext=(7, -3) if mark.left else (7, 3),
+                textcoords="offset points",
+                va="top" if mark.left else "bottom",
+                fontsize=8,
+                path_effects=halo,
+                zorder=6,
+            )
+            continue
+        ax.axvline(mark.x, color=colour, linestyle="--" if mark.dashed else ":", linewidth=1.3)
+        if numbers:
+            ax.annotate(
+                _power(mark.x),
+                (mark.x, 1),
+                xycoords=("data", "axes fraction"),
+                xytext=(4 if mark.left else -4, 2),
+                textcoords="offset points",
+                va="bottom",
+                ha="right" if mark.left else "left",
+                fontsize=7.5,
+                color="0.2",
+            )
+
+
+def _legend(figure: Figure, panel: Panel, styles: dict[float, tuple[str, str]]) -> None:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    handles: list[Any] = []
+
+    def header(text: str) -> None:
+        handles.append(Line2D([], [], linestyle="none", label=text))
+
+    symbol = "$x_a$" if panel.by == "size" else r"$\sigma$"
+    header(f"{symbol} [nm]")
+    for value in sorted({line.by for line in panel.lines}):
+        colour, marker = styles[value]
+        if value == 0:
+            handles.append(Line2D([], [], color=colour, linewidth=4.5, label="no particles"))
+        else:
+            style: dict[str, Any] = dict(color=colour, marker=marker, markersize=5, linewidth=1.4)
+            handles.append(Line2D([], [], label=f"{value:g}", **style))
+    materials = {line.material for line in panel.lines} - {""}
+    header("particles")
+    for material in (SILICA, STEEL):
+        if material in materials:
+            steel = material == STEEL
+            handles.append(
+                Line2D(
+                    [],
+                    [],
+                    color="black",
+                    linestyle=(0, (4, 2)) if steel else "-",
+                    linewidth=1.4,
+                    marker="o",
+                    markersize=4.5,
+                    markerfacecolor="white" if steel else "black",
+                    label="S45C (wear debris)" if steel else "SiO$_2$ (dust)",
+                )
+            )
+    if panel.marks or panel.levels or panel.band:
+        header("quoted in the paper")
+    if panel.band:
+        handles.append(Patch(facecolor=_styles()["size"][1000][0], alpha=0.25, label=panel.band[3]))
+    seen = set()
+    for mark in panel.marks:
+        if mark.label in seen:
+            continue
+        seen.add(mark.label)
+        colour = "0.25" if mark.by is None else styles[mark.by][0]
+        if isinstance(mark.x, tuple):
+            handles.append(Patch(facecolor=colour, alpha=0.2, label=mark.label))
+        elif mark.y is not None:
+            cross: dict[str, Any] = dict(linestyle="none", marker="x", markersize=7, mew=1.6)
+            handles.append(Line2D([], [], color=colour, label=mark.label, **cross))
+        else:
+            dash = "--" if mark.dashed else ":"
+            handles.append(
+                Line2D([], [], color=colour, linestyle=dash, linewidth=1.3, label=mark.label)
+            )
+    for _, label in panel.levels:
+        handles.append(Line2D([], [], color="0.3", linestyle="-.", linewidth=0.9, label=label))
+    legend = figure.legend(
+        handles=handles,
+        loc="upper left",
+        bbox_to_anchor=(0.695, 1 - 0.6 / figure.get_figheight()),
+        frameon=False,
+        fontsize=7.8,
+        handlelength=2.4,
+        labelspacing=0.45,
+    )
+    for text in legend.get_texts():
+        if text.get_text() in (f"{symbol} [nm]", "particles", "quoted in the paper"):
+            text.set_fontweight("bold")
+
+
+def as_mathtext(text: str) -> str:
+    """Subscripts of plain text, as in H_s, set as such."""
+    return re.sub(r"([A-Za-zσηχφ])_(\w+)", r"$\\mathrm{\1}_{\2}$", text)
+
+
+def _power(value: float) -> str:
+    mantissa, exponent = f"{value:.2e}".split("e")
+    return rf"${float(mantissa):g}\times10^{{{int(exponent)}}}$"

@@ -1,0 +1,140 @@
+"""One figure of a study: named curves over one axis, as drawing, as table, as files."""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..quantities.files import whole
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["Line", "Panel", "draw", "save", "table_of"]
+
+Array = NDArray[np.float64]
+COLOURS = ("blue", "vermilion", "green", "purple", "orange", "sky")
+DASHES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)))
+
+
+@dataclass(frozen=True)
+class Line:
+    """A curve; ``colour`` and ``dash`` count, and colour −1 is the broad grey of bare surfaces."""
+
+    label: str
+    x: Array
+    y: Array
+    colour: int = 0
+    dash: int = 0
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Curves over one axis."""
+
+    name: str
+    about: str
+    xlabel: str
+    ylabel: str
+    columns: tuple[str, str]
+    """Names of abscissa and ordinate in the table."""
+    lines: tuple[Line, ...]
+    xlog: bool = True
+    ylog: bool = False
+    ylim: tuple[float | None, float | None] = (None, None)
+    levels: tuple[tuple[float, str], ...] = ()
+    """Ordinates of reference and what they are."""
+    note: str = ""
+
+
+def draw(panel: Panel) -> Figure:
+    """The panel as a matplotlib figure, without any global state."""
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import (
+        FormatStrFormatter,
+        LogFormatterMathtext,
+        LogLocator,
+        NullFormatter,
+    )
+
+    from ..views.plot.style import OKABE_ITO
+
+    figure = Figure(figsize=(7.2, 4.3))
+    figure.patch.set_facecolor("white")
+    ax = figure.subplots()
+    figure.subplots_adjust(left=0.11, right=0.63, bottom=0.21, top=0.91)
+    for value, label in panel.levels:
+        ax.axhline(value, color="0.35", linestyle=":", linewidth=1.1, label=label, zorder=1)
+    for line in panel.lines:
+        bare = line.colour < 0
+        ax.plot(
+            line.x,
+            line.y,
+            color="0.75" if bare else OKABE_ITO[COLOURS[line.colour % len(COLOURS)]],
+            linestyle=DASHES[line.dash % len(DASHES)],
+            linewidth=4.0 if bare else 1.6,
+            label=line.label,
+            zorder=2 if bare else 3,
+        )
+    if panel.xlog:
+        ax.set_xscale("log")
+        ax.xaxis.set_major_formatter(LogFormatterMathtext())
+        ax.xaxis.set_minor_formatter(NullFormatter())
+    if panel.ylog:
+        ax.set_yscale("log")
+        low, high = ax.get_ylim() if panel.ylim == (None, None) else panel.ylim
+        if low and high and high / low < 30:
+            ax.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            ax.yaxis.set_major_formatter(FormatStrFormatter("%g"))
+            ax.yaxis.set_minor_formatter(NullFormatter())
+    x = np.concatenate([line.x for line in panel.lines])
+    ax.set_xlim(x.min(), x.max())
+    ax.set_ylim(*panel.ylim)
+    ax.set_xlabel(panel.xlabel)
+    ax.set_ylabel(panel.ylabel)
+    ax.tick_params(which="both", direction="in", top=True, right=True)
+    ax.grid(visible=True, which="major", color="0.92", linewidth=0.6)
+    ax.set_axisbelow(True)
+    tall = figure.get_figheight()
+    figure.text(
+        0.02, 1 - 0.17 / tall, f"Fig. {panel.name}: {panel.about}", fontsize=10, va="center"
+    )
+    figure.text(0.02, 0.07 / tall, panel.note, va="bottom", fontsize=7.5, color="0.3")
+    figure.legend(
+        *ax.get_legend_handles_labels(),
+        loc="upper left",
+        bbox_to_anchor=(0.64, 0.92),
+        frameon=False,
+        fontsize=7.8,
+        handlelength=2.6,
+        labelspacing=0.6,
+    )
+    return figure
+
+
+def table_of(panel: Panel) -> str:
+    """The panel's numbers as CSV: one row a point."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["line", *panel.columns])
+    for line in panel.lines:
+        label = line.label.replace("\n", " ")
+        for x, y in zip(line.x, line.y, strict=True):
+            writer.writerow([label, f"{x:.8g}", "" if np.isnan(y) else f"{y:.8g}"])
+    return out.getvalue()
+
+
+def save(figure: Any, folder: Path, stem: str) -> None:
+    """PNG and SVG without dates; names inside the SVG come from the panel's own name."""
+    from matplotlib import rc_context
+
+    with whole(folder / f"{stem}.png") as draft:
+        figure.savefig(draft, format="png", dpi=180, metadata={"Software": None})
+    with rc_context({"svg.hashsalt": stem}), whole(folder / f"{stem}.svg") as draft:
+        figure.savefig(draft, format="svg", metadata={"Date": None, "Creator": None})

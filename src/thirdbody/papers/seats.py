@@ -1,0 +1,217 @@
+"""Which seat carries the load? The model against explicit particles on explicit surfaces.
+
+``python -m thirdbody.papers.seats OUT.png`` writes the figure.
+
+The numbers come from boundary-element runs kept in ``data/explicit_particles.json``: particles
+placed at random on Gaussian height maps, pressed by a rigid flat, contact pressure capped at the
+hardness. No parameter of the model was adjusted to them.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import thirdbody as tb
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["STATED_AGREEMENT", "contact", "explicit_particles", "figure", "main"]
+
+STATED_AGREEMENT = {200e-9: 0.10, 300e-9: 0.06, 600e-9: 0.02}
+"""Relative difference of the load share that the ``rough`` seat stays within, 1e-5 ≤ F* ≤ 3e-4."""
+
+
+@cache
+def explicit_particles() -> dict[str, Any]:
+    """The stored runs: parameters, method, and load share, area share and separation by load.
+
+    Returns
+    -------
+    dict
+        ``parameters`` in SI, ``points`` with ``diameter`` [m], ``F_star`` [1], and the results as
+        computed (``raw``) and with the luck of sampling removed (``control_variate``).
+
+    Examples
+    --------
+    >>> runs = explicit_particles()
+    >>> runs["parameters"]["sigma"], len(runs["points"])
+    (3e-07, 12)
+    """
+    file = resources.files("thirdbody").joinpath("data/explicit_particles.json")
+    return json.loads(file.read_text("utf-8"))
+
+
+def contact(diameter: float, seat: str = "rough", h_0: float = 0.0) -> tb.Contact:
+    """The interface of the runs.
+
+    Parameters
+    ----------
+    diameter : float
+        Particle diameter x [m], the same for all.
+    seat : {"rough", "plane", "offset"}, optional
+        Where the particles rest.
+    h_0 : float, optional
+        Height of the seat above the mean asperity plane [m], for ``offset``.
+
+    Returns
+    -------
+    Contact
+
+    Examples
+    --------
+    >>> dusty = contact(300e-9)
+    >>> round(dusty.E_ss / 1e9, 6)
+    112.0
+    """
+    given = explicit_particles()["parameters"]
+    nu = 0.3
+    body = tb.Material(E=2 * given["E_star"] * (1 - nu**2), nu=nu, H=given["H"])
+    return tb.Contact(
+        surfaces=tb.MaterialPair(body, body),
+        roughness=tb.Roughness(
+            sigma=given["sigma"],
+            R=given["R"],
+            alpha=given["alpha"],
+            eta_R_sigma=given["eta_R_sigma"],
+        ),
+        particles=tb.Particles(
+            material=body,
+            diameter=tb.Monodisperse(mean=diameter),
+            areal_density=given["areal_density"],
+        ),
+        particle_law=tb.particle.Series(seat=seat, h_0=h_0),
+    )
+
+
+def figure(*, h_0: float = 2.5, loads: np.ndarray | None = None) -> Figure:
+    """Particle load share against load: three sizes, three seats, and explicit particles.
+
+    Parameters
+    ----------
+    h_0 : float, optional
+        Height of the ``offset`` seat over σ [1]; 2.5 puts particles on the asperity tops.
+    loads : array, optional
+        F* [1]; 160 from 5e-7 to 6e-4 when left out.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Examples
+    --------
+    >>> len(figure(loads=np.geomspace(1e-6, 3e-4, 8)).axes)
+    3
+    """
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import FuncFormatter
+
+    from ..views.plot.style import AXIS_LABELS, OKABE_ITO
+
+    loads = np.geomspace(5e-7, 6e-4, 160) if loads is None else loads
+    sigma = explicit_particles()["parameters"]["sigma"]
+    lines = {
+        "rough": ("at a random place on the rough surface", OKABE_ITO["blue"], "-", 2.2),
+        "plane": ("on the mean asperity plane", OKABE_ITO["vermilion"], "--", 1.4),
+        "offset": (
+            rf"on the asperity tops ($h_0$ = {h_0:g} $\sigma$)",
+            OKABE_ITO["green"],
+            "-.",
+            1.4,
+        ),
+    }
+    out = Figure(figsize=(7.6, 3.2), dpi=150, layout="constrained")
+    panels = out.subplots(1, 3, sharey=True)
+    handles = []
+    for ax, diameter in zip(panels, STATED_AGREEMENT, strict=True):
+        for seat, (words, colour, dash, width) in lines.items():
+            height = h_0 * sigma if seat == "offset" else 0.0
+            share = tb.solve(contact(diameter, seat, height), F_star=loads).particle_load_share
+            share = np.where(np.asarray(share) > 0, share, np.nan)
+            if np.all(np.isnan(share)):
+                ax.text(
+                    0.97,
+                    0.035,
+                    "on the mean asperity plane: no load at all",
+                    color=colour,
+                    fontsize="x-small",
+                    transform=ax.transAxes,
+                    ha="right",
+                )
+            (line,) = ax.plot(
+                loads,
+                share,
+                color=colour,
+                linestyle=dash,
+                linewidth=width,
+                label=f"model, particles {words}",
+            )
+            if ax is panels[0]:
+                handles.append(line)
+        points = [p for p in explicit_particles()["points"] if p["diameter"] == diameter]
+        for key, words, style in (
+            (
+                "raw",
+                "explicit particles, as computed",
+                dict(color="0.55", marker="s", markersize=4, markerfacecolor="white", zorder=4),
+            ),
+            (
+                "control_variate",
+                "explicit particles, sampling luck removed",
+                dict(color="black", marker="o", markersize=5, zorder=5),
+            ),
+        ):
+            given = [p for p in points if p[key] is not None]
+            bars = ax.errorbar(
+                [p["F_star"] for p in given],
+                [p[key]["load_share"] for p in given],
+                yerr=[p[key]["load_share_error"] for p in given],
+                linestyle="none",
+                capsize=2.5,
+                elinewidth=1.0,
+                label=words,
+                **style,
+            )
+            if ax is panels[0]:
+                handles.append(bars)
+        ax.set_xscale("log")
+        ax.set_yscale("log")
+        ax.set_ylim(0.007, 1.4)
+        ax.set_xlim(loads[0], loads[-1])
+        ax.set_title(
+            rf"$x/\sigma$ = {diameter / sigma:.2g}   ($x$ = {diameter * 1e9:.0f} nm)",
+            fontsize="medium",
+        )
+        ax.grid(visible=True, color="0.9", linewidth=0.6)
+        ax.set_axisbelow(True)
+        ax.tick_params(which="both", direction="in", top=True, right=True)
+        ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}"))
+    panels[0].set_ylabel(AXIS_LABELS["particle_load_share"])
+    panels[1].set_xlabel(AXIS_LABELS["F_star"])
+    out.legend(
+        handles=handles, loc="outside lower center", ncols=2, frameon=False, fontsize="small"
+    )
+    return out
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Write the figure to the file named on the command line."""
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if len(arguments) != 1 or arguments[0].startswith("-"):
+        print("usage: python -m thirdbody.papers.seats OUT.png", file=sys.stderr)
+        return 2
+    target = Path(arguments[0])
+    figure().savefig(target, dpi=150)
+    print(target)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

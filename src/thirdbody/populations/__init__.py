@@ -1,0 +1,1 @@
+"""Populations: what lies in the interface, bodies, heights, particles."""

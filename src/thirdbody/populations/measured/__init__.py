@@ -1,0 +1,1 @@
+"""Populations as instruments measure them: surfaces, sizes, dust."""

@@ -1,0 +1,299 @@
+"""Files of instruments, and heights at hand, as plain numbers in SI.
+
+Files are read by SurfaceTopography (the extra ``surfaces``), which is loaded with the first file.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import warnings
+from importlib import resources
+from pathlib import Path
+from typing import Any, NamedTuple, NoReturn
+
+import numpy as np
+
+from ...errors import InvalidValue
+from ...quantities.say import value_of
+from ...quantities.units import to_si
+
+__all__ = ["MOST_POINTS", "Raw", "is_number", "read"]
+
+MOST_POINTS = 20_000_000
+MOST_BYTES = 1_000_000_000
+
+
+class Raw(NamedTuple):
+    """What a source says of itself, in SI."""
+
+    name: str
+    heights: Any
+    spacing: tuple[float, ...]
+    periodic: bool | None = None
+    limit: float | None = None
+    limit_reason: str = ""
+    notes: tuple[str, ...] = ()
+
+
+def is_number(value: Any) -> bool:
+    return (
+        isinstance(value, (int, float, np.number))
+        and not isinstance(value, bool)
+        and math.isfinite(value)
+    )
+
+
+def read(
+    source: Any, scale: float | None, steps: tuple[float, ...] | None, channel: int | str | None
+) -> Raw:
+    if isinstance(source, (str, os.PathLike)):
+        path = Path(source)
+        if str(source) == "example" and not path.exists():
+            _told_already("example", "m", scale, steps)
+            return _example()
+        return _from_file(path, scale, steps, channel)
+    if hasattr(source, "physical_sizes") and hasattr(source, "heights"):
+        return _from_object(source, type(source).__name__, scale, steps)
+    if hasattr(source, "step_x") and hasattr(source, "step_y") and hasattr(source, "data"):
+        # surfalize: rows are y, everything in micrometres
+        _told_already(type(source).__name__, "um", scale, steps)
+        data = 1e-6 * np.asarray(source.data, dtype=float).T
+        return Raw(
+            type(source).__name__, data, (1e-6 * float(source.step_x), 1e-6 * float(source.step_y))
+        )
+    try:
+        heights: Any = np.ma.asarray(source, dtype=float)
+    except (TypeError, ValueError):
+        raise InvalidValue(
+            f"{type(source).__name__} is no topography; give a file, an array of heights with "
+            "spacing, or an object of SurfaceTopography or surfalize"
+        ) from None
+    if steps is None:
+        raise InvalidValue(
+            "an array of heights needs spacing, the distance of neighbouring points [m], "
+            "e.g. spacing=1e-7"
+        )
+    return Raw("the array", heights * (scale or 1.0), _per_axis(steps, heights.ndim))
+
+
+def _told_already(
+    name: str, unit: str | None, scale: float | None, steps: tuple[float, ...] | None
+) -> None:
+    """Refuse what is given beside what the source tells itself."""
+    if unit is not None and scale is not None:
+        raise InvalidValue(f"{name} tells its unit, {unit}, itself; leave unit out")
+    if unit is not None and steps is not None:
+        raise InvalidValue(f"{name} tells its lateral size itself; leave spacing out")
+
+
+def _per_axis(steps: tuple[float, ...], dim: int) -> tuple[float, ...]:
+    return steps * dim if len(steps) == 1 else steps[:dim]
+
+
+def _example() -> Raw:
+    with (
+        resources.files("thirdbody").joinpath("data/example_surface.npz").open("rb") as file,
+        np.load(file) as data,
+    ):
+        heights: Any = np.cumsum(data["steps"], axis=0, dtype=float)
+        heights[tuple(data["missing"].T)] = np.nan
+        return Raw("example", heights * float(data["unit"]), tuple(map(float, data["spacing"])))
+
+
+def _from_file(
+    path: Path, scale: float | None, steps: tuple[float, ...] | None, channel: int | str | None
+) -> Raw:
+    try:
+        about = path.stat()
+        if path.is_dir():
+            raise InvalidValue(f"cannot read {path}: it is a folder, not a topography")
+        if not path.is_file():
+            raise InvalidValue(f"cannot read {path}: it is not a regular file")
+        with path.open("rb"):
+            pass
+    except FileNotFoundError:
+        raise InvalidValue(f"cannot read {path}: there is no such file") from None
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        if isinstance(error, InvalidValue):
+            raise
+        raise InvalidValue(f"cannot read {path}: {why.lower()}") from None
+    if about.st_size == 0:
+        raise InvalidValue(f"cannot read {path}: the file is empty")
+    if about.st_size > MOST_BYTES:
+        raise InvalidValue(
+            f"cannot read {path}: {about.st_size / 1e9:.3g} GB are more than the "
+            f"{MOST_BYTES / 1e9:.0f} GB that fit; cut out a part in the instrument's program"
+        )
+    try:
+        from SurfaceTopography import open_topography
+    except ImportError:
+        raise InvalidValue(
+            f"cannot read {path}: files of instruments need SurfaceTopography; "
+            "pip install 'thirdbody[surfaces]'"
+        ) from None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            reader = open_topography(str(path))
+        except Exception as error:
+            _refuse_file(path, error)
+        with reader:
+            form = reader.format()
+            if form in ("hgt", "nms") and path.suffix.lower() != f".{form}":
+                # these two have no mark of their own and read any file of the right length
+                _refuse_file(path, None)
+            chosen = _channel(reader, path, channel)
+            points = tuple(chosen.nb_grid_pts or ())
+            if math.prod(points) > MOST_POINTS:
+                shown = " x ".join(map(str, points))
+                raise InvalidValue(
+                    f"{path} has {shown} points, more than the {MOST_POINTS:,} that fit; cut out "
+                    "a part or take every second point in the instrument's program"
+                )
+            try:
+                made = chosen.topography(**_lacking(chosen, scale, steps, path))
+                return _from_object(made, str(path), scale, steps)
+            except InvalidValue:
+                raise
+            except Exception as error:
+                _refuse_file(path, error, form)
+
+
+def _refuse_file(path: Path, error: Exception | None, form: str = "") -> NoReturn:
+    text = str(error).strip().splitlines() if error is not None else []
+    many = len(text) > 1 or not text
+    if isinstance(error, MemoryError):
+        raise InvalidValue(f"cannot read {path}: it does not fit into memory") from None
+    if form or (text and not many):
+        kind = f" as {form}" if form else ""
+        why = " ".join(text)[:160] or type(error).__name__
+        raise InvalidValue(f"cannot read {path}{kind}: the file is damaged ({why})") from None
+    raise InvalidValue(
+        f"cannot read {path}: it is in none of the formats of SurfaceTopography, or damaged"
+    ) from None
+
+
+def _channel(reader: Any, path: Path, channel: int | str | None) -> Any:
+    channels = list(reader.channels)
+    if not channels:
+        raise InvalidValue(f"{path} holds no heights")
+    if channel is None:
+        try:
+            return reader.default_channel
+        except Exception:
+            return channels[0]
+    names = [str(item.name) for item in channels]
+    if channel in names:
+        return channels[names.index(str(channel))]
+    if str(channel).isdigit() and int(channel) < len(channels):
+        return channels[int(channel)]
+    shown = ", ".join(f"{i} ({name})" for i, name in enumerate(names))
+    raise InvalidValue(f"channel = {channel!r} is not in {path}; it has {shown}")
+
+
+def _lacking(
+    channel: Any, scale: float | None, steps: tuple[float, ...] | None, path: Path
+) -> dict[str, Any]:
+    """What has to be told to the reader because the file does not hold it."""
+    out: dict[str, Any] = {}
+    sizes, unit = channel.physical_sizes, channel.unit
+    points = channel.nb_grid_pts
+    _told_already(str(path), unit, scale, None if sizes is None else steps)
+    problems = []
+    if unit is None and scale is None:
+        problems.append(
+            f'{path} does not tell its unit; give it, e.g. unit = "um" (heights, and sides too '
+            "unless spacing is given)"
+        )
+    if sizes is None and steps is None:
+        problems.append(
+            f"{path} does not tell its lateral size; give spacing, the distance of neighbouring "
+            'points, e.g. spacing = "0.5 um"'
+        )
+    if problems:
+        raise InvalidValue(*problems)
+    if sizes is None:
+        assert steps is not None
+        spacing = _per_axis(steps, len(points))
+        out["physical_sizes"] = tuple(n * d for n, d in zip(points, spacing, strict=True))
+    return out
+
+
+def _from_object(made: Any, name: str, scale: float | None, steps: tuple[float, ...] | None) -> Raw:
+    """An object of SurfaceTopography, in its own unit."""
+    unit = made.unit
+    if unit is None and scale is None:
+        raise InvalidValue(f'{name} does not tell its unit; give it, e.g. unit = "um"')
+    if unit is not None and name == type(made).__name__:
+        known = getattr(made, "physical_sizes", None) is not None
+        _told_already(name, unit, scale, steps if known else None)
+    try:
+        factor = to_si(f"1 {unit}", "m") if unit is not None else float(scale or 1.0)
+    except InvalidValue:
+        raise InvalidValue(
+            f"{name} has heights in {unit!r}, which is not a length; choose another channel"
+        ) from None
+    notes: list[str] = []
+    if getattr(made, "is_uniform", True):
+        heights = made.heights()
+        sizes = made.physical_sizes
+        if sizes is None and steps is None:
+            raise InvalidValue(f"{name} does not tell its lateral size; give spacing")
+        if steps is not None:
+            spacing = _per_axis(steps, np.ndim(heights))
+        else:
+            spacing = tuple(
+                float(factor * s / n) for s, n in zip(sizes, np.shape(heights), strict=True)
+            )
+    else:
+        x, z = (np.asarray(part, dtype=float) for part in made.positions_and_heights())
+        if len(x) < 2 or not np.all(np.diff(x) > 0):
+            raise InvalidValue(f"{name}: the positions of the profile do not increase")
+        grid = np.linspace(x[0], x[-1], len(x))
+        heights, spacing = np.interp(grid, x, z), (float(factor * (grid[1] - grid[0])),)
+        notes.append("the points of the profile are not evenly spaced: interpolated linearly")
+    if not all(math.isfinite(d) and d > 0 for d in spacing):
+        raise InvalidValue(f"{name} tells a lateral size that is not above 0")
+    limit, reason = _limit(made, factor)
+    return Raw(name, factor * heights, spacing, made.is_periodic, limit, reason, tuple(notes))
+
+
+def _limit(made: Any, factor: float) -> tuple[float | None, str]:
+    """The instrument's limit, by the resolution or the tip radius that the file states."""
+    info = getattr(made, "info", None) or {}
+    parameters = info.get("instrument", {}).get("parameters", {})
+    try:
+        if "resolution" in parameters:
+            about = parameters["resolution"]
+            value = to_si(f"{float(about['value'])} {about['unit']}", "m")
+            return value, "the resolution that the file states"
+        radius = None
+        if "tip_radius" in parameters:
+            about = parameters["tip_radius"]
+            radius = to_si(f"{float(about['value'])} {about['unit']}", "m")
+        else:
+            radius = _stated_radius(info.get("raw_metadata", {}))
+        if radius is None:
+            return None, ""
+        found = made.scanning_probe_reliability_cutoff(radius / factor)
+        told = f"by the tip radius of {value_of(radius, 'm')} that the file states"
+        if found is None:
+            return None, f"{told}, the tip follows the surface at every scale sampled"
+        return float(found) * factor, f"{told} and the curvature of the peaks"
+    except Exception:
+        return None, "not known: what the file states of the instrument cannot be used"
+
+
+def _stated_radius(metadata: Any) -> float | None:
+    """The radius of a stylus in the words of an instrument, e.g. "Radius: 2 µm"."""
+    if not isinstance(metadata, dict):
+        return None
+    for key, value in metadata.items():
+        if re.search(r"stylus|tip|probe", str(key), re.IGNORECASE) and isinstance(value, str):
+            told = re.search(r"radius\W*([\d.]+)\s*(nm|um|µm|μm|mm)", value, re.IGNORECASE)
+            if told:
+                return to_si(f"{told[1]} {told[2].replace('μ', 'µ')}", "m")
+    return None

@@ -1,0 +1,365 @@
+"""Particles: what lies between the surfaces."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Self
+
+from ..errors import InvalidValue
+from ..quantities.units import to_si
+from ..quantities.value import Value, quantity
+from .distributions import Distribution
+from .materials import Material
+from .measured import cleanliness
+
+__all__ = ["Particles"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Particles(Value):
+    """A population of spherical particles in the interface.
+
+    Parameters
+    ----------
+    material : Material
+        E_a, ν_a, H_a.
+    diameter : Distribution
+        Sizes x by number [m].
+    areal_density : float
+        η_a, particles per nominal area [1/m²].
+    name : str, optional
+        What results call this population, where several share one interface.
+    law : AbstractParticleLaw, optional
+        What one of these particles does; without it the particle law of the contact.
+
+    Raises
+    ------
+    InvalidValue
+        A number outside its meaning, or so many particles that their projected area
+        :math:`\\eta_a\\langle\\pi x^2/4\\rangle` reaches the nominal area (jammed).
+
+    Examples
+    --------
+    >>> from thirdbody import materials, Monodisperse
+    >>> dust = Particles(material=materials["SiO2"], diameter=Monodisperse(mean=3e-7),
+    ...                  areal_density=1e11)
+    >>> round(dust.coverage, 6)
+    0.007069
+    """
+
+    material: Material
+    diameter: Distribution
+    areal_density: float = quantity(
+        "η_a", "1/m^2", "particles per nominal area", ge=0, hint="1e11 / m^2 is 1e11"
+    )
+    name: str = ""
+    law: Value | None = None
+
+    def _problems(self) -> list[str]:
+        out: list[str] = []
+        if not isinstance(self.material, Material):
+            out.append(f"Particles.material = {self.material!r} must be a Material")
+        if not isinstance(self.diameter, Distribution):
+            out.append(f"Particles.diameter = {self.diameter!r} must be a size distribution")
+        if not out and self.coverage >= 1:
+            out.append(
+                f"Particles.areal_density = {self.areal_density:g} is jammed: the particles would "
+                f"cover {self.coverage:.3g} of the nominal area and it must stay below 1 "
+                "(check the unit of the diameter, or that the density is per area)"
+            )
+        return out
+
+    @property
+    def coverage(self) -> float:
+        """Projected particle area per nominal area η_a⟨πx²/4⟩ [1]."""
+        return self.areal_density * math.pi / 4 * self.diameter.moment(2)
+
+    @classmethod
+    def from_concentration(
+        cls,
+        concentration: float | str,
+        *,
+        gap: float | str,
+        diameter: Distribution,
+        material: Material,
+        by: str = "number",
+        particle_density: float | str | None = None,
+        oil_density: float | str = cleanliness.OIL_DENSITY,
+        **others: Any,
+    ) -> Self:
+        r"""The particles that a fluid brings into a gap that closes.
+
+        .. math:: \eta_a = n\,h_{gap}, \qquad n = \frac{\phi}{\langle\pi x^3/6\rangle}, \qquad
+                  \phi = \frac{w/\rho_p}{w/\rho_p + (1-w)/\rho_f}
+
+        All particles of the fluid in the gap stay in it while it closes; see
+        `thirdbody.populations.measured.cleanliness`.
+
+        Parameters
+        ----------
+        concentration : float or str
+            "0.1 wt%", "0.02 vol%", "50 ppm" (mg/kg), "10 mg/L", "1e6 / mL"; a plain number is in
+            SI.
+        gap : float or str
+            h_gap, the film thickness or trapping gap [m].
+        diameter : Distribution
+            Sizes x by number [m]; convert others with `thirdbody.sizes.by_number`.
+        material : Material
+            Of the particles.
+        by : {"number", "mass", "volume", "mass per volume"}, optional
+            What a plain number is: n [1/m³], w [1], φ [1] or c [kg/m³].
+        particle_density, oil_density : float or str, optional
+            ρ_p, by default that of the material, needed for a mass; ρ_f, 870 by default [kg/m³].
+        **others
+            ``name`` and ``law``, as in the class.
+
+        Raises
+        ------
+        InvalidValue
+            Numbers outside their meaning, or so many particles that they jam.
+
+        Examples
+        --------
+        >>> from thirdbody import materials, LogNormal
+        >>> dust = Particles.from_concentration(
+        ...     "0.1 wt%", gap="1 um", particle_density="2.65 g/cm^3",
+        ...     diameter=LogNormal(median=300e-9, gsd=1.5), material=materials["SiO2"])
+        >>> f"{dust.areal_density:.4g}"
+        '1.109e+10'
+        """
+        if particle_density is None and isinstance(material, Material):
+            particle_density = material.density
+        n = cleanliness.particles_in(
+            cleanliness.concentration(concentration, by),
+            diameter,
+            particle_density=_optional("particle_density", particle_density, "kg/m^3"),
+            oil_density=_read("oil_density", oil_density, "kg/m^3"),
+        )
+        density = n * _gap(gap)
+        return cls(material=material, diameter=diameter, areal_density=density, **others)
+
+    @classmethod
+    def from_iso4406(
+        cls,
+        code: str,
+        *,
+        gap: float | str,
+        material: Material,
+        level: str = "middle",
+        smallest: float | str | None = None,
+        largest: float | str | None = None,
+        **others: Any,
+    ) -> Self:
+        r"""The particles of a fluid with an ISO 4406 code, in a gap that closes.
+
+        .. math:: \eta_a = h_{gap} N(\ge x_1), \qquad N(>x) \propto x^{-s}\ \text{between the sizes}
+
+        A code is a range: ``level`` takes its low end, its middle or its high end, three
+        populations that bound what the code can mean. Power laws between 4, 6 and 14 µm(c), and s
+        = 3.34 from 14 µm(c) to ``largest``, are assumptions; below 4 µm(c) nothing was counted
+        and nothing is added unless ``smallest`` says so.
+
+        Parameters
+        ----------
+        code : str
+            "18/16/13"; "-/16/13" without the count from 4 µm(c).
+        gap : float or str
+            h_gap [m].
+        material : Material
+            Of the particles; the code does not know it.
+        level : {"low", "middle", "high"}, optional
+            Of the range of each number.
+        smallest, largest : float or str, optional
+            Ends of the sizes [m]: 4 µm and 70 µm by default.
+        **others
+            ``name`` and ``law``, as in the class.
+
+        Raises
+        ------
+        InvalidValue
+            A code that is misspelt or impossible, e.g. with numbers that rise.
+
+        References
+        ----------
+        ISO 4406:2021; scale numbers from two secondary sources, in ``data/cleanliness.toml``.
+
+        Examples
+        --------
+        >>> from thirdbody import materials
+        >>> oil = Particles.from_iso4406("18/16/13", gap="1 um", material=materials["S45C"])
+        >>> round(oil.areal_density), oil.iso4406(gap="1 um")
+        (1803, '18/16/13')
+        """
+        n, diameter = cleanliness.suspension_of_iso4406(
+            code,
+            level=level,
+            smallest=_optional("smallest", smallest, "m"),
+            largest=_optional("largest", largest, "m"),
+        )
+        return cls(material=material, diameter=diameter, areal_density=n * _gap(gap), **others)
+
+    @classmethod
+    def from_cleanliness_class(
+        cls,
+        standard: str,
+        grade: str,
+        *,
+        gap: float | str,
+        material: Material,
+        smallest: float | str | None = None,
+        largest: float | str | None = None,
+        **others: Any,
+    ) -> Self:
+        """The particles of the dirtiest fluid that still has a class, in a gap that closes.
+
+        As `from_iso4406`, with the highest permitted count at every size.
+
+        Parameters
+        ----------
+        standard : {"as4059", "nas1638"}
+            SAE AS4059, or NAS 1638.
+        grade : str
+            "00", "0", "1" to "12"; "000" in AS4059.
+        gap, material, smallest, largest, **others
+            As in `from_iso4406`; the largest size is 100 µm by default.
+
+        Raises
+        ------
+        InvalidValue
+            An unknown standard or class.
+
+        Examples
+        --------
+        >>> from thirdbody import materials
+        >>> oil = Particles.from_cleanliness_class("nas1638", "6", gap=1e-6,
+        ...                                        material=materials["S45C"])
+        >>> round(oil.areal_density), oil.iso4406(gap=1e-6)
+        (195, '15/15/12')
+        >>> oil.cleanliness_class("nas1638", gap=1e-6)
+        '6'
+        """
+        n, diameter = cleanliness.suspension_of_class(
+            standard,
+            grade,
+            smallest=_optional("smallest", smallest, "m"),
+            largest=_optional("largest", largest, "m"),
+        )
+        return cls(material=material, diameter=diameter, areal_density=n * _gap(gap), **others)
+
+    @classmethod
+    def test_dust(
+        cls,
+        grade: str,
+        *,
+        material: Material,
+        concentration: float | str | None = None,
+        gap: float | str | None = None,
+        areal_density: float | str | None = None,
+        by: str = "number",
+        limit: str = "middle",
+        smallest: float | str | None = None,
+        oil_density: float | str = cleanliness.OIL_DENSITY,
+        **others: Any,
+    ) -> Self:
+        """An Arizona test dust of ISO 12103-1, A1 ultrafine to A4 coarse.
+
+        Sizes as in `thirdbody.populations.measured.cleanliness.dust_sizes`. How many there are
+        follows from
+        ``concentration`` and ``gap``, as in `from_concentration` with the density of the dust, or
+        is ``areal_density`` itself. **The tables of A2, A3 and A4 are those of the 1997 edition
+        and were not compared with a printed copy.**
+
+        Parameters
+        ----------
+        grade : {"A1", "A2", "A3", "A4", "A3-lot"}
+            Ultrafine, fine, medium, coarse; one batch of A3 as measured.
+        material : Material
+            Of the grains: 69 to 77 % quartz, ``materials["quartz"]``.
+        concentration, gap, by, oil_density
+            As in `from_concentration`.
+        areal_density : float or str, optional
+            η_a [1/m²], instead of a concentration.
+        limit : {"coarse", "middle", "fine"}, optional
+            Between the printed limits.
+        smallest : float or str, optional
+            Size above which the volume below the first printed size lies [m].
+        **others
+            As in the class.
+
+        Raises
+        ------
+        InvalidValue
+            An unknown grade; both or neither of concentration and areal density.
+
+        Examples
+        --------
+        >>> from thirdbody import materials
+        >>> dust = Particles.test_dust("A2", concentration="0.1 wt%", gap="1 um",
+        ...                            material=materials["SiO2"])
+        >>> f"{dust.areal_density:.3g}", f"{dust.diameter.mean_diameter:.3g}"
+        ('5.62e+07', '1.28e-06')
+        """
+        entry = cleanliness.dust_table(grade)
+        diameter = cleanliness.dust_sizes(
+            grade, limit=limit, smallest=_optional("smallest", smallest, "m")
+        )
+        if areal_density is not None and concentration is None and gap is None:
+            density = _read("areal_density", areal_density, "1/m^2")
+            return cls(material=material, diameter=diameter, areal_density=density, **others)
+        if areal_density is not None or concentration is None or gap is None:
+            raise InvalidValue(
+                "the amount of dust is given either by concentration and gap or by areal_density; "
+                f"found concentration = {concentration!r}, gap = {gap!r}, "
+                f"areal_density = {areal_density!r}"
+            )
+        return cls.from_concentration(
+            concentration,
+            gap=gap,
+            diameter=diameter,
+            material=material,
+            by=by,
+            particle_density=entry["density"],
+            oil_density=oil_density,
+            **others,
+        )
+
+    def iso4406(self, *, gap: float | str) -> str:
+        """The ISO 4406 code of a fluid that holds these particles in a gap [m].
+
+        Sizes are counted as they are, µm for µm(c). A count above the scale reads ">28".
+
+        Examples
+        --------
+        >>> from thirdbody import materials, Monodisperse
+        >>> dust = Particles(material=materials["SiO2"], diameter=Monodisperse(mean=8e-6),
+        ...                  areal_density=1e3)
+        >>> dust.iso4406(gap="1 um")
+        '17/17/0'
+        """
+        return cleanliness.iso4406_of(self.areal_density / _gap(gap), self.diameter)
+
+    def cleanliness_class(self, standard: str, *, gap: float | str) -> str:
+        """The class in "as4059" or "nas1638" of a fluid that holds these particles in a gap [m].
+
+        The lowest class that permits the count at every size; ">12" where none does.
+        """
+        return cleanliness.class_of(standard, self.areal_density / _gap(gap), self.diameter)
+
+
+def _read(name: str, value: float | str, unit: str) -> float:
+    try:
+        return to_si(value, unit)
+    except InvalidValue as error:
+        raise InvalidValue(f"{name} = {error}") from None
+
+
+def _optional(name: str, value: float | str | None, unit: str) -> float | None:
+    return None if value is None else _read(name, value, unit)
+
+
+def _gap(value: float | str) -> float:
+    gap = _read("gap", value, "m")
+    if not (math.isfinite(gap) and gap > 0):
+        raise InvalidValue(f"gap = {value!r} must be > 0 [m]; um are 1e-6 or '1 um'")
+    return gap

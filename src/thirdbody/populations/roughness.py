@@ -1,0 +1,95 @@
+"""Roughness: the equivalent rough surface and its population of asperities."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from ..quantities.value import Value, quantity
+from .ellipticity import Ellipticity
+from .heights import GaussianHeights, Heights
+
+__all__ = ["ETA_R_SIGMA", "Roughness"]
+
+ETA_R_SIGMA = 0.0455
+"""ηRσ of an isotropic Gaussian surface with bandwidth α = 5 (McCool 1986, rounded as in use)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Roughness(Value):
+    r"""The equivalent rough surface of a pair, after Nayak and McCool.
+
+    .. math:: \sigma_s = \sigma\sqrt{1 - 0.8968/\alpha}, \qquad
+              y_s = 4\sigma/\sqrt{\pi\alpha}, \qquad \eta = (\eta R\sigma)/(R\sigma)
+
+    Parameters
+    ----------
+    sigma : float
+        RMS height σ of the equivalent surface [m].
+    R : float
+        Mean asperity tip radius R [m].
+    alpha : float, optional
+        Nayak's bandwidth α = m0·m4/m2² [1], above 1.5.
+    eta_R_sigma : float, optional
+        The product ηRσ [1]; 0.0455 when neither it nor ``eta`` is given.
+    eta : float, optional
+        Asperity density η [1/m²], instead of ``eta_R_sigma``.
+    heights : Heights, optional
+        Distribution of asperity heights over σ_s; Gaussian by default.
+    ellipticity : Ellipticity, optional
+        Elliptic asperities of several shapes, for laws with a ratio of radii; R is then R_g =
+        √(R′R″) of a class with radius 1.
+
+    Raises
+    ------
+    InvalidValue
+        A number outside its meaning, or both ``eta`` and ``eta_R_sigma``.
+
+    References
+    ----------
+    Nayak 1971, J. Lubr. Technol. 93, 398, doi:10.1115/1.3451608; McCool 1986, Wear 107, 37,
+    doi:10.1016/0043-1648(86)90045-1.
+
+    Examples
+    --------
+    >>> rough = Roughness(sigma=100e-9, R=2.8e-6)
+    >>> round(rough.sigma_s * 1e9, 3), round(rough.y_s / rough.sigma, 4)
+    (90.589, 1.0093)
+    """
+
+    sigma: float = quantity(
+        "σ", "m", "RMS of equivalent surface heights", gt=0, hint="nm are 100e-9 or '100 nm'"
+    )
+    R: float = quantity("R", "m", "mean asperity radius", gt=0, hint="µm are 2.8e-6 or '2.8 um'")
+    alpha: float = quantity("α", "1", "Nayak bandwidth", default=5.0, gt=1.5)
+    eta_R_sigma: float | None = quantity("ηRσ", "1", "product ηRσ", default=None, gt=0)
+    eta: float | None = quantity("η", "1/m^2", "asperity density", default=None, gt=0)
+    heights: Heights = field(default_factory=GaussianHeights)
+    ellipticity: Ellipticity | None = None
+
+    def _problems(self) -> list[str]:
+        if self.eta is not None and self.eta_R_sigma is not None:
+            return ["Roughness.eta and Roughness.eta_R_sigma say the same thing; give one of them"]
+        if not isinstance(self.heights, Heights):
+            return [f"Roughness.heights = {self.heights!r} must be a height distribution"]
+        if not isinstance(self.ellipticity, Ellipticity | None):
+            return [f"Roughness.ellipticity = {self.ellipticity!r} must be an Ellipticity or None"]
+        return []
+
+    @property
+    def density(self) -> float:
+        """Asperities per nominal area η [1/m²]."""
+        if self.eta is not None:
+            return self.eta
+        product = ETA_R_SIGMA if self.eta_R_sigma is None else self.eta_R_sigma
+        return product / (self.R * self.sigma)
+
+    @property
+    def sigma_s(self) -> float:
+        """Standard deviation of the asperity heights σ_s [m]."""
+        return self.sigma * (1 - 0.8968 / self.alpha) ** 0.5
+
+    @property
+    def y_s(self) -> float:
+        """Height of the mean asperity plane above the mean surface plane y_s [m]."""
+        return 4 * self.sigma / (math.pi * self.alpha) ** 0.5

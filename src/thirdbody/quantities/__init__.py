@@ -1,0 +1,1 @@
+"""Quantities: values with units, hardness scales, numbers in words, files."""

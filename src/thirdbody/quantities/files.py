@@ -1,0 +1,108 @@
+"""Output files appear whole or not at all: written beside their place, then renamed."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import InvalidValue
+
+__all__ = ["whole", "write_text"]
+
+
+@contextmanager
+def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """A temporary file to write, which takes the place of ``path`` when the block succeeds.
+
+    It lies in the same folder and ends in the same suffix. When the block fails, or is
+    interrupted, it is removed and an older ``path`` stays as it was. A link is followed; a
+    device or pipe is written directly.
+
+    Parameters
+    ----------
+    path : path-like
+        The file that shall appear.
+
+    Yields
+    ------
+    pathlib.Path
+        Where to write.
+
+    Raises
+    ------
+    InvalidValue
+        The folder does not exist, or the file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> place = Path(tempfile.mkdtemp()) / "numbers.csv"
+    >>> with whole(place) as draft:
+    ...     _ = draft.write_text("1,2")
+    >>> place.read_text()
+    '1,2'
+    """
+    target = Path(os.path.realpath(path))
+    if target.is_dir():
+        raise InvalidValue(f"cannot write {path}: it is a folder; give the name of a file")
+    if os.path.exists(path) and not os.path.isfile(path):
+        yield Path(path)
+        return
+    draft = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.part{target.suffix}")
+    try:
+        try:
+            draft.touch(exist_ok=False)
+        except OSError as error:
+            raise InvalidValue(f"cannot write {path}: {_why(error, target)}") from None
+        yield draft
+        with draft.open("rb+") as written:
+            os.fsync(written.fileno())
+        if target.exists():
+            draft.chmod(target.stat().st_mode & 0o777)
+        draft.replace(target)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def need_folders(*paths: str | os.PathLike[str] | None) -> None:
+    """Refuse files whose folder does not exist before long work is done for them.
+
+    Raises
+    ------
+    InvalidValue
+        As `whole` says it, a sentence a file.
+    """
+    targets = [(path, Path(os.path.realpath(path))) for path in paths if path is not None]
+    problems = [
+        f"cannot write {path}: {_why(FileNotFoundError(), target)}"
+        for path, target in targets
+        if not target.parent.is_dir()
+    ]
+    if problems:
+        raise InvalidValue(*problems)
+
+
+def write_text(path: str | os.PathLike[str], text: str) -> None:
+    """Write a text file in UTF-8, whole or not at all.
+
+    Raises
+    ------
+    InvalidValue
+        The file cannot be written.
+    """
+    with whole(path) as draft:
+        try:
+            draft.write_text(text, encoding="utf-8", newline="")
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            raise InvalidValue(f"cannot write {path}: {_why(error, draft)}") from None
+
+
+def _why(error: OSError, target: Path) -> str:
+    if isinstance(error, (FileNotFoundError, NotADirectoryError)):
+        return f"there is no folder {target.parent}; make it first"
+    return (error.strerror or str(error)).lower()

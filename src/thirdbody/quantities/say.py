@@ -1,0 +1,169 @@
+"""Numbers, units and lists in words: one home for every rounding that a reader sees.
+
+Data go out whole (JSON, CSV, files); these functions are for sentences, tables and labels.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+
+__all__ = [
+    "NOT_KNOWN",
+    "UNITS",
+    "listed",
+    "number",
+    "percent",
+    "plural",
+    "powers",
+    "signed",
+    "span",
+    "times",
+    "unit_of",
+    "value_of",
+]
+
+NOT_KNOWN = "not known"
+"""What stands for a number that is missing or not finite."""
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+PREFIXED = {
+    "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")),
+    "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
+}
+SMALLEST, LARGEST = 1e-11, 1e13
+"""Magnitudes between which units take a prefix."""
+UNITS = {
+    "um": "µm",
+    "1/m^2": "m⁻²",
+    "1/m": "m⁻¹",
+    "m^3": "m³",
+    "m^2": "m²",
+    "kg/m^3": "kg/m³",
+    "W/m^2": "W/m²",
+    "W/m/K": "W/(m K)",
+    "W/m^2/K": "W/(m² K)",
+    "J/kg/K": "J/(kg K)",
+    "J/m^2": "J/m²",
+    "ohm*m": "Ω m",
+    "ohm*m^2": "Ω m²",
+}
+"""Units that people read otherwise than a file writes them."""
+
+
+def powers(text: str) -> str:
+    """A text with its powers of ten as people write them.
+
+    >>> powers("F* = 1.2e-05")
+    'F* = 1.2×10⁻⁵'
+    """
+    return re.sub(
+        r"(?<=\d)e([+-]\d+)\b", lambda m: f"×10{str(int(m[1])).translate(SUPERSCRIPTS)}", text
+    )
+
+
+def unit_of(unit: str) -> str:
+    """A unit as people read it.
+
+    >>> unit_of("1/m^2"), unit_of("K"), unit_of("1")
+    ('m⁻²', 'K', '')
+    """
+    return "" if unit == "1" else UNITS.get(unit, unit)
+
+
+def number(value: float | None, digits: int = 4, *, least: float = 0.0) -> str:
+    """A number to so many digits; nobody reads those below ``least``.
+
+    >>> number(0.5), number(4.4676e-5), number(-0.0), number(math.nan), number(2e-12, least=1e-9)
+    ('0.5', '4.468×10⁻⁵', '0', 'not known', '< 1×10⁻⁹')
+    >>> number(-3.14159, 3)
+    '−3.14'
+    """
+    if value is None or not math.isfinite(value):
+        return NOT_KNOWN
+    if 0 < value < least:
+        return f"< {number(least)}"
+    text = f"{abs(value):.{digits}g}"
+    return f"{'−' if value < 0 else ''}{powers(text)}"
+
+
+def value_of(value: float | None, unit: str, digits: int = 4) -> str:
+    """A number with its unit, metres and pascals with a prefix.
+
+    >>> value_of(3e-7, "m"), value_of(5e6, "Pa"), value_of(1e11, "1/m^2"), value_of(0.3, "1")
+    ('300 nm', '5 MPa', '1×10¹¹ m⁻²', '0.3')
+    >>> value_of(0.999996e-6, "m"), value_of(1e-13, "m"), value_of(None, "m")
+    ('1 µm', '1×10⁻¹³ m', 'not known')
+    """
+    if value is None or not math.isfinite(value):
+        return NOT_KNOWN
+    size, name = 1.0, unit_of(unit)
+    if unit in PREFIXED and (value == 0 or SMALLEST < abs(value) < LARGEST):
+        rounded = abs(float(f"{value:.{digits}g}")) * (1 + 1e-9)
+        fitting = (pair for pair in PREFIXED[unit] if rounded >= pair[0])
+        size, name = next(fitting, PREFIXED[unit][-1])
+    return f"{number(value / size, digits)} {name}".rstrip()
+
+
+def percent(value: float | None, error: float = 0.0, *, digits: int = 3, least: float = 0.0) -> str:
+    """A share, with its error where it has one; finer near the whole.
+
+    >>> percent(0.1234), percent(0.99996), percent(1), percent(0.3, 0.02), percent(None)
+    ('12.3 %', '99.996 %', '100 %', '30 % (± 2 %)', 'not known')
+    >>> percent(1e-8, least=1e-6), percent(0.1234, digits=2)
+    ('< 0.0001 %', '12 %')
+    """
+    if value is None or not math.isfinite(value):
+        return NOT_KNOWN
+    if 0 < value < least:
+        return f"< {percent(least)}"
+    near = 1 - 0.5 * 10.0**-digits <= value and value != 1
+    text = f"{number(100 * value, digits + 2 if near else digits)} %"
+    return f"{text} (± {number(100 * error, 1)} %)" if error > 0 else text
+
+
+def signed(value: float | None, decimals: int, unit: str = "") -> str:
+    """A difference, always with its sign.
+
+    >>> signed(3.14, 1, "%"), signed(-0.5, 3), signed(-1e-9, 1)
+    ('+3.1 %', '−0.500', '+0.0')
+    """
+    if value is None or not math.isfinite(value):
+        return NOT_KNOWN
+    return f"{value:+z.{decimals}f} {unit}".rstrip().replace("-", "−")
+
+
+def times(value: float | None) -> str:
+    """A ratio.
+
+    >>> times(2.5)
+    '2.5 times'
+    """
+    return NOT_KNOWN if value is None else f"{number(value, 3)} times"
+
+
+def span(low: float | None, high: float | None, unit: str) -> str:
+    """From where to where.
+
+    >>> span(80e-9, 1.2e-6, "m")
+    '80 nm to 1.2 µm'
+    """
+    return f"{value_of(low, unit)} to {value_of(high, unit)}"
+
+
+def listed(names: Sequence[str]) -> str:
+    """Words with "and" before the last.
+
+    >>> listed(["a", "b", "c"]), listed(["a"])
+    ('a, b and c', 'a')
+    """
+    return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))
+
+
+def plural(count: int, word: str) -> str:
+    """How many of something.
+
+    >>> plural(1, "load"), plural(3, "load")
+    ('1 load', '3 loads')
+    """
+    return f"{count} {word}{'' if count == 1 else 's'}"

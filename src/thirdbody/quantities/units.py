@@ -1,0 +1,277 @@
+"""Numbers with a unit, as a user writes them: "300 nm", "5 GPa", "1e11 / m^2".
+
+Everything else in the library is a plain number in SI; strings are read here and nowhere else.
+The unit registry (pint) is loaded with the first unit that is not among the usual ones.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import cache
+from typing import Any, NoReturn
+
+from ..errors import InvalidValue
+
+__all__ = ["EXAMPLES", "quantity_to_si", "say", "to_si"]
+
+EXAMPLES = {
+    "m": '"300 nm"',
+    "Pa": '"5 GPa"',
+    "1/m^2": '"1e11 / m^2"',
+    "J/m^2": '"50 mJ/m^2"',
+    "kg/m^3": '"7800 kg/m^3"',
+    "W/m/K": '"46 W/m/K"',
+    "J/kg/K": '"460 J/kg/K"',
+    "ohm*m": '"2e-7 ohm*m"',
+    "N": '"20 N"',
+    "m/s": '"0.5 m/s"',
+    "Pa s": '"20 mPa s"',
+    "1/Pa": '"20 / GPa"',
+    "1": "0.5",
+}
+"""How a value in each of the library's units may be written."""
+
+_KINDS = {
+    "": "a pure number",
+    "m": "a length",
+    "Pa": "a pressure",
+    "1/m**2": "a number per area",
+    "1/m**3": "a number per volume",
+    "1/m": "a number per length",
+    "m**2": "an area",
+    "m**3": "a volume",
+    "N": "a force",
+    "N/m": "a force per length",
+    "J/m**2": "an energy per area",
+    "kg": "a mass",
+    "kg/m**3": "a mass density",
+    "kg/m**2": "a mass per area",
+    "mol/m**3": "a molar concentration",
+    "s": "a time",
+    "m/s": "a speed",
+    "K": "a temperature",
+    "W/m/K": "a thermal conductivity",
+    "J/kg/K": "a specific heat",
+    "ohm*m": "an electrical resistivity",
+    "J": "an energy",
+    "rad/s": "a rate",
+    "Pa*s": "a viscosity",
+    "Pa s": "a viscosity",
+    "1/Pa": "one over a pressure",
+    "A": "an electric current (angstrom is written angstrom)",
+}
+_USUAL = ("nm", "um", "µm", "mm", "m", "angstrom", "Pa", "kPa", "MPa", "GPa", "bar", "psi")
+
+_POWERS = {
+    "m": {"nm": -9, "um": -6, "µm": -6, "mm": -3, "m": 0},
+    "Pa": {"Pa": 0, "kPa": 3, "MPa": 6, "GPa": 9},
+    "1/m^2": {"1/m^2": 0, "/ m^2": 0},
+    "N": {"N": 0, "kN": 3},
+    "m/s": {"mm/s": -3, "m/s": 0},
+}
+"""The usual units as powers of ten of those that are needed: the registry takes half a second."""
+
+_NUMBER = re.compile(
+    r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?(?:infinity|inf|nan)\b", re.IGNORECASE
+)
+_FACTOR = re.compile(
+    r"\s*(?P<sign>[*/·×]?)\s*(?P<name>[^\W\d_]+|%|1)(?:(?:\s*(?:\^|\*\*)\s*)?(?P<power>-?\d\d?))?"
+)
+_HARDNESS = re.compile(
+    r"(?P<number>[^\s\d]*[\d.,]+(?:[eE][+-]?\d+)?)\s*(?P<scale>H(?:V|BW?|BS|RC|K))(?:\s*[\d.]+)?"
+)
+"""A hardness number, as "700 HV", "700 HV10", "62 HRC"; the test load behind it is not used."""
+_SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+
+
+def to_si(value: Any, unit: str) -> float:
+    """One number in SI from a plain number or a string with a unit.
+
+    Parameters
+    ----------
+    value : float or str
+        A plain number is taken as SI already.
+    unit : str
+        The SI unit that is needed: "m", "Pa", "1/m^2", or "1" for a pure number.
+
+    Returns
+    -------
+    float
+        The value in ``unit``; NaN and infinity pass, whoever knows the range refuses them.
+
+    Raises
+    ------
+    InvalidValue
+        One sentence that begins with the value: no number, unknown unit, wrong dimension.
+
+    Examples
+    --------
+    >>> to_si("300 nm", "m"), to_si("5 GPa", "Pa"), to_si("1e11 / m^2", "1/m^2"), to_si(0.3, "1")
+    (3e-07, 5000000000.0, 100000000000.0, 0.3)
+    >>> to_si("300 GPa", "m")
+    Traceback (most recent call last):
+    ...
+    thirdbody.errors.InvalidValue: "300 GPa" is a pressure, but a length [m] is needed...
+    """
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        try:
+            return float(value)
+        except OverflowError:
+            return math.inf
+    if not isinstance(value, str):
+        return _refuse(f"{say(value)} must be {_needed(unit)}")
+    text = value.strip()
+    shown = say(value)
+    number = _NUMBER.match(text)
+    if number is None:
+        return _refuse(f"{shown} has no number in front; it must be {_needed(unit)}")
+    rest = text[number.end() :].strip()
+    if re.match(r",\d", rest):
+        return _refuse(f"{shown} has a decimal comma; write a point: {shown.replace(',', '.')}")
+    if not rest:
+        return float(number.group())
+    power = _POWERS.get(unit, {}).get(rest)
+    if power is not None and math.isfinite(float(number.group())):
+        return _shifted(number.group(), power)
+    return _scaled(number.group(), _normal(rest, shown, unit), shown, unit)
+
+
+def quantity_to_si(value: Any, about: Mapping[str, Any]) -> float:
+    """One number in SI for a quantity; a hardness may be a number on a hardness scale.
+
+    Parameters
+    ----------
+    value : float or str
+        As for `to_si`; where a hardness [Pa] is needed also "700 HV", "62 HRC", "200 HB",
+        "870 HK": the mean pressure on the projected area
+        (`thirdbody.quantities.hardness.pressure`).
+    about : mapping
+        What `thirdbody.quantities.value.quantity` says of the quantity: its unit and meaning.
+
+    Returns
+    -------
+    float
+        The value in SI.
+
+    Raises
+    ------
+    InvalidValue
+        One sentence that begins with the value.
+
+    Examples
+    --------
+    >>> H = {"unit": "Pa", "meaning": "hardness"}
+    >>> quantity_to_si("5 GPa", H), round(quantity_to_si("62 HRC", H) / 1e9, 2)
+    (5000000000.0, 7.89)
+    """
+    wanted = about["unit"] == "Pa" and about["meaning"].startswith("hardness")
+    match = _HARDNESS.fullmatch(value.strip()) if wanted and isinstance(value, str) else None
+    if match is None:
+        return to_si(value, about["unit"])
+    from .hardness import pressure
+
+    try:
+        return pressure(to_si(match["number"], "1"), match["scale"])
+    except InvalidValue as error:
+        told = str(error)
+        return _refuse(told if told.startswith('"') else f"{say(value)} cannot be used: {told}")
+
+
+def _refuse(sentence: str) -> NoReturn:
+    raise InvalidValue(sentence)
+
+
+def say(value: Any) -> str:
+    """A value as it stands in a study file, shortened if long."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value if len(value) <= 60 else value[:57] + "..."}"'
+    if isinstance(value, dict):
+        value = "{ " + ", ".join(f"{key} = {say(item)}" for key, item in value.items()) + " }"
+    elif isinstance(value, (list, tuple)):
+        value = "[" + ", ".join(say(item) for item in value) + "]"
+    text = str(value)
+    return text if len(text) <= 80 else text[:76] + " ..."
+
+
+def _needed(unit: str) -> str:
+    kind = _KINDS.get("" if unit == "1" else unit.replace("^", "**"), "a quantity")
+    if unit == "1":
+        return f"{kind}, e.g. {EXAMPLES['1']}"
+    return f"{kind}: a number in SI [{unit}] or with a unit, e.g. {EXAMPLES.get(unit, unit)}"
+
+
+def _normal(rest: str, shown: str, unit: str) -> str:
+    """The unit in the one spelling that the registry reads; nothing else gets through."""
+    rest = re.sub(r"\bparticles?\b", "count", rest.translate(_SUPERSCRIPTS))
+    out, at = "1", 0
+    while at < len(rest):
+        factor = _FACTOR.match(rest, at)
+        if factor is None or len(rest) > 60:
+            _refuse(f"{shown} cannot be read; it must be {_needed(unit)}")
+        sign, name, power = factor["sign"], factor["name"], factor["power"]
+        out += f" {'/' if sign == '/' else '*'} {'percent' if name == '%' else name}"
+        out += f"**({power})" if power else ""
+        at = factor.end()
+    return out
+
+
+def _shifted(number: str, power: int) -> float:
+    """The number times a power of ten: "300 nm" is the double 300e-9, not 300 * 1e-9."""
+    return float(Fraction(number) * Fraction(10) ** power)
+
+
+@cache
+def _registry() -> Any:
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def _scaled(number: str, body: str, shown: str, unit: str) -> float:
+    registry = _registry()
+    wanted = "" if unit == "1" else unit.replace("^", "**")
+    try:
+        found = registry.parse_units(body)
+    except Exception:
+        return _refuse(_unknown(body, shown, unit))
+    if found.dimensionality == registry.parse_units(wanted).dimensionality:
+        factor = registry.convert(1.0, found, wanted)
+        exponent = round(math.log10(factor)) if factor > 0 else 0
+        if math.isfinite(float(number)) and math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
+            return _shifted(number, exponent)
+        return float(number) * factor
+    kinds = (
+        name
+        for kind, name in _KINDS.items()
+        if registry.parse_units(kind).dimensionality == found.dimensionality
+    )
+    kind = next(kinds, f"in {registry.get_base_units(found)[1]:~C}")
+    if unit == "1":
+        return _refuse(f"{shown} is {kind}, but a pure number is needed, e.g. {EXAMPLES['1']}")
+    return _refuse(
+        f"{shown} is {kind}, but {_KINDS.get(wanted, 'a quantity')} [{unit}] is needed, "
+        f"e.g. {EXAMPLES.get(unit, unit)}"
+    )
+
+
+def _unknown(body: str, shown: str, unit: str) -> str:
+    registry = _registry()
+    for word in re.findall(r"[^\W\d_]+", body):
+        if word in registry:
+            continue
+        if word in ("HV", "HB", "HK"):
+            return (
+                f"{shown} is a hardness number, not a pressure; one unit of {word} is 1 kgf/mm^2, "
+                f"so write {shown.replace(word, 'kgf/mm^2')}"
+            )
+        folded = {name.lower(): name for name in reversed(_USUAL)}
+        near = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.7)
+        guess = f"did you mean {folded[near[0]]}?" if near else f"it must be {_needed(unit)}"
+        return f"{shown} has the unit {word}, which is not known (case matters); {guess}"
+    return f"{shown} has a unit that cannot be read; it must be {_needed(unit)}"

@@ -1,0 +1,370 @@
+"""Value objects: what a user builds is frozen, checked once, comparable, and has a JSON round trip.
+
+Each physical field is declared with `quantity`, which keeps symbol, unit, meaning and the
+allowed range beside the field: constructor checks, study files and the documentation read
+the same declaration.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import types
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import MISSING, field
+from functools import cache
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+from ..errors import InvalidValue, NotCompiled, RangeWarning
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from .notebook import Row
+
+__all__ = ["Value", "choice", "quantity"]
+
+
+def quantity(
+    symbol: str,
+    unit: str,
+    meaning: str,
+    *,
+    default: Any = MISSING,
+    gt: float | None = None,
+    ge: float | None = None,
+    lt: float | None = None,
+    le: float | None = None,
+    hint: str = "",
+    usual: float | None = None,
+) -> Any:
+    """A dataclass field that holds one finite number in SI.
+
+    Parameters
+    ----------
+    symbol, unit, meaning : str
+        As in the nomenclature; ``unit`` is "1" for a pure number.
+    default : float or None, optional
+        None makes the field optional.
+    gt, ge, lt, le : float, optional
+        Allowed range.
+    hint : str, optional
+        The likely cause of a mistake, appended to the message.
+    usual : float, optional
+        Lengths up to it are no slip; `USUAL_LENGTH` by default.
+    """
+    about = dict(symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint)
+    if usual is not None:
+        about["usual"] = usual
+    return field(default=default, metadata={"quantity": about})
+
+
+def choice(meaning: str, *options: str, default: str) -> Any:
+    """A dataclass field that holds one of a few words."""
+    return field(default=default, metadata={"choice": {"meaning": meaning, "options": options}})
+
+
+def allowed_range(about: dict[str, Any]) -> str:
+    """The allowed range of a quantity in words, e.g. ``"must be > 0 [Pa]"``."""
+    limits = [
+        f"{sign} {about[key]:g}"
+        for key, sign in (("gt", ">"), ("ge", ">="), ("lt", "<"), ("le", "<="))
+        if about[key] is not None
+    ]
+    text = " and ".join(limits) if limits else "a finite number"
+    unit = "" if about["unit"] == "1" else f" [{about['unit']}]"
+    return f"must be {text}{unit}"
+
+
+def problem_with(about: dict[str, Any], value: Any) -> str | None:
+    """Why ``value`` cannot stand for this quantity, or None when it can."""
+    if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
+        return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return f"must be one number in SI units [{about['unit']}]"
+    outside = (
+        not math.isfinite(number)
+        or (about["gt"] is not None and not number > about["gt"])
+        or (about["ge"] is not None and not number >= about["ge"])
+        or (about["lt"] is not None and not number < about["lt"])
+        or (about["le"] is not None and not number <= about["le"])
+    )
+    if not outside:
+        return None
+    return allowed_range(about) + (f"; {about['hint']}" if about["hint"] else "")
+
+
+USUAL_LENGTH, USUAL_STRESS = 0.01, 1e5
+"""What lies in an interface is shorter [m], and what holds it is stiffer [Pa]."""
+
+
+def unit_meant(about: Mapping[str, Any], number: float) -> str | None:
+    """The unit that was probably forgotten, where a number in SI is allowed but looks like a slip.
+
+    Lengths of 1 cm and more, and moduli, hardnesses and stresses below 0.1 MPa.
+    """
+    usual = about.get("usual") or USUAL_LENGTH
+    if about["unit"] == "m" and abs(number) >= usual:
+        return "mm" if usual >= 1 else "nm" if abs(number) >= 10 else "um"
+    return "GPa" if about["unit"] == "Pa" and 0 < number < USUAL_STRESS else None
+
+
+_told: ContextVar[bool] = ContextVar("_told", default=False)
+
+
+@contextmanager
+def slips_are_told() -> Iterator[None]:
+    """No warning of numbers that look like a slip: who reads them tells of them himself."""
+    token = _told.set(True)
+    try:
+        yield
+    finally:
+        _told.reset(token)
+
+
+def warn_of_slip(where: str, about: Mapping[str, Any], number: float, *, stacklevel: int) -> None:
+    """Warn of a number that looks like a forgotten unit."""
+    if not _told.get() and (meant := unit_meant(about, number)):
+        warnings.warn(
+            f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI; was "
+            f"{number:g} {meant} meant?",
+            RangeWarning,
+            stacklevel=stacklevel + 1,
+        )
+
+
+def warn_of_slips(value: Value, *, stacklevel: int, prefix: str = "") -> None:
+    """Warn of every number of a value, and of the values in it, that looks like a slip."""
+    for item in dataclasses.fields(value):  # type: ignore[arg-type]
+        part = getattr(value, item.name)
+        where = prefix + item.name
+        if (about := item.metadata.get("quantity")) and part is not None:
+            warn_of_slip(where, about, part, stacklevel=stacklevel + 1)
+        for name, inner in _values_in(where, part):
+            warn_of_slips(inner, stacklevel=stacklevel + 1, prefix=f"{name}.")
+
+
+def _values_in(name: str, part: Any) -> Iterator[tuple[str, Value]]:
+    """The values in a field, by dotted names."""
+    if isinstance(part, Value):
+        yield name, part
+    elif isinstance(part, tuple):
+        yield from ((f"{name}.{i}", each) for i, each in enumerate(part) if isinstance(each, Value))
+
+
+class Value:
+    """Base class of the frozen, slotted, keyword-only dataclasses a user builds."""
+
+    __slots__ = ()
+    _classes: ClassVar[dict[str, type[Value]]] = {}
+
+    def __init_subclass__(cls, *, stand_in: bool = False, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        if not stand_in:
+            Value._classes[cls.__name__] = cls
+
+    def __post_init__(self) -> None:
+        problems: list[str] = []
+        for item in dataclasses.fields(self):  # type: ignore[arg-type]
+            value = getattr(self, item.name)
+            where = f"{type(self).__name__}.{item.name} = {value!r}"
+            if about := item.metadata.get("quantity"):
+                if value is None and item.default is None:
+                    continue
+                if why := problem_with(about, value):
+                    problems.append(f"{where} {why}")
+                else:
+                    object.__setattr__(self, item.name, float(value))
+            elif (about := item.metadata.get("choice")) and value not in about["options"]:
+                options = ", ".join(repr(option) for option in about["options"])
+                problems.append(f"{where} must be one of {options}")
+        if not problems:
+            problems = self._problems()
+        if problems:
+            raise InvalidValue(*problems)
+
+    def _problems(self) -> list[str]:
+        """Mistakes that concern several fields at once; subclasses override."""
+        return []
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: symbol, value with unit, and words of every field."""
+        from .notebook import card
+
+        return card(type(self).__name__, _rows(self))
+
+    def replace(self, **changes: Any) -> Self:
+        """A copy with some fields changed; dots reach inside: ``**{"diameter.mean": 1e-7}``."""
+        now: dict[str, Any] = {}
+        inner: dict[str, dict[str, Any]] = {}
+        names = {item.name for item in dataclasses.fields(self)}  # type: ignore[arg-type]
+        for key, value in changes.items():
+            head, _, rest = key.partition(".")
+            if head not in names:
+                known = ", ".join(sorted(names))
+                raise InvalidValue(f"{type(self).__name__} has no field {head!r}; it has {known}")
+            if rest:
+                inner.setdefault(head, {})[rest] = value
+            else:
+                now[head] = value
+        for head, deeper in inner.items():
+            where, part = f"{type(self).__name__}.{head}", now.get(head, getattr(self, head))
+            now[head] = _replaced(where, part, deeper)
+        return dataclasses.replace(self, **now)  # type: ignore[type-var]
+
+    def part(self, path: str) -> Any:
+        """What a dotted name stands for: a field, or an item of a tuple by place or name."""
+        where: Any = self
+        for step in filter(None, path.split(".")):
+            if isinstance(where, tuple):
+                where = where[_index(path, list(where), step)]
+            elif isinstance(where, Value) and hasattr(where, step):
+                where = getattr(where, step)
+            else:
+                raise InvalidValue(f"{type(self).__name__} has no {path!r}")
+        return where
+
+    def with_arrays(self, changes: Mapping[str, NDArray[np.float64]]) -> Self:
+        """A stand-in that holds an array (N,) in some of its quantities, one value a state.
+
+        Properties that are plain formulas then give arrays. It is no value: it has no hash and
+        equals itself alone, so that no cache takes it. Values are checked against the range
+        of their quantity; what concerns several fields at once is left to the caller.
+
+        Parameters
+        ----------
+        changes : mapping
+            Dotted names of quantities and their values.
+
+        Raises
+        ------
+        InvalidValue
+            A name that is no field, or values outside their range.
+        NotCompiled
+            A field that is not a quantity.
+        """
+        fields = {item.name: item for item in dataclasses.fields(self)}  # type: ignore[arg-type]
+        now: dict[str, Any] = {}
+        inner: dict[str, dict[str, Any]] = {}
+        for key, values in changes.items():
+            head, _, rest = key.partition(".")
+            if head not in fields:
+                known = ", ".join(sorted(fields))
+                raise InvalidValue(f"{type(self).__name__} has no field {head!r}; it has {known}")
+            if rest:
+                inner.setdefault(head, {})[rest] = values
+                continue
+            about = fields[head].metadata.get("quantity")
+            if about is None:
+                raise NotCompiled(f"{type(self).__name__}.{head} is not a quantity")
+            for extreme in (float(values.min()), float(values.max())):
+                if why := problem_with(about, extreme):
+                    raise InvalidValue(f"{type(self).__name__}.{head} = {extreme!r} {why}")
+            now[head] = values
+        for head, deeper in inner.items():
+            part = getattr(self, head)
+            if not isinstance(part, Value):
+                raise NotCompiled(f"{type(self).__name__}.{head} has no fields of its own")
+            now[head] = part.with_arrays(deeper)
+        out = object.__new__(_stand_in(type(self)))  # type: ignore[arg-type]
+        for name in fields:
+            object.__setattr__(out, name, now.get(name, getattr(self, name)))
+        return out
+
+    def to_dict(self) -> dict[str, Any]:
+        """Every field in SI, ready for JSON; ``type`` names the class."""
+        out: dict[str, Any] = {"type": type(self).__name__}
+        for item in dataclasses.fields(self):  # type: ignore[arg-type]
+            out[item.name] = _plain(getattr(self, item.name))
+        return out
+
+    @staticmethod
+    def from_dict(data: dict[str, Any]) -> Any:
+        """The inverse of `to_dict`."""
+        kind = data.get("type")
+        if kind not in Value._classes:
+            raise InvalidValue(f"type = {kind!r} is not a class of this library")
+        return Value._classes[kind](**{k: _revive(v) for k, v in data.items() if k != "type"})
+
+
+def _rows(value: Value) -> Iterator[Row]:
+    """Fields of a value, those of the values in it below a heading each."""
+    from .notebook import Row, words_of
+
+    inner: list[tuple[str, Value]] = []
+    for item in dataclasses.fields(value):  # type: ignore[arg-type]
+        part = getattr(value, item.name)
+        if found := list(_values_in(item.name, part)):
+            inner += found
+        elif part is None or (isinstance(part, (str, tuple)) and not part):
+            continue
+        elif about := item.metadata.get("quantity"):
+            yield Row(about["symbol"], [words_of(part, about["unit"])], about["meaning"])
+        else:
+            meaning = item.metadata.get("choice", {}).get("meaning", "")
+            yield Row(item.name, [words_of(part)], meaning)
+    for name, part in inner:
+        yield Row(name, [], type(part).__name__)
+        yield from (
+            row if row.values else row._replace(symbol=f"{name}.{row.symbol}")
+            for row in _rows(part)
+        )
+
+
+@cache
+def _stand_in(kind: type[Value]) -> type[Any]:
+    """The class of stand-ins of a class: all of it but its equality and its hash."""
+    body = {"__slots__": (), "__eq__": object.__eq__, "__hash__": None}
+    name = f"{kind.__name__}OfArrays"
+    return types.new_class(name, (kind,), {"stand_in": True}, lambda space: space.update(body))
+
+
+def _replaced(where: str, part: Any, changes: dict[str, Any]) -> Any:
+    """A value, or a tuple of them with the number of the one before the dot, with changes."""
+    if isinstance(part, Value):
+        return part.replace(**changes)
+    if not isinstance(part, tuple):
+        raise InvalidValue(f"{where} has no fields of its own")
+    items = list(part)
+    inner: dict[int, dict[str, Any]] = {}
+    for key, value in changes.items():
+        which, _, rest = key.partition(".")
+        inner.setdefault(_index(where, items, which), {})[rest] = value
+    for index, deeper in inner.items():
+        items[index] = _replaced(f"{where}.{index}", items[index], deeper)
+    return tuple(items)
+
+
+def _index(where: str, items: list[Any], which: str) -> int:
+    """Place of an item by its number or its name."""
+    names = [getattr(item, "name", "") for item in items]
+    if which.isdecimal() and int(which) < len(items):
+        return int(which)
+    if which in names:
+        return names.index(which)
+    known = ", ".join([*map(str, range(len(items))), *filter(None, names)]) or "none"
+    raise InvalidValue(
+        f"{where} holds {len(items)} values and no {which!r}; name one by place or name: {known}"
+    )
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Value):
+        return value.to_dict()
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    return value
+
+
+def _revive(value: Any) -> Any:
+    if isinstance(value, dict):
+        return Value.from_dict(value)
+    if isinstance(value, list):
+        return tuple(_revive(item) for item in value)
+    return value

@@ -1,0 +1,94 @@
+"""What a study file asks beside its states: assessment and design."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ..analysis.assess import assess
+from ..analysis.assessment import Assessment
+from ..analysis.inputs import inputs as all_inputs
+from ..analysis.uncertainty.inputs import library_ranges
+from ..errors import InvalidValue
+from ..numerics.sampling import Span
+from .amounts import is_span
+
+if TYPE_CHECKING:
+    from ..analysis.design.design import Best
+    from .whole import Study
+
+__all__ = ["assess_study", "design_study"]
+
+
+def assess_study(study: Study) -> Assessment:
+    """The page of a study file: its load, and its table [uncertainty]; raises as `assess`."""
+    if study.load == "separation":
+        raise InvalidValue(
+            "load.separation: an assessment needs the operating load; give load.pressure or "
+            "load.F_star instead"
+        )
+    if len(study.values) != 1:
+        raise InvalidValue(
+            f"load.{study.load} has {len(study.values)} values, and an assessment is of one "
+            'operating load; choose it, e.g. --set load.pressure="5 MPa"'
+        )
+    asked = study.uncertainty
+    value: dict[str, Any] = {study.load: float(study.values[0])}
+    if asked is None:
+        if not library_ranges(study.contact):
+            raise InvalidValue(
+                "there is no table [uncertainty], and the materials library states no ranges for "
+                f"these bodies; say what is known of {', '.join(all_inputs(study.contact))}, e.g. "
+                '[uncertainty.inputs] roughness.sigma = { low = "80 nm", high = "120 nm" }'
+            )
+        return assess(study.contact, title=study.title, **value)
+    return assess(
+        study.contact,
+        vary=asked.inputs,
+        samples=asked.samples,
+        seed=asked.seed,
+        title=study.title,
+        **value,
+    )
+
+
+# -------------------------------------------------------------------------- the answer
+def design_study(study: Study, *, progress: bool = False) -> Best:
+    """The best inputs that a study file asks for.
+
+    Parameters
+    ----------
+    study : Study
+        With a table [design].
+    progress : bool, optional
+        Shows a bar on standard error.
+
+    Raises
+    ------
+    InvalidValue
+        There is no table [design], or what it asks does not fit the contact.
+    """
+    from ..analysis.design.design import design as search
+
+    return search(study.contact, **arguments(study), progress=progress)
+
+
+def arguments(study: Study) -> dict[str, Any]:
+    """The arguments of `thirdbody.design` beside the contact."""
+    if study.design is None:
+        raise InvalidValue(
+            "the study has no table [design]: it says what may be chosen and what is good, e.g. "
+            '[design] objective = { of = "A_t" }, [design.vary] "roughness.sigma" = '
+            '{ low = "50 nm", high = "200 nm" }'
+        )
+    given = dict(study.design)
+    if given.pop("scatter", False) and study.uncertainty is not None:
+        given["scatter"] = study.uncertainty.inputs
+    names = [name for name in ("F_star", "pressure") if name in given]
+    if not names:
+        if study.load == "separation":
+            raise InvalidValue("design needs a load: [load] gives a separation")
+        given[study.load] = study.values
+    for name in names:
+        if is_span(given[name]):
+            given[name] = Span(given[name]["low"], given[name]["high"], given[name]["scale"])
+    return given

@@ -1,0 +1,1 @@
+"""Systems around a contact: films, oil, bodies, waves, bearings."""

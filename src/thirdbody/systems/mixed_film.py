@@ -1,0 +1,556 @@
+r"""Mixed lubrication: a film, asperities and particles carry one load together.
+
+Johnson, Greenwood and Poon: the film carries the part 1/γ of the load, as if load and modulus were
+γ times smaller, and its volume sets the mean gap between the rough surfaces; the solids carry the
+rest at that gap.
+
+.. math::
+
+    p_{ss}(h) + p_{sa}(h) = \bar p\,(1 - 1/\gamma), \qquad
+    h_T = h_c(w/\gamma, E'/\gamma) = \sigma[\varphi(t) + t\,\Phi(t)], \quad t = h/\sigma
+
+In the elastic-piezoviscous limit h_c does not depend on γ: the film sets the gap whoever carries
+the load. Particles then add contacts; in a dry contact, where the load sets the gap, they lift the
+surfaces instead.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy import special
+
+from ..contact.contact import Contact
+from ..contact.interface import interface
+from ..equilibrium.columns import Equilibrium
+from ..equilibrium.load_scan import load_scan
+from ..equilibrium.solve import solve
+from ..errors import InvalidValue, NoEquilibrium, RangeWarning
+from ..populations.heights import GaussianHeights, Heights
+from .film_formulas import AbstractFilm, Line, Oil, Point, full_range
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+    Number = float | Array
+
+__all__ = ["MixedFilm", "height_of", "mean_gap", "mixed_film"]
+
+BOUNDARY, MIXED, FULL = "boundary", "mixed", "full film"
+FEW, MOST = 0.01, 0.99
+"""Default shares of the solids below which a film is full, and above which it is boundary."""
+STEPS = 70
+"""Halvings of the bracket of ln γ."""
+LONGEST = 96.0
+"""Largest ln γ searched: beyond, the film carries nothing."""
+DEEPEST = -4.0
+"""Lowest separation from the mean asperity height at which solids are evaluated, in σ."""
+
+
+def mean_gap(h: ArrayLike, sigma: float) -> Array:
+    r"""Mean gap of a rough surface against a plane at height h: :math:`\sigma[\varphi+t\Phi]`.
+
+    Parameters
+    ----------
+    h : float or array
+        Height above the mean plane [m].
+    sigma : float
+        RMS height of the equivalent Gaussian surface [m].
+
+    Returns
+    -------
+    array
+        :math:`h_T = \int_{-\infty}^h (h-z)\,p(z)\,dz` [m].
+
+    Examples
+    --------
+    >>> round(float(mean_gap(1.0, 1.0)), 6)
+    1.083315
+    """
+    t = np.asarray(h, float) / sigma
+    return sigma * _gap(t)
+
+
+def _gap(t: Array) -> Array:
+    """φ(t) + tΦ(t)."""
+    return np.exp(-0.5 * t * t) / math.sqrt(2 * math.pi) + t * special.ndtr(t)
+
+
+def height_of(gap: ArrayLike, sigma: float) -> Array:
+    r"""Height above the mean plane at which a rough surface has this mean gap.
+
+    .. math:: \sigma[\varphi(t) + t\,\Phi(t)] = h_T, \qquad h = \sigma t
+
+    The inverse of `mean_gap`; relative error 1e-13 for gaps from 1e-6 to 1e6 σ.
+
+    Parameters
+    ----------
+    gap : float or array
+        Mean gap h_T [m], > 0.
+    sigma : float
+        RMS height σ of the equivalent Gaussian surface [m].
+
+    Returns
+    -------
+    array
+        h [m].
+
+    Examples
+    --------
+    >>> float(height_of(mean_gap(63e-9, 100e-9), 100e-9)).__round__(15)
+    6.3e-08
+    """
+    y = np.asarray(gap, float) / sigma
+    t = np.where(y > 1, y, np.minimum(y, 0.0))
+    for _ in range(60):
+        # ln(φ + tΦ) is concave: Newton's steps are monotone from the second on
+        value = _gap(t)
+        step = np.log(value / y) * value / special.ndtr(t)
+        t = t - step
+        if np.all(np.abs(step) <= 1e-15 * (1 + np.abs(t))):
+            break
+    return sigma * t
+
+
+def _column(symbol: str, unit: str, meaning: str) -> Any:
+    return field(metadata={"symbol": symbol, "unit": unit, "meaning": meaning})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MixedFilm:
+    r"""A lubricated contact with particles: floats for one speed and load, arrays (N,) for several.
+
+    .. math:: \frac1\gamma + \frac{F_{ss}}{F} + \frac{F_{sa}}{F} = 1, \qquad
+              \mu = \mu_f + \mu_{ss} + \mu_{sa}
+
+    Tractions are NaN unless the oil has an Eyring stress, the contact carries `outputs.Friction`,
+    and sliding is given.
+
+    Attributes
+    ----------
+    speed, load : float or array (N,)
+        Mean entrainment speed u [m/s] and load w [N].
+    pressure : float or array (N,)
+        Nominal pressure of film and solids, that of the dry smooth bodies [Pa].
+    h, h_T, h_smooth : float or array (N,)
+        Separation from the mean surface plane h [m]; mean gap, which is the film thickness,
+        h_T [m]; film thickness of smooth bodies under the whole load h_c [m].
+    lambda_ratio, H, h_over_x : float or array (N,)
+        h_T/σ, h/σ, and h over the largest mean diameter [1]; the last is NaN without particles.
+    gamma : float or array (N,)
+        Load over load on the film γ [1].
+    film_share, ss_share, sa_share : float or array (N,)
+        Shares of the load on film, asperities and particles [1].
+    A_t, A_ss, A_sa : float or array (N,)
+        Real area of solids, of asperities, of particles on surface 1, per nominal area [1].
+    mu, mu_film, mu_ss, mu_sa : float or array (N,)
+        Traction coefficient and its parts [1].
+    viscosity : float or array (N,)
+        η at the pressure of the film [Pa s].
+    regime : str or array (N,)
+        "boundary", "mixed" or "full film", by the share of the solids.
+    residual : float or array (N,)
+        Imbalance of the shares |1 − their sum| [1].
+    state : Equilibrium
+        The dry side: the contact at the same separation.
+    warnings : tuple of str
+        Where the model is extrapolated.
+
+    Examples
+    --------
+    >>> import warnings; warnings.simplefilter("ignore")
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> found = mixed_film(contact, conjunction=tb.films.Point(R=9.5e-3), load=20.0, speed=0.5,
+    ...                    oil=tb.films.Oil(eta=0.02, alpha=2e-8))
+    >>> found.regime, round(found.film_share + found.solid_share, 12)
+    ('mixed', 1.0)
+    """
+
+    speed: Number = _column("u", "m/s", "mean entrainment speed")
+    load: Number = _column("w", "N", "load")
+    pressure: Number = _column("p", "Pa", "nominal pressure of film and solids")
+    h: Number = _column("h", "m", "separation from the mean surface plane")
+    h_T: Number = _column("h_T", "m", "mean gap, and film thickness")
+    h_smooth: Number = _column("h_c", "m", "film thickness of smooth bodies under the whole load")
+    lambda_ratio: Number = _column("λ", "1", "film thickness h_T over σ")
+    H: Number = _column("H", "1", "separation h over σ")
+    h_over_x: Number = _column("h/x_a", "1", "separation over the largest mean diameter")
+    gamma: Number = _column("γ", "1", "load over load on the film")
+    film_share: Number = _column("1/γ", "1", "load share of the film")
+    ss_share: Number = _column("F_ss/F", "1", "load share of asperities")
+    sa_share: Number = _column("F_sa/F", "1", "load share of particles")
+    A_t: Number = _column("A_t*", "1", "real contact area of solids")
+    A_ss: Number = _column("A_ss*", "1", "real area of asperities")
+    A_sa: Number = _column("A_sa*", "1", "real area of particles on surface 1")
+    mu: Number = _column("μ", "1", "traction coefficient")
+    mu_film: Number = _column("μ_f", "1", "part of μ: shear of the film")
+    mu_ss: Number = _column("μ_ss", "1", "part of μ: asperities")
+    mu_sa: Number = _column("μ_sa", "1", "part of μ: particles")
+    viscosity: Number = _column("η_p", "Pa s", "viscosity at the pressure of the film")
+    regime: Any = _column("regime", "", "boundary, mixed or full film, by the share of the solids")
+    residual: Number = _column("r", "1", "imbalance of the shares |1 − their sum|")
+    state: Equilibrium = field(repr=False)
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def solid_share(self) -> Number:
+        """Load share of asperities and particles [1]."""
+        return self.ss_share + self.sa_share
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Every column as a 1-D array."""
+        return {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
+
+    def regimes(self, *, few: float = FEW, most: float = MOST) -> Any:
+        """Regime with other thresholds of the solids' share of the load."""
+        return _regimes(self.solid_share, few, most)
+
+
+COLUMNS = {item.name: dict(item.metadata) for item in fields(MixedFilm) if item.metadata}
+"""Symbol, unit and meaning of every column."""
+
+
+def _regimes(solids: Any, few: float, most: float) -> Any:
+    solids = np.asarray(solids)
+    out = np.where(solids > most, BOUNDARY, np.where(solids < few, FULL, MIXED))
+    return out if out.ndim else str(out)
+
+
+def mixed_film(
+    contact: Contact,
+    *,
+    conjunction: Point | Line,
+    oil: Oil,
+    load: ArrayLike,
+    speed: ArrayLike,
+    slide_roll: float | None = None,
+    film: AbstractFilm | None = None,
+    pressure: str = "mean",
+    few: float = FEW,
+    most: float = MOST,
+) -> MixedFilm:
+    r"""Film, gap, load shares, real area and traction of a lubricated contact with particles.
+
+    Solves :math:`p_{ss}(h) + p_{sa}(h) = \bar p(1 - 1/\gamma)` for ln γ, with the gap h that the
+    film :math:`h_c(w/\gamma, E'/\gamma)` leaves.
+
+    .. math:: \mu = (1 - A_t)\frac{\tau}{\bar p} + \frac{p_{ss} + p_{sa}}{\bar p}\mu_s, \qquad
+              \tau = \tau_E \operatorname{asinh}\frac{\eta(\bar p/\gamma)\,u_s}{h_T\,\tau_E}
+
+    Parameters
+    ----------
+    contact : Contact
+        Roughness, surfaces and particles; with `outputs.Friction` its solids have a traction.
+    conjunction : films.Point or films.Line
+        The bodies.
+    oil : films.Oil
+    load : float or array (N,)
+        w [N].
+    speed : float or array (N,)
+        Mean entrainment speed u [m/s].
+    slide_roll : float, optional
+        Sliding over entrainment speed u_s/u [1]; without it there is no traction. Zero is pure
+        rolling: no traction either, but the number 0.
+    film : films.AbstractFilm, optional
+        The formula; `films.NijenbanningVennerMoes` or `films.MoesLine` by default.
+    pressure : {"mean", "maximum"}, optional
+        Which Hertz pressure is nominal.
+    few, most : float, optional
+        Shares of the solids below which the film is full, and above which it is boundary [1].
+
+    Returns
+    -------
+    MixedFilm
+        Floats for numbers, arrays for arrays.
+
+    Raises
+    ------
+    InvalidValue
+        A value that is not positive, a film formula for another shape, an unknown word.
+    NoEquilibrium
+        The solids carry more than the load at every gap that a film leaves.
+
+    Warns
+    -----
+    RangeWarning
+        Film thinner than σ (no flow factors are applied), a formula outside its regime, and what
+        `solve` warns of.
+
+    Notes
+    -----
+    The root is unique where solids carry less at larger gaps; ln γ is found to 1e-16 absolute.
+
+    References
+    ----------
+    Johnson, Greenwood, Poon 1972, Wear 19, 91, doi:10.1016/0043-1648(72)90445-0 (from memory: not
+    confirmed in a source).
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> ball, oil = tb.films.Point(R=9.5e-3), tb.films.Oil(eta=0.02, alpha=2e-8)
+    >>> import warnings; warnings.simplefilter("ignore")
+    >>> state = mixed_film(contact, conjunction=ball, oil=oil, load=20.0, speed=[0.02, 0.5])
+    >>> state.film_share.round(3).tolist(), state.regime.tolist()
+    ([0.01, 0.535], ['boundary', 'mixed'])
+    """
+    w, u, scalar = _given(load, speed)
+    film = film or full_range(getattr(conjunction, "shape", "point"))
+    _check(contact, conjunction, oil, film, slide_roll, pressure, (few, most))
+    bound = interface(contact)
+    sigma, E = contact.roughness.sigma, 2 * contact.E_ss
+    hertz = conjunction.hertz(w, E)
+    p = hertz.mean if pressure == "mean" else hertz.maximum
+
+    def thickness(x: Array) -> Array:
+        return _thickness(film, conjunction, oil, w, u, E, np.exp(x))
+
+    # deeper than this every asperity is crushed: more load than any film leaves to the solids
+    floor = bound.asperities.centre + DEEPEST * sigma
+
+    def excess(x: Array) -> Array:
+        d = np.maximum(height_of(thickness(x), sigma) - bound.mean_plane, floor)
+        return bound.load(d)[:, 0] / p + np.expm1(-x)
+
+    x = _root(excess, len(w), u)
+    h_T = thickness(x)
+    h = height_of(h_T, sigma)
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", RangeWarning)
+        state = solve(contact, d=h - bound.mean_plane)
+    notes = [str(each.message) for each in heard if issubclass(each.category, RangeWarning)]
+    notes += _ranges(
+        film,
+        conjunction,
+        oil,
+        w,
+        u,
+        E,
+        h_T / sigma,
+        load_scan(bound).monotone,
+        contact.roughness.heights,
+    )
+
+    film_share = np.exp(-x)
+    ss, sa = (np.asarray(part) * contact.E_ss / p for part in (state.F_ss_star, state.F_sa_star))
+    solids = ss + sa
+    viscosity = oil.at(p * film_share)
+    traction = _traction(oil, state, slide_roll, u, h_T, p * film_share, p, (ss, sa))
+    sizes = [each.diameter.mean_diameter for each in contact.populations]
+    columns: dict[str, Any] = {
+        "speed": u,
+        "load": w,
+        "pressure": p,
+        "h": h,
+        "h_T": h_T,
+        "h_smooth": thickness(np.zeros_like(x)),
+        "lambda_ratio": h_T / sigma,
+        "H": h / sigma,
+        "h_over_x": h / max(sizes) if sizes else np.full_like(h, np.nan),
+        "gamma": np.exp(x),
+        "film_share": film_share,
+        "ss_share": ss,
+        "sa_share": sa,
+        "A_t": state.A_t,
+        "A_ss": state.A_ss,
+        "A_sa": state.A_sa,
+        **traction,
+        "viscosity": viscosity,
+        "regime": _regimes(solids, few, most),
+        "residual": np.abs(film_share + solids - 1),
+    }
+    for sentence in notes:
+        warnings.warn(sentence, RangeWarning, stacklevel=2)
+    if scalar:
+        columns = {name: np.asarray(values)[0].item() for name, values in columns.items()}
+        state = solve_quietly(contact, float(h[0] - bound.mean_plane))
+    return MixedFilm(**columns, state=state, warnings=tuple(dict.fromkeys(notes)))
+
+
+def _thickness(
+    film: AbstractFilm, conjunction: Point | Line, oil: Oil, w: Any, u: Any, E: float, gamma: Any
+) -> Array:
+    """The film as if load and modulus were γ times smaller [m]."""
+    return np.asarray(
+        film.central(
+            load=conjunction.intensity(w) / gamma,
+            speed=u,
+            eta=oil.eta,
+            alpha=oil.alpha,
+            R=conjunction.R,
+            E=E / gamma,
+            ratio=conjunction.ratio,
+        )
+    )
+
+
+def solve_quietly(contact: Contact, d: float) -> Equilibrium:
+    """One state whose warnings were given already."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        return solve(contact, d=d)
+
+
+def _given(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, bool]:
+    """Loads and speeds of every state, and whether there is one."""
+    problems = []
+    values = []
+    for name, unit, value in (("load", "N", load), ("speed", "m/s", speed)):
+        try:
+            array = np.asarray(value, dtype=float)
+        except (TypeError, ValueError):
+            problems.append(f"{name} = {value!r} must be a number or an array of numbers [{unit}]")
+            continue
+        if array.ndim > 1 or not array.size:
+            problems.append(f"{name} has shape {array.shape}; give a number or a 1-D array")
+        elif not np.all(np.isfinite(array) & (array > 0)):
+            bad = float(array[~(np.isfinite(array) & (array > 0))].flat[0])
+            hint = "; without motion there is no film: use solve" if name == "speed" else ""
+            problems.append(f"{name} = {bad:g} must be finite and > 0 [{unit}]{hint}")
+        values.append(array)
+    if problems:
+        raise InvalidValue(*problems)
+    try:
+        w, u = np.broadcast_arrays(*values)
+    except ValueError:
+        raise InvalidValue(
+            f"load {values[0].shape} and speed {values[1].shape} differ in length; "
+            "each must be one or N"
+        ) from None
+    return np.atleast_1d(w).astype(float), np.atleast_1d(u).astype(float), w.ndim == 0
+
+
+def _check(
+    contact: Any,
+    conjunction: Any,
+    oil: Any,
+    film: Any,
+    slide_roll: Any,
+    pressure: str,
+    shares: tuple[float, float],
+) -> None:
+    problems = []
+    if not isinstance(contact, Contact):
+        problems.append(f"contact = {contact!r} must be a Contact")
+    if not isinstance(conjunction, Point | Line):
+        problems.append(
+            f"conjunction = {conjunction!r} must be films.Point or films.Line, e.g. "
+            "films.Point(R=10e-3)"
+        )
+    if not isinstance(oil, Oil):
+        problems.append(f"oil = {oil!r} must be films.Oil, e.g. films.Oil(eta=0.04, alpha=2e-8)")
+    if not isinstance(film, AbstractFilm):
+        problems.append(f"film = {film!r} must be a film formula of thirdbody.films")
+    elif isinstance(conjunction, Point | Line) and film.shape != conjunction.shape:
+        problems.append(
+            f"film = {film.name} is for {film.shape} contacts, and the conjunction is a "
+            f"{conjunction.shape}"
+        )
+    if pressure not in ("mean", "maximum"):
+        problems.append(f"pressure = {pressure!r} must be 'mean' or 'maximum'")
+    if slide_roll is not None and not (
+        isinstance(slide_roll, int | float) and math.isfinite(slide_roll) and slide_roll >= 0
+    ):
+        problems.append(f"slide_roll = {slide_roll!r} must be one number >= 0 [1]")
+    if not 0 <= shares[0] <= shares[1] <= 1:
+        problems.append(
+            f"few, most = {shares[0]:g}, {shares[1]:g} must be shares with 0 <= few <= most <= 1"
+        )
+    if problems:
+        raise InvalidValue(*problems)
+
+
+def _root(excess: Any, count: int, speed: Array) -> Array:
+    """ln γ of every state, by halving a bracket whose upper end is doubled until it holds."""
+    low, high = np.zeros(count), np.full(count, 12.0)
+    while np.any(short := excess(high) >= 0):
+        if np.any(high[short] >= LONGEST):
+            slow = float(speed[short].min())
+            raise NoEquilibrium(
+                f"no equilibrium at speed = {slow:g} m/s: at every gap that this film leaves, "
+                "asperities and particles carry more than the load; check viscosity and speed, or "
+                "take a film formula of every regime"
+            )
+        low, high = np.where(short, high, low), np.where(short, 2 * high, high)
+    for _ in range(STEPS):
+        middle = 0.5 * (low + high)
+        above = excess(middle) >= 0
+        low, high = np.where(above, middle, low), np.where(above, high, middle)
+        if np.all(high - low <= 1e-16 * (1 + high)):
+            break
+    return 0.5 * (low + high)
+
+
+def _ranges(
+    film: AbstractFilm,
+    conjunction: Point | Line,
+    oil: Oil,
+    w: Array,
+    u: Array,
+    E: float,
+    ratio: Array,
+    monotone: bool,
+    heights: Heights,
+) -> list[str]:
+    """Where the model is extrapolated, one sentence each."""
+    at = full_range(conjunction.shape).asymptotes(
+        load=conjunction.intensity(w),
+        speed=u,
+        eta=oil.eta,
+        alpha=oil.alpha,
+        R=conjunction.R,
+        E=E,
+        ratio=conjunction.ratio,
+    )
+    out = film.warnings(at.regime, conjunction.ratio)
+    if np.any(ratio < 1):
+        out.append(
+            f"mixed_film: the film is down to {float(ratio.min()):.2g} sigma; below 1 sigma "
+            "roughness hinders the flow, and no flow factors are applied"
+        )
+    if heights != GaussianHeights():
+        out.append(
+            "mixed_film: the mean gap is that of a Gaussian surface, and the asperities here have "
+            f"{type(heights).__name__}"
+        )
+    if not monotone:
+        out.append(
+            "mixed_film: the load of these particles does not fall with the separation, so "
+            "another balance may exist"
+        )
+    return out
+
+
+def _traction(
+    oil: Oil,
+    state: Equilibrium,
+    slide_roll: float | None,
+    u: Array,
+    h_T: Array,
+    film_pressure: Array,
+    p: Array,
+    shares: tuple[Array, Array],
+) -> dict[str, Array]:
+    """μ and its parts."""
+    unknown = np.full_like(u, np.nan)
+    ss = sa = shear = unknown
+    if slide_roll is not None:
+        stress = oil.shear_stress(slide_roll * u / h_T, film_pressure)
+        shear = (1 - np.asarray(state.A_t)) * stress / p
+        if "mu_ss" in state.outputs and "mu_sa" in state.outputs:
+            ss, sa = (
+                np.where(share > 0, np.asarray(state.outputs[name]) * share, 0.0) * (slide_roll > 0)
+                for name, share in zip(("mu_ss", "mu_sa"), shares, strict=True)
+            )
+    return {"mu": shear + ss + sa, "mu_film": shear, "mu_ss": ss, "mu_sa": sa}

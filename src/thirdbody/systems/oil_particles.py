@@ -1,0 +1,423 @@
+r"""Dents: what a particle leaves in a surface, and what the particles of an oil leave in a film.
+
+In an oil film of height h only particles larger than h touch both surfaces, and there are few of
+them: each acts alone. Per area and overrolling
+
+.. math:: \eta_a(>h) = \varepsilon\,h\,n(>h)
+
+pass, n particles per volume of oil, with the entry ratio ε of particles that follow the oil into
+the contact. The film is as high under a particle as elsewhere (a Hertz contact is stiff), which
+makes depths upper bounds.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
+
+import numpy as np
+
+from ..effects.single.dent import Dent, dent_of, dents_after, flattened_diameter
+from ..effects.single.ploughing import groove_area
+from ..effects.single.severity import severity, threshold
+from ..errors import InvalidValue
+from ..laws.asperity.hermite import Hermite
+from ..laws.base import AbstractAsperityLaw
+from ..laws.particle.one_particle import contact_sides, squeezed_particle
+from ..numerics.quadrature import panel_rule, subdivide
+from ..populations.distributions import Distribution
+from ..populations.materials import Material, MaterialPair
+from ..populations.measured.cleanliness import suspension_of_iso4406
+from ..quantities.units import to_si
+from ..quantities.value import Value, choice, quantity
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from ..laws.spots import ParticleSpots
+
+    Array = NDArray[np.float64]
+
+__all__ = ["FilmDents", "FilmParticles", "SeverityIndex"]
+
+NODES = 16
+"""Gauss nodes for each panel over sizes."""
+
+
+# ------------------------------------------------------------------------------ in a film
+class FilmDents(NamedTuple):
+    """Dents in one surface per overrolling, made by `FilmParticles.dents`.
+
+    Depths are upper bounds: the film does not give way under a particle.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
+    ...                                  material=tb.materials["SiO2"], film=0.5e-6, entry=1.0)
+    >>> found = oil.dents(side=1)
+    >>> f"{found.depth_p95 * 1e6:.1f} µm deep and {found.diameter_p95 * 1e6:.1f} µm wide at p95"
+    '4.0 µm deep and 11.6 µm wide at p95'
+    """
+
+    number: float
+    """Dents per area [1/m²]."""
+    depth: float
+    """Mean depth [m]."""
+    diameter: float
+    """Mean diameter [m]."""
+    area: float
+    """Mean area πD²/4 [m²]."""
+    volume: float
+    """Dented volume per area [m]."""
+    depth_p95: float
+    """Depth that 5 % of the dents exceed [m]."""
+    diameter_p95: float
+    """Diameter that 5 % of the dents exceed [m]."""
+    embedded: float
+    """Share of the dents of particles that sit deeper than half their radius, and may stay [1]."""
+
+
+class SeverityIndex(NamedTuple):
+    r"""Damaged volume per area and overrolling, with its parts. Not a life.
+
+    .. math:: I = \varepsilon h \int n\,\varphi_a\,(V_1+V_2+f_{ab}\,s\,A_g)\,dx
+
+    Made by `FilmParticles.severity_index`.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
+    ...                                  material=tb.materials["SiO2"], film=0.5e-6, entry=1.0)
+    >>> index = oil.severity_index()
+    >>> f"{index.total:.1e}", index.grooves_1, round(index.above, 2)
+    ('1.6e-13', 0.0, 1.0)
+    """
+
+    total: float
+    """Sum of the four parts below [m]."""
+    dents_1: float
+    """Volume of the dents in surface 1 per area [m]."""
+    dents_2: float
+    """The same in surface 2 [m]."""
+    grooves_1: float
+    """Volume taken out of grooves in surface 1 per area [m]."""
+    grooves_2: float
+    """The same in surface 2 [m]."""
+    severity: float
+    """Mean severity S of the particles that touch both surfaces [1]."""
+    above: float
+    """Share of those above the threshold S* from rolling to grooving [1]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FilmParticles(Value):
+    r"""The particles of an oil that pass a film of given height.
+
+    .. math:: \eta_a(>x) = \varepsilon\,h\,n(>x), \qquad x \ge h
+
+    Parameters
+    ----------
+    surfaces : MaterialPair
+    material : Material
+        Of the particles.
+    diameter : Distribution
+        Sizes by number [m].
+    number : float
+        Particles per volume of oil n [1/m³].
+    film : float
+        Film height h [m].
+    entry : float
+        Entry ratio ε: particles that pass the contact over those in the oil that passes [1].
+        Nobody can predict it; inlets turn large particles away and gather them too.
+    debris : {"hard", "ductile", "brittle"}, optional
+        Hard particles keep their shape and dent what is softer. Ductile ones flatten to discs of
+        the height of the film: the footprint is given, its depth is not (0), because it follows
+        from friction on the disc. Brittle ones break before they dent.
+    fragment : float, optional
+        Size of the fragments [m]; needed for brittle particles.
+    slip : float, optional
+        Distance that a surface slides under a particle while it passes [m].
+    f_ab : float, optional
+        Removed fraction of a groove [1]; needed with slip.
+    law : AbstractAsperityLaw, optional
+        Of each contact of a particle.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
+    ...                                  material=tb.materials["SiO2"], film=0.5e-6, entry=1.0)
+    >>> dents = oil.dents()
+    >>> f"{dents.number:.0f} dents per m² and pass, {dents.depth * 1e6:.1f} µm deep"
+    '901 dents per m² and pass, 1.9 µm deep'
+    """
+
+    surfaces: MaterialPair
+    material: Material
+    diameter: Distribution
+    number: float = quantity("n", "1/m^3", "particles per volume of oil", ge=0)
+    film: float = quantity("h", "m", "film height", gt=0, hint="0.5 um is 0.5e-6")
+    entry: float = quantity("ε", "1", "entry ratio", ge=0)
+    debris: str = choice("what particles do when pressed", "hard", "ductile", "brittle",
+                         default="hard")  # fmt: skip
+    fragment: float | None = quantity("x_f", "m", "size of fragments", default=None, gt=0)
+    slip: float = quantity("s", "m", "sliding distance under a passing particle", default=0, ge=0)
+    f_ab: float | None = quantity("f_ab", "1", "removed part of a groove", default=None, ge=0, le=1)
+    law: AbstractAsperityLaw = field(default_factory=Hermite)
+
+    def _problems(self) -> list[str]:
+        out = [
+            f"FilmParticles.{name} = {getattr(self, name)!r} must be a {kind.__name__}"
+            for name, kind in (
+                ("surfaces", MaterialPair),
+                ("material", Material),
+                ("diameter", Distribution),
+                ("law", AbstractAsperityLaw),
+            )
+            if not isinstance(getattr(self, name), kind)
+        ]
+        if (self.debris == "brittle") != (self.fragment is not None):
+            out.append(
+                f"FilmParticles.fragment = {self.fragment!r} with debris = {self.debris!r}: "
+                "brittle particles, and only those, need the size of their fragments [m]"
+            )
+        if self.slip > 0 and self.f_ab is None:
+            out.append(
+                "FilmParticles.f_ab is missing: with slip, particles groove, and the removed part "
+                "of a groove (0 to 1) must be given"
+            )
+        return out
+
+    @classmethod
+    def from_iso4406(
+        cls,
+        code: str,
+        *,
+        level: str = "middle",
+        smallest: float | str | None = None,
+        largest: float | str | None = None,
+        **others: Any,
+    ) -> Self:
+        """The particles of an oil with an ISO 4406 code.
+
+        The code counts from 4 µm(c): a film below that lets more through than is known, unless
+        ``smallest`` continues the count. ``level``, ``smallest`` and ``largest`` as in
+        `thirdbody.Particles.from_iso4406`, other arguments as in the class.
+        """
+        ends = {
+            name: None if value is None else to_si(value, "m")
+            for name, value in (("smallest", smallest), ("largest", largest))
+        }
+        n, diameter = suspension_of_iso4406(code, level=level, **ends)
+        return cls(diameter=diameter, number=n, **others)
+
+    # -------------------------------------------------------------------------- counts
+    @property
+    def columns_of_oil(self) -> float:
+        """ε h n: all particles over a unit of area, also those below the film [1/m²]."""
+        return self.entry * self.film * self.number
+
+    def above(self, x: float) -> float:
+        """η_a(>x): particles larger than x and than the film per area and overrolling [1/m²]."""
+        return self.columns_of_oil * self._share(max(x, self.film), 0)
+
+    def _share(self, x: float, power: int, top: float | None = None) -> float:
+        """∫ y^power φ_a dy from x."""
+        end = self.diameter.support[1] if top is None else top
+        return float(self.diameter.partial_moment(power, x, end)) if end > x else 0.0
+
+    def _pressed(self, x: float) -> float:
+        """Particles or fragments larger than x per particle of the oil."""
+        x, size = max(x, self.film), self.fragment
+        if size is None:
+            return self._share(x, 0)
+        if x >= size:
+            return 0.0
+        return self._share(x, 0, size) + self._share(size, 3) / size**3
+
+    def _size(self, count: float, lowest: float) -> float:
+        """The size that so many pressed ones per particle of the oil exceed."""
+        from scipy.optimize import brentq
+
+        top = self.diameter.support[1]
+        if self.fragment is not None and self._pressed(self.fragment * (1 - 1e-12)) >= count:
+            return self.fragment
+        return float(
+            brentq(lambda x: self._pressed(x) - count, lowest, top, xtol=1e-16, rtol=1e-13)
+        )
+
+    # -------------------------------------------------------------------------- dents
+    def single(self, x: ArrayLike) -> ParticleSpots:
+        """Particles of sizes x [m] in the film, one each: (n, 1)."""
+        return self._spots(np.atleast_1d(np.asarray(x, dtype=float))[:, None], np.array(1.0))
+
+    def _particle(self) -> Any:
+        return squeezed_particle(self.law, *contact_sides(self.surfaces, self.material), 0.5)
+
+    def _spots(self, x: Array, number: Array) -> ParticleSpots:
+        delta = np.maximum(x - self.film, 0.0)
+        number = np.broadcast_to(number, x.shape)
+        return self._particle().spots(x, delta, share=None, number=number)
+
+    def _first(self, side: int) -> float:
+        """Smallest size that dents a surface: that of first yield there; infinite for none."""
+        particle = self._particle()
+        if not self.material.H > particle.sides[side].H:
+            return math.inf
+        from scipy.optimize import brentq
+
+        first = float(particle.sides[side].delta_1)
+        eps = float(
+            brentq(
+                lambda e: float(particle.indentations(np.array([e]))[side][0]) / first - 1,
+                *(particle.kinks[0] * 1e-9, particle.kinks[-1]),
+                xtol=1e-16,
+            )
+        )
+        return self.film / (1 - eps) if eps < 1 else math.inf
+
+    def _nodes(self) -> tuple[Array, Array]:
+        """Sizes of what is pressed, and how many of each per particle of the oil."""
+        size, weight = [], []
+        particle = self._particle()
+        inner = particle.kinks[particle.kinks < 1]
+        # first yield and half a radius are kinks of the dents, not all of the load
+        sides = [self._first(side) for side in (0, 1)]
+        cuts = np.array([*(self.film / (1 - inner)), *(s for s in sides if math.isfinite(s))])
+        for share, part in self.diameter.components:
+            low, high = max(part.support[0], self.film), part.support[1]
+            if part.support[0] == high:
+                size.append(np.array([high] if high > self.film else []))
+                weight.append(np.full(len(size[-1]), share))
+                continue
+            if self.fragment is not None:
+                high = min(high, self.fragment)
+            if high <= low:
+                continue
+            edges = np.unique(np.concatenate([[low, high], part.pieces, part.kinks, cuts]))
+            edges = edges[(edges >= low) & (edges <= high)]
+            x, w = panel_rule(subdivide(edges, width=math.inf, ratio=1.5), NODES)
+            size.append(x)
+            weight.append(share * w * part.pdf(x))
+        x, w = np.concatenate([*size, []]), np.concatenate([*weight, []])
+        if self.fragment is None:
+            return x, w
+        kept = x <= self.fragment
+        broken = self._share(max(self.fragment, self.film), 3) / self.fragment**3
+        if not self.fragment > self.film:
+            return x[:0], w[:0]
+        return np.append(x[kept], self.fragment), np.append(w[kept], broken)
+
+    def dents(self, side: int = 1) -> FilmDents:
+        """Dents in surface 1 or 2 per overrolling.
+
+        Mean and p95 are over the dents; depth and diameter grow with the size of the particle, so
+        that their distributions are that of the sizes in other variables. NaN where there are no
+        dents. Ductile particles: footprints instead, of depth 0.
+        """
+        if side not in (1, 2):
+            raise InvalidValue(f"side = {side!r} must be 1 or 2")
+        if self.debris == "ductile":
+            return self._footprints()
+        lowest = self._first(side - 1)
+        count = self._pressed(lowest) if math.isfinite(lowest) else 0.0
+        if count == 0:
+            return FilmDents(0.0, *4 * (math.nan,), *2 * (math.nan,), math.nan)._replace(volume=0.0)
+        x, w = self._nodes()
+        spots = self._spots(x[None, :], w[None, :])
+        dent = dent_of(spots, side - 1, self.material)
+        sunk = (dent.depth > 0) & (2 * spots.depths[side - 1] > spots.radius)
+        top = self.single(self._size(0.05 * count, lowest))
+        deep = dent_of(top, side - 1, self.material)
+        return FilmDents(
+            number=self.columns_of_oil * count,
+            depth=float(spots.total(dent.depth)[0] / count),
+            diameter=float(spots.total(dent.diameter)[0] / count),
+            area=float(spots.total(np.pi / 4 * dent.diameter**2)[0] / count),
+            volume=float(self.columns_of_oil * spots.total(dent.volume)[0]),
+            depth_p95=float(deep.depth[0, 0]),
+            diameter_p95=float(deep.diameter[0, 0]),
+            embedded=float(spots.total(sunk.astype(float))[0] / count),
+        )
+
+    def _footprints(self) -> FilmDents:
+        x, w = self._nodes()
+        count = float(w.sum())
+        if count == 0:
+            return FilmDents(0.0, 0.0, math.nan, math.nan, 0.0, 0.0, math.nan, 0.0)
+        wide = flattened_diameter(x, self.film)
+        top = self._size(0.05 * count, self.film)
+        return FilmDents(
+            number=self.columns_of_oil * count,
+            depth=0.0,
+            diameter=float(w @ wide / count),
+            area=float(np.pi / 4 * (w @ wide**2) / count),
+            volume=0.0,
+            depth_p95=0.0,
+            diameter_p95=float(flattened_diameter(top, self.film)),
+            embedded=0.0,
+        )
+
+    def largest(self, area: float, overrollings: float = 1.0, side: int = 1) -> Dent:
+        """The largest dent in so much surface [m²] after so many overrollings (median).
+
+        Exceeded in half of all cases, A N η_a(>x) = ln 2; nothing where even one is unlikely.
+        """
+        wanted = math.log(2) / (self.columns_of_oil * area * overrollings)
+        lowest = self._first(side - 1)
+        if not math.isfinite(lowest) or self._pressed(lowest) <= wanted:
+            return Dent(np.array(0.0), np.array(0.0), np.array(0.0))
+        found = dent_of(self.single(self._size(wanted, lowest)), side - 1, self.material)
+        return Dent(*(each[0, 0] for each in found))
+
+    def after(self, overrollings: ArrayLike, side: int = 1) -> Array:
+        """Dents per area of surface 1 or 2 after N overrollings, see `dents_after` [1/m²]."""
+        found = self.dents(side)
+        return dents_after(found.number, overrollings, 0.0 if found.number == 0 else found.area)
+
+    def severity_index(self) -> SeverityIndex:
+        r"""Damaged volume per area and overrolling, with its parts.
+
+        .. math:: I = \varepsilon h \int n\,\varphi_a\,(V_1+V_2+f_{ab}\,s\,A_g)\,dx
+
+        A particle is held in the surface in which it sits deeper, and grooves the other; between
+        equal surfaces it grooves both over half the way. Only hard and brittle particles count.
+        The index orders oils of one machine; it is not a life. With a constant entry ratio a
+        thicker film brings more oil, and with it more of the particles far larger than the film:
+        per overrolling the index then rises with h, per volume of oil that passes (index over h)
+        it falls, and so does the number of dents once ``smallest`` lies below the film.
+        """
+        nothing = SeverityIndex(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        x, w = self._nodes()
+        if len(x) == 0 or self.debris == "ductile":
+            return nothing
+        spots = self._spots(x[None, :], w[None, :])
+        per_area = self.columns_of_oil
+        volumes, grooves = [], []
+        one, two = spots.depths
+        even = np.abs(one - two) <= 1e-9 * (one + two)
+        for side, (here, there) in enumerate(((one, two), (two, one))):
+            dent = dent_of(spots, side, self.material)
+            volumes.append(per_area * float(spots.total(dent.volume)[0]))
+            share = np.where(even, 0.5, here < there) * (self.material.H > spots.hardness[side])
+            cut = share * groove_area(here, spots.radius)
+            removed = self.slip * (self.f_ab or 0.0)
+            grooves.append(per_area * removed * float(spots.total(cut)[0]))
+        S = severity(spots.load, spots.x, *spots.hardness)
+        above = (threshold(*sorted(spots.hardness)) < S).astype(float)
+        count = float(spots.number.sum())
+        return SeverityIndex(
+            total=sum(volumes) + sum(grooves),
+            dents_1=volumes[0],
+            dents_2=volumes[1],
+            grooves_1=grooves[0],
+            grooves_2=grooves[1],
+            severity=float(spots.total(S)[0]) / count,
+            above=float(spots.total(above)[0]) / count,
+        )

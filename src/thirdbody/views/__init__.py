@@ -1,0 +1,1 @@
+"""Views: figures, pages and words for what was found."""

@@ -1,0 +1,68 @@
+"""The page of an assessment, with its figures, as one HTML file."""
+
+from __future__ import annotations
+
+from html import escape
+
+import numpy as np
+
+from ..analysis.assessment import Assessment
+from ..analysis.uncertainty.propagation import OUTPUTS, propagate
+
+__all__ = ["page", "pictures"]
+
+LOADS_SHOWN, SAMPLES_SHOWN = 25, 1024
+"""Loads and samples of the figure."""
+
+
+def page(assessment: Assessment) -> str:
+    """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
+    from .html import document, figure, section, text_table, words
+
+    title = assessment.title or "Assessment"
+    body = [f"<h1>{escape(title)}</h1>"]
+    figures = iter(pictures(assessment))
+    for part in assessment.sections():
+        lines = [text_table(part.head, part.rows, WORDS)] if part.rows else []
+        lines += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
+        if part.title in ("State", "Inputs that matter"):
+            caption, picture = next(figures)
+            lines.append(figure(picture, caption))
+        body.append(section(part.title, lines))
+    return document(title, body)
+
+
+def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
+    """Captions and pictures of the bands over the load, and of the inputs."""
+    from matplotlib.figure import Figure
+
+    from . import plot
+    from .html import svg_of
+
+    found = assessment.propagation
+    of = "A_t" if found.contact.two_body else "particle_load_share"
+    value = float(found.loads)
+    loads = value * np.geomspace(1 / 30, 30, LOADS_SHOWN)
+    known = {name: one for name, one in found.inputs.items() if name != found.load}
+    out = []
+    if known:
+        curve = propagate(
+            found.contact,
+            vary=known,
+            **{found.load: loads},  # type: ignore[arg-type]
+            samples=max(min(SAMPLES_SHOWN, found.samples // 16), 64),
+            seed=found.seed,
+            outputs=[of],
+        )
+        ax = plot.bands(curve, of, mark=value)
+        words = f"Bands of the {OUTPUTS[of]['meaning']} over the load; the operating load is "
+        out.append((words + "marked.", svg_of(ax.figure)))
+    else:
+        out.append(("Only the load is uncertain.", svg_of(Figure(figsize=(1, 1)))))
+    ax = plot.tornado(found, assessment.decisive, values=assessment.tornado[assessment.decisive])
+    words = f"{assessment.decisive} with one input at each end of its 5 % to 95 % range."
+    return [*out, (words, svg_of(ax.figure))]
+
+
+WORDS = ("where", "result")
+"""Columns of words, which may break."""

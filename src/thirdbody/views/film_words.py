@@ -1,0 +1,103 @@
+"""A lubricated contact in words: its state at one speed, and where regimes change."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..quantities.say import number, percent, value_of
+
+__all__ = ["bodies", "point", "share", "summary"]
+
+
+def point(result: dict[str, Any], i: int) -> dict[str, str]:
+    """Name and value of every number at speed i of what `run_film` found."""
+    at = {name: column[i] for name, column in result["states"].items()}
+    rows = {
+        "film thickness, mean gap h_T": value_of(at["h_T"], "m"),
+        "film of smooth bodies": value_of(at["h_smooth"], "m"),
+        "lambda = h_T/sigma": value_of(at["lambda_ratio"], "1"),
+        "separation of the mean planes h": value_of(at["h"], "m"),
+        "load on the film": share(at["film_share"]),
+        "load on asperities": share(at["ss_share"]),
+        "load on particles": share(at["sa_share"]),
+        "real contact area": share(at["A_t"]),
+        "friction coefficient": _coefficient(at["mu"]),
+        "of it the film": _coefficient(at["mu_film"]),
+        "of it asperities": _coefficient(at["mu_ss"]),
+        "of it particles": _coefficient(at["mu_sa"]),
+        "viscosity in the film": value_of(at["viscosity"], "Pa s"),
+        "regime": at["regime"],
+    }
+    if not result["passing"]:
+        del rows["load on particles"], rows["of it particles"]
+    for part in result["passing"]:
+        rows[f"{part['name']}: particles narrower than h"] = share(part["share"][i])
+    if brought := result["entrainment"]:
+        rows["largest particle dragged in"] = value_of(brought["largest"][i], "m")
+        for part, density in zip(result["passing"], brought["areal_density"], strict=True):
+            rows[f"{part['name']}: particles that enter"] = value_of(density[i], "1/m^2")
+    return rows
+
+
+def bodies(result: dict[str, Any]) -> str:
+    """The bodies, their load and its Hertz pressure."""
+    film = result["inputs"]["film"]
+    which = "mean" if film["pressure"] == "mean" else "largest"
+    return (
+        f"{film['conjunction']['type'].lower()} contact under {value_of(film['load'], 'N')}, "
+        f"{which} Hertz pressure {value_of(result['states']['pressure'][0], 'Pa')}"
+    )
+
+
+def summary(result: dict[str, Any]) -> list[str]:
+    """Where regimes change, what passes, and why there is no friction, a sentence each."""
+    states, film = result["states"], result["inputs"]["film"]
+    slow, fast = (result["regime_speeds"][name] for name in ("boundary", "full"))
+    regimes = []
+    if slow is not None:
+        regimes.append(
+            f"boundary up to {value_of(slow, 'm/s')}, where solids carry {percent(film['most'])} "
+            "of the load"
+        )
+    if fast is not None:
+        regimes.append(
+            f"a full film from {value_of(fast, 'm/s')}, where solids carry {percent(film['few'])} "
+            "of the load"
+        )
+    out = [
+        f"Lubrication is {', and '.join(regimes)}."
+        if regimes
+        else "The regime is the same at every speed."
+    ]
+    ends = sorted({0, len(states["speed"]) - 1})
+    for part in result["passing"]:
+        at = [
+            f"{share(part['share'][i])} of the particles are narrower than the gap of "
+            f"{value_of(states['h'][i], 'm')} at {value_of(states['speed'][i], 'm/s')}"
+            for i in ends
+        ]
+        out.append(f"{part['name']}: {'; '.join(at)}.")
+    if lacking := _lacking(result):
+        out.append(f"There is no friction coefficient without {', '.join(lacking)}.")
+    return out
+
+
+def share(value: float | None) -> str:
+    """A share; nobody reads those below a millionth."""
+    return percent(value, least=1e-6)
+
+
+def _coefficient(value: float | None) -> str:
+    return number(value, least=1e-9)
+
+
+def _lacking(result: dict[str, Any]) -> list[str]:
+    """What a study must say to have a friction coefficient."""
+    film = result["inputs"]["film"]
+    outputs = {each["type"] for each in result["inputs"]["outputs"]}
+    needs = {
+        "film.slide_roll": film["slide_roll"] is None,
+        "film.oil.eyring_stress": film["oil"]["eyring_stress"] is None,
+        "[outputs.friction]": "Friction" not in outputs,
+    }
+    return [name for name, lacks in needs.items() if lacks]

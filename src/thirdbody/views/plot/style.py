@@ -1,0 +1,186 @@
+"""Colours, labels, axes and curves that the figures share."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
+
+from ...equilibrium.columns import Equilibrium
+from ...errors import InvalidValue
+from ...quantities.say import value_of
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import NDArray
+
+__all__ = ["MODE_COLOURS", "OKABE_ITO"]
+
+OKABE_ITO = {
+    "black": "#000000",
+    "blue": "#0072B2",
+    "vermilion": "#D55E00",
+    "green": "#009E73",
+    "purple": "#CC79A7",
+    "sky": "#56B4E9",
+    "orange": "#E69F00",
+    "yellow": "#F0E442",
+}
+"""Okabe and Ito's palette (Color Universal Design, 2008)."""
+
+_CYCLE = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
+_DASHES = ["-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2))]
+
+
+def _tint(colour: str, strength: float) -> tuple[float, float, float]:
+    """The colour thinned with white; strength 1 is the colour itself."""
+    r, g, b = (1 - strength * (1 - part) for part in to_rgb(colour))
+    return (r, g, b)
+
+
+MODE_COLOURS = {
+    "p-s": _tint(OKABE_ITO["vermilion"], 0.65),
+    "hybrid": _tint(OKABE_ITO["yellow"], 0.45),
+    "s-s": _tint(OKABE_ITO["sky"], 0.6),
+}
+"""Fill of each contact mode; they differ in lightness as well as in hue."""
+
+REGIMES = {
+    "A_e": ("elastic", OKABE_ITO["sky"]),
+    "A_ep": ("elastoplastic", OKABE_ITO["orange"]),
+    "A_p": ("plastic", OKABE_ITO["vermilion"]),
+}
+
+AXIS_LABELS = {
+    "F_star": r"Load $F^* = F/(A_n E_{ss})$ [1]",
+    "pressure": r"Nominal pressure $F/A_n$ [Pa]",
+    "d": r"Separation from mean asperity height $d$ [m]",
+    "h": r"Separation of mean planes $h$ [m]",
+    "d_star": r"Separation $d^* = d/\sigma$ [1]",
+    "A_t": r"Real contact area $A_t/A_n$ [1]",
+    "A_ss": r"Real area of asperities $A_{ss}/A_n$ [1]",
+    "A_sa": r"Real area of particles $A_{sa}/A_n$ [1]",
+    "particle_load_share": r"Particle load share $F_{sa}/F_t$ [%]",
+    "particle_area_share": r"Particle area share $A_{sa}/A_t$ [%]",
+}
+LOADS = ("F_star", "pressure", "d")
+SYMBOLS = {
+    "particles.diameter.mean": ("$x_a$", "m"),
+    "particles.diameter.median": ("$x_m$", "m"),
+    "particles.diameter.std": (r"$\sigma_a$", "m"),
+    "particles.areal_density": (r"$\eta_a$", "1/m^2"),
+    "roughness.sigma": (r"$\sigma$", "m"),
+    "roughness.R": ("$R$", "m"),
+    "roughness.alpha": (r"$\alpha$", "1"),
+    "particle_law.h_0": ("$h_0$", "m"),
+    "particle_law.zeta_mean": (r"$m_\zeta$", "1"),
+    "particle_law.zeta_std": (r"$s_\zeta$", "1"),
+    "particle_law.seat": ("seat", "1"),
+}
+"""What a varied input is called in a legend; others keep their dotted name."""
+NO_PARTICLES = ("particles.diameter.mean", "particles.areal_density")
+
+
+class Curve(NamedTuple):
+    """One load curve: its legend, its columns by name, and whether it is two-body."""
+
+    label: str
+    columns: dict[str, NDArray[Any]]
+    two_body: bool
+
+
+# ------------------------------------------------------------------ reading the argument
+def _legend_entry(name: str, value: Any) -> str:
+    symbol, unit = SYMBOLS.get(name, (name, "1"))
+    if isinstance(value, (str, np.str_)):
+        return f"{symbol}: {value}"
+    if isinstance(value, (float, int, np.floating, np.integer)):
+        return f"{symbol} = {value_of(float(value), unit)}"
+    return f"{symbol} = {value}"
+
+
+def _curves(data: xarray.Dataset | Equilibrium) -> list[Curve]:
+    """Every load curve in a sweep, or the one curve of an `Equilibrium`."""
+    if isinstance(data, Equilibrium):
+        columns = {name: np.atleast_1d(column) for name, column in data.columns().items()}
+        return [Curve("", columns, bool(np.all(columns["A_sa"] == 0)))]
+    if not hasattr(data, "dims") or not hasattr(data, "data_vars"):
+        raise InvalidValue(
+            f"plot: {type(data).__name__} cannot be drawn; give a Dataset from sweep(...) or an "
+            "Equilibrium from solve(...) with several loads"
+        )
+    load = next((name for name in LOADS if name in data.dims), None)
+    if load is None:
+        raise InvalidValue(
+            f"plot: the Dataset has dimensions {tuple(data.dims)} and none of them is a load "
+            f"({', '.join(LOADS)}); select values of the others only, e.g. "
+            "data.sel({'particles.diameter.mean': 3e-7})"
+        )
+    others = [str(name) for name in data.dims if name != load]
+    out = []
+    for index in itertools.product(*(range(data.sizes[name]) for name in others)):
+        one = data.isel(dict(zip(others, index, strict=True)))
+        values = [(name, one.coords[name].values[()]) for name in others]
+        names = [str(name) for name in (*one.data_vars, *one.coords) if name not in others]
+        columns = {name: np.asarray(one[name].values) for name in names}
+        shape = columns[load].shape
+        columns = {name: column for name, column in columns.items() if column.shape == shape}
+        empty = [name for name, value in values if name in NO_PARTICLES and value == 0]
+        rest = [(name, value) for name, value in values if name not in NO_PARTICLES]
+        parts = ["two bodies"] if empty else [_legend_entry(*pair) for pair in values]
+        if empty:
+            parts += [_legend_entry(*pair) for pair in rest]
+        out.append(Curve(", ".join(parts), columns, bool(empty)))
+    return out
+
+
+# ------------------------------------------------------------------ drawing
+def _axes(ax: Axes | None, size: tuple[float, float] = (4.6, 3.4)) -> Axes:
+    if ax is not None:
+        return ax
+    return Figure(figsize=size, dpi=150, layout="constrained").add_subplot()
+
+
+def _dress(ax: Axes, x: str, y: str, *, xlog: bool = True, ylog: bool = False) -> Axes:
+    ax.set_xlabel(AXIS_LABELS.get(x, x))
+    ax.set_ylabel(AXIS_LABELS.get(y, y))
+    if xlog:
+        ax.set_xscale("log")
+    if ylog:
+        ax.set_yscale("log")
+    ax.tick_params(which="both", direction="in", top=True, right=True)
+    ax.grid(visible=True, which="major", color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
+    return ax
+
+
+def _share_axis(ax: Axes) -> None:
+    ax.set_ylim(-0.02, 1.02)
+    ax.yaxis.set_major_formatter(PercentFormatter(1, symbol=""))
+
+
+def _styles(curves: Sequence[Curve]) -> list[dict[str, Any]]:
+    count = itertools.count()
+    styles: list[dict[str, Any]] = []
+    for curve in curves:
+        if curve.two_body and len(curves) > 1:
+            styles.append(dict(color="black", linestyle="-", linewidth=1.0))
+            continue
+        i = next(count)
+        dash = _DASHES[(i + i // len(_CYCLE)) % len(_DASHES)]
+        styles.append(dict(color=_CYCLE[i % len(_CYCLE)], linestyle=dash, linewidth=1.6))
+    return styles
+
+
+def _column(curve: Curve, name: str) -> NDArray[np.float64]:
+    if name not in curve.columns:
+        raise InvalidValue(
+            f"plot: {name!r} is not in the data; it holds {', '.join(sorted(curve.columns))}"
+        )
+    return np.asarray(curve.columns[name], dtype=float)

@@ -1,0 +1,267 @@
+"""Bands of uncertain inputs, and which input matters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Patch
+from matplotlib.ticker import EngFormatter, PercentFormatter
+
+from ...errors import InvalidValue
+from ...quantities.say import percent, value_of
+from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _share_axis, _tint
+
+if TYPE_CHECKING:
+    from ...analysis.uncertainty.propagation import Propagation
+
+__all__ = ["bands", "tornado"]
+
+
+# ------------------------------------------------------------------ uncertain inputs
+def bands(
+    data: Propagation,
+    of: str = "particle_load_share",
+    ax: Axes | None = None,
+    *,
+    mark: float | None = None,
+) -> Axes:
+    """Bands of one result over the load: half and nine tenths of the samples, and the median.
+
+    Parameters
+    ----------
+    data : Propagation
+        From `propagate` with several loads.
+    of : str, optional
+        Which output.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; a new figure when left out.
+    mark : float, optional
+        A load to mark.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Notes
+    -----
+    The bands lie between the outermost quantiles of the data, and between those next to them. The
+    dashed line is the contact with its own inputs.
+
+    Examples
+    --------
+    >>> import numpy as np, thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> found = tb.propagate(contact, vary={"roughness.sigma": (80e-9, 120e-9)}, samples=64,
+    ...                      pressure=np.geomspace(1e6, 1e7, 5), outputs=["A_t"])
+    >>> bands(found, "A_t").get_xscale()
+    'log'
+    """
+    if of not in data.bands:
+        raise InvalidValue(
+            f"plot.bands: {of!r} has no band in the data; it holds {', '.join(data.bands)}"
+        )
+    if np.ndim(data.bands[of]) != 2:
+        raise InvalidValue(
+            f"plot.bands: {of!r} has one band, not one for each load; propagate with several loads"
+        )
+    ax = _axes(ax)
+    x, band = np.asarray(data.loads), np.asarray(data.bands[of])
+    order = np.argsort(data.probabilities)
+    pairs = len(order) // 2
+    for k in range(pairs):
+        low, high = order[k], order[-1 - k]
+        part = data.probabilities[high] - data.probabilities[low]
+        ax.fill_between(
+            x,
+            band[:, low],
+            band[:, high],
+            color=_tint(OKABE_ITO["blue"], 0.22 + 0.33 * k / max(pairs - 1, 1)),
+            linewidth=0,
+            label=f"{percent(part)} of cases",
+        )
+    if len(order) % 2:
+        middle = order[pairs]
+        name = "median" if data.probabilities[middle] == 0.5 else "middle"
+        ax.plot(x, band[:, middle], color=OKABE_ITO["blue"], linewidth=1.6, label=name)
+    ax.plot(x, data.nominal[of], color="black", linewidth=1.1, linestyle="--", label="nominal")
+    share = of.endswith("_share")
+    _dress(ax, data.load, of, xlog=data.load != "d", ylog=not share and bool(np.all(band > 0)))
+    if share:
+        _share_axis(ax)
+    if of not in AXIS_LABELS:
+        ax.set_ylabel(_output_label(of))
+    ax.set_xlim(x.min(), x.max())
+    if mark is not None:
+        ax.axvline(mark, color="0.25", linewidth=1.0, linestyle=":", label="this load")
+    ax.legend(fontsize="small", frameon=False)
+    return ax
+
+
+def tornado(
+    data: Propagation,
+    of: str,
+    ax: Axes | None = None,
+    *,
+    at: int = 0,
+    values: Mapping[str, tuple[float, float]] | None = None,
+) -> Axes:
+    """What each input does alone to one result, from its 5th to its 95th percentile.
+
+    Parameters
+    ----------
+    data : Propagation
+        From `propagate`.
+    of : str
+        Which output. A logarithmic axis where it changes more than threefold.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; a new figure when left out.
+    at : int, optional
+        Number of the load, where several were given.
+    values : mapping, optional
+        ``data.tornado(of)[of]``, where it is at hand.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        One bar an input, the strongest on top: the part towards the low end of the input is
+        blue, towards the high end orange and hatched. The ends of the input stand beside.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> found = tb.propagate(contact, vary={"roughness.R": (2e-6, 3e-6)}, pressure=1e7,
+    ...                      samples=64, outputs=["A_t"])
+    >>> [text.get_text() for text in tornado(found, "A_t").get_yticklabels()]
+    ['$R$']
+    """
+    if of not in data.nominal:
+        raise InvalidValue(
+            f"plot.tornado: {of!r} is not in the data; it holds {', '.join(data.nominal)}"
+        )
+    rows = data.tornado(of, at=at)[of] if values is None else dict(values)
+    middle = float(np.atleast_1d(data.nominal[of])[at if np.ndim(data.nominal[of]) else 0])
+    ends = np.array([*rows.values(), (middle, middle)], dtype=float)
+    known = ends[np.isfinite(ends)]
+    if not np.isfinite(middle):
+        raise InvalidValue(f"plot.tornado: {of!r} does not exist for the contact itself")
+    log = bool(known.min() > 0 and known.max() > 3 * known.min())
+    ax = _axes(ax, (5.4, 1.3 + 0.36 * len(rows)))
+    styles = (
+        ("low end of the input", _tint(OKABE_ITO["blue"], 0.8), ""),
+        ("high end of the input", _tint(OKABE_ITO["orange"], 0.8), "////"),
+    )
+    for row, (label, (low, high)) in enumerate(rows.items()):
+        input_ends = [data.inputs[label].at(p) for p in (0.05, 0.95)]
+        # where both ends lie on one side, the first stands left and the second right all the same
+        sides = [-1, 1] if low < high or low == high else [1, -1]
+        each = zip((low, high), input_ends, styles, sides, strict=True)
+        for value, end, (_, colour, hatch), side in each:
+            if not np.isfinite(value):
+                continue
+            ax.barh(
+                row,
+                value - middle,
+                left=middle,
+                height=0.62,
+                color=colour,
+                edgecolor="white",
+                hatch=hatch,
+                linewidth=0.0,
+            )
+            outer = max(value, middle) if side > 0 else min(value, middle)
+            ax.annotate(
+                value_of(end, _unit_of(data, label)),
+                (outer, row),
+                xytext=(3 * side, 0),
+                textcoords="offset points",
+                ha="left" if side > 0 else "right",
+                va="center",
+                fontsize="x-small",
+            )
+    ax.axvline(middle, color="black", linewidth=1.0)
+    _dress(ax, of, "", xlog=log)
+    ax.set_xlabel(AXIS_LABELS.get(of, _output_label(of)))
+    if of.endswith("_share"):
+        ax.xaxis.set_major_formatter(PercentFormatter(1, decimals=0, symbol=""))
+    elif of in ("d", "h"):
+        ax.xaxis.set_major_formatter(EngFormatter("m"))
+        ax.set_xlabel(ax.get_xlabel().removesuffix(" [m]"))
+    ax.set_yticks(range(len(rows)), [_input_label(label) for label in rows])
+    ax.tick_params(axis="y", length=0)
+    ax.grid(visible=False, axis="y")
+    ax.set_ylim(len(rows) - 0.4, -0.6)
+    # room for what stands beside the bars
+    first, last = known.min(), known.max()
+    if log:
+        ax.set_xlim(first * (first / last) ** ROOM, last * (last / first) ** ROOM)
+    elif last > first:
+        ax.set_xlim(first - ROOM * (last - first), last + ROOM * (last - first))
+    handles = [
+        Patch(facecolor=colour, edgecolor="white", hatch=hatch, label=name)
+        for name, colour, hatch in styles
+    ]
+    ax.legend(
+        handles=handles,
+        ncols=2,
+        fontsize="small",
+        frameon=False,
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+    )
+    return ax
+
+
+ROOM = 0.45
+"""Width beside the longest bars of a tornado, over theirs."""
+OUTPUT_LABELS = {
+    "F_cr1": r"Critical load $F^*_{cr1}$ [1]",
+    "F_cr2": r"Critical load $F^*_{cr2}$ [1]",
+    "F_tpca.A": r"Load of the largest area share $F^*_{tpca}$ [1]",
+    "F_tpca.B": r"Load of equal load shares $F^*_{tpca}$ [1]",
+    "F/F_cr1": r"Load over the first critical load $F/F_{cr1}$ [1]",
+    "F/F_cr2": r"Load over the second critical load $F/F_{cr2}$ [1]",
+    "plastic_share": r"Plastic part of the real area $A_p/A_t$ [%]",
+}
+BODIES = {
+    "surfaces.first": "surface 1",
+    "surfaces.second": "surface 2",
+    "particles.material": "particles",
+}
+
+
+def _output_label(of: str) -> str:
+    from ...analysis.uncertainty.propagation import about_result
+
+    about = about_result(of)
+    meaning = about["meaning"]
+    return OUTPUT_LABELS.get(of, f"{meaning[:1].upper() + meaning[1:]} [{about['unit']}]")
+
+
+def _input_label(label: str) -> str:
+    """What an input is called beside its bar; of several that move together, of all."""
+    names = [name.strip() for name in label.split("+")]
+    sides = {name.rpartition(".")[0]: name.rpartition(".")[2] for name in names}
+    if set(sides) <= set(BODIES):
+        bodies = "both surfaces"
+        if set(sides) != {"surfaces.first", "surfaces.second"}:
+            bodies = " + ".join(BODIES[side] for side in sides)
+        letter = next(iter(sides.values()))
+        symbol = {"E": "$E$", "nu": r"$\nu$", "H": "$H$"}.get(letter, letter)
+        return f"{symbol} of {bodies}"
+    loads = {"pressure": "pressure", "F_star": "load $F^*$", "d": "separation $d$"}
+    return loads.get(label) or " + ".join(SYMBOLS.get(name, (name, ""))[0] for name in names)
+
+
+def _unit_of(data: Propagation, label: str) -> str:
+    from ...analysis.inputs import declared
+
+    loads = {"pressure": "Pa", "F_star": "1", "d": "m"}
+    return loads.get(label) or declared(data.contact, label.split("+")[0].strip())["unit"]

@@ -1,0 +1,314 @@
+"""The page for an engineer: its numbers, its sentences, its bytes."""
+
+import html
+import json
+import os
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import thirdbody as tb
+from thirdbody import cli
+from thirdbody.analysis.assess import assess
+from thirdbody.study import load_study
+from thirdbody.study.analyses import assess_study
+from thirdbody.views import assess_page, plot
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples" / "assess.toml"
+FEW = ["--set", "uncertainty.samples=64"]
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+TWO_BODY = tb.Contact(
+    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
+)
+DUSTY = TWO_BODY.replace(
+    particles=tb.Particles(
+        material=SILICA,
+        areal_density=1e11,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+    )
+)
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+
+def strict(text):
+    def refuse(token):
+        raise AssertionError(f"{token} is not JSON")
+
+    return json.loads(text, parse_constant=refuse)
+
+
+@pytest.fixture(scope="module")
+def page():
+    return assess_study(load_study(EXAMPLE, ["uncertainty.samples=512"]))
+
+
+# ---------------------------------------------------------------- what it says
+def test_the_mode_and_its_probability_are_those_of_the_samples(page):
+    found = page.propagation
+    assert page.mode == tb.solve(found.contact, pressure=5e6).mode == "hybrid"
+    assert sum(found.mode_probability.values()) == pytest.approx(1)
+    text = page.headline()
+    assert "At 5 MPa" in text
+    for mode in ("p-s", "hybrid"):
+        assert f"{mode} {100 * found.mode_probability[mode]:.3g} %" in text
+
+
+def test_where_the_mode_changes_it_changes(page):
+    contact = page.propagation.contact
+    assert {change.input for change in page.changes} == {
+        "roughness.sigma",
+        "particles.diameter.mean",
+        "particles.areal_density",
+    }
+    for change in page.changes:
+        start = tb.sensitivity(contact, of="A_t", to=change.input, pressure=5e6).inputs
+        away = 1 if change.value > start[change.input] else -1
+        modes = [
+            tb.solve(
+                contact.replace(**{change.input: change.value * (1 + away * side * 2e-3)}),
+                pressure=5e6,
+            ).mode
+            for side in (-1, 1)
+        ]
+        assert modes == [page.mode, change.mode]
+        known = page.propagation.inputs[change.input]
+        beyond = known.cdf(change.value) if away < 0 else 1 - known.cdf(change.value)
+        assert change.beyond == pytest.approx(beyond, abs=1e-12)
+    assert [c.beyond for c in page.changes] == sorted(
+        (c.beyond for c in page.changes), reverse=True
+    )
+
+
+def test_inputs_are_ranked_by_what_each_does_alone(page):
+    assert page.decisive == "F_cr1"
+    assert sum(page.matter.values()) == pytest.approx(1)
+    parts = list(page.matter.values())
+    assert parts == sorted(parts, reverse=True)
+    contact = page.propagation.contact
+    ways = {}
+    for label in ("roughness.sigma", "particles.areal_density"):
+        ends = [page.propagation.inputs[label].at(q) for q in (0.05, 0.95)]
+        loads = [tb.transitions(contact.replace(**{label: end})).F_cr1.value for end in ends]
+        assert page.tornado["F_cr1"][label] == pytest.approx(loads, rel=1e-5)
+        ways[label] = np.log(loads[1] / loads[0]) ** 2
+    ratio = page.matter["roughness.sigma"] / page.matter["particles.areal_density"]
+    assert ratio == pytest.approx(ways["roughness.sigma"] / ways["particles.areal_density"])
+    slope = tb.sensitivity(contact, of="F_cr1", to="roughness.sigma").elasticity["F_cr1"]
+    assert page.elasticity["roughness.sigma"] == pytest.approx(slope["roughness.sigma"])
+    # what the example says of itself
+    assert slope["roughness.sigma"] == pytest.approx(-10, abs=1)
+    assert page.elasticity["particles.diameter.mean"] == pytest.approx(14, abs=0.5)
+
+
+def test_sentences_hold_the_numbers(page):
+    parts = {part.title: part for part in page.sections()}
+    margin = page.propagation.nominal["F/F_cr1"]
+    assert f"The load is {margin:.3g} times F_cr1" in parts["Margins"].sentences[0]
+    assert "roughness.sigma" in parts["Inputs that matter"].sentences[1]
+    text = " ".join(parts["What this rests on"].sentences)
+    assert "512 samples" in text
+    assert "particles.diameter.std" in text  # taken as exact
+    for part in parts.values():
+        assert len({len(part.head), *map(len, part.rows)}) <= 2
+        assert not re.search(r"\b(nan|inf|None)\b", " ".join(part.sentences))
+
+
+def test_two_bodies_have_no_modes_to_change():
+    page = tb.assess(TWO_BODY, vary={"roughness.R": (2e-6, 3e-6)}, pressure=5e6, samples=64)
+    assert page.mode == "s-s"
+    assert page.decisive == "A_t"
+    assert page.changes == ()
+    assert [part.title for part in page.sections()][1] == "State"
+    assert "no particles" in page.headline()
+    assert strict(json.dumps(page.to_dict(), allow_nan=False))["decisive"] == "A_t"
+    assert assess_page.page(page).count("<img") == 2
+
+
+def test_a_nominal_value_outside_its_range_is_told():
+    page = tb.assess(DUSTY, vary={"roughness.R": (3e-6, 4e-6)}, pressure=5e6, samples=64)
+    assert any("2.8 µm of roughness.R lies outside" in note for note in page.notes)
+
+
+def test_only_the_load_uncertain():
+    known = {"pressure": tb.Uncertain.lognormal(5e6, 3.0)}
+    page = tb.assess(DUSTY, vary=known, pressure=5e6, samples=256)
+    share = page.propagation.mode_probability["p-s"]
+    critical = tb.transitions(DUSTY).F_cr1.value * DUSTY.E_ss
+    assert share == pytest.approx(known["pressure"].cdf(critical), abs=0.02)
+    assert "operating load" in assess_page.page(page)
+
+
+# ---------------------------------------------------------------- refusals
+def test_without_ranges_it_refuses(tmp_path):
+    text = EXAMPLE.read_text("utf-8").partition("[uncertainty]")[0]
+    file = tmp_path / "bare.toml"
+    file.write_text(text, "utf-8")
+    if not tb.analysis.uncertainty.inputs.library_ranges(load_study(file).contact):
+        done = run("assess", file)
+        assert done.exit_code == 2
+        assert "there is no table [uncertainty]" in done.stderr
+        assert "roughness.sigma" in done.stderr
+        with pytest.raises(tb.InvalidValue, match="no input has a range"):
+            tb.assess(load_study(file).contact, pressure=5e6)
+
+
+def test_ranges_of_the_library_are_named(monkeypatch):
+    entries = {name: dict(entry) for name, entry in tb.materials.entries().items()}
+    entries["S45C"]["range"] = {"H": [4.5e9, 5.5e9]}
+    entries["SiO2"]["range"] = {}
+    monkeypatch.setattr(type(tb.materials), "entries", staticmethod(lambda: entries))
+    page = tb.assess(DUSTY, pressure=5e6, samples=64)
+    assert list(page.propagation.inputs) == ["surfaces.first.H+surfaces.second.H"]
+    assert any(note.startswith("Ranges of the materials library: surf") for note in page.notes)
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ('load.pressure=["1 MPa", "5 MPa"]', "has 2 values"),
+        ('load={ separation = "200 nm" }', "needs the operating load"),
+        ('uncertainty.inputs={ "roughness.sigma" = "5 GPa" }', "must be one of { low, high }"),
+    ],
+)
+def test_mistakes(setting, words):
+    done = run("assess", EXAMPLE, "--set", setting)
+    assert done.exit_code == 2
+    assert words in done.stderr
+    assert done.stdout == ""
+
+
+def test_a_load_beyond_the_model_has_no_page():
+    done = run("assess", EXAMPLE, *FEW, "--set", "load.pressure=1e13")
+    assert done.exit_code == 3
+
+
+# ---------------------------------------------------------------- what comes out
+def test_the_same_seed_gives_the_same_bytes(tmp_path, monkeypatch):
+    """In another process too, with another number of threads and another hash seed."""
+    files = [tmp_path / name for name in ("here.html", "there.html")]
+    monkeypatch.setenv("THIRDBODY_THREADS", "1")
+    here = run("assess", EXAMPLE, "--json", *FEW, "--html", files[0]).stdout
+    command = [sys.executable, "-m", "thirdbody", "assess", EXAMPLE, "--json", *FEW]
+    environment = os.environ | {"THIRDBODY_THREADS": "2", "PYTHONHASHSEED": "2"}
+    there = subprocess.run(
+        [*map(str, command), "--html", str(files[1])],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=environment,
+    ).stdout
+    assert here == there
+    assert files[0].read_bytes() == files[1].read_bytes()
+    answer = strict(here)
+    assert answer["title"] == "Dust in a ball-screw nut at 5 MPa"
+    bands = answer["propagation"]["bands"]["F_cr1"]
+    assert all(a <= b for a, b in zip(bands, bands[1:], strict=False))
+    other = strict(run("assess", EXAMPLE, "--json", *FEW, "--set", "uncertainty.seed=1").stdout)
+    assert other["propagation"]["bands"]["F_cr1"] != bands
+
+
+class Outside(HTMLParser):
+    """Every address that a page would load, and whether its tags are balanced."""
+
+    def __init__(self):
+        super().__init__()
+        self.addresses, self.open = [], []
+
+    def handle_starttag(self, tag, attrs):
+        self.addresses += [v for k, v in attrs if k in ("src", "href")]
+        if tag not in ("meta", "img", "link", "wbr"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def test_the_page_is_one_file(page):
+    text = assess_page.page(page)
+    reader = Outside()
+    reader.feed(text)
+    assert reader.open == []
+    assert len(reader.addresses) == 2
+    assert all(a.startswith("data:image/svg+xml;base64,") for a in reader.addresses)
+    assert "<script" not in text
+    assert "@media print" in text
+    assert len(text) < 500_000
+
+
+def test_terminal_shows_every_section(page):
+    done = run("assess", EXAMPLE, *FEW)
+    assert done.exit_code == 0
+    for part in page.sections():
+        assert part.title.upper() in done.stdout
+    assert max(map(len, done.stdout.splitlines())) <= 120
+
+
+# ---------------------------------------------------------------- figures
+def test_bars_end_at_the_values(page):
+    values = page.tornado["F_cr1"]
+    ax = plot.tornado(page.propagation, "F_cr1", values=values)
+    assert ax.get_xscale() == "log"
+    middle = page.propagation.nominal["F_cr1"]
+    ends = [bar.get_x() + bar.get_width() for bar in ax.patches]
+    starts = {bar.get_x() for bar in ax.patches}
+    assert starts == {middle}
+    assert ends == pytest.approx([end for pair in values.values() for end in pair], rel=1e-9)
+    labels = [text.get_text() for text in ax.get_yticklabels()]
+    assert labels[0] == r"$\sigma$"
+    assert "$H$ of both surfaces" in labels
+    with pytest.raises(tb.InvalidValue, match="is not in the data"):
+        plot.tornado(page.propagation, "A_x")
+
+
+def test_bands_enclose_the_median():
+    loads = np.geomspace(1e6, 1e8, 4)
+    found = tb.propagate(
+        DUSTY,
+        vary={"roughness.sigma": (85e-9, 115e-9)},
+        pressure=loads,
+        samples=64,
+        outputs=["particle_load_share", "F_cr1"],
+    )
+    ax = plot.bands(found, mark=5e6)
+    assert [line.get_label() for line in ax.lines] == ["median", "nominal", "this load"]
+    outer = ax.collections[0].get_paths()[0].vertices[:, 1]
+    assert outer.min() == found.bands["particle_load_share"].min()
+    with pytest.raises(tb.InvalidValue, match="has one band"):
+        plot.bands(found, "F_cr1")
+    with pytest.raises(tb.InvalidValue, match="has no band"):
+        plot.bands(found, "A_t")
+
+
+def test_a_law_without_critical_loads_says_so_and_keeps_its_bands(monkeypatch):
+    monkeypatch.setattr(sys.modules["thirdbody.views.assess_page"], "LOADS_SHOWN", 4)
+    dusty = DUSTY.replace(particle_law=tb.particle.Horng2022())
+    answer = assess(dusty, vary={"roughness.sigma": (90e-9, 110e-9)}, pressure=5e6, samples=64)
+    margins, state = answer.sections()[1:3]
+    (sentence,) = margins.sentences
+    assert sentence.startswith("No critical loads: with Horng2022")
+    assert state.rows
+    assert answer.decisive == "particle_load_share"
+    assert sentence in html.unescape(assess_page.page(answer))
+    basis = answer.sections()[-1].sentences[0]
+    assert "critical" not in basis
+
+
+def test_the_page_is_made_for_small_and_dark_screens(page):
+    """Tables scroll by themselves; every colour is a variable that the dark scheme sets."""
+    text = assess_page.page(page)
+    assert text.count("<div class=scroll><table>") == text.count("<table>") == 3
+    style = text[text.index("<style>") : text.index("</style>")]
+    assert "prefers-color-scheme:dark" in style
+    light, dark = re.findall(r":root{(?:color-scheme:light dark;)?(--[^}]*)}", style)
+    assert re.findall(r"--[a-z]+", light) == re.findall(r"--[a-z]+", dark)

@@ -1,0 +1,356 @@
+"""Designs: against brute force, and what no design may break."""
+
+import json
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.analysis.design.design import design
+from thirdbody.analysis.design.equal_share import equal_share_size
+from thirdbody.analysis.design.front import front, hypervolume
+from thirdbody.analysis.design.problem import Limit, Objective, Suspension
+from thirdbody.equilibrium.states import state_columns
+from thirdbody.numerics.sampling import Span
+
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+SIZE = "particles.diameter.mean+particles.diameter.std"
+LOADS = Span(1e-6, 1e-4)
+
+
+def contact(sigma=100e-9, R=3.5e-6, **others):
+    dust = tb.Particles(
+        material=SILICA,
+        areal_density=1e11,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=30e-9),
+    )
+    return tb.Contact(
+        surfaces=tb.MaterialPair(STEEL, STEEL),
+        roughness=tb.Roughness(sigma=sigma, R=R),
+        particles=dust,
+        **others,
+    )
+
+
+def brute(case, objective, x):
+    """The objective on a list of sizes, contact by contact."""
+    loads = np.geomspace(1e-6, 1e-4, 32)
+    out = []
+    for size in x:
+        state = tb.solve(
+            case.replace(**{"particles.diameter.mean": size, "particles.diameter.std": 0.1 * size}),
+            F_star=loads,
+        )
+        values = getattr(state, objective.of)
+        if objective.aim == "window":
+            out.append(np.mean((values >= objective.low) & (values <= objective.high)))
+        elif objective.over_loads == "mean":
+            out.append(values.mean())
+        else:
+            out.append(values.max() if objective.aim == "smallest" else values.min())
+    return np.array(out)
+
+
+@pytest.mark.parametrize(
+    "objective",
+    [
+        Objective(of="particle_load_share", aim="window"),
+        Objective(of="A_ep", aim="smallest"),
+        Objective(of="A_ep", aim="largest", over_loads="worst"),
+    ],
+    ids=lambda each: f"{each.of}-{each.aim}",
+)
+def test_brute_force(objective):
+    best = design(contact(), vary={SIZE: (5e-8, 5e-7)}, objective=objective, F_star=LOADS)
+    x = np.geomspace(5e-8, 5e-7, 150)
+    values = brute(contact(), objective, x) * -objective.sign
+    found = best.objectives[objective.label] * -objective.sign
+    assert best.feasible
+    # no point of a grid twice as dense is better, and the best of them is as good
+    assert found >= values.max() - 1e-3 * abs(values.max())
+    own = brute(contact(), objective, [best.values[SIZE]])[0]
+    assert own == pytest.approx(best.objectives[objective.label], rel=1e-9)
+
+
+def test_two_numbers_and_a_material_beat_a_grid():
+    vary = {
+        SIZE: (5e-8, 5e-7),
+        "particles.areal_density": (1e9, 1e11),
+        "particles.material": [SILICA, STEEL],
+    }
+    objective = Objective(of="A_t")
+    limit = Limit(of="plastic_share", most=0.2)
+    best = design(contact(), vary=vary, objective=objective, limits=[limit], F_star=[1e-5, 1e-4])
+    assert best.feasible
+    x, eta = (
+        v.ravel() for v in np.meshgrid(np.geomspace(5e-8, 5e-7, 20), np.geomspace(1e9, 1e11, 20))
+    )
+    for material in (SILICA, STEEL):
+        area, plastic = [], []
+        for F in (1e-5, 1e-4):
+            states = state_columns(
+                contact().replace(**{"particles.material": material}),
+                F_star=F,
+                vary={
+                    "particles.diameter.mean": x,
+                    "particles.diameter.std": 0.1 * x,
+                    "particles.areal_density": eta,
+                },
+            )
+            area.append(states["A_t"])
+            plastic.append(states["A_p"] / states["A_t"])
+        fine = np.max(plastic, axis=0) <= 0.2
+        assert best.objectives["A_t"] <= np.mean(area, axis=0)[fine].min() * (1 + 1e-6)
+
+
+def test_turning_point_sizes():
+    """x_a/σ of equal shares: made by an independent implementation, to its single method."""
+    assert equal_share_size(contact(), pressure=5e6) == pytest.approx(2.346, abs=5e-4)
+    rougher = equal_share_size(contact(sigma=300e-9), pressure=5e6)
+    assert rougher == pytest.approx(1.601821441, rel=2e-6)
+    # the rule of one ratio does not hold: it moves with load and density
+    assert equal_share_size(contact(), pressure=5e7) > 1.2 * equal_share_size(
+        contact(), pressure=5e5
+    )
+    state = tb.solve(
+        contact().replace(
+            **{
+                "particles.diameter.mean": 100e-9 * 2.3459897,
+                "particles.diameter.std": 10e-9 * 2.3459897,
+            }
+        ),
+        pressure=5e6,
+    )
+    assert state.particle_load_share == pytest.approx(0.5, abs=1e-6)
+
+
+def test_window_is_a_share_and_wider_limits_never_hurt():
+    window = Objective(of="particle_load_share", aim="window")
+    few = dict(vary={SIZE: (5e-8, 5e-7)}, F_star=LOADS, points=24)
+    free = design(contact(), objective=window, **few)
+    assert 0 <= free.objectives[window.label] <= 1
+    values = [
+        design(contact(), objective=window, limits=[Limit(of="plastic_share", most=m)], **few)
+        for m in (0.01, 0.03, 1.0)
+    ]
+    found = [best.objectives[window.label] for best in values if best.feasible]
+    assert found == sorted(found)
+    assert found[-1] == pytest.approx(free.objectives[window.label])
+
+
+def scattered(objective, **asked):
+    """The objective at the first eight points."""
+    found = design(contact(), objective=objective, **asked)
+    return found.points[objective.label].values[:8]
+
+
+def test_scatter():
+    objective = Objective(of="A_t", over_scatter="worst")
+    some = dict(vary={SIZE: (5e-8, 5e-7)}, F_star=[1e-5], points=8)
+    nothing = tb.Uncertain.uniform(100e-9 * (1 - 1e-12), 100e-9 * (1 + 1e-12))
+    still = design(
+        contact(), objective=objective, scatter={"roughness.sigma": nothing}, samples=4, **some
+    )
+    nominal = design(contact(), objective=objective, **some)
+    (found,), (same,) = still.objectives.values(), nominal.objectives.values()
+    assert found == pytest.approx(same, rel=1e-9)
+    wide = {"roughness.sigma": (60e-9, 160e-9), SIZE: tb.Uncertain.lognormal(300e-9, 1.2)}
+    costs = {
+        how: scattered(Objective(of="A_t", over_scatter=how), scatter=wide, samples=4, **some)
+        for how in ("mean", "worst", "tail", "robust")
+    }
+    assert np.all(costs["worst"] >= costs["tail"] - 1e-15)
+    assert np.all(costs["tail"] >= costs["mean"])
+    assert np.all(costs["robust"] >= costs["mean"])
+    # samples of one seed are common to all points, and of another they are others
+    again = scattered(objective, scatter=wide, samples=4, **some)
+    np.testing.assert_array_equal(again, costs["worst"])
+    other = scattered(objective, scatter=wide, samples=4, seed=1, **some)
+    assert np.all(other != costs["worst"])
+
+
+def test_infeasible_points_are_kept_with_their_reason():
+    best = design(
+        contact(),
+        vary={SIZE: (5e-8, 3e-6)},
+        objective=Objective(of="A_t"),
+        limits=[Limit(of="particle_load_share", least=0.999)],
+        F_star=[1e-5],
+        points=16,
+    )
+    reasons = best.points["reason"].values
+    assert best.points.sizes["point"] >= 16
+    assert any("coverage" in text for text in reasons)
+    assert any("particle_load_share" in text for text in reasons)
+    hopeless = design(
+        contact(),
+        vary={SIZE: (5e-8, 6e-8)},
+        objective=Objective(of="A_t"),
+        limits=[Limit(of="particle_load_share", least=0.999)],
+        F_star=[1e-4],
+        points=6,
+    )
+    assert not hopeless.feasible
+    assert "particle_load_share is broken by" in hopeless.reason.replace("0.999 <= ", "")
+
+
+def test_several_objectives():
+    best = design(
+        contact(),
+        vary={SIZE: (5e-8, 5e-7), "particles.areal_density": (1e9, 1e11)},
+        objective=[Objective(of="A_t"), Objective(of="plastic_share")],
+        F_star=[1e-5],
+        points=64,
+    )
+    on = best.points["front"].values
+    costs = np.stack([best.points["A_t"].values, best.points["plastic_share"].values], axis=1)
+    ok = best.points["feasible"].values
+    for i in np.flatnonzero(ok & ~on):
+        assert np.any(np.all(costs[on] <= costs[i], axis=1))
+    assert best.hypervolume > 0
+    json.dumps(best.to_dict())
+
+
+def test_fronts_by_counting():
+    rng = np.random.default_rng(3)
+    for width in (2, 3):
+        costs = rng.random((40, width))
+        one = np.ones(width)
+        drawn = rng.random((200_000, width))
+        beaten = np.zeros(len(drawn), bool)
+        for point in costs[front(costs)]:
+            beaten |= np.all(drawn >= point, axis=1)
+        error = np.sqrt(0.25 / len(drawn))
+        assert abs(hypervolume(costs, one) - beaten.mean()) < 4 * error
+
+
+def test_an_end_of_the_range_is_told():
+    best = design(
+        contact(),
+        vary={SIZE: (5e-8, 1e-7)},
+        objective=Objective(of="A_sa", aim="largest"),
+        F_star=[1e-5],
+        points=8,
+    )
+    assert best.at_bound == (SIZE,)
+    assert any("end of its range" in text for text in best.warnings)
+    low, high = best.tolerance[SIZE]
+    assert 5e-8 <= low <= best.values[SIZE] <= high <= 1e-7
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"vary": {}}, "vary is empty"),
+        ({"vary": {"particles.diametr": (1, 2)}}, "did you mean"),
+        ({"vary": {"roughness.sigma": (2e-7, 1e-7)}}, "must be below"),
+        ({"vary": {"roughness.sigma": 3}}, "must be \\(low, high\\)"),
+        ({"vary": {"roughness.sigma": (-1e-7, 1e-7)}}, "sigma"),
+        ({"vary": {"roughness.R": [STEEL]}}, "is not one"),
+        ({"objective": Objective(of="muu")}, "no such number"),
+        ({"objective": []}, "objective is empty"),
+        ({"F_star": None}, "exactly one"),
+        ({"weights": [1, 2, 3]}, "weights must be 1 numbers"),
+        ({"scatter": {"roughness.sigmaa": (1, 2)}}, "scatter"),
+    ],
+)
+def test_mistakes(changes, said):
+    asked = {
+        "vary": {"roughness.sigma": (5e-8, 2e-7)},
+        "objective": Objective(of="A_t"),
+        "F_star": [1e-5],
+    }
+    with pytest.raises(tb.InvalidValue, match=said):
+        design(contact(), **{**asked, **changes})
+    with pytest.raises(tb.InvalidValue, match="neither most nor least"):
+        Limit(of="A_t")
+
+
+def test_load_on_buried_particles():
+    """Against particles drawn at random: sizes, seats, and how deep each sits in either surface."""
+    from thirdbody.analysis.design.search import buried
+
+    soft = STEEL.replace(H=2.5e9)
+    dust = tb.Particles(
+        material=SILICA,
+        areal_density=1e12,
+        diameter=tb.TruncatedGaussian(mean=100e-9, std=10e-9),
+    )
+    case = contact().replace(particles=dust, surfaces=tb.MaterialPair(STEEL, soft))
+    state = tb.solve(case, pressure=5e7)
+    rng = np.random.default_rng(5)
+    x = rng.normal(100e-9, 10e-9, 2_000_000)
+    x = x[np.abs(x - 100e-9) < 30e-9]
+    eps = 1 - (state.h - 100e-9 * rng.standard_normal(len(x))) / x
+    x, eps = x[eps > 0], eps[eps > 0]
+    one = case.law_of(dust).probe(eps, surfaces=case.surfaces, particle=SILICA)
+    load = x**2 * one.load[:, 0]
+    deep = np.maximum(*one.depths)[:, 0] > one.radius[:, 0]
+    share = load[deep].sum() / load.sum()
+    error = np.sqrt(np.sum((load * (deep - share)) ** 2)) / load.sum()
+    found = buried(case, np.atleast_1d(state.d))[0]
+    assert 0.2 < share < 0.8
+    assert abs(found - share) < 4 * error
+    # a share of the whole load: few deep particles do no harm
+    best = design(
+        case,
+        vary={"particles.areal_density": (1e8, 1e13)},
+        objective=Objective(of="A_t"),
+        pressure=[5e7],
+        points=9,
+    )
+    points = best.points
+    told = np.array(["deeper than their radius" in text for text in points["reason"].values])
+    assert told.any()
+    assert not told.all()
+    assert points["particles.areal_density"].values[~told].min() == pytest.approx(1e8)
+
+
+def test_a_limit_on_what_has_no_value_is_broken():
+    limit = Limit(of="A_t", most=1.0)
+    metric = np.array([[[0.5, 0.5]], [[0.5, np.nan]], [[0.5, 2.0]]])
+    np.testing.assert_array_equal(limit.excess(metric), [-0.5, np.inf, 1.0])
+    assert Limit(of="A_t", least=0.0).excess(metric[:1])[0] == -0.5
+
+
+def test_number_follows_from_the_fluid():
+    """Volume of particles per area is concentration times gap, whatever their size."""
+    fluid = Suspension(gap=1e-6, concentration=2e-3, by="volume")
+    best = design(
+        contact(),
+        vary={SIZE: (5e-8, 5e-7)},
+        objective=Objective(of="A_t"),
+        pressure=[5e6],
+        suspension=fluid,
+        points=8,
+    )
+    dust = best.contact.particles
+    volume = dust.areal_density * np.pi / 6 * dust.diameter.moment(3)
+    assert volume == pytest.approx(2e-3 * 1e-6, rel=1e-12)
+    for mistake, said in (
+        ({"suspension": None, "vary": {"particles.concentration": (1e-3, 2e-3)}}, "needs suspens"),
+        ({"vary": {"particles.areal_density": (1e9, 1e10)}}, "follows from the suspension"),
+        ({"suspension": Suspension(gap=1e-6, by="volume")}, "concentration is missing"),
+        ({"suspension": Suspension(gap=1e-6, concentration=1e-3)}, "needs the density"),
+    ):
+        asked = {"vary": {SIZE: (5e-8, 5e-7)}, "suspension": fluid, "pressure": [5e6]}
+        with pytest.raises(tb.InvalidValue, match=said):
+            design(contact(), objective=Objective(of="A_t"), **{**asked, **mistake})
+
+
+def test_particles_that_differ_in_number_share_their_spots():
+    """Outputs of states of many densities at once, and of each alone."""
+    case = contact(outputs=tb.outputs.Friction(tau_ss=580e6, tau_sa=200e6))
+    density, p = np.array([0, 1e8, 1e10, 5e10, 0, 1e8]), np.array([1e6, 1e6, 5e6, 5e6, 2e6, 4e6])
+    states = state_columns(case, pressure=p, vary={"particles.areal_density": density})
+    for i in range(len(p)):
+        one = tb.solve(case.replace(**{"particles.areal_density": density[i]}), pressure=p[i])
+        for name in ("mu", "mu_sa", "mu_ss", "rolling_share"):
+            assert states[name][i] == pytest.approx(one.outputs[name], rel=1e-11, nan_ok=True)
+
+
+def test_the_function_keeps_its_name():
+    import importlib
+
+    importlib.import_module("thirdbody.analysis.design.design")
+    assert tb.design is design

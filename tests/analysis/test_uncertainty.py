@@ -1,0 +1,449 @@
+"""Uncertain inputs against closed forms, brute force, `transitions` and themselves."""
+
+import importlib.util
+import json
+import math
+
+import numpy as np
+import pytest
+from scipy import stats
+
+import thirdbody as tb
+from thirdbody.analysis.uncertainty.critical_loads import critical_loads
+from thirdbody.analysis.uncertainty.inputs import library_ranges
+from thirdbody.analysis.uncertainty.propagation import OUTPUTS
+from thirdbody.study import check
+
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+TWO_BODY = tb.Contact(
+    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
+)
+DUSTY = TWO_BODY.replace(
+    particles=tb.Particles(
+        material=SILICA,
+        areal_density=1e11,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+    )
+)
+# small particles, too few to carry a low load: their share rises before it falls
+FEW = DUSTY.replace(
+    **{
+        "particles.diameter": tb.Monodisperse(mean=150e-9),
+        "particles.areal_density": 1e11,
+        "particle_law.zeta_std": 0.4,
+    }
+)
+EXPONENTIAL = TWO_BODY.replace(
+    asperity_law=tb.asperity.GW(), **{"roughness.heights": tb.ExponentialHeights()}
+)
+RANGES = {
+    "roughness.sigma": tb.Uncertain.uniform(85e-9, 115e-9),
+    "roughness.R": (2.2e-6, 3.4e-6),
+    "particles.diameter.mean": tb.Uncertain.normal(300e-9, 15e-9),
+    "particles.areal_density": tb.Uncertain.lognormal(1e11, 1.5),
+}
+BOTH_H = "surfaces.first.H+surfaces.second.H"
+SALIB = pytest.mark.skipif(
+    importlib.util.find_spec("SALib") is None, reason="SALib is not installed"
+)
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+
+
+def draw(inputs, count, seed):
+    """Independent pseudo-random samples of the inputs."""
+    u = np.random.default_rng(seed).random((count, len(inputs)))
+    known = (
+        i if isinstance(i, tb.Uncertain) else tb.Uncertain.uniform(*i) for i in inputs.values()
+    )
+    return {name: one.at(u[:, j]) for j, (name, one) in enumerate(zip(inputs, known, strict=True))}
+
+
+# ---------------------------------------------------------------- one input
+@pytest.mark.parametrize(
+    ("known", "exact"),
+    [
+        (tb.Uncertain.uniform(2.0, 5.0), stats.uniform(2, 3)),
+        (tb.Uncertain.log_uniform(2.0, 50.0), stats.loguniform(2, 50)),
+        (tb.Uncertain.normal(7.0, 0.5), stats.norm(7, 0.5)),
+        (tb.Uncertain.lognormal(7.0, 1.5), stats.lognorm(math.log(1.5), scale=7)),
+    ],
+)
+def test_distributions_are_those_of_scipy(known, exact):
+    u = np.array([1e-6, 0.05, 0.5, 0.8, 0.999])
+    np.testing.assert_allclose(known.at(u), exact.ppf(u), rtol=1e-12)
+    assert [known.cdf(float(x)) for x in exact.ppf(u)] == pytest.approx(u, rel=1e-9)
+    # nothing is drawn beyond a probability of 1e-9
+    assert known.at(0.0) == pytest.approx(exact.ppf(1e-9), rel=1e-9)
+    assert known.at(1.0) == pytest.approx(exact.ppf(1 - 1e-9), rel=1e-9)
+
+
+# ---------------------------------------------------------------- closed forms
+def test_power_laws_carry_lognormal_to_lognormal():
+    """Exponential heights and GW: A/F = √(πR/σ_s)/E*, so A_t is a product of powers."""
+    spread = {"pressure": 1.3, "roughness.R": 1.4, "surfaces.first.E+surfaces.second.E": 1.1}
+    start = {"pressure": 1e6, "roughness.R": 2.8e-6, "surfaces.first.E+surfaces.second.E": 205e9}
+    inputs = {name: tb.Uncertain.lognormal(start[name], gsd) for name, gsd in spread.items()}
+    found = tb.propagate(EXPONENTIAL, vary=inputs, pressure=1e6, samples=128, outputs=["A_t", "d"])
+    rough = EXPONENTIAL.roughness
+    area = 1e6 * math.sqrt(math.pi * rough.R / rough.sigma_s) / EXPONENTIAL.E_ss
+    assert found.nominal["A_t"] == pytest.approx(area, rel=1e-9)
+    s = np.array([1.0, 0.5, -1.0]) * np.log(list(spread.values()))
+    z = stats.norm.ppf(found.probabilities)
+    exact = area * np.exp(np.linalg.norm(s) * z)
+    # d = σ_s (const + ln E* − ½ ln R − ln p), with the density that goes like 1/R
+    normal = found.nominal["d"] + rough.sigma_s * np.linalg.norm(s) * z
+    for name, values in (("A_t", exact), ("d", normal)):
+        error = found.error[name]
+        assert np.all(np.abs(found.bands[name] - values) < 6 * error)
+        assert np.all(error < 0.05 * np.ptp(values))
+
+
+def test_of_one_input_the_bands_are_the_states_at_its_quantiles():
+    known = tb.Uncertain.lognormal(100e-9, 1.2)
+    names = ["particle_load_share", "F_cr1"]
+    found = tb.propagate(
+        DUSTY, vary={"roughness.sigma": known}, pressure=5e6, samples=4096, outputs=names
+    )
+    # both fall while σ rises
+    contacts = [DUSTY.replace(**{"roughness.sigma": known.at(1 - q)}) for q in found.probabilities]
+    exact = {
+        "particle_load_share": [tb.solve(c, pressure=5e6).particle_load_share for c in contacts],
+        "F_cr1": [tb.transitions(c).F_cr1.value for c in contacts],
+    }
+    for name in names:
+        assert np.all(np.abs(found.bands[name] - exact[name]) < 6 * found.error[name])
+        # 4096 samples of the state, 2048 of the critical load
+        assert np.all(found.error[name] < 0.01 * np.array(exact[name]))
+
+
+@SALIB
+def test_sobol_indices_of_a_sum_and_of_a_product():
+    spread = {"pressure": 1.3, "roughness.R": 2.0}
+    start = {"pressure": 1e6, "roughness.R": 2.8e-6}
+    inputs = {name: tb.Uncertain.lognormal(start[name], gsd) for name, gsd in spread.items()}
+    found = tb.propagate(EXPONENTIAL, vary=inputs, pressure=1e6, samples=64, outputs=["A_t"])
+    indices = found.sobol_indices(["d", "A_t"], samples=64)
+    s2 = (np.array([1.0, 0.5]) * np.log(list(spread.values()))) ** 2
+    cv2 = np.expm1(s2)
+    total = np.prod(1 + cv2) - 1
+    exact = {
+        "d": (s2 / s2.sum(), s2 / s2.sum()),
+        "A_t": (cv2 / total, cv2 * (1 + cv2[::-1]) / total),
+    }
+    for name, (first, whole) in exact.items():
+        for j, one in enumerate(indices[name].values()):
+            # half widths of 95 % intervals: two of them are four standard deviations
+            assert abs(one["S1"] - first[j]) < 2 * one["S1_error"]
+            assert abs(one["ST"] - whole[j]) < 2 * one["ST_error"]
+            assert max(one["S1_error"], one["ST_error"]) < 0.3
+    assert found.sobol_indices("d", samples=8) == found.sobol_indices("d", samples=8)
+
+
+# ---------------------------------------------------------------- brute force
+def test_bands_hold_in_brute_force():
+    """Of 200 contacts solved one by one, as many lie below each quantile as it says."""
+    columns = ["A_t", "particle_load_share", "d", "A_p"]
+    found = tb.propagate(DUSTY, vary=RANGES, pressure=5e6, outputs=columns)
+    vary = draw(RANGES, 200, seed=5)
+    states = [
+        tb.solve(DUSTY.replace(**{n: float(v[i]) for n, v in vary.items()}), pressure=5e6)
+        for i in range(200)
+    ]
+    for name in columns:
+        values = np.array([getattr(state, name) for state in states])
+        for q, band in zip(found.probabilities, found.bands[name], strict=True):
+            allowed = 3.5 * math.sqrt(q * (1 - q) / 200)
+            assert abs(np.mean(values <= band) - q) < allowed, (name, q)
+    modes = [state.mode for state in states]
+    for mode, share in found.mode_probability.items():
+        allowed = 3.5 * math.sqrt(max(share * (1 - share), 1e-3) / 200)
+        assert abs(np.mean([m == mode for m in modes]) - share) < allowed
+
+
+def test_errors_of_the_bands_are_honest():
+    """Over seeds the bands scatter by what each says of itself."""
+    exact = tb.propagate(DUSTY, vary=RANGES, pressure=5e6, samples=2**15, outputs=["A_t"])
+    ratios = []
+    for seed in range(1, 13):
+        found = tb.propagate(
+            DUSTY, vary=RANGES, pressure=5e6, samples=512, seed=seed, outputs=["A_t"]
+        )
+        ratios.append((found.bands["A_t"] - exact.bands["A_t"]) / found.error["A_t"])
+    assert 0.4 < np.sqrt(np.mean(np.square(ratios))) < 2.5
+    assert np.all(exact.error["A_t"] < 0.2 * found.error["A_t"])
+
+
+# ---------------------------------------------------------------- critical loads
+@pytest.mark.parametrize(
+    ("contact", "inputs", "count"),
+    [
+        (DUSTY, RANGES, 50),
+        (
+            FEW,
+            {
+                "roughness.sigma": (80e-9, 200e-9),
+                "particles.areal_density": tb.Uncertain.log_uniform(1e10, 1e12),
+            },
+            25,
+        ),
+    ],
+    ids=["dust", "few"],
+)
+def test_critical_loads_are_those_of_transitions(contact, inputs, count):
+    vary = draw(inputs, count, seed=3)
+    found = critical_loads(contact, vary=vary, count=count)
+    met = {name: set() for name in found}
+    for i in range(count):
+        one = tb.transitions(contact.replace(**{n: float(v[i]) for n, v in vary.items()}))
+        for name, (values, status) in found.items():
+            expected = getattr(one.F_tpca, name[-1]) if "tpca" in name else getattr(one, name)
+            assert status[i] == expected.status, (name, i)
+            met[name].add(expected.status)
+            if expected.status == "found":
+                rel = 1e-3 if name == "F_tpca.A" else 1e-5
+                assert values[i] == pytest.approx(expected.value, rel=rel), (name, i)
+            else:
+                below = expected.status in ("never p-s", "always s-s")
+                assert values[i] == 0 if below else not np.isfinite(values[i])
+    assert any("found" in statuses for statuses in met.values())
+
+
+def test_margins_and_modes_tell_the_same():
+    found = tb.propagate(
+        DUSTY,
+        vary=RANGES,
+        pressure=5e6,
+        samples=2048,
+        outputs=["F_cr1", "F/F_cr1", "F_star"],
+        quantiles=np.linspace(0.01, 0.99, 99),
+    )
+    p_s = found.mode_probability["p-s"]
+    assert 0.01 < p_s < 0.99
+    assert np.interp(1.0, found.bands["F/F_cr1"], found.probabilities) == pytest.approx(
+        p_s, abs=0.01
+    )
+    assert sum(found.mode_probability.values()) == pytest.approx(1)
+    assert sum(found.critical_status["F_cr1"].values()) == pytest.approx(1)
+
+
+# ---------------------------------------------------------------- what moves
+def test_bodies_move_together():
+    low, high = 4e9, 6e9
+    found = tb.propagate(
+        TWO_BODY, vary={BOTH_H: (low, high)}, pressure=1e7, samples=256, outputs=["A_p"]
+    )
+    ends = found.tornado("A_p", probabilities=(0.0, 1.0))["A_p"][BOTH_H]
+    for H, value in zip((low, high), ends, strict=True):
+        steel = STEEL.replace(H=H)
+        contact = TWO_BODY.replace(surfaces=tb.MaterialPair(steel, steel))
+        assert value == pytest.approx(tb.solve(contact, pressure=1e7).A_p, rel=1e-6)
+
+
+def test_several_loads_and_an_uncertain_load():
+    loads = np.array([1e6, 1e7])
+    inputs = {"roughness.sigma": (85e-9, 115e-9)}
+    both = tb.propagate(DUSTY, vary=inputs, pressure=loads, samples=256)
+    assert both.bands["A_t"].shape == (2, 5)
+    assert both.bands["F_cr1"].shape == (5,)
+    assert both.bands["F/F_cr1"].shape == (2, 5)
+    one = tb.propagate(DUSTY, vary=inputs, pressure=1e7, samples=256)
+    np.testing.assert_array_equal(one.bands["A_t"], both.bands["A_t"][1])
+    data = both.to_dataset()
+    assert data.A_t.dims == ("pressure", "quantile")
+    assert data.F_cr1.dims == ("quantile",)
+    assert data.A_t.attrs["units"] == "1"
+    assert float(data.mode_probability.sel(mode="hybrid", pressure=1e7)) == pytest.approx(
+        both.mode_probability["hybrid"][1]
+    )
+    moved = tb.propagate(
+        DUSTY,
+        vary={"pressure": (5e6, 2e7)},
+        pressure=1e7,
+        samples=1024,
+        outputs=["pressure", "A_t"],
+    )
+    exact = np.array([5.75e6, 8.75e6, 12.5e6, 16.25e6, 19.25e6])
+    assert np.all(np.abs(moved.bands["pressure"] - exact) < 6 * moved.error["pressure"])
+    assert np.all(moved.error["pressure"] < 2e-3 * 15e6)
+    state = tb.solve(DUSTY, pressure=moved.bands["pressure"])
+    assert moved.bands["A_t"] == pytest.approx(state.A_t, rel=1e-4)
+
+
+def test_states_without_equilibrium_are_told():
+    found = tb.propagate(
+        DUSTY, vary={"pressure": (1e9, 1e12)}, pressure=1e10, samples=256, outputs=["A_t"]
+    )
+    assert 0 < found.solved < 1
+    assert found.mode_probability["none"] == pytest.approx(1 - found.solved)
+    assert np.all(np.isfinite(found.bands["A_t"]))
+
+
+# ---------------------------------------------------------------- the same again
+def test_the_same_seed_gives_the_same_digits(monkeypatch):
+    def run(seed):
+        inputs = RANGES | {"particles.material.H": tb.Uncertain.normal(7.7e9, 5e8)}
+        found = tb.propagate(DUSTY, vary=inputs, pressure=5e6, samples=2048, seed=seed)
+        return json.dumps(found.to_dict(), allow_nan=False)
+
+    first = run(0)
+    monkeypatch.setenv("THIRDBODY_THREADS", "1")
+    assert run(0) == first
+    assert run(1) != first
+
+
+def test_samples_are_rounded_up_to_a_power_of_two():
+    found = tb.propagate(
+        TWO_BODY, vary={"roughness.R": (2e-6, 3e-6)}, pressure=1e6, samples=1000, outputs=["A_t"]
+    )
+    assert found.samples == 1024
+    assert found.critical_samples == 0
+
+
+def test_outputs_of_two_bodies_have_no_critical_loads():
+    found = tb.propagate(TWO_BODY, vary={"roughness.R": (2e-6, 3e-6)}, pressure=1e6, samples=64)
+    assert "F_cr1" not in found.bands
+    assert found.mode_probability["s-s"] == 1
+    assert set(found.bands) < set(OUTPUTS)
+
+
+# ---------------------------------------------------------------- mistakes
+@pytest.mark.parametrize(
+    ("inputs", "options", "words"),
+    [
+        ({}, {}, "vary is empty"),
+        ({"roughness.sgima": (1e-8, 1e-7)}, {}, "did you mean 'roughness.sigma'"),
+        ({"roughness.sigma": (2e-7, 1e-7)}, {}, "low = 2e-07 must be below high = 1e-07"),
+        ({"roughness.sigma": 1e-7}, {}, "must be (low, high), or one of Uncertain"),
+        ({"roughness.sigma": (-1e-7, 1e-7)}, {}, "the value -1e-07 must be > 0"),
+        (
+            {"roughness.sigma": tb.Uncertain.normal(1e-7, 5e-8)},
+            {},
+            "six standard deviations from the mean, must be > 0 [m]",
+        ),
+        ({"surfaces.first.nu": (0.2, 0.7)}, {}, "0.7 must be > -1 and <= 0.5"),
+        (
+            {BOTH_H: (4e9, 6e9), "surfaces.first.H": (4e9, 6e9)},
+            {},
+            "both move surfaces.first.H",
+        ),
+        ({"F_star": (1e-6, 1e-5)}, {}, "the given load is pressure"),
+        ({"pressure": (1e6, 1e7)}, {"pressure": [1e6, 2e6]}, "give one load where the load"),
+        ({"roughness.R": (2e-6, 3e-6)}, {"outputs": ["A"]}, "'A' has no band"),
+        ({"roughness.R": (2e-6, 3e-6)}, {"outputs": []}, "outputs is empty"),
+        ({"roughness.R": (2e-6, 3e-6)}, {"samples": 10}, "samples = 10 must be"),
+        ({"roughness.R": (2e-6, 3e-6)}, {"seed": -1}, "seed = -1 must be"),
+        ({"roughness.R": (2e-6, 3e-6)}, {"quantiles": [1.5]}, "1.5 must be between 0 and 1"),
+    ],
+)
+def test_mistakes(inputs, options, words):
+    with pytest.raises(tb.InvalidValue) as caught:
+        tb.propagate(DUSTY, vary=inputs, **({"pressure": 5e6} | options))
+    assert words in str(caught.value)
+
+
+def test_mistakes_of_contacts():
+    inputs = {"roughness.R": (2e-6, 3e-6)}
+    with pytest.raises(tb.InvalidValue, match="needs particles"):
+        tb.propagate(TWO_BODY, vary=inputs, pressure=1e6, outputs=["F_cr1"])
+    paper = DUSTY.replace(particle_law=tb.particle.Horng2022())
+    with pytest.raises(tb.InvalidValue, match="Horng2022 does not promise"):
+        tb.propagate(paper, vary=inputs, pressure=1e6, samples=64, outputs=["F_cr1"])
+    assert "F_cr1" not in tb.propagate(paper, vary=inputs, pressure=1e6, samples=64).bands
+    with pytest.raises(tb.InvalidValue, match=r"gsd = 0\.5 must be above 1"):
+        tb.Uncertain.lognormal(1.0, 0.5)
+    with pytest.raises(tb.InvalidValue, match="std = 0 must be > 0"):
+        tb.Uncertain.normal(1.0, 0.0)
+    with pytest.raises(tb.InvalidValue, match="for a range even in the logarithm"):
+        tb.Uncertain.log_uniform(0.0, 1.0)
+    with pytest.raises(tb.InvalidValue, match="mean = nan must be a finite number"):
+        tb.Uncertain.normal(math.nan, 1.0)
+
+
+@SALIB
+def test_what_has_no_variance_has_no_indices():
+    found = tb.propagate(TWO_BODY, vary={"roughness.R": (2e-6, 3e-6)}, pressure=1e6, samples=64)
+    with pytest.raises(tb.InvalidValue, match="power of two"):
+        found.sobol_indices("A_t", samples=100)
+    with pytest.raises(tb.InvalidValue, match="no variance"):
+        found.sobol_indices("A_sa", samples=32)
+
+
+# ---------------------------------------------------------------- the library and study files
+def test_ranges_of_the_library(monkeypatch):
+    entries = {name: dict(entry) for name, entry in tb.materials.entries().items()}
+    entries["S45C"]["range"] = {"H": [4.5e9, 5.5e9], "nu": [0.29, 0.29]}
+    entries["SiO2"]["range"] = {"E": [66e9, 74e9]}
+    monkeypatch.setattr(type(tb.materials), "entries", staticmethod(lambda: entries))
+    assert library_ranges(DUSTY) == {
+        BOTH_H: tb.Uncertain.uniform(4.5e9, 5.5e9),
+        "particles.material.E": tb.Uncertain.uniform(66e9, 74e9),
+    }
+    # a body with another hardness than the library's has no range of its
+    other = tb.MaterialPair(STEEL.replace(H=6e9), STEEL)
+    assert list(library_ranges(TWO_BODY.replace(surfaces=other))) == ["surfaces.second.H"]
+
+
+FILE = {
+    "surfaces": {"first": "S45C", "second": "S45C"},
+    "roughness": {"sigma": "100 nm", "R": "2.8 um"},
+    "particles": {
+        "material": "SiO2",
+        "distribution": "truncated-gaussian",
+        "mean": "300 nm",
+        "std": "24 nm",
+        "areal_density": "1e11 / m^2",
+    },
+    "load": {"pressure": "5 MPa"},
+}
+
+
+def study(inputs, **more):
+    return check(FILE | {"uncertainty": {"inputs": inputs, **more}})
+
+
+def test_study_files_say_what_is_uncertain():
+    given = {
+        "roughness": {"sigma": {"low": "80 nm", "high": "120 nm"}},
+        "particles": {"mean": {"mean": "300 nm", "std": "10 nm"}},
+        "particles.areal_density": {"low": 1e10, "high": 1e11, "spacing": "log"},
+        BOTH_H: {"median": "5 GPa", "gsd": 1.1},
+        "load.pressure": {"low": "4 MPa", "high": "6 MPa"},
+    }
+    asked = study(given, samples=128, seed=7).uncertainty
+    assert (asked.samples, asked.seed) == (128, 7)
+    assert asked.inputs == {
+        "roughness.sigma": tb.Uncertain.uniform(80e-9, 120e-9),
+        "particles.diameter.mean": tb.Uncertain.normal(300e-9, 10e-9),
+        "particles.areal_density": tb.Uncertain.log_uniform(1e10, 1e11),
+        BOTH_H: tb.Uncertain.lognormal(5e9, 1.1),
+        "pressure": tb.Uncertain.uniform(4e6, 6e6),
+    }
+
+
+@pytest.mark.parametrize(
+    ("inputs", "words"),
+    [
+        ({"roughness.sigma": {"low": "80 GPa", "high": "120 nm"}}, "but a length [m] is needed"),
+        ({"roughness.sigma": {"low": "120 nm", "high": "80 nm"}}, "exchange them"),
+        ({"roughness.sigma": {"lo": "80 nm", "high": "120 nm"}}, "must be one of { low, high }"),
+        ({"roughness.sigma": "100 nm"}, "must be one of { low, high }"),
+        ({"roughness.sigmo": {"low": 1e-8, "high": 1e-7}}, "did you mean roughness.sigma?"),
+        ({"particles.mean": {"mean": "300 nm", "std": "-1 nm"}}, ".std = "),
+        ({"roughness.R": {"median": "3 um", "gsd": "2 um"}}, "but a pure number is needed"),
+        ({"load.F_star": {"low": 1e-6, "high": 1e-5}}, "is not the load that [load] gives"),
+        ({}, "must be a table of inputs"),
+    ],
+)
+def test_mistakes_of_study_files(inputs, words):
+    with pytest.raises(tb.InvalidValue) as caught:
+        study(inputs)
+    assert words in str(caught.value)
+    assert "uncertainty.inputs" in str(caught.value)
+
+
+def test_every_mistake_of_a_file_is_told_at_once():
+    with pytest.raises(tb.InvalidValue) as caught:
+        study({"roughness.sigma": {"low": 1}, "roughness.R": 2}, samples=3, sede=1)
+    text = "\n".join(caught.value.problems)
+    for word in ("roughness.sigma", "roughness.R", "samples = 3", "sede"):
+        assert word in text

@@ -1,0 +1,520 @@
+"""The command line: what stands on which stream, exit status, files that appear whole."""
+
+import csv
+import json
+import os
+import re
+import signal
+import stat
+import subprocess
+import sys
+import time
+from importlib import import_module, resources
+from pathlib import Path
+from types import SimpleNamespace
+
+import jsonschema
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import thirdbody as tb
+from thirdbody import cli, study
+from thirdbody.quantities import files
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
+DUSTY = next(path for path in EXAMPLES if path.stem == "dusty_ball_screw")
+CLEAN = next(path for path in EXAMPLES if path.stem == "two_body_reference")
+SCHEMA = json.loads(
+    resources.files("thirdbody").joinpath("data/solve.schema.json").read_text("utf-8")
+)
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+
+def process(*arguments, **options):
+    """The command in a process of its own."""
+    command = [sys.executable, "-m", "thirdbody", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False, **options)
+
+
+def strict(text):
+    """JSON as the standard has it: no NaN, no Infinity."""
+
+    def refuse(token):
+        raise AssertionError(f"{token} is not JSON")
+
+    return json.loads(text, parse_constant=refuse)
+
+
+# ---------------------------------------------------------------------------- --json
+def test_schema_is_a_schema():
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_json_of_every_example_is_valid(path):
+    result = run("solve", path, "--json")
+    assert result.exit_code == 0
+    assert result.stderr == ""
+    answer = strict(result.stdout)
+    jsonschema.validate(answer, SCHEMA)
+    assert len({len(column) for column in answer["states"].values()}) == 1
+
+
+def test_json_holds_the_numbers_of_the_python_interface():
+    answer = strict(run("solve", DUSTY, "--json", "--set", "load.pressure=[1e5, 5e6]").stdout)
+    contact = study.load_study(DUSTY).contact
+    state = tb.solve(contact, pressure=np.array([1e5, 5e6]))
+    for name, column in state.columns().items():
+        assert answer["states"][name] == column.tolist(), name
+    assert answer["transitions"]["F_cr1"]["value"] == tb.transitions(contact).F_cr1.value
+    assert answer["version"] == tb.__version__
+
+
+def test_json_with_an_unsolved_state_is_valid():
+    result = run("solve", DUSTY, "--json", "--set", "load.F_star=[1e-5, 1e3]")
+    assert result.exit_code == 0
+    answer = strict(result.stdout)
+    jsonschema.validate(answer, SCHEMA)
+    assert answer["states"]["A_t"][1] is None
+    assert "no equilibrium" in answer["states"]["status"][1]
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda answer: answer.pop("transitions"),
+        lambda answer: answer["states"].pop("A_sa"),
+        lambda answer: answer["states"].update(A_t=[-1.0]),
+        lambda answer: answer["states"].update(mode=["p-p"]),
+        lambda answer: answer["inputs"]["load"].update(pressure=[1.0]),
+        lambda answer: answer["transitions"]["F_cr1"].pop("status"),
+        lambda answer: answer["inputs"]["surfaces"]["first"].update(nu=0.6),
+    ],
+)
+def test_schema_refuses(spoil):
+    answer = study.run_study(study.load_study(DUSTY, ["load.F_star=1e-5"]))
+    jsonschema.validate(answer, SCHEMA)
+    spoil(answer)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(answer, SCHEMA)
+
+
+# ---------------------------------------------------------------------------- tables
+def spoken(text):
+    """The number that a table shows."""
+    plain = text.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+    return float(plain.replace("×10", "e"))
+
+
+def test_table_shows_at_most_twenty_states_evenly_spaced():
+    text = run("solve", DUSTY).stdout
+    loads = re.findall(r"^ *(\S+) +\S+ [kMG]?Pa +\S+ [nµ]?m ", text, re.MULTILINE)
+    assert len(loads) == 20
+    assert loads[0] == "5×10⁻⁷"
+    assert loads[-1] == "0.00024"
+    steps = np.diff(np.log([spoken(load) for load in loads]))
+    assert steps.max() / steps.min() < 1.2
+    assert "20 of 200 states shown" in text
+
+
+def test_table_has_transitions_and_plain_words():
+    text = " ".join(run("solve", DUSTY, "--set", "load.pressure=5 MPa").stdout.split())
+    assert "Dust in a ball-screw nut" in text
+    for name in ("F_cr1", "F_cr2", "F_tpca A", "F_tpca B", "F_tpca C"):
+        assert name in text
+    assert (
+        "At 5 MPa (F* = 4.468×10⁻⁵) real contact is on particles and on asperities (hybrid), and "
+        in text
+    )
+    assert "particles carry 88.4 % of the load" in text
+
+
+def test_table_without_particles_has_no_word_of_them():
+    text = " ".join(run("solve", CLEAN).stdout.split())
+    text = text.replace("without particles", "").replace("because there are no particles", "")
+    assert "particle" not in text
+    assert "F_cr1" not in text
+
+
+def test_unsolved_state_is_shown_with_its_status():
+    result = run("solve", DUSTY, "--set", "load.F_star=[1e-5, 1e3]")
+    assert result.exit_code == 0
+    assert "1 of 2 states unsolved: no equilibrium" in result.stdout
+
+
+def test_no_contact_at_all_can_be_told():
+    result = run("solve", DUSTY, "--set", "load.separation=1 m")
+    assert result.exit_code == 0
+    assert "no contact" in result.stdout
+
+
+def test_set_changes_the_result():
+    first, second = (
+        strict(run("solve", DUSTY, "--json", *more).stdout)
+        for more in ((), ("--set", "particles.mean=500 nm"))
+    )
+    assert second["inputs"]["particles"]["diameter"]["mean"] == 500e-9
+    assert second["states"]["d"][0] > first["states"]["d"][0]
+
+
+# ---------------------------------------------------------------------------- mistakes
+@pytest.fixture
+def wrong(tmp_path):
+    path = tmp_path / "wrong.toml"
+    text = DUSTY.read_text("utf-8")
+    for old, new in [
+        ('sigma = "100 nm"', 'sigma = "300 GPa"'),
+        ("nu = 0.29", "nu = 0.6"),
+        ("seat =", "saet ="),
+    ]:
+        assert old in text
+        text = text.replace(old, new)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("more", [(), ("--json",)])
+def test_mistakes_go_to_standard_error_one_line_each(wrong, more):
+    result = run("solve", wrong, *more)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    lines = result.stderr.splitlines()
+    assert len(lines) == 3
+    assert all(line.startswith("error: ") for line in lines)
+    for place in ("surfaces.second.nu = 0.6", "roughness.sigma = ", "particle_law.saet"):
+        assert any(line.startswith(f"error: {place}") for line in lines)
+
+
+def test_no_traceback_in_a_process_of_its_own(wrong, tmp_path):
+    result = process("solve", wrong)
+    assert result.returncode == 2
+    assert result.stdout == ""
+    assert "Traceback" not in result.stderr
+    assert result.stderr.count("error: ") == 3
+    result = process("solve", tmp_path / "none.toml")
+    assert result.returncode == 2
+    assert result.stderr.startswith("error: cannot read ")
+    assert len(result.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("solve",),
+        ("slove", DUSTY),
+        ("solve", DUSTY, "--jsno"),
+        ("solve", DUSTY, "--json", "--csv", "x.csv"),
+        ("solve", DUSTY, "--set", "nonsense"),
+        ("laws", "--json", "--markdown"),
+        ("reproduce", "horng2023"),
+        ("reproduce", "horng2022", "--preset", "publish"),
+        ("reproduce", "horng2022", "--out", DUSTY),
+    ],
+)
+def test_wrong_usage_exits_2(arguments):
+    result = run(*arguments)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert result.stderr
+
+
+def test_no_equilibrium_exits_3():
+    result = run("solve", DUSTY, "--set", "load.F_star=5e6")
+    assert result.exit_code == 3
+    assert result.stdout == ""
+    assert result.stderr.startswith("error: no equilibrium")
+    assert len(result.stderr.splitlines()) == 1
+    result = run("solve", DUSTY, "--json", "--set", "load.F_star=[5e6, 6e6]")
+    assert result.exit_code == 3
+    jsonschema.validate(strict(result.stdout), SCHEMA)
+    assert "all 2 states" in result.stderr
+
+
+@pytest.mark.parametrize("error", [tb.NoEquilibrium("nothing"), tb.NoTransition("nothing")])
+def test_errors_of_the_library_exit_3(monkeypatch, error):
+    def fail(*_):
+        raise error
+
+    monkeypatch.setattr(study, "run_study", fail)
+    result = run("solve", DUSTY)
+    assert (result.exit_code, result.stderr) == (3, "error: nothing\n")
+
+
+def test_transitions_never_fail(monkeypatch):
+    def fail(*_, **__):
+        raise tb.NoTransition("none in this range")
+
+    monkeypatch.setattr(study.run, "transitions", fail)
+    result = run("solve", DUSTY, "--json")
+    assert result.exit_code == 0
+    answer = strict(result.stdout)
+    jsonschema.validate(answer, SCHEMA)
+    assert answer["transitions"]["F_cr1"] == {"value": None, "status": "none: none in this range"}
+
+
+# ---------------------------------------------------------------------------- warnings
+def test_warnings_are_one_line_each_on_standard_error():
+    result = process("solve", DUSTY, "--json", "--set", "load.pressure=2 GPa")
+    assert result.returncode == 0
+    lines = result.stderr.splitlines()
+    assert lines
+    assert all(re.fullmatch(r"warning: \S.*", line) for line in lines)
+    assert any("A_t reaches" in line for line in lines)
+    answer = strict(result.stdout)
+    assert [f"warning: {sentence}" for sentence in answer["warnings"]] == lines
+
+
+def test_likely_slips_are_told_even_when_the_study_fails():
+    result = run("solve", DUSTY, "--set", "roughness.sigma=100", "--set", "load.F_star=5e6")
+    assert result.exit_code in (2, 3)
+    assert "warning: roughness.sigma = 100 is taken as 100 m" in result.stderr
+
+
+# ---------------------------------------------------------------------------- --csv
+def test_csv_round_trip(tmp_path):
+    path = tmp_path / "states.csv"
+    result = run("solve", DUSTY, "--csv", path, "--set", "load.F_star=[1e-5, 1e3, 1e-4]")
+    assert result.exit_code == 0
+    assert result.stdout == ""
+    assert "3 states written" in result.stderr
+    with path.open(newline="", encoding="utf-8") as file:
+        header, *rows = csv.reader(file)
+    assert len(rows) == 3
+    assert "pressure [Pa]" in header
+    assert "d [m]" in header
+    assert "A_t [1]" in header
+    assert "mode" in header
+    answer = study.run_study(study.load_study(DUSTY, ["load.F_star=[1e-5, 1e3, 1e-4]"]))
+    names = [name.split(" [")[0] for name in header]
+    assert names == list(answer["states"])
+    for name, cells in zip(names, zip(*rows, strict=True), strict=True):
+        for cell, value in zip(cells, answer["states"][name], strict=True):
+            if value is None:
+                assert cell == ""
+            else:
+                assert type(value)(cell) == value
+    assert path.stat().st_mode & 0o777 == 0o666 & ~_umask()
+
+
+def _umask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def test_no_file_when_nothing_is_solved(tmp_path, wrong):
+    path = tmp_path / "states.csv"
+    assert run("solve", DUSTY, "--csv", path, "--set", "load.F_star=5e6").exit_code == 3
+    assert run("solve", wrong, "--csv", path).exit_code == 2
+    assert [item.name for item in tmp_path.iterdir()] == ["wrong.toml"]
+
+
+def test_file_that_cannot_be_written(tmp_path):
+    for path in (tmp_path, tmp_path / "none" / "states.csv"):
+        result = run("solve", DUSTY, "--csv", path)
+        assert result.exit_code == 2
+        assert result.stderr.startswith(f"error: cannot write {path}")
+    assert list(tmp_path.iterdir()) == []
+
+
+# ---------------------------------------------------------------------------- files
+@pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt])
+def test_files_appear_whole_or_not_at_all(tmp_path, error):
+    path = tmp_path / "out.txt"
+
+    def fail():
+        with files.whole(path) as draft:
+            draft.write_text("half")
+            raise error
+
+    with pytest.raises(error):
+        fail()
+    assert list(tmp_path.iterdir()) == []
+    path.write_text("old")
+    with pytest.raises(error):
+        fail()
+    assert [item.name for item in tmp_path.iterdir()] == ["out.txt"]
+    assert path.read_text() == "old"
+
+
+def test_files_are_not_visible_before_they_are_complete(tmp_path):
+    path = tmp_path / "out.png"
+    with files.whole(path) as draft:
+        draft.write_text("half")
+        assert draft.parent == tmp_path
+        assert draft.suffix == ".png"
+        assert not path.exists()
+    assert path.read_text() == "half"
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_files_keep_links_and_modes(tmp_path):
+    real, link = tmp_path / "real.txt", tmp_path / "link.txt"
+    real.write_text("old")
+    real.chmod(0o600)
+    link.symlink_to(real)
+    files.write_text(link, "new µ\n")
+    assert link.is_symlink()
+    assert real.read_bytes() == "new µ\n".encode()
+    assert stat.S_IMODE(real.stat().st_mode) == 0o600
+
+
+def test_devices_are_written_directly():
+    files.write_text(os.devnull, "nothing")
+    assert not Path(os.devnull).is_file()
+
+
+def test_a_full_disk_is_told():
+    if not Path("/dev/full").exists():
+        pytest.skip("needs /dev/full")
+    with pytest.raises(tb.InvalidValue, match="cannot write /dev/full: no space left"):
+        files.write_text("/dev/full", "nothing")
+
+
+# ---------------------------------------------------------------------------- interruptions
+@pytest.mark.skipif(os.name == "nt", reason="signals")
+def test_interrupt_exits_130_with_one_line_and_no_file(tmp_path):
+    command = [sys.executable, "-m", "thirdbody", "solve", str(DUSTY)]
+    command += ["--set", "load.F_star.points=1000000", "--csv", str(tmp_path / "states.csv")]
+    # the warning about sigma says that the study is being computed
+    command += ["--set", "roughness.R=0.02"]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as running:
+        assert running.stderr.readline().startswith("warning: ")
+        time.sleep(0.3)
+        running.send_signal(signal.SIGINT)
+        out, err = running.communicate(timeout=60)
+    assert running.returncode == 130
+    assert out == ""
+    assert err == "error: interrupted\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals")
+@pytest.mark.parametrize("module", ["pydantic", "numba"])
+def test_interrupt_while_modules_load(tmp_path, module):
+    """At the start, and in the command; through exec of a text, as in numba and dataclasses."""
+    fake = tmp_path / "fake"
+    fake.mkdir()
+    text = "import os, signal, time; os.kill(os.getpid(), signal.SIGINT); time.sleep(20)"
+    (fake / f"{module}.py").write_text(f"exec({text!r})")
+    path = os.pathsep.join(filter(None, (str(fake), os.environ.get("PYTHONPATH"))))
+    command = [sys.executable, "-m", "thirdbody", "solve", str(DUSTY), "--csv", "states.csv"]
+    result = subprocess.run(
+        [*command, "--set", "load.F_star.points=1000000"],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": path},
+    )
+    assert (result.returncode, result.stdout) == (130, "")
+    assert result.stderr == "error: interrupted\n"
+    assert list(tmp_path.iterdir()) == [fake]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="pipes")
+@pytest.mark.parametrize("more", [("--json",), ()])
+def test_reader_that_goes_away(more):
+    command = [sys.executable, "-m", "thirdbody", "solve", str(DUSTY), *more]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+        running.stdout.close()
+        err = running.stderr.read()
+    assert running.returncode != 0
+    assert err == b""
+
+
+# ---------------------------------------------------------------------------- the rest
+def test_version():
+    result = run("--version")
+    assert (result.exit_code, result.stdout) == (0, f"thirdbody {tb.__version__}\n")
+
+
+@pytest.mark.parametrize("command", ["solve", "compare", "reproduce", "laws", "materials"])
+def test_help(command):
+    assert command in run("--help").stdout
+    assert run(command, "--help").exit_code == 0
+
+
+def test_laws_come_from_the_registries():
+    text = run("laws").stdout
+    answer = strict(run("laws", "--json").stdout)
+    for kind, registry in (("asperity", tb.asperity.REGISTRY), ("particle", tb.particle.REGISTRY)):
+        assert [entry["name"] for entry in answer[kind]] == list(registry)
+        for entry, law in zip(answer[kind], registry.values(), strict=True):
+            assert re.search(rf"^ ?{law.name} ", text, re.MULTILINE)
+            assert entry["citation"] == law.citation
+            assert entry["valid_range"] == law.valid_range
+            options = {option["key"]: option["default"] for option in entry["options"]}
+            assert not {"scale", "yield_strain"} & set(options), "a contact fills these in"
+            for key, default in options.items():
+                assert getattr(law(), key) == default or getattr(law(), key).name == default
+
+
+def test_materials_come_from_the_library():
+    text = run("materials").stdout
+    answer = strict(run("materials", "--json").stdout)
+    assert answer == tb.materials.entries()
+    for name in tb.materials:
+        assert name in text
+
+
+def test_reproduce_hands_over_and_prints(monkeypatch, tmp_path):
+    asked = {}
+
+    def reproduce(out, *, preset="published", progress=None):
+        asked.update(out=out, preset=preset)
+        for i in range(3):
+            progress("figure 3", i + 1, 3)
+        return SimpleNamespace(lines=lambda: ["66 of 84 claims", "done"])
+
+    name = "thirdbody.papers.horng2022"
+    monkeypatch.setitem(sys.modules, name, SimpleNamespace(reproduce=reproduce))
+    result = run("reproduce", "horng2022", "--out", tmp_path / "figures", "--preset", "window")
+    assert result.exit_code == 0
+    assert asked == {"out": tmp_path / "figures", "preset": "window"}
+    assert result.stdout == "66 of 84 claims\ndone\n"
+    assert result.stderr == "figure 3 ...\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="resource")
+def test_one_state_loads_little_and_is_small():
+    """A state by command needs no package for figures, tables, statistics or compiling; 400 MB."""
+    code = (
+        "import resource, runpy, sys\n"
+        f"sys.argv = ['thirdbody', 'solve', {str(DUSTY)!r}, '--json', '--set',"
+        " 'load.pressure=5 MPa']\n"
+        "try:\n    runpy.run_module('thirdbody', run_name='__main__')\n"
+        "except SystemExit as end:\n    assert not end.code, end.code\n"
+        # ru_maxrss remembers the process that started this one, VmHWM does not
+        "peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
+        "if sys.platform == 'linux':\n"
+        "    peak = open('/proc/self/status').read().split('VmHWM:')[1].split()[0]\n"
+        "print(peak, *sys.modules, file=sys.stderr)\n"
+    )
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    peak, *loaded = done.stderr.split()
+    # kilobytes, on macOS bytes
+    assert int(peak) * (1 if sys.platform == "darwin" else 1024) < 400e6
+    heavy = {"matplotlib", "xarray", "pandas", "numba", "pint", "zarr", "distributed", "nicegui"}
+    heavy |= {"scipy.stats", "scipy.integrate", "scipy.interpolate", "rich"}
+    assert not heavy & set(loaded)
+    assert "scipy.optimize" in loaded
+
+
+@pytest.mark.parametrize("command", [("assess", "--html"), ("design", "--csv", "--figure")])
+def test_a_missing_folder_is_told_before_long_work(tmp_path, command, monkeypatch):
+    name, *options = command
+    for module, work in (("study.analyses", "assess_study"), ("study.analyses", "design_study")):
+        monkeypatch.setattr(import_module(f"thirdbody.{module}"), work, None)
+    study = {"assess": "assess.toml", "design": "additive.toml"}[name]
+    files = [str(tmp_path / "no" / option.strip("-")) for option in options]
+    asked = [word for pair in zip(options, files, strict=True) for word in pair]
+    result = run(name, DUSTY.with_name(study), *asked)
+    assert result.exit_code == 2
+    assert result.stderr.count("there is no folder") == len(files)

@@ -1,0 +1,224 @@
+"""Spots: every contact of a state, against the state's own sums and against explicit contacts."""
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.contact.evaluation import spots_of
+from thirdbody.contact.interface import interface
+
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+SOFT = STEEL.replace(H=2.5e9)
+LOADS = np.geomspace(1e-7, 1e-3, 9)
+SIZES = {
+    "narrow": tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+    "one": tb.Monodisperse(mean=300e-9),
+    "broad": tb.LogNormal(median=150e-9, gsd=1.8),
+    "two": tb.Mixture(
+        parts=(tb.Monodisperse(mean=200e-9), tb.TruncatedGaussian(mean=400e-9, std=40e-9)),
+        weights=(0.7, 0.3),
+    ),
+}
+
+
+def contact(sizes="narrow", *, seat="rough", law=None, heights=None, second=STEEL, **others):
+    rough = tb.Roughness(sigma=100e-9, R=2.8e-6, heights=heights or tb.GaussianHeights())
+    dust = tb.Particles(material=SILICA, areal_density=2e10, diameter=SIZES[sizes])
+    return tb.Contact(
+        surfaces=tb.MaterialPair(STEEL, second),
+        roughness=rough,
+        asperity_law=law or tb.asperity.ZMC(),
+        particles=dust,
+        particle_law=tb.particle.Series(seat=seat),
+        **others,
+    )
+
+
+def spots(case, state):
+    return spots_of(case, interface(case), np.atleast_1d(state.d), np.atleast_1d(state.shadow))
+
+
+def close(found, expected, scale):
+    assert np.max(np.abs(found - expected) / scale) < 1e-9
+
+
+@pytest.mark.parametrize("sizes", SIZES)
+@pytest.mark.parametrize("seat", ["rough", "plane"])
+def test_spots_carry_the_load(sizes, seat):
+    case = contact(sizes, seat=seat, second=SOFT)
+    state = tb.solve(case, F_star=LOADS)
+    asperities, particles = spots(case, state)
+    E = case.E_ss
+    close(sum(s.total(s.load) for s in asperities), state.F_ss_star * E, state.pressure)
+    close(sum(s.total(s.load) for s in particles), state.F_sa_star * E, state.pressure)
+    close(sum(s.total(s.area) for s in asperities), state.A_ss, state.A_t)
+    close(sum(s.total(s.areas[0]) for s in particles), state.A_sa, state.A_t)
+    close(sum(s.total(s.areas[1]) for s in particles), state.A_sa2, state.A_t)
+    by_regime = sum(
+        np.stack([s.total(area * (regime == i)) for i in range(3)])
+        for group in (asperities, particles)
+        for s in group
+        for area, regime in [
+            (s.area, s.regime) if hasattr(s, "area") else (s.areas[0], s.regimes[0])
+        ]
+    )
+    close(by_regime, np.stack([state.A_e, state.A_ep, state.A_p]), state.A_t)
+
+
+@pytest.mark.parametrize(
+    "heights",
+    [
+        tb.ExponentialHeights(),
+        tb.WeibullHeights(shape=4.0),
+        tb.JohnsonHeights(skewness=-0.5, kurtosis=3.5),
+    ],
+    ids=lambda h: type(h).__name__,
+)
+def test_spots_of_other_heights(heights):
+    case = contact(heights=heights)
+    state = tb.solve(case, F_star=LOADS)
+    asperities, _ = spots(case, state)
+    total = sum(s.total(s.load) for s in asperities)
+    assert np.max(np.abs(total - state.F_ss_star * case.E_ss) / state.pressure) < 1e-9
+
+
+@pytest.mark.parametrize(
+    "law", [tb.asperity.KE(), tb.asperity.JG(), tb.asperity.GW()], ids=lambda x: x.name
+)
+def test_spots_of_other_laws(law):
+    case = contact(law=law)
+    with pytest.warns(tb.RangeWarning) if law.name == "gw" else _quiet():
+        state = tb.solve(case, F_star=LOADS)
+    asperities, _ = spots(case, state)
+    close(sum(s.total(s.load) for s in asperities), state.F_ss_star * case.E_ss, state.pressure)
+
+
+def _quiet():
+    import contextlib
+
+    return contextlib.nullcontext()
+
+
+@pytest.mark.parametrize("sizes", ["narrow", "one"])
+def test_more_nodes_change_nothing(sizes):
+    case = contact(sizes, second=SOFT)
+    d = np.atleast_1d(tb.solve(case, F_star=LOADS).d)
+    (response,) = interface(case).populations
+    q = [
+        sum(s.total(np.sqrt(s.depths[0]) * s.load) for s in response.spots(d, splits))
+        for splits in ((), np.geomspace(1e-3, 0.3, 7))
+    ]
+    assert np.max(np.abs(q[1] / q[0] - 1)) < 1e-8
+
+
+def test_explicit_asperities():
+    """How many are pressed how deep, by counting a million of them."""
+    case = contact().replace(particles=None)
+    state = tb.solve(case, F_star=np.array([1e-5, 1e-4]))
+    ((group,), _) = spots(case, state)
+    rough = case.roughness
+    z = np.random.default_rng(5).standard_normal(2_000_000) * rough.sigma_s
+    for i, d in enumerate(state.d):
+        omega = z - d
+        level = 0.4 * rough.sigma_s
+        counted = np.mean(omega > level)
+        error = np.sqrt(counted / len(z))
+        assert abs(group.deeper(level)[i] / rough.density - counted) < 4 * error
+        assert group.deepest(rough.density * counted)[i] == pytest.approx(level, abs=0.02e-7)
+        assert group.deeper(group.deepest(1e6))[i] == pytest.approx(1e6, rel=1e-9)
+
+
+def test_explicit_particles():
+    """Loads of particles one by one: a million sizes and seats drawn at random."""
+    case = contact(second=SOFT)
+    state = tb.solve(case, F_star=1e-5)
+    _, (group,) = spots(case, state)
+    rng = np.random.default_rng(8)
+    count = 400_000
+    x = case.particles.diameter.sample(rng, count)
+    seats = rng.standard_normal(count) * case.roughness.sigma
+    one = case.particle_law.single(x, state.h - seats, surfaces=case.surfaces, particle=SILICA)
+    levels = np.array([1e-5, 1e-4, 3e-4])
+    found = group.above(group.load, levels)[0] / case.particles.areal_density
+    counted = np.array([np.mean(one["force"] > level) for level in levels])
+    # a node is all above a level or all below it
+    assert np.all(np.abs(found - counted) < 4 * np.sqrt(counted / count) + 0.01)
+    for i in range(2):
+        depth = group.total(group.depths[i] * group.load)[0] / case.particles.areal_density
+        product = one[f"delta_{i + 1}"] * one["force"]
+        assert abs(depth - product.mean()) < 4 * product.std() / np.sqrt(count)
+
+
+def test_outputs_travel_with_the_contact():
+    case = contact(outputs=tb.outputs.Counts())
+    state = tb.solve(case, F_star=LOADS)
+    one = tb.solve(case, F_star=float(LOADS[3]))
+    assert isinstance(one.outputs["n_ss"], float)
+    assert one.outputs["n_ss"] == pytest.approx(state.outputs["n_ss"][3], rel=1e-12)
+    assert list(state.columns())[-1] == "p_sa"
+    again = tb.Contact.from_dict(case.to_dict())
+    assert again.outputs == case.outputs
+    assert case != case.replace(outputs=())
+    assert state.outputs["p_ss"] * state.A_ss == pytest.approx(state.F_ss_star * case.E_ss)
+
+
+def test_swept_outputs_are_those_of_each_contact():
+    case = contact(outputs=tb.outputs.Counts())
+    sizes = [0.0, 250e-9, 300e-9]
+    swept = tb.sweep(case, F_star=LOADS[2:4], vary={"particles.diameter.mean": sizes})
+    assert swept["n_sa"].attrs["units"] == "1/m^2"
+    assert np.all(swept["n_sa"].sel({"particles.diameter.mean": 0}) == 0)
+    for x in sizes[1:]:
+        own = tb.solve(case.replace(**{"particles.diameter.mean": x}), F_star=LOADS[2:4])
+        np.testing.assert_allclose(
+            swept["n_sa"].sel({"particles.diameter.mean": x}), own.outputs["n_sa"], rtol=1e-9
+        )
+
+
+def test_slopes_of_outputs():
+    case = contact(outputs=tb.outputs.Counts())
+    found = tb.sensitivity(case, of=["n_sa"], to=["roughness.sigma", "pressure"], pressure=5e6)
+    for name in ("roughness.sigma", "pressure"):
+        ends = []
+        for factor in (1 - 1e-4, 1 + 1e-4):
+            sigma = 100e-9 * (factor if name != "pressure" else 1)
+            p = 5e6 * (factor if name == "pressure" else 1)
+            moved = case.replace(**{"roughness.sigma": sigma})
+            ends.append(np.log(tb.solve(moved, pressure=p).outputs["n_sa"]))
+        assert found.elasticity["n_sa"][name] == pytest.approx((ends[1] - ends[0]) / 2e-4, rel=1e-6)
+
+
+def test_unsolved_states_have_no_outputs():
+    case = contact(outputs=tb.outputs.Counts())
+    state = tb.solve(case, F_star=np.array([1e-5, 1e3]))
+    assert state.status[1] != "ok"
+    assert np.isnan(state.outputs["n_ss"][1])
+    assert state.outputs["n_ss"][0] > 0
+
+
+@pytest.mark.parametrize(
+    ("outputs", "said"),
+    [
+        ((3,), "give outputs"),
+        ((tb.outputs.Counts(), tb.outputs.Counts()), "each output once"),
+    ],
+)
+def test_mistakes(outputs, said):
+    with pytest.raises(tb.InvalidValue, match=said):
+        contact(outputs=outputs)
+
+
+def test_a_law_without_spots_says_so():
+    case = contact(outputs=tb.outputs.Counts()).replace(particle_law=tb.particle.Horng2022())
+    with pytest.raises(tb.InvalidValue, match="how deep one of them sits"):
+        tb.solve(case, F_star=1e-5)
+
+
+def test_columns_are_unique_and_described():
+    seen = {}
+    for name, kind in tb.outputs.REGISTRY.items():
+        for column, about in kind.columns.items():
+            assert column not in seen, f"{column} of {name} and {seen[column]}"
+            assert column not in tb.solve(contact(), F_star=1e-5).columns()
+            assert all(about)
+            seen[column] = name

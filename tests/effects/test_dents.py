@@ -1,0 +1,164 @@
+"""Dents of a solved contact, against explicit random particles and the single-particle law."""
+
+import math
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.effects import Dents
+from thirdbody.effects.single import dent as one_dent
+from thirdbody.laws.particle import Series
+from thirdbody.laws.particle import one_particle as co
+from thirdbody.systems import oil_particles
+
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+SOFT = STEEL.replace(H=2.5e9)
+ROUGH = tb.Roughness(sigma=100e-9, R=2.8e-6)
+SIZES = tb.TruncatedGaussian(mean=500e-9, std=100e-9)
+NAMES = [name[:-2] for name in Dents.columns if name.endswith("_1")]
+
+
+def contact(first=STEEL, second=SOFT, *, dents=None, law=None, material=SILICA, density=1e10):
+    dust = tb.Particles(material=material, areal_density=density, diameter=SIZES)
+    return tb.Contact(
+        surfaces=tb.MaterialPair(first, second),
+        roughness=ROUGH,
+        particles=dust,
+        particle_law=law or Series(),
+        outputs=dents or Dents(),
+    )
+
+
+def left(pressure=5e6, **options):
+    return tb.solve(contact(**options), pressure=pressure).outputs
+
+
+@pytest.fixture(scope="module")
+def thrown():
+    """A million explicit particles on random places of the rough surface, and their dents."""
+    system = contact()
+    state = tb.solve(system, pressure=5e6)
+    rng = np.random.default_rng(7)
+    n = 1_000_000
+    gap = float(state.d) + ROUGH.y_s - ROUGH.sigma * rng.standard_normal(n)
+    x = SIZES.sample(rng, n)
+    spots = co.squeezed_particle(
+        Series().law, *co.contact_sides(system.surfaces, SILICA), 0.5
+    ).spots(
+        x[:, None],
+        np.maximum(x - gap, 0.0)[:, None],
+        share=None,
+        number=np.ones((n, 1)),
+    )
+    return state.outputs, spots, n
+
+
+@pytest.mark.parametrize("side", [1, 2])
+def test_against_explicit_particles(thrown, side):
+    found, spots, n = thrown
+    dent = one_dent.dent_of(spots, side - 1, SILICA)
+    there = (dent.depth > 0).ravel()
+    depth, width = dent.depth.ravel()[there], dent.diameter.ravel()[there]
+    assert found[f"n_dents_{side}"] == pytest.approx(1e10 * there.mean(), rel=3e-3)
+    assert found[f"dent_depth_{side}"] == pytest.approx(depth.mean(), rel=4e-3)
+    assert found[f"dent_width_{side}"] == pytest.approx(width.mean(), rel=4e-3)
+    assert found[f"dent_volume_{side}"] == pytest.approx(1e10 * dent.volume.sum() / n, rel=6e-3)
+    assert found[f"dent_depth_p95_{side}"] == pytest.approx(np.quantile(depth, 0.95), rel=0.02)
+    assert found[f"dent_width_p95_{side}"] == pytest.approx(np.quantile(width, 0.95), rel=0.02)
+    # the deepest of 1 mm² among 10⁴: one in 14 427
+    rare = 1 - math.log(2) / (1e4 * there.mean())
+    assert found[f"dent_depth_max_{side}"] == pytest.approx(np.quantile(depth, rare), rel=0.03)
+
+
+def test_surfaces_swap():
+    one, two = left(), left(first=SOFT, second=STEEL)
+    for name in NAMES:
+        assert one[f"{name}_1"] == pytest.approx(two[f"{name}_2"], rel=1e-6), name
+        assert one[f"{name}_2"] == pytest.approx(two[f"{name}_1"], rel=1e-6), name
+
+
+def test_no_dents():
+    """Without particles, with particles softer than the surfaces, and below first yield."""
+    none = left(density=0.0)
+    soft = left(material=SILICA.replace(H=2e9))
+    for found in (none, soft):
+        assert found["n_dents_1"] == found["dent_volume_2"] == found["dent_depth_max_1"] == 0
+        assert math.isnan(found["dent_depth_1"])
+
+
+def test_only_the_softer_surface():
+    found = left(material=SILICA.replace(H=4e9))
+    assert found["n_dents_1"] == 0 < found["n_dents_2"]
+
+
+def test_dents_add_with_their_number():
+    """At one separation, twice the particles leave twice the dents."""
+    one = tb.solve(contact(density=1e9), d=150e-9).outputs
+    two = tb.solve(contact(density=2e9), d=150e-9).outputs
+    for name in ("n_dents_1", "dent_volume_2", "embedded_2"):
+        assert two[name] == pytest.approx(2 * one[name], rel=1e-12)
+    assert two["dent_depth_1"] == pytest.approx(one["dent_depth_1"], rel=1e-12)
+    assert two["dent_depth_p95_2"] == pytest.approx(one["dent_depth_p95_2"], rel=1e-9)
+    assert two["dent_depth_max_2"] > one["dent_depth_max_2"] > one["dent_depth_p95_2"]
+
+
+def test_shallow_dents_can_be_left_out():
+    every, deep = left(), left(dents=Dents(shallowest=100e-9))
+    assert deep["n_dents_2"] < every["n_dents_2"]
+    assert deep["dent_depth_2"] > max(100e-9, every["dent_depth_2"])
+    assert deep["dent_depth_max_2"] == pytest.approx(every["dent_depth_max_2"], rel=1e-9)
+
+
+def test_brittle():
+    """Fragments larger than every particle change nothing; fine ones pass the gap."""
+    whole, same = left(), left(dents=Dents(debris="brittle", fragment=1e-3))
+    for name in Dents.columns:
+        assert whole[name] == pytest.approx(same[name], rel=1e-12), name
+    fine = left(dents=Dents(debris="brittle", fragment=300e-9))
+    assert fine["dent_depth_max_2"] < whole["dent_depth_max_2"]
+    gone = left(dents=Dents(debris="brittle", fragment=1e-9))
+    assert gone["dent_volume_2"] < 1e-2 * whole["dent_volume_2"]
+
+
+def test_ductile():
+    flat = left(dents=Dents(debris="ductile"))
+    assert flat["dent_depth_1"] == flat["dent_volume_1"] == flat["embedded_1"] == 0
+    assert flat["dent_width_1"] == flat["dent_width_2"] > 500e-9
+
+
+def test_a_film_is_a_contact_with_a_plane_seat():
+    """The single-particle route and the contact agree where the gap is one height."""
+    law = Series(seat="plane")
+    h = 300e-9
+    found = tb.solve(contact(law=law), d=h).outputs
+    film = oil_particles.FilmParticles(
+        surfaces=tb.MaterialPair(STEEL, SOFT), material=SILICA, diameter=SIZES,
+        number=1e10 / h, film=h, entry=1.0,
+    )  # fmt: skip
+    for side in (1, 2):
+        dents = film.dents(side)
+        assert found[f"n_dents_{side}"] == pytest.approx(dents.number, rel=1e-7)
+        assert found[f"dent_depth_{side}"] == pytest.approx(dents.depth, rel=1e-7)
+        assert found[f"dent_width_{side}"] == pytest.approx(dents.diameter, rel=1e-7)
+        assert found[f"dent_volume_{side}"] == pytest.approx(dents.volume, rel=1e-7)
+        assert found[f"dent_depth_p95_{side}"] == pytest.approx(dents.depth_p95, rel=0.02)
+        assert found[f"embedded_{side}"] == pytest.approx(dents.number * dents.embedded, rel=1e-6)
+
+
+def test_refusals():
+    with pytest.raises(tb.InvalidValue, match="size of their fragments"):
+        Dents(debris="brittle")
+    with pytest.raises(tb.InvalidValue, match="only those"):
+        Dents(fragment=1e-6)
+    with pytest.raises(tb.InvalidValue, match=r"need particle\.Series"):
+        contact(dents=Dents(debris="brittle", fragment=1e-7), law=tb.particle.Flakes(aspect=2.0))
+
+
+def test_example(tmp_path, monkeypatch):
+    """The worked example runs and its number holds."""
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path(str(Path(__file__).parents[2] / "examples" / "ball_screw_dents.py"))
+    assert (tmp_path / "ball_screw_dents.png").exists()

@@ -1,0 +1,397 @@
+"""What users build: frozen, checked once, comparable, with a JSON round trip."""
+
+import dataclasses
+import json
+import math
+import pickle
+import subprocess
+import sys
+import warnings
+
+import numpy as np
+import oracle
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from twins import decades, horng_twins, roughnesses, series_twins
+
+import thirdbody as tb
+
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+ROUGH = tb.Roughness(sigma=1e-7, R=2.8e-6)
+
+
+def dust(**changes) -> tb.Particles:
+    options = {
+        "material": SILICA,
+        "diameter": tb.TruncatedGaussian(mean=3e-7, std=2.4e-8),
+        "areal_density": 1e11,
+    }
+    return tb.Particles(**(options | changes))
+
+
+def contact(**changes) -> tb.Contact:
+    options = {
+        "surfaces": tb.MaterialPair(STEEL, STEEL),
+        "roughness": tb.Roughness(sigma=1e-7, R=2.8e-6),
+        "particles": dust(),
+    }
+    return tb.Contact(**(options | changes))
+
+
+# ------------------------------------------------------------------------------ whole contacts
+@given(twin=st.one_of(series_twins(), horng_twins()))
+def test_json_round_trip(twin):
+    text = json.dumps(twin.contact.to_dict(), allow_nan=False)
+    again = tb.Contact.from_dict(json.loads(text))
+    assert again == twin.contact
+    assert hash(again) == hash(twin.contact)
+    assert json.dumps(again.to_dict()) == text
+
+
+@given(twin=st.one_of(series_twins(), horng_twins()))
+def test_pickle_round_trip(twin):
+    assert pickle.loads(pickle.dumps(twin.contact)) == twin.contact
+
+
+def test_contact_is_frozen():
+    with pytest.raises(AttributeError):
+        contact().roughness = None
+    with pytest.raises(AttributeError):
+        contact().roughness.sigma = 1.0
+    with pytest.raises((AttributeError, TypeError)):
+        contact().anything = 1
+
+
+def test_contact_takes_keywords_only():
+    with pytest.raises(TypeError):
+        tb.Contact(tb.MaterialPair(STEEL, STEEL), tb.Roughness(sigma=1e-7, R=2.8e-6))
+    with pytest.raises(TypeError):
+        tb.Roughness(1e-7, 2.8e-6)
+    with pytest.raises(TypeError):
+        tb.Contact(surfaces=tb.MaterialPair(STEEL, STEEL), rough=1)
+
+
+def test_defaults():
+    plain = tb.Contact(
+        surfaces=tb.MaterialPair(STEEL, SILICA), roughness=tb.Roughness(sigma=1e-7, R=2.8e-6)
+    )
+    assert plain.two_body
+    assert plain.asperity_law == tb.asperity.ZMC(k=0.4, rho=54)
+    assert contact().particle_law == tb.particle.Series()
+    assert contact() == contact(particle_law=None)
+    assert not contact().two_body
+    series = tb.particle.Series()
+    assert series.law == tb.asperity.Hermite()
+    assert (series.seat, series.h_0, series.shadow) == ("rough", 0.0, "footprint")
+    assert (series.zeta_mean, series.zeta_std) == (0.0, 1.0)
+    assert tb.particle.Horng2022() == tb.particle.Horng2022(preset="published")
+
+
+@given(first=st.sampled_from((STEEL, SILICA)), second=st.sampled_from((STEEL, SILICA)))
+def test_modulus_of_a_contact(first, second):
+    pair = tb.MaterialPair(first, second)
+    bodies = [oracle.Body(m.E, m.nu, m.H) for m in (first, second)]
+    assert contact(surfaces=pair).E_ss == pytest.approx(oracle.contact_modulus(*bodies), rel=1e-14)
+
+
+# --------------------------------------------------------------------------------- replace
+def test_replace_reaches_inside():
+    changed = contact().replace(
+        **{
+            "roughness.sigma": 2e-7,
+            "particles.diameter.mean": 5e-7,
+            "particles.areal_density": 3e10,
+            "surfaces.second.H": 1e9,
+            "particle_law.seat": "plane",
+        }
+    )
+    assert changed.roughness == tb.Roughness(sigma=2e-7, R=2.8e-6)
+    assert changed.particles.diameter == tb.TruncatedGaussian(mean=5e-7, std=2.4e-8)
+    assert changed.particles.areal_density == 3e10
+    assert changed.surfaces.second.H == 1e9
+    assert changed.surfaces.first == STEEL
+    assert changed.particle_law.seat == "plane"
+    assert contact().replace() == contact()
+
+
+def test_replace_leaves_the_original_alone():
+    one = contact()
+    one.replace(**{"roughness.sigma": 2e-7})
+    assert one == contact()
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"rough": 1}, ["rough", "roughness"]),
+        ({"roughness.sigmma": 1e-7}, ["sigmma", "sigma"]),
+        ({"particles.diameter.median": 1e-7}, ["median", "mean"]),
+        ({"roughness.sigma": -1}, ["Roughness.sigma", "> 0"]),
+        ({"roughness.sigma.x": 1}, ["sigma"]),
+    ],
+)
+def test_replace_names_what_does_not_fit(change, words):
+    with pytest.raises(tb.InvalidValue) as caught:
+        contact().replace(**change)
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_replacing_the_particles_of_a_bare_contact():
+    with pytest.raises(tb.InvalidValue):
+        contact(particles=None).replace(**{"particles.areal_density": 1e9})
+
+
+# ------------------------------------------------------------------------------- roughness
+@given(rough=roughnesses())
+def test_roughness(rough):
+    ours = tb.Roughness(
+        sigma=rough.sigma, R=rough.R, alpha=rough.alpha, eta_R_sigma=rough.eta_R_sigma
+    )
+    assert ours.sigma_s == pytest.approx(rough.sigma_s, rel=1e-14)
+    assert ours.y_s == pytest.approx(rough.y_s, rel=1e-14)
+    assert ours.density == pytest.approx(rough.eta, rel=1e-14)
+    by_density = tb.Roughness(sigma=rough.sigma, R=rough.R, alpha=rough.alpha, eta=rough.eta)
+    assert by_density.density == pytest.approx(ours.density, rel=1e-14)
+
+
+def test_mccool_surface():
+    rough = tb.Roughness(sigma=1e-7, R=2.8e-6)
+    assert rough.density * rough.R * rough.sigma == pytest.approx(0.0455)
+    # Nayak: the same offset from the density of asperities, y_s = 0.045944/(ηRσ) σ
+    assert rough.y_s == pytest.approx(0.045944 / 0.0455 * rough.sigma, rel=1e-3)
+    # and σ_s² = σ² − 3.717e-4/(ηR)²
+    exact = rough.sigma**2 - 3.717e-4 / (rough.density * rough.R) ** 2
+    assert rough.sigma_s == pytest.approx(math.sqrt(exact), rel=1e-3)
+
+
+# ------------------------------------------------------------------------------ particles
+@given(coverage=decades(1e-8, 0.99), x=decades(1e-9, 1e-3))
+def test_coverage(coverage, x):
+    population = dust(
+        diameter=tb.Monodisperse(mean=x), areal_density=coverage / (math.pi / 4 * x**2)
+    )
+    assert population.coverage == pytest.approx(coverage, rel=1e-12)
+
+
+def test_jammed_particles_are_refused():
+    with pytest.raises(tb.InvalidValue, match="jammed"):
+        dust(areal_density=1.5e13)
+
+
+def test_dense_particles_warn():
+    crowded = contact(particles=dust(areal_density=6e12))
+    assert crowded.particles.coverage > 0.3
+    with pytest.warns(tb.RangeWarning):
+        state = tb.solve(crowded, F_star=1e-6)
+    assert state.warnings
+
+
+def test_large_contact_area_warns():
+    with pytest.warns(tb.RangeWarning):
+        state = tb.solve(contact(particles=None), d=-3e-7)
+    assert state.A_t > 0.2
+    assert state.warnings
+
+
+def test_ordinary_states_do_not_warn(recwarn):
+    state = tb.solve(contact(), F_star=1e-5)
+    assert state.warnings == ()
+    assert not [w for w in recwarn if issubclass(w.category, tb.RangeWarning)]
+
+
+# ----------------------------------------------------------------------------- bad values
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: tb.Material(E=-1, nu=0.3, H=1e9), ["Material.E = -1", "> 0 [Pa]", "205e9"]),
+        (lambda: tb.Material(E=1e9, nu=0.6, H=1e9), ["Material.nu = 0.6", "<= 0.5"]),
+        (lambda: tb.Material(E=1e9, nu=-1, H=1e9), ["nu", "> -1"]),
+        (lambda: tb.Material(E=1e9, nu=0.3, H=0), ["Material.H"]),
+        (lambda: tb.Material(E="205 GPa", nu=0.3, H=1e9), ["Material.E", "SI units [Pa]", "str"]),
+        (lambda: tb.Material(E=None, nu=0.3, H=1e9), ["Material.E"]),
+        (lambda: tb.Material(E=True, nu=0.3, H=1e9), ["Material.E"]),
+        (lambda: tb.Material(E=math.inf, nu=0.3, H=1e9), ["Material.E = inf"]),
+        (lambda: tb.Material(E=np.array([1.0, 2.0]), nu=0.3, H=1e9), ["Material.E"]),
+        (lambda: tb.MaterialPair(STEEL, "steel"), ["MaterialPair.second", "materials["]),
+        (lambda: tb.Roughness(sigma=0, R=1e-6), ["Roughness.sigma = 0", "> 0 [m]"]),
+        (lambda: tb.Roughness(sigma=1e-7, R=math.nan), ["Roughness.R = nan"]),
+        (lambda: tb.Roughness(sigma=1e-7, R=1e-6, alpha=1.5), ["alpha", "> 1.5"]),
+        (
+            lambda: tb.Roughness(sigma=1e-7, R=1e-6, eta=1e11, eta_R_sigma=0.05),
+            ["eta", "eta_R_sigma"],
+        ),
+        (lambda: dust(areal_density=-1.0), ["areal_density", ">= 0"]),
+        (lambda: dust(material="SiO2"), ["Particles.material"]),
+        (lambda: dust(diameter=3e-7), ["Particles.diameter"]),
+        (lambda: tb.particle.Series(seat="floor"), ["seat", "'rough'", "'plane'", "'offset'"]),
+        (lambda: tb.particle.Series(shadow="half"), ["shadow", "'footprint'"]),
+        (lambda: tb.particle.Series(h_0=1e-7), ["h_0", "offset"]),
+        (lambda: tb.particle.Series(seat="plane", zeta_mean=1.0), ["zeta_mean"]),
+        (lambda: tb.particle.Series(zeta_std=0.0), ["zeta_std"]),
+        (lambda: tb.particle.Series(law="hertz"), ["Series.law"]),
+        (lambda: tb.particle.Horng2022(preset="best"), ["preset", "published", "window"]),
+        (lambda: tb.particle.Horng2022(weight="x3"), ["weight", "x2"]),
+        (lambda: tb.particle.Horng2022(kappa_C=0), ["kappa_C"]),
+        (lambda: tb.particle.Horng2022(hardness_rule="mean"), ["hardness_rule", "sum"]),
+        (lambda: tb.particle.Horng2022(chi=-0.1), ["chi"]),
+        (lambda: contact(surfaces=STEEL), ["Contact.surfaces"]),
+        (lambda: contact(roughness=1e-7), ["Contact.roughness"]),
+        (lambda: contact(particles=SILICA), ["Contact.particles"]),
+        (lambda: contact(asperity_law="zmc"), ["Contact.asperity_law"]),
+        (lambda: contact(particle_law=tb.asperity.ZMC()), ["Contact.particle_law"]),
+    ],
+)
+def test_mistakes_are_named(make, words):
+    with pytest.raises(tb.InvalidValue) as caught:
+        make()
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_all_mistakes_at_once():
+    with pytest.raises(tb.InvalidValue) as caught:
+        tb.Material(E=-1, nu=2, H=math.nan)
+    assert len(caught.value.problems) == 3
+    assert isinstance(caught.value, ValueError)
+    assert isinstance(caught.value, tb.ThirdBodyError)
+
+
+@pytest.mark.parametrize("bad", [{"type": "Nothing"}, {}, {"type": "Material"}])
+def test_json_of_something_else(bad):
+    with pytest.raises((tb.InvalidValue, TypeError)):
+        tb.Contact.from_dict(bad)
+
+
+def test_presets():
+    """The published readings, by their numbers."""
+    rows = {
+        "published": ("sum", 1, 3.11, 1, 0.00738, True),
+        "window": ("surface", 1, 3.25, 1, 1 / 16, False),
+        "all_terms": ("surface", 1, 3.15, 1, 0.0185, True),
+        "window_E2": ("surface", 1, 2.39, 2, 1.0, False),
+        "literal": ("surface", 1, None, 1, 1.0, True),
+    }
+    assert set(tb.particle.PRESETS) == set(rows)
+    for name, (rule, datum, h_e, kappa, chi, plastic) in rows.items():
+        law = tb.particle.Horng2022(preset=name)
+        got = (law.hardness_rule, law.datum, law.kappa_C, law.chi, law.plastic, law.normalise)
+        assert got == (rule, datum, kappa, pytest.approx(chi), plastic, False), name
+        assert (law.h_e_rule == "approach") == (h_e is None)
+        if h_e is not None:
+            assert law.h_e_sigma == h_e
+    changed = tb.particle.Horng2022(preset="window", chi=0.5)
+    assert (changed.chi, changed.h_e_sigma) == (0.5, 3.25)
+
+
+def test_numbers_become_floats():
+    rough = tb.Roughness(sigma=np.float32(1), R=np.int64(2))
+    assert type(rough.sigma) is float
+    assert type(rough.R) is float
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        STEEL,
+        tb.Roughness(sigma=1e-7, R=1e-6),
+        dust(),
+        tb.particle.Series(),
+        tb.particle.Horng2022(),
+        tb.asperity.ZMC(),
+        contact(),
+    ],
+    ids=lambda v: type(v).__name__,
+)
+def test_every_field_is_documented(value):
+    """Quantities carry symbol, unit and meaning beside the field, for messages and docs alike."""
+    assert dataclasses.is_dataclass(value)
+    for item in dataclasses.fields(value):
+        if isinstance(getattr(value, item.name), float):
+            about = item.metadata["quantity"]
+            assert about["symbol"]
+            assert about["unit"]
+            assert about["meaning"]
+
+
+# -------------------------------------------------------------------------- likely slips
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        (
+            {"particles": dust(diameter=tb.Monodisperse(mean=200), areal_density=1e-6)},
+            ["particles.diameter.mean = 200 ", "200 m", "was 200 nm"],
+        ),
+        ({"roughness": tb.Roughness(sigma=1e-7, R=2.8)}, ["roughness.R = 2.8 ", "was 2.8 um"]),
+        (
+            {"surfaces": tb.MaterialPair(STEEL, STEEL.replace(E=205))},
+            ["surfaces.second.E = 205 ", "205 Pa", "was 205 GPa"],
+        ),
+    ],
+)
+def test_a_forgotten_unit_is_told_of(changes, words):
+    options = {"surfaces": tb.MaterialPair(STEEL, STEEL), "roughness": ROUGH} | changes
+    with pytest.warns(tb.RangeWarning) as heard:
+        tb.Contact(**options)
+    (one,) = heard
+    assert one.filename == __file__
+    for word in words:
+        assert word in str(one.message)
+
+
+def test_a_forgotten_unit_of_a_varied_input_is_told_of():
+    with pytest.warns(tb.RangeWarning, match=r"roughness\.R = 3 .*was 3 um"):
+        tb.solve_states(contact(), pressure=5e6, vary={"roughness.R": [2e-6, 3.0]})
+
+
+def test_usual_numbers_are_no_slip():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rubber = tb.Material(E=2e6, nu=0.49, H=1e6)
+        friction = tb.outputs.Friction(tau_ss=0, tau_sa=0)
+        contact(surfaces=tb.MaterialPair(rubber, rubber), outputs=friction)
+        tb.Monodisperse(mean=1.0)  # sizes over their mean
+
+
+def test_a_study_file_tells_of_a_slip_once(tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(
+        '[surfaces]\nfirst = "S45C"\nsecond = "S45C"\n'
+        '[roughness]\nsigma = "100 nm"\nR = 2.8\n[load]\npressure = "5 MPa"\n'
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        (note,) = tb.load_study(file).notes
+    assert 'was "2.8 um" meant?' in note
+    with pytest.warns(tb.RangeWarning, match=r"was 2\.8 um meant"):
+        contact(roughness=tb.Roughness(sigma=1e-7, R=2.8))
+
+
+# ------------------------------------------------------------------------------ names
+def test_every_name_is_listed():
+    script = "import thirdbody as tb; print(*dir(tb))"
+    listed = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout
+    names = listed.split()
+    assert set(tb.__all__) <= set(names)
+    assert all(hasattr(tb, name) for name in names)
+    assert names == dir(tb)  # the same after names were used
+    assert [name for name in names if name.startswith("_") and not name.startswith("__")] == []
+
+
+def test_notebooks_offer_the_names_of_materials():
+    assert tb.materials._ipython_key_completions_() == list(tb.materials)
+
+
+def test_a_study_is_a_contact_and_loads(tmp_path):
+    file = tmp_path / "study.toml"
+    file.write_text(
+        'title = "two"\n[surfaces]\nfirst = "S45C"\nsecond = "S45C"\n'
+        '[roughness]\nsigma = "100 nm"\nR = "2.8 um"\n[load]\npressure = ["1 MPa", "5 MPa"]\n'
+    )
+    study = tb.load_study(file)
+    assert study.contact == contact(particles=None)
+    assert (study.title, study.load, study.values.tolist()) == ("two", "pressure", [1e6, 5e6])
+    assert study.solve().d.tolist() == tb.solve(study.contact, pressure=[1e6, 5e6]).d.tolist()
+    with pytest.raises(tb.InvalidValue, match=r"roughness\.sigma"):
+        tb.load_study(file, ["roughness.sigma=-1"])

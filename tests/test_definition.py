@@ -1,0 +1,190 @@
+"""Every fast path against the model as `thirdbody.definition` writes it down.
+
+As a script it prints how many combinations each path was held to, and the worst differences.
+"""
+
+import collections
+import itertools
+import sys
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent / "laws"))
+from subjects import FIRST, HEIGHTS, SUBJECTS
+from subjects import contact as two_body
+
+import thirdbody as tb
+from thirdbody import definition
+from thirdbody.equilibrium import solve as equilibrium
+from thirdbody.equilibrium.states import state_columns
+
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+
+TOLERANCE = 1e-11
+"""Of the load for loads, of the real area for areas."""
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+SOFT = tb.Material(E=110e9, nu=0.33, H=1.5e9)
+ROUGH = tb.Roughness(sigma=100e-9, R=2.8e-6)
+MEAN = 250e-9
+SIZES = {
+    "one size": tb.Monodisperse(mean=MEAN),
+    "gaussian": tb.TruncatedGaussian(mean=MEAN, std=0.1 * MEAN),
+    "lognormal": tb.LogNormal(median=MEAN, gsd=1.4),
+    "weibull": tb.Weibull(scale=MEAN, shape=4.0),
+    "uniform": tb.Uniform(low=0.6 * MEAN, high=1.3 * MEAN),
+    "histogram": tb.Histogram(edges=(1e-7, 2e-7, 3e-7), counts=(2.0, 5.0)),
+}
+SEATS = {
+    "plane": dict(seat="plane"),
+    "offset": dict(seat="offset", h_0=30e-9),
+    "rough": dict(),
+    "valleys": dict(zeta_mean=-0.4, zeta_std=0.7),
+}
+SHADOWS = ("footprint", "projected", "covered", "none")
+DUSTS = {"silica": SILICA, "soft": tb.Material(E=3e9, nu=0.4, H=4e8)}
+SECONDS = {"like": STEEL, "unlike": SOFT}
+
+
+def columns(states, i):
+    """Columns of state i."""
+    return {name: values[i] for name, values in states.items()}
+
+
+def difference(contact, want, got):
+    """The largest difference over all columns: loads to the load, areas to the real area."""
+    E, load = contact.E_ss, want["F_ss"] + want["F_sa"]
+    out = 0.0
+    for name, value in want.items():
+        if name.startswith("F"):
+            out = max(out, abs(got[f"{name}_star"] * E - value) / abs(load))
+        elif name in got:
+            out = max(out, abs(got[name] - value) / want["A_t"])
+    return float(out)
+
+
+def by_tables(contact, d, want):
+    return columns(tb.solve(contact, d=[d]).columns(), 0)
+
+
+def by_compiled_tables(contact, d, want):
+    with mock.patch.object(equilibrium.engine, "FEWEST", 1):
+        states = tb.solve(contact, pressure=[want["F_ss"] + want["F_sa"]])
+    return columns(states.columns(), 0)
+
+
+def by_states(contact, d, want):
+    """Thirty-two states of other roughness beside it."""
+    sigma = contact.roughness.sigma * np.linspace(1.0, 1.3, 32)
+    load = want["F_ss"] + want["F_sa"]
+    return columns(state_columns(contact, pressure=load, vary={"roughness.sigma": sigma}), 0)
+
+
+PATHS = {"tables": by_tables, "compiled": by_compiled_tables, "states": by_states}
+
+
+def two_body_cases():
+    """Every law on Gaussian heights, and one law on every height distribution."""
+    for subject in SUBJECTS:
+        yield f"{subject.label} gaussian", two_body(subject.law, HEIGHTS["gaussian"])
+    for (name, heights), law in itertools.product(HEIGHTS.items(), ("gw", "ceb")):
+        yield f"{law} {name}", two_body(FIRST[law].law, heights)
+
+
+def particle_cases():
+    """Sizes, seats and shadows, each with each; materials and laws in turn."""
+    turns = itertools.cycle(itertools.product(DUSTS, SECONDS, ("series", "flakes")))
+    for (size, diameter), (seat, where), shadow in itertools.product(
+        SIZES.items(), SEATS.items(), SHADOWS
+    ):
+        dust, second, kind = next(turns)
+        options = where | dict(shadow=shadow) | (dict(aspect=1.5) if kind == "flakes" else {})
+        yield (
+            f"{kind} {seat} {size} {shadow} {dust} {second}",
+            tb.Contact(
+                surfaces=tb.MaterialPair(STEEL, SECONDS[second]),
+                roughness=ROUGH,
+                particle_law=getattr(tb.particle, kind.capitalize())(**options),
+                particles=tb.Particles(material=DUSTS[dust], areal_density=2e11, diameter=diameter),
+            ),
+        )
+
+
+def other_cases():
+    """Laws of one particle (without a jump of their load, where no share balances), two
+    populations, an ellipticity."""
+    dust = tb.Particles(material=SILICA, areal_density=1e11, diameter=SIZES["one size"])
+    pair = tb.MaterialPair(STEEL, SOFT)
+    for name in ("gw", "zmc"):
+        law = tb.particle.Series(law=FIRST[name].law)
+        yield (
+            f"particles of {name}",
+            tb.Contact(surfaces=pair, roughness=ROUGH, particles=dust, particle_law=law),
+        )
+    debris = tb.Particles(material=SOFT, areal_density=3e11, diameter=SIZES["lognormal"])
+    yield (
+        "two populations",
+        tb.Contact(surfaces=pair, roughness=ROUGH, particles=(dust, debris)),
+    )
+    shapes = tb.Ellipticity(ratios=(1.5, 4.0), weights=(2.0, 1.0), radii=(1.0, 1.4))
+    law = tb.asperity.REGISTRY["elliptic-zmc"]()
+    rough = ROUGH.replace(ellipticity=shapes)
+    yield "ellipticity", tb.Contact(surfaces=pair, roughness=rough, asperity_law=law)
+
+
+QUICK = {f"{subject.label} gaussian" for subject in SUBJECTS}
+CASES = dict(itertools.chain(two_body_cases(), particle_cases(), other_cases()))
+
+
+def separation(contact):
+    """Where asperities are pressed, and particles."""
+    return 1.2 * contact.roughness.sigma
+
+
+def compared(contact):
+    """The difference of every path that takes this contact."""
+    d = separation(contact)
+    want = definition.state(contact, d)
+    if want["F_ss"] + want["F_sa"] <= 0:  # adhesion holds it: no load to solve for
+        return {"tables": difference(contact, want, by_tables(contact, d, want))}
+    return {name: difference(contact, want, path(contact, d, want)) for name, path in PATHS.items()}
+
+
+def chosen():
+    """Quick: every law, every kind of heights, and every seventh combination of particles, which
+    is every size, seat and shadow several times. The others are among the slow tests."""
+    for i, name in enumerate(CASES):
+        grains = name.startswith(("series ", "flakes ")) and i % 7
+        heights = name.startswith("ceb ") and name not in QUICK
+        yield pytest.param(name, marks=pytest.mark.slow if grains or heights else ())
+
+
+@pytest.mark.parametrize("name", list(chosen()))
+def test_every_path_is_the_model(name):
+    for path, off in compared(CASES[name]).items():
+        assert off < TOLERANCE, path
+
+
+def test_the_balance():
+    """The separation that the definition's own root finds."""
+    contact = CASES["series rough one size footprint silica like"]
+    state = tb.solve(contact, pressure=5e6)
+    assert state.d == pytest.approx(definition.separation(contact, 5e6), rel=1e-12)
+
+
+def main():
+    worst, count = collections.defaultdict(lambda: (0.0, "")), collections.Counter()
+    for name, contact in CASES.items():
+        for path, off in compared(contact).items():
+            count[path] += 1
+            worst[path] = max(worst[path], (off, name))
+            if off > TOLERANCE:
+                print(path, name, off)
+    for path, (off, name) in worst.items():
+        print(f"{path}: {count[path]} combinations, worst {off:.1e} ({name})")
+
+
+if __name__ == "__main__":
+    main()
