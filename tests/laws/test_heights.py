@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 from subjects import E_STAR, HEIGHTS, SIGMA_S, contact, quadrature
 
 import thirdbody as tb
+from thirdbody.contact.asperity_sums import DensitySum
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(40)
 
@@ -395,3 +396,56 @@ def test_johnson_in_place_of_pearson():
     )
     state = tb.solve(bare, pressure=3e6)
     assert state.A_t == pytest.approx(area_at(3e6, johnson.pdf, johnson.highest), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["histogram-one", "histogram-gap", "johnson-SB-flat"])
+@pytest.mark.parametrize("w", [1e-5, 1e-4, 1e-2])
+def test_light_loads_on_the_last_asperities(name, w):
+    """Of bounded heights, with a law that changes its formula close to their end."""
+    heights = ALL[name]
+    law = tb.asperity.CEB(K=0.6)
+    total = DensitySum(law, heights, w)
+    rise = np.geomspace(1e-6, 0.3, 40)
+    h = total.highest - rise
+    rise = total.highest - h  # h is rounded
+    expected = np.zeros(len(h))
+    for i, up in enumerate(rise):
+        marks = np.unique(
+            [0.0, *(y * w for y in (1e-3, 0.1, 1.0, 10.0)), *(up * np.arange(1, 17) / 16)]
+        )
+        marks = np.append(marks[marks < up], up)
+        for a, b in zip(np.sqrt(marks[:-1]), np.sqrt(marks[1:]), strict=True):
+            v = 0.5 * (a + b) + 0.5 * (b - a) * NODES
+            density = heights.pdf(heights.highest - (up - v * v))
+            load = law.reduced("force", v * v / w)
+            expected[i] += np.sum(0.5 * (b - a) * WEIGHTS * 2 * v * load * density)
+    # fifteen decades of load; of one that falls like rise^n, h is known to an ulp
+    known = expected > 1e-15 * total.load(np.array([-3.0]))[0, 0]
+    slack = 1e-11 + 20 * np.finfo(float).eps / rise
+    assert known.sum() > 10
+    error = np.abs(total.load(h)[:, 0] / expected - 1)
+    assert np.all((error < slack)[known]), (error / slack)[known].max()
+    assert np.all(total.fields(h) >= 0)
+
+
+@pytest.mark.parametrize(("skewness", "kurtosis"), [(-2.0, 6.0), (-1.0, 2.6), (0.0, 1.5)])
+def test_loads_on_heights_that_crowd_at_their_ends(skewness, kurtosis):
+    """Hertz contacts on bounded Johnson heights, by the normal variable behind them."""
+    heights = tb.JohnsonHeights(skewness=skewness, kurtosis=kurtosis)
+    gamma, delta, xi, lam = heights.parameters
+    assert heights.family == "SB"
+    law = tb.asperity.GW()
+    total = DensitySum(law, heights, 1.0)
+    h = np.linspace(-2.0, total.highest - 0.01, 25)
+    expected = np.zeros(len(h))
+    for i, low in enumerate(h):
+        share = (low - xi) / lam
+        first = -12.0 if share <= 0 else max(gamma + delta * math.log(share / (1 - share)), -12.0)
+        # the load starts like a power 1.5 of the distance: the root is smooth
+        edges = np.linspace(0, math.sqrt(12 - first), 400)
+        v = 0.5 * (edges[1:] + edges[:-1])[:, None] + 0.5 * np.diff(edges)[:, None] * NODES
+        n = first + v**2
+        z = xi + lam / (1 + np.exp(-(n - gamma) / delta))
+        load = law.reduced("force", np.maximum(z - low, 0.0)) * stats.norm.pdf(n)
+        expected[i] = np.sum(0.5 * np.diff(edges)[:, None] * WEIGHTS * 2 * v * load)
+    assert_allclose(total.load(h)[:, 0], expected, rtol=1e-9)

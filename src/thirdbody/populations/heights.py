@@ -306,7 +306,7 @@ class JohnsonHeights(Heights):
     @property
     def pieces(self) -> tuple[float, ...]:
         # towards an end of S_B the density changes over steps of δ in n
-        step = min(1.0, 3 * self.parameters[1]) if self.family == "SB" else 1.0
+        step = min(1.0, 1.5 * self.parameters[1]) if self.family == "SB" else 1.0
         z = self._height(np.linspace(-13, 13, math.ceil(26 / step) + 1))
         return tuple(np.unique(z))
 
