@@ -32,12 +32,7 @@ from hostile import PAYLOADS, several, wrong  # noqa: E402
 
 from thirdbody.app.examples import example  # noqa: E402
 from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
-from thirdbody.quantities.say import (  # noqa: E402
-    as_number,
-    as_percent,
-    as_pressure,
-    value_of,
-)
+from thirdbody.quantities import say  # noqa: E402
 
 pytestmark = pytest.mark.check
 PATIENCE = 30_000
@@ -256,10 +251,13 @@ def looked_at(page, name):
 def test_numbers_are_those_of_the_library_and_sliders_move_them(visit):
     page = visit()
     point = state_of(STUDY)
-    assert fact(page, "load") == f"{as_pressure(point.pressure)} (F* = {as_number(point.F_star)})"
-    assert fact(page, "separation h") == value_of(point.h, "m")
-    assert fact(page, "real contact area") == as_percent(point.A_t)
-    assert fact(page, "particles carry") == as_percent(point.particle_load_share)
+    assert (
+        fact(page, "load")
+        == f"{say.value_of(point.pressure, 'Pa')} (F* = {say.number(point.F_star)})"
+    )
+    assert fact(page, "separation h") == say.value_of(point.h, "m")
+    assert fact(page, "real contact area") == say.percent(point.A_t)
+    assert fact(page, "particles carry") == say.percent(point.particle_load_share)
     assert fact(page, "mode") == point.mode
     looked_at(page, "interface")
     before = fact(page, "load")
@@ -275,7 +273,7 @@ def test_numbers_are_those_of_the_library_and_sliders_move_them(visit):
     assert shares["of the load"] == (100 * curves.particle_load_share).tolist()
     critical = tb.transitions(check(STUDY).contact)
     row = page.locator('[data-figure="critical"] tbody tr').first.inner_text()
-    assert as_number(critical.F_cr1.value) in row
+    assert say.number(critical.F_cr1.value) in row
     looked_at(page, "curves")
     times = []
     for slider in ("roughness.sigma", "particles.size", "particles.areal_density"):
@@ -321,8 +319,8 @@ def test_a_measured_surface_goes_into_the_study(visit, tmp_path):
     upload.set_input_files(file)
     page.wait_for_selector('[data-fact="surface R"]')
     own = tb.surfaces.from_topography(file, spacing=(0.5e-6,), unit="m", cutoff=8e-6)
-    assert fact(page, "surface R") == value_of(own.moments.R, "m")
-    assert fact(page, "surface σ") == value_of(own.moments.sigma, "m")
+    assert fact(page, "surface R") == say.value_of(own.moments.R, "m")
+    assert fact(page, "surface σ") == say.value_of(own.moments.sigma, "m")
     drawn(page, "surface-R")
     looked_at(page, "surface")
     page.locator('[data-take="surface"]').click()
@@ -501,7 +499,7 @@ def test_a_mistake_is_told_beside_its_field(visit):
     entry.fill("0.5 µm")
     assert until(page, "separation h", before) != before
     study = STUDY | {"particles": STUDY["particles"] | {"mean": "500 nm"}}
-    assert fact(page, "separation h") == value_of(state_of(study).h, "m")
+    assert fact(page, "separation h") == say.value_of(state_of(study).h, "m")
     assert not page.locator('[data-said="page"]').inner_text()
     page.locator(".q-drawer").get_by_text("[sweep] as text").click()
     entry = page.locator('.q-drawer textarea[data-path="sweep"]')
@@ -590,4 +588,4 @@ def test_a_study_goes_down_and_up(visit, tmp_path):
     assert from_link(link.split("study=", 1)[1].split("&")[0]) == other
     looked_at_after_link = visit(query=link.split("?", 1)[1])
     point = tb.solve(check(other).contact, pressure=1e6)
-    assert fact(looked_at_after_link, "separation h") == value_of(point.h, "m")
+    assert fact(looked_at_after_link, "separation h") == say.value_of(point.h, "m")

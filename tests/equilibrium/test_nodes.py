@@ -106,7 +106,7 @@ def over_seats(rule, width, gaps):
 def test_nodes_over_the_squeeze_resolve_the_seat(law, hardness, width, monkeypatch):
     """Every panel, whatever part of the squeeze it is: against panels of half the width."""
     pytest.importorskip("numba")
-    from thirdbody.laws.particle import rules
+    from thirdbody.equilibrium.compiled import squeeze_rules as rules
 
     bound = getattr(tb.asperity, law)().bound(R=0.5, E_star=1e11, H=1e9, nu=0.3)
     sides = [(np.full((1, 1), 1e11), np.full((1, 1), 1e11 * ratio)) for ratio in hardness]
