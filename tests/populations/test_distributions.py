@@ -401,3 +401,23 @@ def test_all_mistakes_at_once():
     with pytest.raises(tb.InvalidValue) as caught:
         tb.TruncatedGaussian(mean=-1, std=-1, n=-1)
     assert len(caught.value.problems) == 3
+
+
+@pytest.mark.parametrize(
+    "dist",
+    [
+        tb.sizes.LogNormal(median=1e-6, gsd=1.003),
+        tb.sizes.LogNormal(median=1e-6, gsd=3.4),
+        tb.sizes.Weibull(scale=1e-6, shape=0.5),
+        tb.sizes.Weibull(scale=1e-6, shape=15.0),
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("q", [1e-9, 0.01, 0.5, 0.99, 1 - 1e-9])
+@pytest.mark.parametrize("stretch", [1e-12, 1e-6, 1e-3, 0.05, 0.3])
+def test_moments_over_a_short_stretch_keep_their_digits(dist, q, stretch):
+    a = float(dist.ppf(q))
+    b = a * (1 + stretch)
+    for n in range(4):
+        want = float(exact_moment(dist, n, a, b))
+        assert float(dist.partial_moment(n, a, b)) == pytest.approx(want, rel=2e-14)

@@ -62,10 +62,9 @@ class LoadScan:
             if len(marks := np.unique(particles.marks)):
                 marks = np.unique(np.clip(marks, low, max(top, low)))
                 grid.append(np.interp(np.arange(0, len(marks), 0.25), np.arange(len(marks)), marks))
-            if particles.monotone:
-                # the last particle sets in like a power of its distance
-                grid.append(top - (top - low) * np.geomspace(1e-8, 1e-2, 13))
-            else:
+            # the last particle sets in like a power of its distance, down to the last digit of it
+            grid.append(top - (top - low) * np.geomspace(1e-15, 1e-2, 27))
+            if not particles.monotone:
                 count = int(np.ceil((top - low) / particles.resolution))
                 grid.append(np.linspace(low, top, min(max(count, 2), 20_000)))
         d = np.unique(np.concatenate(grid))
