@@ -19,7 +19,6 @@ HOMES = ("quantities/say.py", "papers/", "views/html.py")
 KEPT = (
     "task.percentage",  # the bar of rich
     "the last amount is",  # repeats a cell of the file
-    "{100 * share:.0f} % of the asperities' load is",  # `solve`, which imports no words yet
 )
 
 

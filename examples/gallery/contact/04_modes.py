@@ -1,9 +1,9 @@
 """
-Particles alone, both, surfaces alone
-=====================================
+Contact on particles, on both, on asperities
+============================================
 
 The contact mode over load for four particle sizes. Below F_cr1 particles have at least 98 % of the
-real area (p-s), above F_cr2 asperities have 95 % (s-s), and between them both carry (hybrid).
+real area (p-s), above F_cr2 asperities have 95 % (s-s), and between them it is on both (hybrid).
 """
 
 import numpy as np

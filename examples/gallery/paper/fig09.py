@@ -2,8 +2,8 @@
 Fig. 9: the two critical loads
 ==============================
 
-F_cr1 ends contact by particles alone, F_cr2 begins contact by surfaces alone. For 300 nm silica on
-σ = 100 nm the paper reads 7.5e-6 and 5.1e-5. No point is drawn where a reading has no such load.
+F_cr1 ends contact on particles (p-s), F_cr2 begins contact on asperities (s-s). For 300 nm silica
+on σ = 100 nm the paper reads 7.5e-6 and 5.1e-5. No point is drawn where a reading has no such load.
 """
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
-from ..laws.particle.one_particle import contact_sides, squeezed_particle
 from ..laws.particle.series import Series
 from ..quantities.value import choice, quantity
 from .single.dent import Dent, dent_of, flattened_diameter, fragments
@@ -133,9 +132,7 @@ class Dents(AbstractOutput):
         population = spots.population
         assert population is not None
         law = contact.law_of(population)
-        assert isinstance(law, Series)
-        sides = contact_sides(contact.surfaces, population.material)
-        particle = squeezed_particle(law.law, *sides, law.tip_radius)
+        particle = law.one(surfaces=contact.surfaces, particle=population.material)
         gap = spots.x - spots.depths[0] - spots.depths[1]
         x = np.minimum(spots.x, float(self.fragment or 0.0))
         number = spots.number * fragments(spots.x, float(self.fragment or 0.0))

@@ -20,6 +20,7 @@ from ..contact.contact import Contact
 from ..contact.evaluation import evaluate
 from ..contact.interface import Interface, interface
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
+from ..quantities.say import percent
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
 from .load_scan import DEEPEST, RESIDUAL, explained, load_scan
@@ -469,8 +470,8 @@ def _warnings(
         share = bound.asperities.share_beyond(float(np.nanmin(d)))
         if share > 0.1:
             out.append(
-                f"{tips.name}: at the highest load {100 * share:.0f} % of the asperities' load is "
-                f"on those {tips.beyond}"
+                f"{tips.name}: at the highest load {percent(share, digits=2)} of the asperities' "
+                f"load is on those {tips.beyond}"
             )
     if bound.particles is not None:
         out += about_particles(contact)

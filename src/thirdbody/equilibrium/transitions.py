@@ -15,6 +15,7 @@ from ..errors import InvalidValue
 from ..quantities import notebook
 from .columns import EPS_1, EPS_2
 from .load_scan import load_scan
+from .words import happens
 
 __all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]
 
@@ -97,9 +98,9 @@ class Transitions:
     """
 
     F_cr1: Critical
-    """Up to it particles alone carry."""
+    """From it on asperities come into contact (p-s to hybrid)."""
     F_cr2: Critical
-    """From it on surfaces alone carry."""
+    """From it on particles have little of the contact left (hybrid to s-s)."""
     F_tpca: TurningPoint
 
     def to_dict(self) -> dict[str, Any]:
@@ -115,20 +116,10 @@ class Transitions:
         found = {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2}
         found |= {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
         rows = [
-            notebook.Row(name, [notebook.words_of(load.value), load.status], MEANINGS[name])
+            notebook.Row(name, [notebook.words_of(load.value), load.status], happens(name))
             for name, load in found.items()
         ]
         return notebook.card("Transitions, F* = F/(A_n E_ss)", rows)
-
-
-MEANINGS = {
-    "F_cr1": "up to it particles alone carry",
-    "F_cr2": "from it on surfaces alone carry",
-    "F_tpca.A": "largest particle share",
-    "F_tpca.B": "asperities and particles carry equal loads",
-    "F_tpca.C": "strongest bend of the area against the load",
-}
-"""Every load in words."""
 
 
 def transitions(
