@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from .analysis.design.problem import Limit, Objective, Suspension
     from .analysis.sensitivity import Sensitivity, sensitivity
     from .analysis.sweep.sweep import sweep
-    from .analysis.uncertainty.critical_loads import critical_loads
     from .analysis.uncertainty.inputs import Uncertain
     from .analysis.uncertainty.propagation import Propagation, propagate
     from .contact.citations import cite
     from .contact.contact import Contact
     from .equilibrium.columns import Equilibrium
+    from .equilibrium.critical_loads import critical_loads
     from .equilibrium.solve import pull_off, roots, solve
     from .equilibrium.states import solve_states
     from .equilibrium.table.make import table
@@ -206,7 +206,7 @@ _HOMES = {
     "assess": "analysis.assess",
     "cite": "contact.citations",
     "compare": "analysis.compare",
-    "critical_loads": "analysis.uncertainty.critical_loads",
+    "critical_loads": "equilibrium.critical_loads",
     "design": "analysis.design.design",
     "equal_share_size": "analysis.design.equal_share",
     "load_study": "study.whole",

@@ -9,9 +9,9 @@ import pytest
 from scipy import stats
 
 import thirdbody as tb
-from thirdbody.analysis.uncertainty.critical_loads import critical_loads
 from thirdbody.analysis.uncertainty.inputs import library_ranges
 from thirdbody.analysis.uncertainty.propagation import OUTPUTS
+from thirdbody.equilibrium.critical_loads import critical_loads
 from thirdbody.study import check
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]

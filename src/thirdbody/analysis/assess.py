@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.contact import Contact
+from ..equilibrium.critical_loads import CRITICAL
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..quantities.say import value_of
@@ -20,7 +21,6 @@ from .assessment import COARSE, FAR, FINE, SHOWN, Assessment, Change, _nominal, 
 from .inputs import declared
 from .inputs import inputs as all_inputs
 from .sensitivity import sensitivity
-from .uncertainty.critical_loads import CRITICAL
 from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, library_ranges
 from .uncertainty.propagation import Propagation, columns_at, propagate, swing
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..contact.citations import cite
 from ..contact.contact import Contact
+from ..equilibrium.critical_loads import CRITICAL
 from ..equilibrium.words import (
     critical_load,
     critical_name,
@@ -23,7 +24,6 @@ from ..quantities import notebook
 from ..quantities.say import listed, number, percent, span, times, value_of
 from .inputs import declared
 from .inputs import inputs as all_inputs
-from .uncertainty.critical_loads import CRITICAL
 from .uncertainty.propagation import OUTPUTS, Propagation, about_result, plain
 
 __all__ = ["Assessment", "Change"]

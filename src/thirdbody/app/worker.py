@@ -158,8 +158,8 @@ def error_bars(
     """
     import thirdbody as tb
 
-    from ..analysis.uncertainty.critical_loads import CRITICAL
     from ..analysis.uncertainty.inputs import library_ranges
+    from ..equilibrium.critical_loads import CRITICAL
     from ..errors import InvalidValue
 
     asked = _study(study, folder)

@@ -31,6 +31,8 @@ P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
 MODES = np.array(["", S_S, HYBRID, P_S])
 EPS_1, EPS_2 = 0.02, 0.05
 """Default shares that separate the contact modes: read-off resolution, and the paper's 95 %."""
+WINDOW = (1e-8, 1e-2)
+"""Loads F* between which critical loads are sought."""
 
 
 def _column(symbol: str, unit: str, meaning: str) -> Any:

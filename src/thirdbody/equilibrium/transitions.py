@@ -13,7 +13,7 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import InvalidValue
 from ..quantities import notebook
-from .columns import EPS_1, EPS_2
+from .columns import EPS_1, EPS_2, WINDOW
 from .load_scan import load_scan
 from .words import happens
 
@@ -125,7 +125,7 @@ class Transitions:
 def transitions(
     contact: Contact,
     *,
-    window: tuple[float, float] = (1e-8, 1e-2),
+    window: tuple[float, float] = WINDOW,
     eps_1: float = EPS_1,
     eps_2: float = EPS_2,
     basis: str = "area",

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from ..quantities.say import number, percent, plural, value_of
-from .columns import HYBRID, P_S, S_S
+from .columns import HYBRID, P_S, S_S, WINDOW
 
 __all__ = [
     "BANDS",
@@ -42,8 +42,6 @@ CRITICAL = {
     "F_tpca C": "the area bends most over the load",
 }
 """What happens at each critical load."""
-WINDOW = (1e-8, 1e-2)
-"""Loads F* searched."""
 BELOW, ABOVE = ("never p-s", "always s-s"), ("always p-s", "never s-s")
 """Statuses of critical loads that lie below, or above, every load searched."""
 STATUS = {

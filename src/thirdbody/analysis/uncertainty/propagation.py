@@ -23,6 +23,7 @@ import numpy as np
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.columns import COLUMNS, about
+from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, load_falls
 from ...equilibrium.solve import given_load
 from ...equilibrium.states import FEWEST, state_columns
 from ...errors import InvalidValue
@@ -30,7 +31,6 @@ from ...numerics.sampling import sobol
 from ...quantities import notebook
 from ...quantities.say import percent
 from ..inputs import NUMBERS
-from .critical_loads import CRITICAL, _bare, _falls, critical_loads
 from .inputs import Drawn, Uncertain, drawn_inputs
 
 if TYPE_CHECKING:
@@ -506,7 +506,7 @@ def about_result(name: str) -> dict[str, str]:
 def _outputs(asked: Sequence[str] | None, contact: Contact) -> list[str]:
     """The outputs, each once, that the contact has."""
     about_loads = (*CRITICAL, *MARGINS)
-    without = contact.two_body or not _falls(contact)
+    without = contact.two_body or not load_falls(contact)
     known = [*OUTPUTS, *(name for each in contact.outputs for name in each.columns)]
     if asked is None:
         return [name for name in known if not (without and name in about_loads)]
@@ -547,7 +547,7 @@ def columns_at(
     if outputs:
         vary = dict(vary)
     else:
-        contact, vary = _bare(contact, vary)
+        contact, vary = carrying(contact, vary)
     loads = vary.pop(load, np.full(count, value))
     return state_columns(contact, **{load: loads}, vary=vary or None)
 

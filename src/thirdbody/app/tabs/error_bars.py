@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...analysis.uncertainty.critical_loads import CRITICAL
 from ...analysis.uncertainty.propagation import about_result
+from ...equilibrium.critical_loads import CRITICAL
 from ...quantities.say import number, percent
 from ...views.plot.style import OKABE_ITO
 from ..figures import AXES, GREY, INKS, empty, figure, line, listed, mark, plain

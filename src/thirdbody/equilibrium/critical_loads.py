@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...contact.contact import Contact
-from ...contact.interface import interface
-from ...equilibrium.columns import EPS_1, EPS_2
-from ...equilibrium.load_scan import DEEPEST, load_scan
-from ...equilibrium.states import FEWEST, carries, state_columns
-from ...errors import InvalidValue
+from ..contact.contact import Contact
+from ..contact.interface import interface
+from ..errors import InvalidValue
+from .columns import EPS_1, EPS_2, WINDOW
+from .load_scan import DEEPEST, load_scan
+from .states import FEWEST, carries, state_columns
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -21,11 +21,9 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Arrays = dict[str, NDArray[Any]]
 
-__all__ = ["CRITICAL", "critical_loads"]
+__all__ = ["CRITICAL", "carrying", "critical_loads", "load_falls"]
 
 CRITICAL = ("F_cr1", "F_cr2", "F_tpca.A", "F_tpca.B")
-WINDOW = (1e-8, 1e-2)
-"""Loads F* between which critical loads are sought, as in `transitions`."""
 NODES, AT_ONCE = 25, 8_192
 """Separations at which shares are known before crossings are refined, and samples at a time."""
 EXACT = 1e-7
@@ -33,7 +31,6 @@ EXACT = 1e-7
 EXACT_PEAK = 1e-4
 
 
-# -------------------------------------------------------------------------- critical loads
 def critical_loads(
     contact: Contact, *, vary: Mapping[str, ArrayLike], count: int
 ) -> dict[str, tuple[Array, NDArray[np.str_]]]:
@@ -89,10 +86,10 @@ def critical_loads(
     >>> bool(np.all(np.diff(loads) < 0)), str(status[0])
     (True, 'found')
     """
-    contact, vary = _bare(contact, vary)
+    contact, vary = carrying(contact, vary)
     if contact.two_body:
         raise InvalidValue("a contact without particles has no critical loads")
-    if not _falls(contact):
+    if not load_falls(contact):
         raise InvalidValue(
             "critical loads of many contacts need a load that falls with the separation, which "
             f"{type(contact.particle_law).__name__} does not promise; name other outputs, or call "
@@ -113,7 +110,7 @@ def critical_loads(
     }
 
 
-def _falls(contact: Contact) -> bool:
+def load_falls(contact: Contact) -> bool:
     """Whether the load falls with the separation, here and as far as the law of particles tells."""
     bound = interface(contact)
     return load_scan(bound).monotone and (bound.particles is None or bound.particles.monotone)
@@ -278,6 +275,6 @@ def _peak(
     return entry([(~good, "none", np.nan)], (shares.load(answer.x, which), which))
 
 
-def _bare(contact: Contact, vary: Mapping[str, Any]) -> tuple[Contact, dict[str, Any]]:
+def carrying(contact: Contact, vary: Mapping[str, Any]) -> tuple[Contact, dict[str, Any]]:
     """The contact without outputs, and of what varies that which decides how it carries load."""
     return contact.replace(outputs=()), {name: v for name, v in vary.items() if carries(name)}
