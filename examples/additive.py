@@ -37,9 +37,10 @@ sizes, weights = np.geomspace(50e-9, 1e-6, 32), np.geomspace(5e-4, 12e-3, 28)
 def states(diameter, concentration):
     """Mean friction and largest plastic share over the loads, for sizes and amounts."""
     dust = study.contact.particles.replace(areal_density=1.0)
+    every_size = (dust.diameter.replace(mean=x, std=0.1 * x) for x in diameter)
     density = [
-        fluid.areal_density(dust.replace(diameter=dust.diameter.replace(mean=x, std=0.1 * x)), c)
-        for x, c in zip(diameter, concentration, strict=True)
+        fluid.areal_density(dust.replace(diameter=size), concentration=c)
+        for size, c in zip(every_size, concentration, strict=True)
     ]
     vary = {
         "particles.diameter.mean": diameter,

@@ -300,8 +300,8 @@ def gaussian_sums():
     scale = 4 / 3 * rough.density * np.sqrt(rough.R) * rough.sigma_s**1.5
     area = np.pi * rough.density * rough.R * rough.sigma_s
     return max(
-        worst(state.F_star, scale * reference.gaussian_integral(1.5, h)),
-        worst(state.A_t, area * reference.gaussian_integral(1, h)),
+        worst(state.F_star, scale * reference.gaussian_integral(h, n=1.5)),
+        worst(state.A_t, area * reference.gaussian_integral(h, n=1)),
     )
 
 

@@ -100,18 +100,18 @@ def hertz_point(force: ArrayLike, *, R: float, E_star: float) -> HertzPoint:
     return HertzPoint(a, a * a / R, math.pi * a * a, 2 / 3 * peak, peak, 2 * E_star * a)
 
 
-def gaussian_integral(n: float, h: ArrayLike) -> Array:
+def gaussian_integral(h: ArrayLike, *, n: float) -> Array:
     r"""Greenwood and Williamson's integrals over Gaussian heights, to full precision.
 
     .. math:: F_n(h) = \frac{1}{\sqrt{2\pi}} \int_h^\infty (u-h)^n e^{-u^2/2}\,du
 
     Parameters
     ----------
+    h : array_like
+        Separation over the standard deviation of the heights [1].
     n : float
         Power n ≥ 0 [1]: 0 the number of contacts, 1 the area, 3/2 the load, 5/2 the load of
         two rough surfaces.
-    h : array_like
-        Separation over the standard deviation of the heights [1].
 
     Returns
     -------
@@ -130,7 +130,7 @@ def gaussian_integral(n: float, h: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> gaussian_integral(2.5, [0.0, 3.0, 5.0])
+    >>> gaussian_integral([0.0, 3.0, 5.0], n=2.5)
     array([6.16634219e-01, 1.70872996e-04, 1.35259200e-08])
     """
     if not n >= 0:

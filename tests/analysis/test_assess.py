@@ -141,7 +141,7 @@ def test_a_nominal_value_outside_its_range_is_told():
 
 
 def test_only_the_load_uncertain():
-    known = {"pressure": tb.Uncertain.lognormal(5e6, 3.0)}
+    known = {"pressure": tb.Uncertain.lognormal(median=5e6, gsd=3.0)}
     page = tb.assess(DUSTY, vary=known, pressure=5e6, samples=256)
     share = page.propagation.mode_probability["p-s"]
     critical = tb.transitions(DUSTY).F_cr1.value * DUSTY.E_ss

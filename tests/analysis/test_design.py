@@ -147,14 +147,17 @@ def scattered(objective, **asked):
 def test_scatter():
     objective = Objective(of="A_t", over_scatter="worst")
     some = dict(vary={SIZE: (5e-8, 5e-7)}, F_star=[1e-5], points=8)
-    nothing = tb.Uncertain.uniform(100e-9 * (1 - 1e-12), 100e-9 * (1 + 1e-12))
+    nothing = tb.Uncertain.uniform(low=100e-9 * (1 - 1e-12), high=100e-9 * (1 + 1e-12))
     still = design(
         contact(), objective=objective, scatter={"roughness.sigma": nothing}, samples=4, **some
     )
     nominal = design(contact(), objective=objective, **some)
     (found,), (same,) = still.objectives.values(), nominal.objectives.values()
     assert found == pytest.approx(same, rel=1e-9)
-    wide = {"roughness.sigma": (60e-9, 160e-9), SIZE: tb.Uncertain.lognormal(300e-9, 1.2)}
+    wide = {
+        "roughness.sigma": (60e-9, 160e-9),
+        SIZE: tb.Uncertain.lognormal(median=300e-9, gsd=1.2),
+    }
     costs = {
         how: scattered(Objective(of="A_t", over_scatter=how), scatter=wide, samples=4, **some)
         for how in ("mean", "worst", "tail", "robust")

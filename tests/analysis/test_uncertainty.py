@@ -37,10 +37,10 @@ EXPONENTIAL = TWO_BODY.replace(
     asperity_law=tb.asperity.GW(), **{"roughness.heights": tb.ExponentialHeights()}
 )
 RANGES = {
-    "roughness.sigma": tb.Uncertain.uniform(85e-9, 115e-9),
+    "roughness.sigma": tb.Uncertain.uniform(low=85e-9, high=115e-9),
     "roughness.R": (2.2e-6, 3.4e-6),
-    "particles.diameter.mean": tb.Uncertain.normal(300e-9, 15e-9),
-    "particles.areal_density": tb.Uncertain.lognormal(1e11, 1.5),
+    "particles.diameter.mean": tb.Uncertain.normal(mean=300e-9, std=15e-9),
+    "particles.areal_density": tb.Uncertain.lognormal(median=1e11, gsd=1.5),
 }
 BOTH_H = "surfaces.first.H+surfaces.second.H"
 SALIB = pytest.mark.skipif(
@@ -53,7 +53,8 @@ def draw(inputs, count, seed):
     """Independent pseudo-random samples of the inputs."""
     u = np.random.default_rng(seed).random((count, len(inputs)))
     known = (
-        i if isinstance(i, tb.Uncertain) else tb.Uncertain.uniform(*i) for i in inputs.values()
+        i if isinstance(i, tb.Uncertain) else tb.Uncertain.uniform(low=i[0], high=i[1])
+        for i in inputs.values()
     )
     return {name: one.at(u[:, j]) for j, (name, one) in enumerate(zip(inputs, known, strict=True))}
 
@@ -62,10 +63,10 @@ def draw(inputs, count, seed):
 @pytest.mark.parametrize(
     ("known", "exact"),
     [
-        (tb.Uncertain.uniform(2.0, 5.0), stats.uniform(2, 3)),
-        (tb.Uncertain.log_uniform(2.0, 50.0), stats.loguniform(2, 50)),
-        (tb.Uncertain.normal(7.0, 0.5), stats.norm(7, 0.5)),
-        (tb.Uncertain.lognormal(7.0, 1.5), stats.lognorm(math.log(1.5), scale=7)),
+        (tb.Uncertain.uniform(low=2.0, high=5.0), stats.uniform(2, 3)),
+        (tb.Uncertain.log_uniform(low=2.0, high=50.0), stats.loguniform(2, 50)),
+        (tb.Uncertain.normal(mean=7.0, std=0.5), stats.norm(7, 0.5)),
+        (tb.Uncertain.lognormal(median=7.0, gsd=1.5), stats.lognorm(math.log(1.5), scale=7)),
     ],
 )
 def test_distributions_are_those_of_scipy(known, exact):
@@ -82,7 +83,9 @@ def test_power_laws_carry_lognormal_to_lognormal():
     """Exponential heights and GW: A/F = √(πR/σ_s)/E*, so A_t is a product of powers."""
     spread = {"pressure": 1.3, "roughness.R": 1.4, "surfaces.first.E+surfaces.second.E": 1.1}
     start = {"pressure": 1e6, "roughness.R": 2.8e-6, "surfaces.first.E+surfaces.second.E": 205e9}
-    inputs = {name: tb.Uncertain.lognormal(start[name], gsd) for name, gsd in spread.items()}
+    inputs = {
+        name: tb.Uncertain.lognormal(median=start[name], gsd=gsd) for name, gsd in spread.items()
+    }
     found = tb.propagate(EXPONENTIAL, vary=inputs, pressure=1e6, samples=128, outputs=["A_t", "d"])
     rough = EXPONENTIAL.roughness
     area = 1e6 * math.sqrt(math.pi * rough.R / rough.sigma_s) / EXPONENTIAL.E_ss
@@ -99,7 +102,7 @@ def test_power_laws_carry_lognormal_to_lognormal():
 
 
 def test_of_one_input_the_bands_are_the_states_at_its_quantiles():
-    known = tb.Uncertain.lognormal(100e-9, 1.2)
+    known = tb.Uncertain.lognormal(median=100e-9, gsd=1.2)
     names = ["particle_load_share", "F_cr1"]
     found = tb.propagate(
         DUSTY, vary={"roughness.sigma": known}, pressure=5e6, samples=4096, outputs=names
@@ -120,7 +123,9 @@ def test_of_one_input_the_bands_are_the_states_at_its_quantiles():
 def test_sobol_indices_of_a_sum_and_of_a_product():
     spread = {"pressure": 1.3, "roughness.R": 2.0}
     start = {"pressure": 1e6, "roughness.R": 2.8e-6}
-    inputs = {name: tb.Uncertain.lognormal(start[name], gsd) for name, gsd in spread.items()}
+    inputs = {
+        name: tb.Uncertain.lognormal(median=start[name], gsd=gsd) for name, gsd in spread.items()
+    }
     found = tb.propagate(EXPONENTIAL, vary=inputs, pressure=1e6, samples=64, outputs=["A_t"])
     indices = found.sobol_indices(["d", "A_t"], samples=64)
     s2 = (np.array([1.0, 0.5]) * np.log(list(spread.values()))) ** 2
@@ -182,7 +187,7 @@ def test_errors_of_the_bands_are_honest():
             FEW,
             {
                 "roughness.sigma": (80e-9, 200e-9),
-                "particles.areal_density": tb.Uncertain.log_uniform(1e10, 1e12),
+                "particles.areal_density": tb.Uncertain.log_uniform(low=1e10, high=1e12),
             },
             25,
         ),
@@ -281,7 +286,7 @@ def test_states_without_equilibrium_are_told():
 # ---------------------------------------------------------------- the same again
 def test_the_same_seed_gives_the_same_digits(monkeypatch):
     def run(seed):
-        inputs = RANGES | {"particles.material.H": tb.Uncertain.normal(7.7e9, 5e8)}
+        inputs = RANGES | {"particles.material.H": tb.Uncertain.normal(mean=7.7e9, std=5e8)}
         found = tb.propagate(DUSTY, vary=inputs, pressure=5e6, samples=2048, seed=seed)
         return json.dumps(found.to_dict(), allow_nan=False)
 
@@ -316,7 +321,7 @@ def test_outputs_of_two_bodies_have_no_critical_loads():
         ({"roughness.sigma": 1e-7}, {}, "must be (low, high), or one of Uncertain"),
         ({"roughness.sigma": (-1e-7, 1e-7)}, {}, "the value -1e-07 must be > 0"),
         (
-            {"roughness.sigma": tb.Uncertain.normal(1e-7, 5e-8)},
+            {"roughness.sigma": tb.Uncertain.normal(mean=1e-7, std=5e-8)},
             {},
             "six standard deviations from the mean, must be > 0 [m]",
         ),
@@ -350,13 +355,13 @@ def test_mistakes_of_contacts():
         tb.propagate(paper, vary=inputs, pressure=1e6, samples=64, outputs=["F_cr1"])
     assert "F_cr1" not in tb.propagate(paper, vary=inputs, pressure=1e6, samples=64).bands
     with pytest.raises(tb.InvalidValue, match=r"gsd = 0\.5 must be above 1"):
-        tb.Uncertain.lognormal(1.0, 0.5)
+        tb.Uncertain.lognormal(median=1.0, gsd=0.5)
     with pytest.raises(tb.InvalidValue, match="std = 0 must be > 0"):
-        tb.Uncertain.normal(1.0, 0.0)
+        tb.Uncertain.normal(mean=1.0, std=0.0)
     with pytest.raises(tb.InvalidValue, match="for a range even in the logarithm"):
-        tb.Uncertain.log_uniform(0.0, 1.0)
+        tb.Uncertain.log_uniform(low=0.0, high=1.0)
     with pytest.raises(tb.InvalidValue, match="mean = nan must be a finite number"):
-        tb.Uncertain.normal(math.nan, 1.0)
+        tb.Uncertain.normal(mean=math.nan, std=1.0)
 
 
 @SALIB
@@ -375,8 +380,8 @@ def test_ranges_of_the_library(monkeypatch):
     entries["SiO2"]["range"] = {"E": [66e9, 74e9]}
     monkeypatch.setattr(type(tb.materials), "entries", staticmethod(lambda: entries))
     assert library_ranges(DUSTY) == {
-        BOTH_H: tb.Uncertain.uniform(4.5e9, 5.5e9),
-        "particles.material.E": tb.Uncertain.uniform(66e9, 74e9),
+        BOTH_H: tb.Uncertain.uniform(low=4.5e9, high=5.5e9),
+        "particles.material.E": tb.Uncertain.uniform(low=66e9, high=74e9),
     }
     # a body with another hardness than the library's has no range of its
     other = tb.MaterialPair(STEEL.replace(H=6e9), STEEL)
@@ -412,11 +417,11 @@ def test_study_files_say_what_is_uncertain():
     asked = study(given, samples=128, seed=7).uncertainty
     assert (asked.samples, asked.seed) == (128, 7)
     assert asked.inputs == {
-        "roughness.sigma": tb.Uncertain.uniform(80e-9, 120e-9),
-        "particles.diameter.mean": tb.Uncertain.normal(300e-9, 10e-9),
-        "particles.areal_density": tb.Uncertain.log_uniform(1e10, 1e11),
-        BOTH_H: tb.Uncertain.lognormal(5e9, 1.1),
-        "pressure": tb.Uncertain.uniform(4e6, 6e6),
+        "roughness.sigma": tb.Uncertain.uniform(low=80e-9, high=120e-9),
+        "particles.diameter.mean": tb.Uncertain.normal(mean=300e-9, std=10e-9),
+        "particles.areal_density": tb.Uncertain.log_uniform(low=1e10, high=1e11),
+        BOTH_H: tb.Uncertain.lognormal(median=5e9, gsd=1.1),
+        "pressure": tb.Uncertain.uniform(low=4e6, high=6e6),
     }
 
 

@@ -371,7 +371,7 @@ def test_junctions_of_a_plastic_contact(c):
     """μ = c/√(α_T(1 − c²)) under full plasticity, which starts at p = H."""
     H, area = 5e9, np.array([2e-12])
     friction = Friction(tau_ss=c * H / 3, tau_sa=0.0, alpha_T=9.0)
-    force = friction.shear_force("ss", area, H * area, H)
+    force = friction.shear_force("ss", area=area, load=H * area, H=H)
     assert force / (H * area) == pytest.approx(c / math.sqrt(9 * (1 - c * c)), rel=1e-13)
     if c == 0.5:
         assert force / (H * area) == pytest.approx(0.19245, abs=5e-6)
@@ -383,7 +383,7 @@ def test_a_growing_junction_obeys_its_yield_criterion():
     H, area = 5e9, np.array([1e-12])
     friction = Friction(tau_ss=3e8, tau_sa=0.0, alpha_ss=0.1, alpha_T=9.0)
     for p in (1e9, 4.6e9, 4.9e9, 5e9):
-        force = float(friction.shear_force("ss", area, p * area, H)[0])
+        force = float(friction.shear_force("ss", area=area, load=p * area, H=H)[0])
         grown = (force - 0.1 * p * area[0]) / 3e8
         tau, pressure = force / grown, p * area[0] / grown
         assert grown >= area[0] * (1 - 1e-14)

@@ -177,7 +177,7 @@ def test_sum_of_hertz_is_the_exact_integral():
     """F_{3/2}, and the exact F_{5/2}: the fit 4.4086e-5 (4 − h)^6.804 stands nowhere."""
     h = np.array([0.0, 1.5, 3.0, 5.0])
     state = tb.solve(contact(FIRST["gw"].law), d=h * SIGMA_S)
-    exact = 4 / 3 * 0.05 * math.sqrt(0.01) * reference.gaussian_integral(1.5, h)
+    exact = 4 / 3 * 0.05 * math.sqrt(0.01) * reference.gaussian_integral(h, n=1.5)
     assert_allclose(state.F_star, exact, rtol=1e-11)
     assert np.all(state.F_star > 0)
     code = Path(tb.__file__).parent.rglob("*.py")

@@ -31,7 +31,8 @@ def test_every_code_survives(level):
     wrong = []
     for numbers in CODES:
         code = "/".join(map(str, numbers))
-        if cl.iso4406_of(*cl.suspension_of_iso4406(code, level=level)) != code:
+        density, diameter = cl.suspension_of_iso4406(code, level=level)
+        if cl.iso4406_of(density=density, diameter=diameter) != code:
             wrong.append(code)
     assert len(CODES) == 4495
     assert not wrong

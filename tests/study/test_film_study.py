@@ -134,7 +134,7 @@ def test_regimes_follow_the_film_formula_for_rigid_bodies():
     found = regime_speeds(
         contact, conjunction=line, oil=oil, load=500.0, film=film, few=0.2, most=0.7
     )
-    p = line.hertz(500.0, 2 * contact.E_ss).mean
+    p = line.hertz(500.0, E=2 * contact.E_ss).mean
     for speed, share in zip(found, (0.7, 0.2), strict=True):
         h = tb.solve(contact, pressure=share * p).h
         at_1 = film.central(load=5e4 * (1 - share), speed=1.0, eta=0.04, alpha=2e-8, R=0.01,

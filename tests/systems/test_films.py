@@ -59,8 +59,8 @@ def test_point_blend_is_homogeneous(blend):
     rng = np.random.default_rng(3)
     limits = np.exp(rng.uniform(-3, 3, (4, 50)))
     c = 7.3
-    one = film.joined(films.Asymptotes(*limits), 1.8)
-    many = film.joined(films.Asymptotes(*(c * limits)), c * 1.8)
+    one = film.joined(films.Asymptotes(*limits), H_00=1.8)
+    many = film.joined(films.Asymptotes(*(c * limits)), H_00=c * 1.8)
     np.testing.assert_allclose(many, c * one, rtol=1e-13)
 
 
@@ -78,9 +78,9 @@ def test_blend_tends_to_each_limit(film, which):
     small, large = 1e-9, 1e9
     limits = [small, small, large if which == 3 else small, large if which == 2 else small]
     limits[which] = 1.0
-    extra = (1e12,) if film.shape == "point" else ()
+    extra = {"H_00": 1e12} if film.shape == "point" else {}
     at = films.Asymptotes(*limits)
-    assert float(film.joined(at, *extra)) == pytest.approx(1, rel=1e-6)
+    assert float(film.joined(at, **extra)) == pytest.approx(1, rel=1e-6)
     assert str(at.regime) == films.REGIMES[which]
 
 
@@ -116,15 +116,15 @@ def test_ellipse_against_elliptic_integrals():
         R_x = R_y / ratio
         c = (3 * load * math.sqrt(R_x * R_y) / (2 * modulus) * factor) ** (1 / 3)
         for point in (films.Point(R=R_x, R_y=R_y), films.Point(R=R_y, R_y=R_x)):
-            found = point.hertz(load, modulus)
+            found = point.hertz(load, E=modulus)
             assert found.area == pytest.approx(math.pi * c * c, rel=1e-10)
             assert found.maximum == pytest.approx(1.5 * load / (math.pi * c * c), rel=1e-10)
 
 
 def test_round_and_line_contacts():
     a = (3 * 20 * 9.5e-3 / (2 * 220e9)) ** (1 / 3)
-    assert films.Point(R=9.5e-3).hertz(20.0, 220e9).area == pytest.approx(math.pi * a * a)
-    line = films.Line(R=0.01, length=0.02).hertz(2000.0, 220e9)
+    assert films.Point(R=9.5e-3).hertz(20.0, E=220e9).area == pytest.approx(math.pi * a * a)
+    line = films.Line(R=0.01, length=0.02).hertz(2000.0, E=220e9)
     p_0 = math.sqrt(1e5 * 220e9 / (2 * math.pi * 0.01))
     assert line.maximum == pytest.approx(p_0, rel=1e-12)
     assert line.mean * line.area == pytest.approx(2000)
@@ -143,11 +143,11 @@ def test_viscosity_starts_with_the_slope_alpha(law):
 def test_shear_stress():
     oil = films.Oil(eta=0.03, alpha=1.8e-8, eyring_stress=4e6)
     # Newtonian when slow, a logarithm when fast, bounded by the limiting stress
-    assert oil.shear_stress(1.0, 0.0) == pytest.approx(0.03, rel=1e-10)
-    fast = oil.shear_stress(1e12, 0.0)
+    assert oil.shear_stress(1.0, pressure=0.0) == pytest.approx(0.03, rel=1e-10)
+    fast = oil.shear_stress(1e12, pressure=0.0)
     assert fast == pytest.approx(4e6 * math.log(2 * 0.03e12 / 4e6), rel=1e-6)
-    assert oil.replace(limiting_stress=1e7).shear_stress(1e12, 0.0) == 1e7
-    assert np.isnan(films.Oil(eta=0.03, alpha=1.8e-8).shear_stress(1.0, 0.0))
+    assert oil.replace(limiting_stress=1e7).shear_stress(1e12, pressure=0.0) == 1e7
+    assert np.isnan(films.Oil(eta=0.03, alpha=1.8e-8).shear_stress(1.0, pressure=0.0))
 
 
 def test_formulas_say_where_they_hold():

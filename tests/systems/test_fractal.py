@@ -44,7 +44,7 @@ def test_closed_form_is_the_sum_over_spots(D):
 
     def summed(low, high, of):
         return quad(
-            lambda x: float(of(math.exp(x)) * s.spot_density(math.exp(x), a_L)) * math.exp(x),
+            lambda x: float(of(math.exp(x)) * s.spot_density(math.exp(x), a_L=a_L)) * math.exp(x),
             math.log(low),
             math.log(high),
             epsabs=0,

@@ -29,7 +29,7 @@ AT_ONCE = 4096
 """States whose spots are laid out together."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Solved:
     """N solved states of one contact, and every spot in them: what `AbstractOutput.of` is given.
 
@@ -136,7 +136,7 @@ def evaluate(
         asperities, particles = spots_of(contact, bound, here["d"], columns["shadow"][part])
         if crowd is not None:
             particles = [spots.thinned(crowd[part]) for spots in particles]
-        state = Solved(contact, **here, asperities=asperities, particles=particles)
+        state = Solved(contact=contact, **here, asperities=asperities, particles=particles)
         for output in contact.outputs:
             found = output.of(state)
             for name, value in found.items():

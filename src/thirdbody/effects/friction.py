@@ -281,7 +281,7 @@ class Friction(AbstractOutput):
             return self.tau_ss, self.m_ss, self.alpha_ss
         return self.tau_sa, self.m_sa, self.alpha_sa
 
-    def shear_force(self, kind: str, area: Array, load: Array, H: float) -> Array:
+    def shear_force(self, kind: str, *, area: Array, load: Array, H: float) -> Array:
         """Force of shear [N] of contacts of one kind.
 
         Parameters
@@ -341,7 +341,7 @@ class Friction(AbstractOutput):
             Hardness of the harder surface over that of the softer.
         """
         force = {
-            "ss_shear": self.shear_force("ss", spots.area, spots.load, spots.H),
+            "ss_shear": self.shear_force("ss", area=spots.area, load=spots.load, H=spots.H),
             "ss_plough": np.zeros_like(spots.load),
         }
         if ratio > self.hardness_ratio:
@@ -374,7 +374,7 @@ class Friction(AbstractOutput):
         ]
         one, two = (mu * acts for mu, acts in zip(deform, acting, strict=True))
         resistance = 0.5 * (deform[0] + deform[1])
-        shear = [self.shear_force("sa", area, spots.load, H) for _, area, _, H in sides]
+        shear = [self.shear_force("sa", area=area, load=spots.load, H=H) for _, area, _, H in sides]
         slide = (one * spots.load + shear[0], two * spots.load + shear[1])
         side = (slide[1] < slide[0] * (1 - TIE)).astype(np.intp)
         if self.rolling == "moment":

@@ -22,7 +22,7 @@ __all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Critical:
     """A load F* [1] where something changes, or why there is none.
 
@@ -35,7 +35,7 @@ class Critical:
 
     Examples
     --------
-    >>> Critical(7.15e-06, "found").to_dict()
+    >>> Critical(value=7.15e-06, status="found").to_dict()
     {'value': 7.15e-06, 'status': 'found'}
     """
 
@@ -185,16 +185,20 @@ def transitions(
         if not 0 < eps < 1:
             raise InvalidValue(f"{name} = {eps!r} must lie between 0 and 1")
     if contact.two_body:
-        none = Critical(None, "none")
+        none = Critical(value=None, status="none")
         two_body = TurningPoint(none, none, none)
-        return Transitions(Critical(None, "never p-s"), Critical(0.0, "always s-s"), two_body)
+        return Transitions(
+            Critical(value=None, status="never p-s"),
+            Critical(value=0.0, status="always s-s"),
+            two_body,
+        )
 
     bound = interface(contact.replace(outputs=()))
     scan = load_scan(bound)
     carried = np.exp([scan.log_F[0], scan.log_F.max()]) / contact.E_ss
     low, high = max(low, 1.0001 * carried[0]), min(high, 0.9999 * carried[1])
     if low >= high:
-        none = Critical(None, "none: no load of the window can be carried")
+        none = Critical(value=None, status="none: no load of the window can be carried")
         return Transitions(none, none, TurningPoint(none, none, none))
 
     def states(loads: Array) -> tuple[Array, Array, Array]:
@@ -237,15 +241,15 @@ def _crossing(
         if b / a - 1 < 1e-9:
             break
     step = np.ptp(share(np.array([a, b])))
-    return Critical(float(np.sqrt(a * b)), "jump" if step > 1e-4 else "found")
+    return Critical(value=float(np.sqrt(a * b)), status="jump" if step > 1e-4 else "found")
 
 
 def _first_critical(loads: Array, S: Array, share, threshold: float) -> Critical:
     if S[0] < threshold:
-        return Critical(None, "never p-s")
+        return Critical(value=None, status="never p-s")
     below = np.flatnonzero(S < threshold)
     if not len(below):
-        return Critical(None, "always p-s")
+        return Critical(value=None, status="always p-s")
     i = below[0]
     return _crossing(loads[i - 1], loads[i], share, threshold, last=False)
 
@@ -253,10 +257,10 @@ def _first_critical(loads: Array, S: Array, share, threshold: float) -> Critical
 def _second_critical(loads: Array, S: Array, share, threshold: float) -> Critical:
     above = np.flatnonzero(S >= threshold)
     if not len(above):
-        return Critical(0.0, "always s-s")
+        return Critical(value=0.0, status="always s-s")
     i = above[-1]
     if i == len(loads) - 1:
-        return Critical(None, "never s-s")
+        return Critical(value=None, status="never s-s")
     return _crossing(loads[i], loads[i + 1], share, threshold, last=True)
 
 
@@ -264,20 +268,20 @@ def _recurrence(loads: Array, S: Array, share, threshold: float) -> Critical:
     peak = int(np.argmax(S))
     interior = 0 < peak < len(S) - 1
     if not interior or max(S[0], S[-1]) > 0.9 * S[peak] or S[peak] < 1e-6:
-        return Critical(None, "none")
+        return Critical(value=None, status="none")
     a, b = loads[peak - 1], loads[peak + 1]
     for _ in range(6):
         fine = np.geomspace(a, b, 33)
         top = int(np.clip(np.argmax(share(fine)), 1, 31))
         a, b = fine[top - 1], fine[top + 1]
-    return Critical(float(np.sqrt(a * b)), "found")
+    return Critical(value=float(np.sqrt(a * b)), status="found")
 
 
 def _equal_loads(loads: Array, shares: Array, load_share) -> Critical:
     above = shares >= 0.5
     changes = np.flatnonzero(above[1:] != above[:-1])
     if not len(changes):
-        return Critical(None, "none")
+        return Critical(value=None, status="none")
     i = changes[-1]
     sign = 1.0 if above[i] else -1.0
 
@@ -292,8 +296,8 @@ def _bend(loads: Array, area: Array, S: Array, eps_1: float, eps_2: float) -> Cr
     hybrid = np.flatnonzero((S < 1 - eps_1) & (S > eps_2))
     inside = hybrid[(hybrid > 0) & (hybrid < len(loads) - 1)]
     if not len(inside):
-        return Critical(None, "none")
+        return Critical(value=None, status="none")
     x, y = np.log(loads), np.log(area)
     bend = np.abs(y[inside + 1] - 2 * y[inside] + y[inside - 1]) / (x[1] - x[0]) ** 2
     best = inside[int(np.argmax(bend))]
-    return Critical(float(loads[best]), "found")
+    return Critical(value=float(loads[best]), status="found")

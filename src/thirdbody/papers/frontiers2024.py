@@ -130,7 +130,7 @@ READINGS = {
 # ------------------------------------------------------------------ measures
 def dry_change(reading: Reading, of: str, by: float) -> Measurement:
     """Dry real area after multiplying one input over that before, at the mean Hertz pressure."""
-    p = float(BALL.hertz(LOAD, 2 * contact().E_ss).mean)
+    p = float(BALL.hertz(LOAD, E=2 * contact().E_ss).mean)
     after = reading.trend(p, **{of: by}).area[0]
     return Measurement.of(after / reading.trend(p).area[0])
 

@@ -337,14 +337,18 @@ class Particles(Value):
         >>> dust.iso4406(gap="1 um")
         '17/17/0'
         """
-        return cleanliness.iso4406_of(self.areal_density / _gap(gap), self.diameter)
+        return cleanliness.iso4406_of(
+            density=self.areal_density / _gap(gap), diameter=self.diameter
+        )
 
     def cleanliness_class(self, standard: str, *, gap: float | str) -> str:
         """The class in "as4059" or "nas1638" of a fluid that holds these particles in a gap [m].
 
         The lowest class that permits the count at every size; ">12" where none does.
         """
-        return cleanliness.class_of(standard, self.areal_density / _gap(gap), self.diameter)
+        return cleanliness.class_of(
+            standard, density=self.areal_density / _gap(gap), diameter=self.diameter
+        )
 
 
 def _read(name: str, value: float | str, unit: str) -> float:

@@ -174,7 +174,7 @@ def _transitions(contact: Contact) -> Transitions:
     try:
         return transitions(contact)
     except ThirdBodyError as error:
-        none = Critical(None, f"none: {str(error).splitlines()[0]}")
+        none = Critical(value=None, status=f"none: {str(error).splitlines()[0]}")
         return Transitions(none, none, TurningPoint(none, none, none))
 
 

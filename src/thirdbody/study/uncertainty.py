@@ -111,7 +111,7 @@ def _uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) ->
     if problems:
         raise InvalidValue(*problems)
     try:
-        return Uncertain(kind, *numbers)
+        return Uncertain(kind=kind, first=numbers[0], second=numbers[1])
     except InvalidValue as error:
         raise InvalidValue(*(f"{where}: {text}" for text in error.problems)) from None
 

@@ -214,7 +214,7 @@ class FilmConditions(Value):
 
     def nominal_pressure(self, contact: Contact) -> float:
         """Hertz pressure of the smooth dry bodies, the mean or the largest as asked [Pa]."""
-        hertz = self.conjunction.hertz(self.load, 2 * contact.E_ss)
+        hertz = self.conjunction.hertz(self.load, E=2 * contact.E_ss)
         return float(hertz.mean if self.pressure == "mean" else hertz.maximum)
 
     def at(self, contact: Contact, speed: ArrayLike | None = None) -> MixedFilm:

@@ -71,7 +71,7 @@ class Hertz(NamedTuple):
 
     Examples
     --------
-    >>> hertz = Point(R=9.5e-3).hertz(20.0, 223.8e9)
+    >>> hertz = Point(R=9.5e-3).hertz(20.0, E=223.8e9)
     >>> round(hertz.area * hertz.mean, 9), round(hertz.maximum / hertz.mean, 9)
     (20.0, 1.5)
     """
@@ -96,7 +96,7 @@ class Point(Value):
 
     Examples
     --------
-    >>> round(float(Point(R=9.5e-3).hertz(20.0, 223.8e9).mean) / 1e6)
+    >>> round(float(Point(R=9.5e-3).hertz(20.0, E=223.8e9).mean) / 1e6)
     542
     """
 
@@ -111,7 +111,7 @@ class Point(Value):
         """R_x/R_y [1]."""
         return 1.0 if self.R_y is None else self.R / self.R_y
 
-    def hertz(self, load: Any, E: Any) -> Hertz:
+    def hertz(self, load: Any, *, E: Any) -> Hertz:
         """Area and pressures of the dry contact under a load [N], E = E' [Pa]."""
         from ..reference import elliptic_hertz
 
@@ -141,7 +141,7 @@ class Line(Value):
 
     Examples
     --------
-    >>> round(float(Line(R=0.01, length=0.02).hertz(2000.0, 226e9).maximum) / 1e6)
+    >>> round(float(Line(R=0.01, length=0.02).hertz(2000.0, E=226e9).maximum) / 1e6)
     600
     """
 
@@ -154,7 +154,7 @@ class Line(Value):
         """R_x/R_y [1]."""
         return 0.0
 
-    def hertz(self, load: Any, E: Any) -> Hertz:
+    def hertz(self, load: Any, *, E: Any) -> Hertz:
         """Area and pressures of the dry contact under a load [N], E = E' [Pa]."""
         b = np.sqrt(8 * self.intensity(load) * self.R / (math.pi * E))
         area = 2 * b * self.length
@@ -228,7 +228,7 @@ class Oil(Value):
         z = self.alpha * 1.96e8 / span
         return self.eta * np.exp(span * ((1 + p / 1.96e8) ** z - 1))
 
-    def shear_stress(self, rate: Any, pressure: Any) -> Any:
+    def shear_stress(self, rate: Any, *, pressure: Any) -> Any:
         """Shear stress of the film [Pa]; NaN without an Eyring stress.
 
         Parameters
@@ -423,7 +423,7 @@ class Asymptotes(NamedTuple):
 
     Examples
     --------
-    >>> str(MoesLine.limits_of(100.0, 10.0).regime)
+    >>> str(MoesLine.limits_of(M=100.0, L=10.0).regime)
     'elastic-piezoviscous'
     """
 
@@ -499,7 +499,7 @@ class NijenbanningVennerMoes(AbstractFilm):
     blend: str = choice("ratio in the exponent s", "EI/RI", "EI/EP", default="EI/RI")
 
     @staticmethod
-    def limits_of(M: Any, L: Any, D: float) -> Asymptotes:
+    def limits_of(*, M: Any, L: Any, D: float) -> Asymptotes:
         """The four limits for Moes' load M and lubricant number L [1]."""
         g = 1 + 0.006 * math.log(D) + 0.63 * D ** (4 / 7)
         return Asymptotes(
@@ -509,7 +509,7 @@ class NijenbanningVennerMoes(AbstractFilm):
             1.48 * g ** (-7 / 20) * D ** (-1 / 24) * M ** (-1 / 12) * L ** (3 / 4),
         )
 
-    def joined(self, at: Asymptotes, H_00: float) -> Any:
+    def joined(self, at: Asymptotes, *, H_00: float) -> Any:
         """H between the limits [1]."""
         ratio = at.EI / (at.RI if self.blend == "EI/RI" else at.EP)
         s = 1.5 * (1 + np.exp(-1.2 * ratio))
@@ -523,12 +523,12 @@ class NijenbanningVennerMoes(AbstractFilm):
     ) -> Asymptotes:
         """The four limits; arguments as in `central`."""
         U, G, W = groups(load, speed, eta, alpha, R, E, 2)
-        return self.limits_of(W * (2 * U) ** -0.75, G * (2 * U) ** 0.25, ratio)
+        return self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
 
     def central(self, *, load, speed, eta, alpha, R, E, ratio=1.0):
         U, G, W = groups(load, speed, eta, alpha, R, E, 2)
-        at = self.limits_of(W * (2 * U) ** -0.75, G * (2 * U) ** 0.25, ratio)
-        return self.joined(at, 1.8 / ratio) * R * (2 * U) ** 0.5
+        at = self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
+        return self.joined(at, H_00=1.8 / ratio) * R * (2 * U) ** 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -569,7 +569,7 @@ class MoesLine(AbstractFilm):
     shape = "line"
 
     @staticmethod
-    def limits_of(M: Any, L: Any) -> Asymptotes:
+    def limits_of(*, M: Any, L: Any) -> Asymptotes:
         """The four limits for Moes' load M and lubricant number L [1]."""
         return Asymptotes(3 / M, 2.621 * M**-0.2, 1.287 * L ** (2 / 3), 1.311 * M**-0.125 * L**0.75)
 
@@ -586,11 +586,11 @@ class MoesLine(AbstractFilm):
     ) -> Asymptotes:
         """The four limits; arguments as in `central`."""
         U, G, W = groups(load, speed, eta, alpha, R, E, 1)
-        return self.limits_of(W * (2 * U) ** -0.5, G * (2 * U) ** 0.25)
+        return self.limits_of(M=W * (2 * U) ** -0.5, L=G * (2 * U) ** 0.25)
 
     def central(self, *, load, speed, eta, alpha, R, E, ratio=1.0):
         U, G, W = groups(load, speed, eta, alpha, R, E, 1)
-        at = self.limits_of(W * (2 * U) ** -0.5, G * (2 * U) ** 0.25)
+        at = self.limits_of(M=W * (2 * U) ** -0.5, L=G * (2 * U) ** 0.25)
         return self.joined(at) * R * (2 * U) ** 0.5
 
 

@@ -146,7 +146,7 @@ class MajumdarBhushan(Value):
         elastic = self._elastic_unit * a ** ((3 - self.D) / 2)
         return np.where(a < self.critical_area, self.H * a, elastic)
 
-    def spot_density(self, a: ArrayLike, a_L: float) -> Array:
+    def spot_density(self, a: ArrayLike, *, a_L: float) -> Array:
         """n(a) [1/m²]: number of spots per spot area, up to the largest a_L [m²]."""
         a = np.asarray(a, dtype=float)
         return np.where(a <= a_L, self.D / 2 * a_L ** (self.D / 2) * a ** (-self.D / 2 - 1), 0.0)
@@ -390,7 +390,7 @@ class Stack(Value):
         """Real area per nominal area [1] of all scales under a nominal pressure [Pa]."""
         return self.fractions(pressure)[-1]
 
-    def convergence(self, pressure: float, tolerance: float = 0.01) -> Convergence:
+    def convergence(self, pressure: float, *, tolerance: float = 0.01) -> Convergence:
         """Whether the last scale still changes the area by more than ``tolerance``."""
         areas = self.fractions(float(pressure))
         hard = self.H is not None and areas[-1] <= pressure / self.H
@@ -515,7 +515,7 @@ class ParticleFilm:
         return force, np.minimum(area, cap)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class MultiscaleState:
     """Equilibrium of `GhaedniaMultiscale`: floats for one pressure, arrays for several.
 

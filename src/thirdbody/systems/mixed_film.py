@@ -310,7 +310,7 @@ def mixed_film(
     _check(contact, conjunction, oil, film, slide_roll, pressure, (few, most))
     bound = interface(contact)
     sigma, E = contact.roughness.sigma, 2 * contact.E_ss
-    hertz = conjunction.hertz(w, E)
+    hertz = conjunction.hertz(w, E=E)
     p = hertz.mean if pressure == "mean" else hertz.maximum
 
     def thickness(x: Array) -> Array:
@@ -546,7 +546,7 @@ def _traction(
     unknown = np.full_like(u, np.nan)
     ss = sa = shear = unknown
     if slide_roll is not None:
-        stress = oil.shear_stress(slide_roll * u / h_T, film_pressure)
+        stress = oil.shear_stress(slide_roll * u / h_T, pressure=film_pressure)
         shear = (1 - np.asarray(state.A_t)) * stress / p
         if "mu_ss" in state.outputs and "mu_sa" in state.outputs:
             ss, sa = (

@@ -193,7 +193,7 @@ def regime_speeds(
     _check(contact, conjunction, oil, film, None, pressure, (few, most))
     bound = interface(contact)
     sigma, E = contact.roughness.sigma, 2 * contact.E_ss
-    hertz = conjunction.hertz(w, E)
+    hertz = conjunction.hertz(w, E=E)
     p = float((hertz.mean if pressure == "mean" else hertz.maximum)[0])
     floor = bound.asperities.centre + DEEPEST * sigma
 

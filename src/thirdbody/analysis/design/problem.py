@@ -184,7 +184,7 @@ class Suspension(Value):
         "ρ_f", "kg/m^3", "density of the fluid", default=cleanliness.OIL_DENSITY, gt=0
     )
 
-    def areal_density(self, particles: Particles, concentration: float | None = None) -> float:
+    def areal_density(self, particles: Particles, *, concentration: float | None = None) -> float:
         """Particles per nominal area [1/m²], of these sizes and this material."""
         amount = self.concentration if concentration is None else concentration
         if amount is None:

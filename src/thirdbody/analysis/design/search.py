@@ -160,7 +160,7 @@ class Task:
             return contact.replace(**plain)
         few = contact.replace(**plain, **{DENSITY: FEWEST})
         (dust,) = few.populations
-        density = self.suspension.areal_density(dust, changes.get(AMOUNT))
+        density = self.suspension.areal_density(dust, concentration=changes.get(AMOUNT))
         return few.replace(**{DENSITY: density})
 
     def _moving(

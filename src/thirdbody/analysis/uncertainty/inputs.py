@@ -35,7 +35,7 @@ KINDS = {
 
 
 # -------------------------------------------------------------------------- one input
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Uncertain:
     """What is known of one input: its distribution, in SI.
 
@@ -57,11 +57,11 @@ class Uncertain:
 
     Examples
     --------
-    >>> Uncertain.uniform(80e-9, 120e-9).at(0.5)
+    >>> Uncertain.uniform(low=80e-9, high=120e-9).at(0.5)
     1e-07
-    >>> round(Uncertain.normal(7.7e9, 0.5e9).at(0.975) / 1e9, 3)
+    >>> round(Uncertain.normal(mean=7.7e9, std=0.5e9).at(0.975) / 1e9, 3)
     8.68
-    >>> Uncertain.lognormal(1e11, 1.5).cdf(1e11)
+    >>> Uncertain.lognormal(median=1e11, gsd=1.5).cdf(1e11)
     0.5
     """
 
@@ -100,24 +100,24 @@ class Uncertain:
             raise InvalidValue(*problems)
 
     @classmethod
-    def uniform(cls, low: float, high: float) -> Uncertain:
+    def uniform(cls, *, low: float, high: float) -> Uncertain:
         """Anything between two ends, equally likely."""
-        return cls("uniform", low, high)
+        return cls(kind="uniform", first=low, second=high)
 
     @classmethod
-    def log_uniform(cls, low: float, high: float) -> Uncertain:
+    def log_uniform(cls, *, low: float, high: float) -> Uncertain:
         """Anything between two ends, equally likely in the logarithm."""
-        return cls("log-uniform", low, high)
+        return cls(kind="log-uniform", first=low, second=high)
 
     @classmethod
-    def normal(cls, mean: float, std: float) -> Uncertain:
+    def normal(cls, *, mean: float, std: float) -> Uncertain:
         """A measured value and its standard uncertainty."""
-        return cls("normal", mean, std)
+        return cls(kind="normal", first=mean, second=std)
 
     @classmethod
-    def lognormal(cls, median: float, gsd: float) -> Uncertain:
+    def lognormal(cls, *, median: float, gsd: float) -> Uncertain:
         """A value known to a factor: two in three between median/gsd and median·gsd."""
-        return cls("lognormal", median, gsd)
+        return cls(kind="lognormal", first=median, second=gsd)
 
     def at(self, u: ArrayLike) -> Any:
         """The value that is exceeded with probability 1 − u."""
@@ -192,8 +192,12 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
             if alike and name.startswith("surfaces"):
                 label = f"surfaces.first.{key}+surfaces.second.{key}"
             if getattr(body, key) == entries[body.name][key]:
-                out[label] = Uncertain.uniform(low, high)
+                out[label] = Uncertain.uniform(low=low, high=high)
     return out
+
+
+def _between(low: float, high: float) -> Uncertain:
+    return Uncertain.uniform(low=low, high=high)
 
 
 class Drawn(NamedTuple):
@@ -244,7 +248,7 @@ def drawn_inputs(contact: Contact, inputs: Mapping[str, Any], load: str, loads: 
             elif np.ndim(loads):
                 problems.append(f"{where}: give one load where the load is uncertain")
                 continue
-            one = given if isinstance(given, Uncertain) else Uncertain("uniform", *given)
+            one = given if isinstance(given, Uncertain) else _between(*given)
         except InvalidValue as error:
             problems += [f"{where}: {text.removeprefix('to = ')}" for text in error.problems]
             continue

@@ -390,7 +390,7 @@ def _within(most: list[float], number: int, level: str) -> float:
     return math.sqrt(low * high) if low else high / math.sqrt(2)
 
 
-def iso4406_of(density: float, diameter: Distribution) -> str:
+def iso4406_of(*, density: float, diameter: Distribution) -> str:
     """The ISO 4406 code of n particles per volume [1/m³] with these sizes.
 
     Parameters
@@ -409,7 +409,7 @@ def iso4406_of(density: float, diameter: Distribution) -> str:
     Examples
     --------
     >>> from thirdbody import Monodisperse
-    >>> iso4406_of(300e6, Monodisperse(mean=5e-6))
+    >>> iso4406_of(density=300e6, diameter=Monodisperse(mean=5e-6))
     '15/0/0'
     """
     scale = _table("cleanliness")["iso4406"]
@@ -489,7 +489,7 @@ def _class_table(kind: str) -> tuple[dict[str, Any], dict[str, list[int]]]:
     return scale, scale["most" if kind == "as4059" else "within"]
 
 
-def class_of(kind: str, density: float, diameter: Distribution) -> str:
+def class_of(kind: str, *, density: float, diameter: Distribution) -> str:
     """The lowest class of `suspension_of_class` that permits these particles.
 
     Parameters
@@ -507,7 +507,8 @@ def class_of(kind: str, density: float, diameter: Distribution) -> str:
 
     Examples
     --------
-    >>> class_of("nas1638", *suspension_of_class("nas1638", "6"))
+    >>> density, diameter = suspension_of_class("nas1638", "6")
+    >>> class_of("nas1638", density=density, diameter=diameter)
     '6'
     """
     scale, limits = _class_table(kind)

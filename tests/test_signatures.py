@@ -1,0 +1,105 @@
+"""What a public function is about stands first; every other number is a keyword.
+
+Two numbers in a row are exchanged in silence, most of all where both are lengths or pressures.
+"""
+
+import inspect
+import re
+from types import FunctionType, ModuleType
+
+import pytest
+
+import thirdbody as tb
+
+NUMBER = re.compile(r"\b(float|int|ArrayLike|Array|Number|Any)\b")
+INTEGRAL = "an integral as it is written, n from a to b; called in inner loops"
+DRAWN = "as in NumPy: the generator, and how many"
+HOOK = "called by the library alone, for every law or output alike"
+GAP = "a particle and the gap it lies in are one thing, and both are arrays of one shape"
+EXCEPTIONS = {
+    r".*\.partial_moment": INTEGRAL,
+    r".*\.sample": DRAWN,
+    r"asperity\.\w+\.reduced": HOOK,
+    r"particle\.OneParticle\.(regime|spots)": HOOK,
+    r"outputs\.\w+\.of_asperities": HOOK,
+    r"films\.\w+\.warnings": HOOK,
+    r"Objective\.cost": HOOK,
+    r"particle\.AbstractParticleLaw\.single": GAP,
+}
+"""Where two numbers may stand without their names, and why."""
+
+
+def public():
+    """Names that users write, and the functions behind them: methods and constructors too."""
+    out, seen = [], set()
+
+    def add(name, thing):
+        if id(thing) in seen:
+            return
+        seen.add(id(thing))
+        if isinstance(thing, FunctionType):
+            out.append((name, thing))
+        elif isinstance(thing, type) and thing.__module__.startswith("thirdbody"):
+            for key, member in vars(thing).items():
+                if key == "__init__" or not key.startswith("_"):
+                    member = getattr(member, "__func__", member)
+                    if isinstance(member, FunctionType):
+                        out.append((f"{name}.{key}", member))
+
+    for name in sorted(tb.__all__) + sorted(set(dir(tb)) - set(tb.__all__)):
+        thing = getattr(tb, name)
+        if isinstance(thing, ModuleType):
+            for key in getattr(thing, "__all__", ()):
+                add(f"{name}.{key}", getattr(thing, key))
+        elif not name.startswith("_"):
+            add(name, thing)
+    return out
+
+
+def unnamed(function):
+    """Numbers that may be given by place after the first argument."""
+    places = [
+        each
+        for each in inspect.signature(function).parameters.values()
+        if each.kind in (each.POSITIONAL_ONLY, each.POSITIONAL_OR_KEYWORD)
+        and each.name not in ("self", "cls")
+    ]
+    return [
+        each.name
+        for each in places[1:]
+        if each.annotation is each.empty or _is_number(str(each.annotation))
+    ]
+
+
+def _is_number(annotation):
+    """Whether a type is one of numbers, not a mapping or a function of them."""
+    return (
+        NUMBER.search(re.sub(r"\[.*\]", "", annotation.replace("os.PathLike[str]", ""))) is not None
+    )
+
+
+PUBLIC = public()
+
+
+def test_every_number_but_the_first_is_a_keyword():
+    wrong = {name: unnamed(function) for name, function in PUBLIC}
+    assert {
+        name: numbers
+        for name, numbers in wrong.items()
+        if numbers and not any(re.fullmatch(one, name) for one in EXCEPTIONS)
+    } == {}
+
+
+@pytest.mark.parametrize("one", EXCEPTIONS)
+def test_every_exception_is_needed(one):
+    assert any(unnamed(function) for name, function in PUBLIC if re.fullmatch(one, name))
+
+
+def test_the_search_sees_functions_methods_and_constructors():
+    names = {name for name, _ in PUBLIC}
+    assert {"solve", "Uncertain.normal", "Critical.__init__", "reference.hertz_point"} <= names
+
+    def slip(contact, pressure: float, *, d: float):
+        """Takes a pressure by place."""
+
+    assert unnamed(slip) == ["pressure"]
