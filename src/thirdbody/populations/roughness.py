@@ -112,7 +112,7 @@ class Roughness(Value):
         Notes
         -----
         Heights are Gaussian and the faces isotropic. What a process says of the slope and of α is
-        wide and from memory, so R is known to a factor of five either way: measure it where it
+        wide and from memory, so R is known to a factor of some six either way: measure it where it
         matters.
 
         Examples
@@ -123,7 +123,7 @@ class Roughness(Value):
         >>> round(rough.sigma * 1e9), round(rough.R * 1e6)
         (517, 12)
         >>> [round(end * 1e6) for end in rough.ranges["R"]]
-        [2, 92]
+        [2, 76]
         """
         faces = (first,) if second is None else (first, second)
         if problems := check_faces(faces):
