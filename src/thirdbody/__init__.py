@@ -45,6 +45,7 @@ if TYPE_CHECKING:
         Weibull,
     )
     from .populations.ellipticity import Ellipticity
+    from .populations.finish import Finish
     from .populations.heights import (
         ExponentialHeights,
         GaussianHeights,
@@ -76,6 +77,7 @@ __all__ = [
     "Ellipticity",
     "Equilibrium",
     "ExponentialHeights",
+    "Finish",
     "GaussianHeights",
     "Heights",
     "Histogram",
@@ -171,6 +173,7 @@ _HOMES = {
     "Ellipticity": "populations.ellipticity",
     "Equilibrium": "equilibrium.columns",
     "ExponentialHeights": "populations.heights",
+    "Finish": "populations.finish",
     "GaussianHeights": "populations.heights",
     "Heights": "populations.heights",
     "Histogram": "populations.distributions",

@@ -21,7 +21,7 @@ from .assessment import COARSE, FAR, FINE, SHOWN, Assessment, Change, _nominal, 
 from .inputs import declared
 from .inputs import inputs as all_inputs
 from .sensitivity import sensitivity
-from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, library_ranges
+from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
 from .uncertainty.propagation import Propagation, columns_at, propagate, swing
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def assess(
     contact : Contact
     vary : mapping, optional
         What is uncertain, as in `propagate`. Without it the ranges of the materials library, where
-        it states some; none is invented.
+        it states some, and of the finishing process, where a drawing names one; none is invented.
     pressure, F_star : float
         The operating load: p [Pa] or F* [1]; exactly one.
     samples, seed : int, optional
@@ -98,14 +98,18 @@ def assess(
         raise InvalidValue(f"{load}: an assessment is of one operating load, not {len(values)}")
     notes: list[str] = []
     if vary is None:
-        vary = library_ranges(contact)
+        vary = stated_ranges(contact)
         if not vary:
             known = ", ".join(all_inputs(contact))
             raise InvalidValue(
                 f"no input has a range, and the materials library states none for these bodies: "
                 f"say what is known of {known}, e.g. roughness.sigma = (80e-9, 120e-9)"
             )
-        notes.append(f"Ranges of the materials library: {', '.join(vary)}.")
+        finished = [name for name in vary if name.startswith("roughness.")]
+        if listed := [name for name in vary if name not in finished]:
+            notes.append(f"Ranges of the materials library: {', '.join(listed)}.")
+        if finished:
+            notes.append(f"Ranges of the finishing process, from memory: {', '.join(finished)}.")
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, **{load: given[load]})  # type: ignore[arg-type]

@@ -18,7 +18,7 @@ from ..analysis.assessment import Assessment
 from ..analysis.inputs import declared
 from ..analysis.inputs import inputs as numbers_of
 from ..analysis.sensitivity import Sensitivity, sensitivity
-from ..analysis.uncertainty.inputs import library_ranges
+from ..analysis.uncertainty.inputs import stated_ranges
 from ..contact.contact import Contact
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput
@@ -834,7 +834,7 @@ def _curve(contact: Contact, result: dict[str, Any], loaded: Sequence[int]) -> E
 def _assessed(study: Study, contact: Contact, given: dict[str, float]) -> Assessment | None:
     asked = study.uncertainty
     if asked is None:
-        if not library_ranges(contact):
+        if not stated_ranges(contact):
             return None
         return assess(contact, **given, samples=MOST_SAMPLES)  # type: ignore[arg-type]
     loads = {"pressure", "F_star", "d"} - set(given)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Arrays = dict[str, NDArray[Any]]
 
-__all__ = ["Uncertain", "Uncertainty", "library_ranges"]
+__all__ = ["Uncertain", "Uncertainty", "library_ranges", "stated_ranges"]
 
 TAIL = 1e-9
 """Probability beyond which no sample is drawn, on either side (six standard deviations)."""
@@ -171,6 +171,14 @@ class Uncertainty:
     inputs: dict[str, Uncertain]
     samples: int = 2**14
     seed: int = 0
+
+
+def stated_ranges(contact: Contact) -> dict[str, Uncertain]:
+    """Ranges that nobody gave: of the materials library, and of a finishing process."""
+    return library_ranges(contact) | {
+        f"roughness.{name}": Uncertain.log_uniform(*ends)
+        for name, ends in contact.roughness.ranges.items()
+    }
 
 
 def library_ranges(contact: Contact) -> dict[str, Uncertain]:
