@@ -18,7 +18,9 @@ __all__ = ["command"]
 def command(
     study: Annotated[
         Path,
-        typer.Argument(metavar="STUDY.toml", help="A study file with one load, and mostly a table [uncertainty]."),
+        typer.Argument(
+            metavar="STUDY.toml", help="A study file; its table [uncertainty] says what scatters."
+        ),
     ],
     as_json: AsJson = False,
     html_file: Annotated[
