@@ -54,6 +54,7 @@ from ..quantities.say import (
 )
 from ..quantities.value import Value
 from ..study import Study, run_film, run_study
+from .assess_page import WORDS as ASSESSMENT_WORDS
 from .assess_page import pictures as pictures_of
 from .html import breaking, document, figure, section, svg_of, symbols, table, text_table, words
 
@@ -490,7 +491,7 @@ class Report:
         for part in found.sections()[1:]:
             out.append(f"<h3>{escape(part.title)}</h3>")
             if part.rows:
-                out.append(text_table(part.head, part.rows, ("where", "result")))
+                out.append(text_table(part.head, part.rows, ASSESSMENT_WORDS))
             out += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
         pictures = "\n".join(figure(svg, caption) for caption, svg in pictures_of(found))
         return [*out, f"<div class=figures>{pictures}</div>"]

@@ -188,8 +188,11 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
     entries = materials.entries()
     known = inputs(contact)
     bodies = {"surfaces.first": contact.surfaces.first, "surfaces.second": contact.surfaces.second}
-    if (one := getattr(contact.particles, "material", None)) is not None:
-        bodies["particles.material"] = one
+    given = contact.particles
+    if isinstance(given, tuple):
+        bodies |= {f"particles.{i}.material": each.material for i, each in enumerate(given)}
+    elif given is not None:
+        bodies["particles.material"] = given.material
     alike = contact.surfaces.first == contact.surfaces.second
     out = {}
     for name, body in bodies.items():

@@ -10,8 +10,9 @@ import typer
 
 from ...errors import InvalidValue
 from ...quantities.say import number
+from ...quantities.tables import Table
 from ..options import AsJson
-from ..show import table_of, terminal
+from ..show import terminal
 
 __all__ = ["command"]
 
@@ -51,7 +52,10 @@ def command(
     if as_table:
         print(_materials_in_markdown(entries))
         return
-    table = table_of(("name", "what", "E", "nu", "H", "standing", "source"))
+    heads = ("name", "what", "E", "nu", "H", "standing", "source")
+    drop = ("source", "standing", "what")
+    legend = {"E": "Young's modulus", "nu": "Poisson ratio, no unit", "H": "hardness"}
+    table = Table(heads, words=heads[1:], drop=drop, more="--json tells all", legend=legend)
     for name, entry in entries.items():
         doi = f", doi:{entry['doi']}" if entry.get("doi") else ""
         table.add_row(
