@@ -62,6 +62,7 @@ if TYPE_CHECKING:
     from .populations.measured.topography import Topography
     from .populations.particles import Particles
     from .populations.roughness import Roughness
+    from .populations.strength import WeibullStrength
     from .study.whole import load_study
     from .systems import film_formulas as films
     from .systems import fractal, interaction, rough_body, waviness
@@ -110,6 +111,7 @@ __all__ = [
     "Uniform",
     "Weibull",
     "WeibullHeights",
+    "WeibullStrength",
     "asperity",
     "assess",
     "cite",
@@ -206,6 +208,7 @@ _HOMES = {
     "Uniform": "populations.distributions",
     "Weibull": "populations.distributions",
     "WeibullHeights": "populations.heights",
+    "WeibullStrength": "populations.strength",
     "assess": "analysis.assess",
     "cite": "contact.citations",
     "compare": "analysis.compare",

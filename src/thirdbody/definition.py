@@ -6,6 +6,7 @@ r"""The model as it is meant, slow and plain: two integrals and a balance.
 Every formula is a law's own, every integral is `scipy.integrate.cubature`'s, every balance a root
 of SciPy: no tables, no engine. All that is faster in this library is held to this module by a test.
 The particle law is `Series` or `Flakes`; `Horng2022` prints its integrals in closed form.
+Particles that break (`strength`) are not written out here.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from scipy.optimize import brentq
 from scipy.optimize.elementwise import find_root
 from scipy.special import ndtr
 
+from .errors import InvalidValue
 from .laws.asperity.jg import JG
 from .laws.base import REGIMES
 from .populations.distributions import Monodisperse
@@ -96,6 +98,8 @@ class Tip:
 # ---------------------------------------------------------------- particles
 def particles(contact: Any, some: Any, d: float) -> Any:
     """F_sa, areas on surface 1 by regime, area on surface 2, shadow ς, of one population: (6,)."""
+    if some.strength is not None:
+        raise InvalidValue("particles that break (strength) are not written out in the definition")
     law, rough = contact.law_of(some), contact.roughness
     one, two = [
         half_of(law, reduced_modulus(body, some.material), body, some.material)

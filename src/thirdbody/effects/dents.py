@@ -123,6 +123,11 @@ class Dents(AbstractOutput):
     def problems(self, contact: Contact) -> list[str]:
         if self.debris != "brittle":
             return []
+        if any(each.strength is not None for each in contact.populations):
+            return [
+                "outputs.dents: debris = 'brittle' and the strength of the particles would break "
+                "them twice; remove one"
+            ]
         laws = [contact.law_of(each) for each in contact.populations]
         if all(type(law) is Series for law in laws):
             return []

@@ -89,6 +89,7 @@ def _materials_in_markdown(entries: dict[str, dict[str, Any]]) -> str:
         "thermal_conductivity": ("κ [W/(m K)]", 1.0),
         "specific_heat": ("c_p [J/(kg K)]", 1.0),
         "resistivity": ("ρ_e [nΩ m]", 1e-9),
+        "K_c": ("K_c [MPa √m]", 1e6),
     }
     lines = [
         "| name | what | " + " | ".join(title for title, _ in numbers.values()) + " |",

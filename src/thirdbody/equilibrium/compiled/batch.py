@@ -330,6 +330,8 @@ class Interfaces(_Batch):
             if isinstance(average, SeatAverage):
                 kind, functions, plane = k.ROUGH, [average.table], average.average
                 width, least, reach = average.width, average.table.edges[0], average.high
+            elif part.breaks:
+                raise NotCompiled("particles that break, on a plane seat")
             else:
                 # without small gaps the second function is not asked for
                 kind, functions = k.PLANE, [average.upper, average.lower or average.upper]
@@ -371,6 +373,8 @@ class States(_Batch):
         particles = None if bare(contact, arrays) else contact.particles
         if isinstance(particles, tuple) or (particles is not None and particles.law is not None):
             raise NotCompiled("several populations")
+        if particles is not None and particles.strength is not None:
+            raise NotCompiled("particles that break")
         super().__init__(count, 0 if particles is None else len(particles.diameter.components))
         datum = 0.0 if particles is None else contact.particle_law.centre
         self.covered: Array | None = None

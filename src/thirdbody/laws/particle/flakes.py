@@ -67,6 +67,7 @@ class Flakes(Series):
     doi = ""
     provenance = "derived"
     valid_range = "a ≪ τ, D/2 ≪ R, A_t < 0.2; no bending or tilt"
+    breakable = False
 
     soft: str = choice("flakes softer than a surface", "sphere", default="sphere")
     aspect: float = quantity("D/τ", "1", "diameter over thickness", default=1.0, ge=1)

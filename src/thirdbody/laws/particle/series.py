@@ -117,6 +117,7 @@ class Series(SeatedLaw, _OfTips):
     doi = "10.3390/lubricants10070164"
     provenance = "derived"
     valid_range = "x/2 ≪ R, A_t < 0.2"
+    breakable = True
 
     law: AbstractAsperityLaw = field(default_factory=Hermite)
     soft: str = choice("particles softer than a surface", "squashed", "sphere", default="squashed")
