@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
+from urllib.parse import parse_qsl
 
 import numpy as np
 import pytest
@@ -22,9 +23,11 @@ from thirdbody.app import exports, text
 from thirdbody.app.cross_section import profile, section, to_svg
 from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.fields import engineering, fields_of, number_of, shown, value_from
+from thirdbody.app.folders import Folders
 from thirdbody.app.guard import LARGEST_UPLOAD, Guard, Headers, allowed_hosts
 from thirdbody.app.inputs import about_of
 from thirdbody.app.jobs import Job, Stopped
+from thirdbody.app.page import Start
 from thirdbody.app.python_text import to_python
 from thirdbody.app.sizing import size_of, with_size
 from thirdbody.app.sliders import at_position, position_of
@@ -99,6 +102,52 @@ def test_setting_and_removing_an_entry(state):
     state.set("roughness", "alpha", None)
     assert "alpha" not in state.study["roughness"]
     assert len(heard) == 2
+
+
+def test_changes_of_one_entry_in_a_row_are_one_step(state):
+    start = state.study
+    for at in (1e-5, 2e-5, 3e-5):
+        state.go(at)
+    for sigma in ("90 nm", "80 nm"):
+        state.set("roughness", "sigma", sigma)
+    for law in ("ke", "jg"):
+        state.set("asperity_law", {"name": law}, whole=True)
+    assert state.steps == 4
+    seen = []
+    while state.past:
+        state.undo()
+        seen.append((state.study["asperity_law"]["name"], state.study["roughness"]["sigma"]))
+    assert seen == [("ke", "80 nm"), ("zmc", "80 nm"), ("zmc", "100 nm"), ("zmc", "100 nm")]
+    assert state.study == start
+    assert state.wanted is None
+    state.undo()
+    for step in range(200):
+        state.open(start | {"title": str(step)})
+    assert len(state.past) == 100
+
+
+def test_an_address_keeps_the_files_that_the_page_was_opened_with(tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "own.toml").write_text("[own]\nE = 2e11\nnu = 0.3\nH = 5e9\n")
+    (tmp_path / "mine" / "other.toml").write_text("[other]\nE = 2e11\nnu = 0.3\nH = 5e9\n")
+    study = example() | {"materials": "own.toml"}
+    start = Start(study, tmp_path / "mine", Folders())
+    for query, found in (
+        ({}, ["own.toml"]),
+        (dict(parse_qsl(text.to_link(study, 2e-5))), ["own.toml"]),
+        (dict(parse_qsl(text.to_link(study | {"materials": "other.toml"}))), []),
+        (dict(parse_qsl(text.to_link(study | {"materials": "mine/own.toml"}))), []),
+    ):
+        state, _ = start.state(query)
+        assert [each.name for each in state.folder.iterdir()] == found
+    start.folders.close()
+
+
+@pytest.mark.parametrize("tab", ["", "curves", "nowhere", "../curves", "__init__"])
+def test_an_address_opens_a_tab_of_the_page_alone(tab):
+    assert Start(None, None, None).read({"tab": tab})[2] == (
+        tab if tab == "curves" else "interface"
+    )
 
 
 def test_a_mistake_keeps_the_last_answer_and_names_its_field(state):

@@ -115,7 +115,9 @@ class Sliders:
                 "mean size x_a",
                 "particles.size",
                 size,
-                lambda v: state.replace(with_size(state.study, float(f"{v:.3g}"))),
+                lambda v: state.replace(
+                    with_size(state.study, float(f"{v:.3g}")), kind="particles.size"
+                ),
                 length,
             ),
             Knob(
