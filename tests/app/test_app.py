@@ -2,6 +2,7 @@
 
 import asyncio
 import dataclasses
+import itertools
 import json
 import re
 import subprocess
@@ -20,7 +21,7 @@ from thirdbody.study import DISTRIBUTIONS, check
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
 from thirdbody.app import exports, text
-from thirdbody.app.cross_section import profile, section, to_svg
+from thirdbody.app.cross_section import CARRIES, profile, section, to_svg
 from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.fields import engineering, fields_of, number_of, shown, value_from
 from thirdbody.app.folders import Folders
@@ -32,7 +33,10 @@ from thirdbody.app.python_text import to_python
 from thirdbody.app.sizing import size_of, with_size
 from thirdbody.app.sliders import at_position, position_of
 from thirdbody.app.state import State
+from thirdbody.app.tabs.interface import headline
 from thirdbody.app.uploads import harmless
+from thirdbody.equilibrium.words import two_bodies
+from thirdbody.quantities import say
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / "examples").glob("*.toml"))
@@ -263,7 +267,7 @@ def test_curves_of_200_loads_follow_a_slider_by_one_solution(state, monkeypatch)
     """What makes them quick; benchmarks/waiting.py measures it."""
     from thirdbody.app.tabs.curves import figures
 
-    figures(state.answer, "F_star", state.at, critical=False)
+    figures(state.answer, "F_star", critical=False)
     solve, solved = tb.solve, []
 
     def counting(contact, **load):
@@ -273,7 +277,7 @@ def test_curves_of_200_loads_follow_a_slider_by_one_solution(state, monkeypatch)
     monkeypatch.setattr(tb, "solve", counting)
     for step in range(3):
         state.set("roughness", "sigma", f"{101 + step} nm")
-        drawn = figures(state.answer, "F_star", state.at, critical=False)
+        drawn = figures(state.answer, "F_star", critical=False)
         assert len(drawn["area"]["data"][0]["x"]) == 200
     assert solved == [200] * 3
 
@@ -358,6 +362,45 @@ def test_particles_of_the_section_are_loaded_as_often_as_in_the_model(state):
     drawn = np.mean([grain.loaded for grain in grains])
     # 80 profiles hold some 3 independent seats each
     assert drawn == pytest.approx(share, abs=3 * np.sqrt(share * (1 - share) / 240))
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_a_population_that_carries_has_a_loaded_particle(name, tmp_path):
+    answer = State(example(name), tmp_path).answer
+    contact = answer.contact
+    several = contact.replace(
+        particles=(
+            *contact.populations,
+            *(
+                dust.replace(name="larger", areal_density=1e-4 * dust.areal_density,
+                             diameter=dust.diameter.scaled(1.5))
+                for dust in contact.populations
+            ),
+        )
+        or None
+    )  # fmt: skip
+    met = []
+    for made, load in itertools.product((contact, several), answer.loads[::33]):
+        point = tb.solve(made, **{answer.load: load})
+        shares = [part.load_share for part in point.populations] or [point.particle_load_share]
+        for seed in range(3):
+            drawn = section(made, point, seed=seed)
+            loaded = {grain.population for grain in drawn.grains if grain.loaded}
+            carrying = {i for i, share in enumerate(shares) if share > CARRIES}
+            assert carrying <= loaded, (load, seed, shares)
+            met.append(drawn.met)
+    assert any(met) == (name in list(EXAMPLES)[:2])  # in oil those that carry are many
+
+
+def test_the_headline_says_what_the_command_line_says(state, tmp_path):
+    bare = State(example("Two surfaces without particles"), tmp_path)
+    assert headline(bare.point()).endswith(f"{two_bodies()}.")
+    for at in (5e-7, 2e-5, 2.4e-4):
+        point = state.answer.solve(at)
+        said = headline(point)
+        assert f"articles carry {say.percent(point.particle_load_share)} of the load" in said
+        assert f"({point.mode})" in said
+        assert say.value_of(point.pressure, "Pa") in said
 
 
 def test_the_section_is_well_formed_and_to_scale(state):

@@ -32,6 +32,7 @@ from hostile import PAYLOADS, several, wrong  # noqa: E402
 
 from thirdbody.app.examples import example  # noqa: E402
 from thirdbody.app.sliders import STEPS, at_position  # noqa: E402
+from thirdbody.app.tabs.interface import abouts, headline  # noqa: E402
 from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
 from thirdbody.quantities import say  # noqa: E402
 
@@ -260,6 +261,10 @@ def test_numbers_are_those_of_the_library_and_sliders_move_them(visit):
     assert fact(page, "real contact area") == say.percent(point.A_t)
     assert fact(page, "particles carry") == say.percent(point.particle_load_share)
     assert fact(page, "mode") == point.mode
+    assert fact(page, "headline") == headline(point)
+    assert page.locator(".grain.loaded").count()
+    page.get_by_text("What the words mean").click()
+    page.get_by_text(abouts()["p-s"], exact=True).wait_for()
     looked_at(page, "interface")
     before = fact(page, "load")
     moved(page, "load", 4)
@@ -269,7 +274,7 @@ def test_numbers_are_those_of_the_library_and_sliders_move_them(visit):
     curves = check(STUDY).solve()
     area = drawn(page, "area")
     assert area[0]["y"] == curves.A_t.tolist()
-    assert area[0]["x"] == curves.F_star.tolist()
+    assert area[0]["x"] == (curves.pressure * 1e-6).tolist()
     shares = {trace["name"]: trace["y"] for trace in drawn(page, "shares")}
     assert shares["of the load"] == (100 * curves.particle_load_share).tolist()
     critical = tb.transitions(check(STUDY).contact)

@@ -37,11 +37,16 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .problem { color: var(--problem); font-size: 0.85rem; font-weight: 600; }
 .subhead { font-weight: 600; margin-top: 0.4rem; }
 .facts { gap: 0.5rem 1.6rem; }
+.headline { font-size: 1.25rem; font-weight: 600; line-height: 1.35; text-wrap: balance; }
+.words { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1rem; }
 .fact .value { font-size: 1.05rem; font-weight: 600; }
 .figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
 @media (min-width: 1100px) { .figures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
 .figures > * { min-width: 0; }
-.sliders { gap: 0.4rem 1.6rem; }
+.js-plotly-plot { position: relative; }
+.here { position: absolute; border-left: 2px solid var(--hint); pointer-events: none; }
+.here[hidden] { display: none; }
+.sliders { gap: 0.4rem 1.6rem; align-items: flex-end; }
 .slider { flex: 1 1 150px; min-width: 140px; padding: 0 8px; }
 .scroll-x { overflow-x: auto; }
 .section { display: block; width: 100%; min-width: 640px; height: auto; }
@@ -78,6 +83,19 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 
 RESIZE = """
 <script type="module">
+const here = (plot) => {
+  const around = plot.closest("[data-at]"), { xaxis } = plot._fullLayout ?? {};
+  if (!around || !xaxis) return;
+  let line = plot.querySelector(":scope > .here");
+  if (!line) {
+    line = Object.assign(document.createElement("div"), { className: "here" });
+    plot.append(line);
+  }
+  const { _offset: left, _length: width } = xaxis, { t, h } = plot._fullLayout._size;
+  const x = xaxis.d2p(Number(around.dataset.at));
+  line.hidden = !(x >= 0 && x <= width);
+  Object.assign(line.style, { left: `${left + x}px`, top: `${t}px`, height: `${h}px` });
+};
 const sized = new ResizeObserver(async (entries) => {
   const { Plotly } = await import("nicegui-plotly");
   for (const { target } of entries)
@@ -88,10 +106,19 @@ new MutationObserver(() => {
     plot.dataset.sized = "";
     sized.observe(plot);
   }
+  for (const plot of document.querySelectorAll("[data-at] .js-plotly-plot:not([data-here])"))
+    if (plot.on) {
+      plot.dataset.here = "";
+      plot.on("plotly_afterplot", () => here(plot));
+      here(plot);
+    }
 }).observe(document.body, { childList: true, subtree: true });
+new MutationObserver(() => document.querySelectorAll("[data-at] .js-plotly-plot").forEach(here))
+  .observe(document.body, { subtree: true, attributeFilter: ["data-at"] });
 </script>
 """
-"""Figures follow the width of their place; one that is out of sight has none."""
+"""Figures follow the width of their place; one that is out of sight has none. The operating load,
+which moves most, is a line over them: `data-at` around them says where."""
 
 
 class Start:
@@ -268,6 +295,7 @@ def page(state: State, told: str, start: Start) -> None:
                 with ui.tab_panel(name).classes("q-px-none"):
                     places[name] = ui.column().classes("w-full gap-3")
         notes = ui.column().classes("w-full gap-1")
+        said: list[str] = []
         address = Address(state)
         clock = ui.label().classes("hint").props('data-fact="time"')
 
@@ -301,12 +329,14 @@ def page(state: State, told: str, start: Start) -> None:
         except ThirdBodyError as error:
             wrong = "; ".join(getattr(error, "problems", None) or [str(error)])
         banner.set_text(with_micro(wrong or told))
-        notes.clear()
-        with notes:
-            if remark:
-                ui.label(remark).classes("hint")
-            for text in state.answer.notes[:6]:
-                ui.label(with_micro(without_paths(f"Note: {text}"))).classes("hint")
+        known = [f"Note: {text}" for text in state.answer.notes[:6]]
+        known = [with_micro(without_paths(text)) for text in known] + [remark] * bool(remark)
+        if known != said:
+            said[:] = known
+            notes.clear()
+            with notes:
+                for text in known:
+                    ui.label(text).classes("hint")
         clock.set_text(f"answered in {1e3 * (time.perf_counter() - state.began):.0f} ms")
 
     def opened(name: str | None) -> None:
@@ -324,9 +354,9 @@ def page(state: State, told: str, start: Start) -> None:
         read = await run.io_bound(start.read, query)
         if read is None:  # as it is when the server ends
             return
-        study, at, state.tab, said = read
-        if said:
-            ui.notify(said)
+        study, at, state.tab, wrong = read
+        if wrong:
+            ui.notify(wrong)
         state.travel(study, at)
         address.travelled()
         tabs.set_value(state.tab)
