@@ -10,6 +10,7 @@ from .version import __version__ as __version__
 
 if TYPE_CHECKING:
     from . import effects as outputs
+    from . import explicit as explicit
     from . import reference
     from . import systems as systems
     from .analysis.assess import assess
@@ -120,6 +121,7 @@ __all__ = [
     "design",
     "dust",
     "equal_share_size",
+    "explicit",
     "films",
     "fractal",
     "interaction",
@@ -151,6 +153,7 @@ __all__ = [
 _MODULES = {
     "asperity": "laws.asperity",
     "dust": "populations.measured.cleanliness",
+    "explicit": "explicit",
     "films": "systems.film_formulas",
     "fractal": "systems.fractal",
     "heights": "populations.heights",
