@@ -176,7 +176,7 @@ class Uncertainty:
 def stated_ranges(contact: Contact) -> dict[str, Uncertain]:
     """Ranges that nobody gave: of the materials library, and of a finishing process."""
     return library_ranges(contact) | {
-        f"roughness.{name}": Uncertain.log_uniform(*ends)
+        f"roughness.{name}": Uncertain.log_uniform(low=ends[0], high=ends[1])
         for name, ends in contact.roughness.ranges.items()
     }
 
