@@ -139,7 +139,7 @@ def test_regimes_follow_the_film_formula_for_rigid_bodies():
         h = tb.solve(contact, pressure=share * p).h
         at_1 = film.central(load=5e4 * (1 - share), speed=1.0, eta=0.04, alpha=2e-8, R=0.01,
                             E=2 * contact.E_ss * (1 - share))  # fmt: skip
-        by_hand_ = (float(mean_gap(h, contact.roughness.sigma)) / at_1) ** (1 / 0.69)
+        by_hand_ = (float(mean_gap(h, sigma=contact.roughness.sigma)) / at_1) ** (1 / 0.69)
         assert speed == pytest.approx(by_hand_, rel=1e-8)
 
 
@@ -169,9 +169,9 @@ def test_what_passes_and_what_enters():
     assert shares[0] == 0 < shares[-1] < 1
     oil = Entrainment(**dirt)
     gaps = found["states"]["h_T"]
-    assert found["entrainment"]["largest"] == [float(oil.largest(h, 9.5e-3)) for h in gaps]
+    assert found["entrainment"]["largest"] == [float(oil.largest(h, R=9.5e-3)) for h in gaps]
     assert found["entrainment"]["areal_density"] == [
-        [oil.areal_density(sizes, h, 9.5e-3) for h in gaps]
+        [oil.areal_density(sizes, h=h, R=9.5e-3) for h in gaps]
     ]
 
 
@@ -408,7 +408,7 @@ def test_the_example_shows_what_it_says():
     clean = study.contact.replace(particles=None)
     ratio = study.film.regime_speeds(study.contact).full / study.film.regime_speeds(clean).full
     assert 7 < ratio < 9
-    assert study.film.at(study.contact, 0.5).lambda_ratio > 1
+    assert study.film.at(study.contact, speed=0.5).lambda_ratio > 1
 
 
 # ---------------------------------------------------------------- report

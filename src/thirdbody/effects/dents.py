@@ -135,16 +135,16 @@ class Dents(AbstractOutput):
         particle = law.one(surfaces=contact.surfaces, particle=population.material)
         gap = spots.x - spots.depths[0] - spots.depths[1]
         x = np.minimum(spots.x, float(self.fragment or 0.0))
-        number = spots.number * fragments(spots.x, float(self.fragment or 0.0))
+        number = spots.number * fragments(spots.x, size=float(self.fragment or 0.0))
         found = particle.spots(x, np.maximum(x - gap, 0.0), share=spots.share, number=number)
         return replace(found, material=population.material, population=population)
 
     def _left(self, spots: ParticleSpots, side: int) -> Dent:
         assert spots.population is not None
         if self.debris != "ductile":
-            return dent_of(spots, side, spots.population.material)
+            return dent_of(spots, side=side, particle=spots.population.material)
         gap = np.maximum(spots.x - spots.depths[0] - spots.depths[1], 1e-3 * spots.x)
-        wide = (spots.load > 0) * flattened_diameter(spots.x, gap)
+        wide = (spots.load > 0) * flattened_diameter(spots.x, gap=gap)
         return Dent(np.zeros_like(wide), wide, np.zeros_like(wide))
 
     def of(self, state: Solved) -> dict[str, Array]:

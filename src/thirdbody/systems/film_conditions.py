@@ -63,7 +63,7 @@ class Entrainment(Value):
     Examples
     --------
     >>> dirt = Entrainment(concentration=1e-5, entry_ratio=1.0, friction=0.1)
-    >>> round(float(dirt.largest(0.3e-6, 9.5e-3)) * 1e6)
+    >>> round(float(dirt.largest(0.3e-6, R=9.5e-3)) * 1e6)
     190
     """
 
@@ -76,11 +76,11 @@ class Entrainment(Value):
         """Particles per volume of oil n_v [1/m³]."""
         return 6 * self.concentration / (math.pi * diameter.moment(3))
 
-    def largest(self, h: ArrayLike, R: float) -> Array:
+    def largest(self, h: ArrayLike, *, R: float) -> Array:
         """Largest diameter [m] dragged into a film h [m] between bodies of radius R' [m]."""
         return np.asarray(h, float) + 2 * self.friction**2 * R
 
-    def passes(self, diameter: Distribution, h: ArrayLike) -> Array:
+    def passes(self, diameter: Distribution, *, h: ArrayLike) -> Array:
         """Share of the particles smaller than the film h [m], by number [1].
 
         Parameters
@@ -91,7 +91,7 @@ class Entrainment(Value):
         """
         return np.asarray(diameter.partial_moment(0, 0.0, np.asarray(h, float)))
 
-    def areal_density(self, diameter: Distribution, h: float, R: float) -> float:
+    def areal_density(self, diameter: Distribution, *, h: float, R: float) -> float:
         """Particles that enter per nominal area η_a [1/m²].
 
         Parameters
@@ -102,7 +102,7 @@ class Entrainment(Value):
         R : float
             Reduced radius of the bodies R' [m].
         """
-        reach = float(self.largest(h, R))
+        reach = float(self.largest(h, R=R))
         if self.height == "film":
             entered = h * float(diameter.partial_moment(0, 0.0, reach))
         else:
@@ -217,7 +217,7 @@ class FilmConditions(Value):
         hertz = self.conjunction.hertz(self.load, E=2 * contact.E_ss)
         return float(hertz.mean if self.pressure == "mean" else hertz.maximum)
 
-    def at(self, contact: Contact, speed: ArrayLike | None = None) -> MixedFilm:
+    def at(self, contact: Contact, *, speed: ArrayLike | None = None) -> MixedFilm:
         """`mixed_film` at these speeds, or at another [m/s]; one speed gives floats."""
         if speed is None:
             speed = self.speed[0] if len(self.speed) == 1 else self.speed

@@ -205,7 +205,7 @@ def regime_speeds(
     known = (shares > 0) & (shares < 1) & (carried(np.full(2, -40.0)) > shares)
     # beyond e^40 sigma there is no contact
     t = _falling(lambda t: carried(t) - shares, np.full(2, -40.0), np.full(2, 40.0))
-    gap = mean_gap(floor + sigma * np.exp(t) + bound.mean_plane, sigma)
+    gap = mean_gap(floor + sigma * np.exp(t) + bound.mean_plane, sigma=sigma)
     gamma = 1 / (1 - np.where(known, shares, 0.5))
     ends = np.log([[SLOWEST] * 2, [FASTEST] * 2])
 
