@@ -305,7 +305,7 @@ def test_refusals():
         "load = -3 must be": {"load": -3.0},
         "differ in length": {"load": [1.0, 2.0], "speed": [0.1, 0.2, 0.3]},
         "is for line contacts": {"film": films.MoesLine()},
-        "must be 'mean' or 'maximum'": {"pressure": "peak"},
+        "must be 'mean' or 'maximum'": {"hertz": "peak"},
         "must be films.Oil": {"oil": 0.04},
         "must be films.Point or films.Line": {"conjunction": 9.5e-3},
         "slide_roll = -1": {"slide_roll": -1},

@@ -133,7 +133,7 @@ class FilmConditions(Value):
         Sliding over entrainment speed u_s/u [1]; without it there is no traction.
     formula : films.AbstractFilm, optional
         Film formula, that of every regime by default.
-    pressure : {"mean", "maximum"}, optional
+    hertz : {"mean", "maximum"}, optional
         Which Hertz pressure is nominal.
     few, most : float, optional
         Shares of the solids below which the film is full, and above which it is boundary [1].
@@ -168,7 +168,7 @@ class FilmConditions(Value):
         "u_s/u", "1", "sliding over entrainment speed", default=None, ge=0
     )
     formula: AbstractFilm | None = None
-    pressure: str = choice("which Hertz pressure is nominal", "mean", "maximum", default="mean")
+    hertz: str = choice("which Hertz pressure is nominal", "mean", "maximum", default="mean")
     few: float = quantity(
         "s_few", "1", "share of the solids below which the film is full", default=FEW, ge=0, le=1
     )
@@ -207,15 +207,15 @@ class FilmConditions(Value):
             "oil": self.oil,
             "load": self.load,
             "film": self.formula,
-            "pressure": self.pressure,
+            "hertz": self.hertz,
             "few": self.few,
             "most": self.most,
         }
 
     def nominal_pressure(self, contact: Contact) -> float:
         """Hertz pressure of the smooth dry bodies, the mean or the largest as asked [Pa]."""
-        hertz = self.conjunction.hertz(self.load, E=2 * contact.E_ss)
-        return float(hertz.mean if self.pressure == "mean" else hertz.maximum)
+        dry = self.conjunction.hertz(self.load, E=2 * contact.E_ss)
+        return float(dry.mean if self.hertz == "mean" else dry.maximum)
 
     def at(self, contact: Contact, *, speed: ArrayLike | None = None) -> MixedFilm:
         """`mixed_film` at these speeds, or at another [m/s]; one speed gives floats."""

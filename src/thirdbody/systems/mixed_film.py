@@ -233,7 +233,7 @@ def mixed_film(
     speed: ArrayLike,
     slide_roll: float | None = None,
     film: AbstractFilm | None = None,
-    pressure: str = "mean",
+    hertz: str = "mean",
     few: float = FEW,
     most: float = MOST,
 ) -> MixedFilm:
@@ -261,7 +261,7 @@ def mixed_film(
         rolling: no traction either, but the number 0.
     film : films.AbstractFilm, optional
         The formula; `films.NijenbanningVennerMoes` or `films.MoesLine` by default.
-    pressure : {"mean", "maximum"}, optional
+    hertz : {"mean", "maximum"}, optional
         Which Hertz pressure is nominal.
     few, most : float, optional
         Shares of the solids below which the film is full, and above which it is boundary [1].
@@ -307,11 +307,11 @@ def mixed_film(
     """
     w, u, scalar = _given(load, speed)
     film = film or full_range(getattr(conjunction, "shape", "point"))
-    _check(contact, conjunction, oil, film, slide_roll, pressure, (few, most))
+    _check(contact, conjunction, oil, film, slide_roll, hertz, (few, most))
     bound = interface(contact)
     sigma, E = contact.roughness.sigma, 2 * contact.E_ss
-    hertz = conjunction.hertz(w, E=E)
-    p = hertz.mean if pressure == "mean" else hertz.maximum
+    dry = conjunction.hertz(w, E=E)
+    p = dry.mean if hertz == "mean" else dry.maximum
 
     def thickness(x: Array) -> Array:
         return _thickness(film, conjunction, oil, w, u, E, np.exp(x))
@@ -437,7 +437,7 @@ def _check(
     oil: Any,
     film: Any,
     slide_roll: Any,
-    pressure: str,
+    hertz: str,
     shares: tuple[float, float],
 ) -> None:
     problems = []
@@ -457,8 +457,8 @@ def _check(
             f"film = {film.name} is for {film.shape} contacts, and the conjunction is a "
             f"{conjunction.shape}"
         )
-    if pressure not in ("mean", "maximum"):
-        problems.append(f"pressure = {pressure!r} must be 'mean' or 'maximum'")
+    if hertz not in ("mean", "maximum"):
+        problems.append(f"hertz = {hertz!r} must be 'mean' or 'maximum'")
     if slide_roll is not None and not (
         isinstance(slide_roll, int | float) and math.isfinite(slide_roll) and slide_roll >= 0
     ):
