@@ -37,7 +37,7 @@ oil = FilmParticles(
 
 def depth(x):
     """Depth of the dent [m] of grains of sizes x [m]."""
-    return dent_of(oil.single(x), 0, quartz).depth[:, 0]
+    return dent_of(oil.single(x), side=0, particle=quartz).depth[:, 0]
 
 
 # %%
@@ -51,7 +51,7 @@ harmful = float(brentq(lambda y: float(depth(y)[0]) - roughness, film, 10e-6))
 # grains larger than x make the dents deeper than depth(x). Where dents overlap, they stop adding.
 larger = np.geomspace(sizes.support[0], 30e-6, 120)
 deeper = np.array([oil.above(y) for y in larger])
-count = dents_after(deeper, passes, oil.dents().area) * 1e-4
+count = dents_after(deeper, overrollings=passes, area=oil.dents().area) * 1e-4
 mesh = 10e-6  # m
 kept = oil.above(0.0) / oil.above(mesh)
 

@@ -5,21 +5,32 @@ Two numbers in a row are exchanged in silence, most of all where both are length
 
 import inspect
 import re
+from importlib import import_module
 from types import FunctionType, ModuleType
 
 import pytest
 
 import thirdbody as tb
 
+MODULES = (
+    *(f"effects.single.{name}" for name in ("dent", "heat", "ploughing", "severity")),
+    *(f"systems.{name}" for name in ("bearing_life", "film_conditions", "mixed_film")),
+    "systems.oil_particles",
+    "quantities.hardness",
+    "equilibrium.table.writers",
+)
+"""Modules of the reference that have no name of their own in `thirdbody`."""
 NUMBER = re.compile(r"\b(float|int|ArrayLike|Array|Number|Any)\b")
 INTEGRAL = "an integral as it is written, n from a to b; called in inner loops"
 DRAWN = "as in NumPy: the generator, and how many"
+WHICH = "a word says which curve, the number is where: one number, by place"
 HOOK = "called by the library alone, for every law or output alike"
 GAP = "a particle and the gap it lies in are one thing, and both are arrays of one shape"
 EXCEPTIONS = {
     r".*\.partial_moment": INTEGRAL,
     r".*\.sample": DRAWN,
-    r"asperity\.\w+\.reduced": HOOK,
+    r"asperity\.\w+\.reduced": WHICH,
+    r".*\.ContactTable\.share": WHICH,
     r"particle\.OneParticle\.(regime|spots)": HOOK,
     r"outputs\.\w+\.of_asperities": HOOK,
     r"films\.\w+\.warnings": HOOK,
@@ -46,13 +57,16 @@ def public():
                     if isinstance(member, FunctionType):
                         out.append((f"{name}.{key}", member))
 
-    for name in sorted(tb.__all__) + sorted(set(dir(tb)) - set(tb.__all__)):
+    for name in (name for name in dir(tb) if not name.startswith("_")):
         thing = getattr(tb, name)
         if isinstance(thing, ModuleType):
             for key in getattr(thing, "__all__", ()):
                 add(f"{name}.{key}", getattr(thing, key))
-        elif not name.startswith("_"):
+        else:
             add(name, thing)
+    for module in MODULES:
+        for key in (found := import_module(f"thirdbody.{module}")).__all__:
+            add(f"{module}.{key}", getattr(found, key))
     return out
 
 

@@ -59,7 +59,7 @@ def thrown():
 @pytest.mark.parametrize("side", [1, 2])
 def test_against_explicit_particles(thrown, side):
     found, spots, n = thrown
-    dent = one_dent.dent_of(spots, side - 1, SILICA)
+    dent = one_dent.dent_of(spots, side=side - 1, particle=SILICA)
     there = (dent.depth > 0).ravel()
     depth, width = dent.depth.ravel()[there], dent.diameter.ravel()[there]
     assert found[f"n_dents_{side}"] == pytest.approx(1e10 * there.mean(), rel=3e-3)

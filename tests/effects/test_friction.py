@@ -229,7 +229,7 @@ def test_a_sphere_takes_the_cheapest_motion(name):
             depth = x * np.sin(np.arcsin(sine) / 2) ** 2
         s = np.maximum(delta / (first * x), 1e-9)
         kappa = 0.0 if friction.rear == "rigid" else rear_support(s)
-        mu.append(coefficient(depth, x / 2, kappa))
+        mu.append(coefficient(depth, radius=x / 2, rear=kappa))
     hard = [
         case.particles.material.H > body.H for body in (case.surfaces.first, case.surfaces.second)
     ]
@@ -263,7 +263,7 @@ def test_rolling_is_the_power_of_two_tracks():
         deep = np.minimum(depth, spots.radius)
         b2 = np.maximum(deep * (2 * spots.radius - deep), 1e-300)
         pressure = spots.load / (np.pi / 2 * b2)
-        power = power + 0.5 * pressure * groove_area(deep, spots.radius)
+        power = power + 0.5 * pressure * groove_area(deep, radius=spots.radius)
     found = friction.of_particles(spots)["sa_roll"]
     assert np.allclose(found[loaded], power[loaded], rtol=1e-12, atol=0)
 
@@ -334,7 +334,7 @@ def test_asperities_plough_a_much_softer_surface():
     def density(y):
         omega = y * omega_1
         f = float(law.force(omega, R=R, E_star=E, H=H))
-        mu = float(coefficient(omega, R, rear_support(y)))
+        mu = float(coefficient(omega, radius=R, rear=rear_support(y)))
         z = float(spots.lowest[0]) + omega / spots.sigma_s
         return mu * f * math.exp(-z * z / 2) / math.sqrt(2 * math.pi) * omega_1 / spots.sigma_s
 

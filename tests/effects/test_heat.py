@@ -135,21 +135,21 @@ def test_sudden_limits(flux, kind):
 def test_two_bodies():
     rng = np.random.default_rng(1)
     Q, G_1, G_2, T_1, T_2 = rng.uniform(0.1, 3, (5, 20))
-    T = heat.partition(Q, G_1, G_2, T_1, T_2)
+    T = heat.partition(Q, G_1=G_1, G_2=G_2, T_1=T_1, T_2=T_2)
     np.testing.assert_allclose(G_1 * (T - T_1) + G_2 * (T - T_2), Q)
     blok = 1 / (1 / (Q / G_1) + 1 / (Q / G_2))
-    np.testing.assert_allclose(heat.partition(Q, G_1, G_2, 0, 0), blok)
+    np.testing.assert_allclose(heat.partition(Q, G_1=G_1, G_2=G_2, T_1=0, T_2=0), blok)
 
 
 def test_bridge():
     rng = np.random.default_rng(2)
     Q_1, Q_2, G_1, G_2, R, T_1, T_2 = rng.uniform(0.1, 3, (7, 20))
-    one, two = heat.bridge((Q_1, Q_2), (G_1, G_2), R, (T_1, T_2))
+    one, two = heat.bridge((Q_1, Q_2), G=(G_1, G_2), R=R, T=(T_1, T_2))
     np.testing.assert_allclose(G_1 * (one - T_1) + (one - two) / R, Q_1)
     np.testing.assert_allclose(G_2 * (two - T_2) + (two - one) / R, Q_2)
-    one, two = heat.bridge((0 * Q_1, Q_2), (G_1, G_2), 1e-12)
-    np.testing.assert_allclose(two, heat.partition(Q_2, G_1, G_2, 0, 0), rtol=1e-10)
-    _, two = heat.bridge((0 * Q_1, Q_2), (G_1, G_2), np.full(20, np.inf))
+    one, two = heat.bridge((0 * Q_1, Q_2), G=(G_1, G_2), R=1e-12)
+    np.testing.assert_allclose(two, heat.partition(Q_2, G_1=G_1, G_2=G_2, T_1=0, T_2=0), rtol=1e-10)
+    _, two = heat.bridge((0 * Q_1, Q_2), G=(G_1, G_2), R=np.full(20, np.inf))
     np.testing.assert_allclose(two, Q_2 / G_2)
 
 
@@ -170,7 +170,7 @@ def legendre(a, kind, terms=20_000):
 @pytest.mark.parametrize("kind", heat.KINDS)
 def test_sphere_against_the_legendre_series(kind):
     for a, worst in ((0.1, 2.4e-3), (0.3, 2.2e-2), (0.5, 6.8e-2)):
-        found = heat.sphere_resistance(a, a, r=1.0, k=1.0, ends=("uniform", kind))
+        found = heat.sphere_resistance(a, a_2=a, r=1.0, k=1.0, ends=("uniform", kind))
         error = found / legendre(a, kind) - 1
         assert worst / 2 < error < worst
 
@@ -191,15 +191,15 @@ def test_sphere_with_isothermal_ends():
         sums.append(total / math.pi)
         before, now = now, ((2 * n + 1) * x * now - n * before) / (n + 1)
     series = 2 * sums[-1] - sums[terms // 2 - 1]  # what is left falls like 1/terms
-    assert heat.sphere_resistance(a, a, r=1, k=1) == pytest.approx(series, rel=3e-3)
-    spread = heat.sphere_resistance(a, a, r=1, k=1, ends=("uniform", "mean"))
-    assert heat.sphere_resistance(a, a, r=1, k=1) < spread
+    assert heat.sphere_resistance(a, a_2=a, r=1, k=1) == pytest.approx(series, rel=3e-3)
+    spread = heat.sphere_resistance(a, a_2=a, r=1, k=1, ends=("uniform", "mean"))
+    assert heat.sphere_resistance(a, a_2=a, r=1, k=1) < spread
 
 
 def test_ends_of_a_sphere_are_a_half_space_at_rest():
     """a k R → θ(0)/π."""
     for flux, kind in BOTH:
-        R = heat.sphere_resistance(1e-6, 1e-6, r=1.0, k=1.0, ends=(flux, kind))
+        R = heat.sphere_resistance(1e-6, a_2=1e-6, r=1.0, k=1.0, ends=(flux, kind))
         G = heat.body_conductance(1e-6, k=1.0, D=1.0, kind=kind, flux=flux)
         assert R * G / 2 == pytest.approx(1, rel=2e-4)
 
@@ -227,10 +227,10 @@ def test_logarithms_of_the_distance():
 
 # ------------------------------------------------------------------ conductance
 def test_small_spots():
-    assert heat.spot_resistance(1e-6, 1e-7, 3e-7) == pytest.approx(4e-7 / 4e-6)
-    small = heat.spot_resistance(1e-12, 2e-7, 2e-7, mean_free_path=1e-8)
+    assert heat.spot_resistance(1e-6, rho_1=1e-7, rho_2=3e-7) == pytest.approx(4e-7 / 4e-6)
+    small = heat.spot_resistance(1e-12, rho_1=2e-7, rho_2=2e-7, mean_free_path=1e-8)
     assert small == pytest.approx(4 * 2e-7 * 1e-8 / (3 * math.pi * 1e-24), rel=1e-3)
-    film = heat.spot_resistance(1e-6, 2e-7, 2e-7, film=1e-12) - 0.1
+    film = heat.spot_resistance(1e-6, rho_1=2e-7, rho_2=2e-7, film=1e-12) - 0.1
     assert film == pytest.approx(1e-12 / (math.pi * 1e-12))
 
 
@@ -290,7 +290,7 @@ def test_reference():
     ]
     assert 3e-5 / sum(G) == pytest.approx(spot["value"], rel=1e-12)
     for k in (1.4, 50.0):
-        R = heat.sphere_resistance(1e-7, 1e-7, r=2.5e-7, k=k, ends=("uniform", "mean"))
+        R = heat.sphere_resistance(1e-7, a_2=1e-7, r=2.5e-7, k=k, ends=("uniform", "mean"))
         R += 1 / heat.body_conductance(1e-7, k=50, D=1.0, kind="max")
         assert R == pytest.approx(values[f"Rp_k{k}"]["value"], rel=1e-12)
     for part, name in ((1e-4, "CMY_0.0001"), (1e-2, "CMY_0.01")):

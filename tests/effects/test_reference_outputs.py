@@ -125,13 +125,16 @@ def eC(place, state, kappa, D):
 
 # id: (our value, relative difference allowed)
 VALUES = {
-    "plough_front_0.100": (lambda: ploughing.coefficient(1 - math.cos(0.1), 1.0), 1e-12),
-    "plough_front_1.000": (lambda: ploughing.coefficient(1 - math.cos(1.0), 1.0), 1e-12),
-    "groove_area_0.01": (lambda: ploughing.groove_area(0.01, 1.0), 1e-12),
-    "groove_area_0.5": (lambda: ploughing.groove_area(0.5, 1.0), 1e-12),
-    "roll_lever_identity_0.5": (lambda: ploughing.coefficient(1 - math.cos(0.5), 1.0), 1e-12),
+    "plough_front_0.100": (lambda: ploughing.coefficient(1 - math.cos(0.1), radius=1.0), 1e-12),
+    "plough_front_1.000": (lambda: ploughing.coefficient(1 - math.cos(1.0), radius=1.0), 1e-12),
+    "groove_area_0.01": (lambda: ploughing.groove_area(0.01, radius=1.0), 1e-12),
+    "groove_area_0.5": (lambda: ploughing.groove_area(0.5, radius=1.0), 1e-12),
+    "roll_lever_identity_0.5": (
+        lambda: ploughing.coefficient(1 - math.cos(0.5), radius=1.0),
+        1e-12,
+    ),
     "roll_average_0.3_0.6": (
-        lambda: 0.5 * sum(ploughing.coefficient(1 - math.cos(t), 1.0) for t in (0.3, 0.6)),
+        lambda: 0.5 * sum(ploughing.coefficient(1 - math.cos(t), radius=1.0) for t in (0.3, 0.6)),
         1e-12,
     ),
     "rear_support_54": (lambda: ploughing.rear_support(54.0), 1e-12),
@@ -155,9 +158,9 @@ VALUES = {
     "h_zmc_2body": (two_body_conductance, 1e-8),
     "wexler_K0": (lambda: 0.05, 1e-12),
     "adachi_S": (lambda: adachi(1, 1e-6, 0.1, 7e9, 7e9), 1e-12),
-    "adachi_Sc_0.25": (lambda: threshold(0.25, 1.0), 1e-12),
-    "residual_10": (lambda: ploughing.residual_depth(10.0, 10.0), 1e-12),
-    "mean_gap_1": (lambda: mean_gap(1.0, 1.0), 1e-12),
+    "adachi_Sc_0.25": (lambda: threshold(0.25, H_b=1.0), 1e-12),
+    "residual_10": (lambda: ploughing.residual_depth(10.0, depth_over_yield=10.0), 1e-12),
+    "mean_gap_1": (lambda: mean_gap(1.0, sigma=1.0), 1e-12),
     "eC_bath 13/10_1.0_50.0": (lambda: eC("bath", "-/13/10", 1.0, 50e-3), 1e-9),
     "eC_filter 15/12_0.5_100.0": (lambda: eC("filter", "-/15/12", 0.5, 100e-3), 1e-9),
     "eC_grease_slight_MASTA": (

@@ -121,7 +121,7 @@ def test_one_particle():
     by_hand = np.zeros_like(spots.load)
     rolled = np.zeros_like(spots.load)
     for index in np.ndindex(spots.load.shape):
-        A = [float(groove_area(side[index], spots.radius[index])) for side in spots.depths]
+        A = [float(groove_area(side[index], radius=spots.radius[index])) for side in spots.depths]
         if motion.rolls[index]:
             rolled[index] = 0.01 * (A[0] + A[1]) / 2
         else:
@@ -129,7 +129,8 @@ def test_one_particle():
     assert spots.total(by_hand)[0] == pytest.approx(state.outputs["wear_groove"], rel=1e-12)
     assert spots.total(rolled)[0] == pytest.approx(state.outputs["wear_roll"], rel=1e-12)
     count = spots.total(spots.load > 0)[0]
-    S = severity(spots.load, spots.x, *spots.hardness)
+    H_1, H_2 = spots.hardness
+    S = severity(spots.load, x=spots.x, H_1=H_1, H_2=H_2)
     assert spots.total(S)[0] / count == pytest.approx(state.outputs["severity"], rel=1e-12)
     assert state.outputs["renewed"] == pytest.approx(10 * count, rel=1e-12)
 
@@ -144,10 +145,10 @@ def test_severity_of_a_slurry():
     """S = W/(A v H') of a contact is that of each particle of a layer one particle high."""
     W, A, v, H, x = 1.0, 1e-6, 0.1, 7e9, 3e-6
     layer = 6 * v / (math.pi * x**2)
-    S = float(severity(W / (A * layer), x, H, H))
+    S = float(severity(W / (A * layer), x=x, H_1=H, H_2=H))
     assert S == pytest.approx(W / (A * v * H / 2), rel=1e-13)
     assert S == pytest.approx(0.002857142857142857, rel=1e-13)
-    assert float(threshold(1.0, 4.0)) == pytest.approx(0.01499073710829906, rel=1e-13)
+    assert float(threshold(1.0, H_b=4.0)) == pytest.approx(0.01499073710829906, rel=1e-13)
 
 
 def test_share_above_the_threshold_does_not_depend_on_the_nodes():

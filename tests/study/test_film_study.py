@@ -102,7 +102,7 @@ def at_half_a_metre():
         {"speed": "1.8 km/h", "load": "0.02 kN"},
         {"speed": "50 cm/s", "oil": {"eta": "20 cP", "alpha": 2e-8, "eyring_stress": "50 bar"}},
         {"speed": 0.5, "conjunction": {"shape": "point", "R": 0.0095, "R_y": "0.95 cm"}},
-        {"speed": ["0.5 m/s"], "few": 0.01, "most": 0.99, "pressure": "mean"},
+        {"speed": ["0.5 m/s"], "few": 0.01, "most": 0.99, "hertz": "mean"},
         {"speed": "0.5 m/s", "formula": "nijenbanning-venner-moes"},
     ],
 )
@@ -139,7 +139,7 @@ def test_regimes_follow_the_film_formula_for_rigid_bodies():
         h = tb.solve(contact, pressure=share * p).h
         at_1 = film.central(load=5e4 * (1 - share), speed=1.0, eta=0.04, alpha=2e-8, R=0.01,
                             E=2 * contact.E_ss * (1 - share))  # fmt: skip
-        by_hand_ = (float(mean_gap(h, contact.roughness.sigma)) / at_1) ** (1 / 0.69)
+        by_hand_ = (float(mean_gap(h, sigma=contact.roughness.sigma)) / at_1) ** (1 / 0.69)
         assert speed == pytest.approx(by_hand_, rel=1e-8)
 
 
@@ -169,9 +169,9 @@ def test_what_passes_and_what_enters():
     assert shares[0] == 0 < shares[-1] < 1
     oil = Entrainment(**dirt)
     gaps = found["states"]["h_T"]
-    assert found["entrainment"]["largest"] == [float(oil.largest(h, 9.5e-3)) for h in gaps]
+    assert found["entrainment"]["largest"] == [float(oil.largest(h, R=9.5e-3)) for h in gaps]
     assert found["entrainment"]["areal_density"] == [
-        [oil.areal_density(sizes, h, 9.5e-3) for h in gaps]
+        [oil.areal_density(sizes, h=h, R=9.5e-3) for h in gaps]
     ]
 
 
@@ -186,7 +186,7 @@ def test_json_comes_back_as_the_same_contact(found):
 
 # ---------------------------------------------------------------- with other tables
 def test_without_a_load_the_contact_is_pressed_by_its_film():
-    mean, largest = data_of(), data_of(pressure="maximum")
+    mean, largest = data_of(), data_of(hertz="maximum")
     del mean["load"], largest["load"]
     study = check(mean)
     assert (study.load, study.own_load) == ("pressure", False)
@@ -269,7 +269,11 @@ MISTAKES = {
     ),
     "a slip": ({"slide_role": 0.1}, "film.slide_role = 0.1 is not a known key; did you mean slide"),
     "sliding backwards": ({"slide_roll": -1}, "film.slide_roll = -1 must be >= 0"),
-    "a word": ({"pressure": "max"}, 'film.pressure = "max" must be one of "mean", "maximum"'),
+    "another pressure": (
+        {"pressure": "mean"},
+        'film.pressure = "mean" has no place here: film.hertz = "mean" or "maximum" says',
+    ),
+    "a word": ({"hertz": "max"}, 'film.hertz = "max" must be one of "mean", "maximum"'),
     "a formula": ({"formula": "hamrock"}, 'film.formula = "hamrock" must be one of'),
     "another shape's formula": (
         {"formula": "moes-line"},
@@ -408,7 +412,7 @@ def test_the_example_shows_what_it_says():
     clean = study.contact.replace(particles=None)
     ratio = study.film.regime_speeds(study.contact).full / study.film.regime_speeds(clean).full
     assert 7 < ratio < 9
-    assert study.film.at(study.contact, 0.5).lambda_ratio > 1
+    assert study.film.at(study.contact, speed=0.5).lambda_ratio > 1
 
 
 # ---------------------------------------------------------------- report

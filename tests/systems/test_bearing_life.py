@@ -59,11 +59,13 @@ def test_branches_join(bearing, at_04):
 def test_reference_viscosity():
     # 45000/(500^0.83 √50) and 4500/√(1500·50), by logarithms
     slow = math.exp(math.log(45000) - 0.83 * math.log(500) - 0.5 * math.log(50))
-    assert life.reference_viscosity(500 / 60, 0.05) * 1e6 == pytest.approx(slow, rel=1e-12)
-    assert life.reference_viscosity(25.0, 0.05) * 1e6 == pytest.approx(4500 / math.sqrt(75000))
-    joint = [life.reference_viscosity(f * 1000 / 60, 0.05) for f in (1 - 1e-12, 1 + 1e-12)]
+    assert life.reference_viscosity(500 / 60, D=0.05) * 1e6 == pytest.approx(slow, rel=1e-12)
+    assert life.reference_viscosity(25.0, D=0.05) * 1e6 == pytest.approx(4500 / math.sqrt(75000))
+    joint = [life.reference_viscosity(f * 1000 / 60, D=0.05) for f in (1 - 1e-12, 1 + 1e-12)]
     assert joint[0] / joint[1] == pytest.approx(1.0232, abs=1e-4)
-    assert life.viscosity_ratio(2 * joint[1], 1000.0001 / 60, 0.05) == pytest.approx(2, rel=1e-6)
+    assert life.viscosity_ratio(2 * joint[1], turns=1000.0001 / 60, D=0.05) == pytest.approx(
+        2, rel=1e-6
+    )
 
 
 def test_order_of_oils_films_and_bearings():
@@ -156,7 +158,7 @@ def test_large_greased_bearings():
         (lambda: life.life_factor("needle", kappa=1, load=0.1), "roller"),
         (lambda: life.life_factor("ball", kappa=1, load=0.0), "above 0"),
         (lambda: life.life_factor("ball", kappa=math.nan, load=0.1), "kappa"),
-        (lambda: life.reference_viscosity(0.0, 0.1), "turns"),
+        (lambda: life.reference_viscosity(0.0, D=0.1), "turns"),
     ],
 )
 def test_refusals(make, message):

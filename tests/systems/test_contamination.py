@@ -33,7 +33,9 @@ def test_values():
     grain = oil().single(2e-6)
     assert grain.depths[0][0, 0] == pytest.approx(0.75e-6, rel=1e-12)
     assert grain.depths[1][0, 0] == pytest.approx(0.75e-6, rel=1e-12)
-    assert float(residual_depth(10.0, 10.0)) == pytest.approx(3.7817067580703516, rel=1e-14)
+    assert float(residual_depth(10.0, depth_over_yield=10.0)) == pytest.approx(
+        3.7817067580703516, rel=1e-14
+    )
     slopes = tb.dust.suspension_of_iso4406("18/16/13", level="high")[1].slopes
     assert slopes[1] == pytest.approx(2.4542036973037558, rel=1e-12)
     # 1250 particles from 4 µm in each square metre of the film
@@ -58,21 +60,23 @@ def test_diameter_and_volume_of_a_cap():
     with mpmath.workdps(30):
         for depth in (1e-6, 0.3, 1.0):
             whole = mpmath.quad(lambda z: mpmath.pi * (2 * z - z**2), [0, depth])
-            assert float(co.dent_volume(depth, depth, 1.0)) == pytest.approx(
+            assert float(co.dent_volume(depth, depth=depth, radius=1.0)) == pytest.approx(
                 float(whole), rel=1e-10
             )
-    assert co.dent_volume(1.7, 1.8, 1.0) == pytest.approx(math.pi * (2 / 3 + 0.7), rel=1e-14)
-    assert float(co.dent_diameter(0.5, 1.0)) == pytest.approx(math.sqrt(3), rel=1e-14)
-    assert float(co.dent_diameter(1.6, 1.0)) == 2.0
+    assert co.dent_volume(1.7, depth=1.8, radius=1.0) == pytest.approx(
+        math.pi * (2 / 3 + 0.7), rel=1e-14
+    )
+    assert float(co.dent_diameter(0.5, radius=1.0)) == pytest.approx(math.sqrt(3), rel=1e-14)
+    assert float(co.dent_diameter(1.6, radius=1.0)) == 2.0
 
 
 def test_discs_and_fragments_keep_the_volume():
     x = np.array([2.0, 5.0])
-    D = co.flattened_diameter(x, 0.7)
+    D = co.flattened_diameter(x, gap=0.7)
     np.testing.assert_allclose(np.pi * D**2 / 4 * 0.7, np.pi * x**3 / 6, rtol=1e-14)
-    assert co.flattened_diameter(1.0, 0.9) == 1.0
-    np.testing.assert_allclose(co.fragments(x, 0.5) * 0.5**3, x**3, rtol=1e-14)
-    assert co.fragments(0.3, 0.5) == 1
+    assert co.flattened_diameter(1.0, gap=0.9) == 1.0
+    np.testing.assert_allclose(co.fragments(x, size=0.5) * 0.5**3, x**3, rtol=1e-14)
+    assert co.fragments(0.3, size=0.5) == 1
 
 
 def test_dents_after_many_passes_by_random_throws():
@@ -86,12 +90,16 @@ def test_dents_after_many_passes_by_random_throws():
         apart = np.minimum(apart, 1 - apart)
         covered.append(np.mean(np.any(np.sum(apart**2, axis=-1) < radius**2, axis=1)))
     area = math.pi * radius**2
-    expected = float(co.dents_after(thrown, 1.0, area)) * area
+    expected = float(co.dents_after(thrown, overrollings=1.0, area=area)) * area
     error = np.std(covered) / math.sqrt(len(covered))
     assert abs(np.mean(covered) - expected) < 4 * error < 0.02
-    assert float(co.dents_after(10.0, 1e-9, area)) == pytest.approx(1e-8, rel=1e-9)
-    assert float(co.dents_after(10.0, 1e12, area)) == pytest.approx(1 / area, rel=1e-12)
-    assert float(co.dents_after(10.0, 3.0, 0.0)) == 30.0
+    assert float(co.dents_after(10.0, overrollings=1e-9, area=area)) == pytest.approx(
+        1e-8, rel=1e-9
+    )
+    assert float(co.dents_after(10.0, overrollings=1e12, area=area)) == pytest.approx(
+        1 / area, rel=1e-12
+    )
+    assert float(co.dents_after(10.0, overrollings=3.0, area=0.0)) == 30.0
 
 
 @pytest.mark.parametrize("side", [1, 2])
@@ -112,7 +120,7 @@ def test_sums_over_sizes(sizes, side):
     rng = np.random.default_rng(1)
     x = sizes.sample(rng, 200_000)
     x = x[x > film.film]
-    each = co.dent_of(film.single(x), side - 1, SILICA)
+    each = co.dent_of(film.single(x), side=side - 1, particle=SILICA)
     there = each.depth > 0
     depth, width = each.depth[there], each.diameter[there]
     if type(sizes) is tb.Monodisperse:
@@ -127,7 +135,7 @@ def test_sums_over_sizes(sizes, side):
         assert abs(np.mean(sample > found) - 0.05) < 5 * math.sqrt(0.05 / len(sample))
 
     def volume(y):
-        dent = co.dent_of(film.single(y), side - 1, SILICA)
+        dent = co.dent_of(film.single(y), side=side - 1, particle=SILICA)
         return float(dent.volume[0, 0]) * float(sizes.pdf(y))
 
     edges = np.unique([film.film, *np.geomspace(film.film, sizes.support[1], 40), 0.6e-6])
@@ -142,15 +150,15 @@ def test_largest_by_change_of_variable():
     """The particle that ln 2 of all exceed makes the largest dent."""
     film = oil()
     area, passes = 1e-6, 1e6
-    dent = film.largest(area, passes)
+    dent = film.largest(area, overrollings=passes)
     x = 1e-6 * np.linspace(4, 70, 400_001)
     counts = np.array([film.above(y) for y in x[::4000]]) * area * passes
     at = float(np.interp(-math.log(2), -counts, x[::4000]))
     assert float(dent.depth) == pytest.approx(
-        float(co.dent_of(film.single(at), 0, SILICA).depth[0, 0]), rel=1e-2
+        float(co.dent_of(film.single(at), side=0, particle=SILICA).depth[0, 0]), rel=1e-2
     )
-    assert float(film.largest(1e-9, 1.0).depth) == 0.0
-    assert film.largest(1e-6, 1e8).depth > dent.depth
+    assert float(film.largest(1e-9, overrollings=1.0).depth) == 0.0
+    assert film.largest(1e-6, overrollings=1e8).depth > dent.depth
 
 
 def test_swap_of_the_surfaces():
@@ -213,15 +221,15 @@ def test_brittle_particles():
     mixed = oil(debris="brittle", fragment=8e-6)
     rng = np.random.default_rng(2)
     x = mixed.diameter.sample(rng, 300_000)
-    counts = co.fragments(x, 8e-6)
-    deep = co.dent_of(mixed.single(np.minimum(x, 8e-6)), 0, SILICA).depth[:, 0]
+    counts = co.fragments(x, size=8e-6)
+    deep = co.dent_of(mixed.single(np.minimum(x, 8e-6)), side=0, particle=SILICA).depth[:, 0]
     assert mixed.dents().depth == pytest.approx(np.average(deep, weights=counts), rel=5e-3)
 
 
 def test_ductile_particles():
     flat = oil(debris="ductile").dents()
     x = oil().diameter.sample(np.random.default_rng(3), 300_000)
-    wide = co.flattened_diameter(x, 0.5e-6)
+    wide = co.flattened_diameter(x, gap=0.5e-6)
     assert flat.diameter == pytest.approx(wide.mean(), rel=1e-2)
     assert flat.diameter_p95 == pytest.approx(np.quantile(wide, 0.95), rel=2e-2)
     assert flat.depth == flat.volume == 0

@@ -37,13 +37,15 @@ def run(contact, speed, load=20.0, **options):
 @pytest.mark.parametrize("t", [-3.0, -0.5, 0.63, 2.0, 6.0])
 def test_mean_gap_is_an_integral(t):
     value, _ = integrate.quad(lambda z: (t - z) * stats.norm.pdf(z), -np.inf, t, epsabs=1e-14)
-    assert float(mean_gap(t * 1e-7, 1e-7)) == pytest.approx(value * 1e-7, rel=1e-7)
+    assert float(mean_gap(t * 1e-7, sigma=1e-7)) == pytest.approx(value * 1e-7, rel=1e-7)
 
 
 def test_height_undoes_mean_gap():
     h = np.concatenate([np.linspace(-4, 8, 49), [1e3, 1e6]]) * 1e-7
-    np.testing.assert_allclose(height_of(mean_gap(h, 1e-7), 1e-7), h, rtol=1e-11, atol=1e-19)
-    assert float(mean_gap(0.63e-7, 1e-7)) == pytest.approx(0.79e-7, rel=0.005)
+    np.testing.assert_allclose(
+        height_of(mean_gap(h, sigma=1e-7), sigma=1e-7), h, rtol=1e-11, atol=1e-19
+    )
+    assert float(mean_gap(0.63e-7, sigma=1e-7)) == pytest.approx(0.79e-7, rel=0.005)
 
 
 # ------------------------------------------------------------------ the balance
@@ -81,7 +83,7 @@ def test_balance_of_a_bare_contact_by_hand(speed, share):
         film = films.NijenbanningVennerMoes().central(
             load=20 / gamma, speed=speed, eta=0.02, alpha=2e-8, R=BALL.R, E=E / gamma
         )
-        return math.log(float(mean_gap(t * rough.sigma, rough.sigma)) / film)
+        return math.log(float(mean_gap(t * rough.sigma, sigma=rough.sigma)) / film)
 
     # below this gap the asperities alone carry more than the load
     dry = optimize.brentq(lambda t: solids(t * rough.sigma) / p - 1, 0.0, 3.0, xtol=1e-14)
@@ -116,7 +118,7 @@ def test_shares_are_one_and_the_volume_is_that_of_the_film(size):
     state = run(contact, np.geomspace(1e-3, 10, 25))
     total = state.film_share + state.ss_share + state.sa_share
     np.testing.assert_allclose(total, 1, atol=1e-12)
-    np.testing.assert_allclose(mean_gap(state.h, 100e-9), state.h_T, rtol=1e-11)
+    np.testing.assert_allclose(mean_gap(state.h, sigma=100e-9), state.h_T, rtol=1e-11)
     np.testing.assert_allclose(state.film_share * state.gamma, 1, rtol=1e-14)
     E = 2 * contact.E_ss
     thick = films.NijenbanningVennerMoes().central(
@@ -257,13 +259,13 @@ def test_entrained_particles_by_hand():
     dirt = Entrainment(concentration=1e-5, entry_ratio=0.5, friction=0.2)
     n = 6e-5 / (math.pi * x**3)
     assert dirt.per_volume(one) == pytest.approx(n)
-    assert dirt.areal_density(one, 2e-6, 0.01) == pytest.approx(0.5 * n * 2e-6)
-    assert dirt.areal_density(one, 0.3e-6, 0.01) == pytest.approx(0.5 * n * x)
+    assert dirt.areal_density(one, h=2e-6, R=0.01) == pytest.approx(0.5 * n * 2e-6)
+    assert dirt.areal_density(one, h=0.3e-6, R=0.01) == pytest.approx(0.5 * n * x)
     film = dirt.replace(height="film")
-    assert film.areal_density(one, 0.3e-6, 0.01) == pytest.approx(0.5 * n * 0.3e-6)
+    assert film.areal_density(one, h=0.3e-6, R=0.01) == pytest.approx(0.5 * n * 0.3e-6)
     # too large for the wedge
-    assert dirt.areal_density(tb.Monodisperse(mean=2e-3), 0.3e-6, 0.01) == 0
-    assert dirt.passes(one, 2e-6) == 1
+    assert dirt.areal_density(tb.Monodisperse(mean=2e-3), h=0.3e-6, R=0.01) == 0
+    assert dirt.passes(one, h=2e-6) == 1
 
 
 @pytest.mark.parametrize("height", ["size", "film"])
@@ -273,10 +275,10 @@ def test_entrained_particles_by_drawing(height):
     h, R = 0.8e-6, 0.01
     x = sizes.sample(np.random.default_rng(2), 1_000_000)
     layer = np.maximum(h, x) if height == "size" else h
-    drawn = np.mean(layer * (x <= dirt.largest(h, R)))
-    found = dirt.areal_density(sizes, h, R) / dirt.per_volume(sizes)
+    drawn = np.mean(layer * (x <= dirt.largest(h, R=R)))
+    found = dirt.areal_density(sizes, h=h, R=R) / dirt.per_volume(sizes)
     assert found == pytest.approx(drawn, rel=5e-3)
-    assert float(dirt.passes(sizes, h)) == pytest.approx(np.mean(x < h), abs=2e-3)
+    assert float(dirt.passes(sizes, h=h)) == pytest.approx(np.mean(x < h), abs=2e-3)
 
 
 @pytest.mark.parametrize("friction", [0.02, 0.05, 0.1])
@@ -291,7 +293,7 @@ def test_largest_particle_in_the_wedge(friction):
         return math.acos(up / (R + r))
 
     x = optimize.brentq(lambda x: math.tan(wedge(x) / 2) - friction, h * (1 + 1e-9), R)
-    found = Entrainment(concentration=1e-5, entry_ratio=1.0, friction=friction).largest(h, R)
+    found = Entrainment(concentration=1e-5, entry_ratio=1.0, friction=friction).largest(h, R=R)
     assert found == pytest.approx(x, rel=3 * friction**2)
 
 
@@ -303,7 +305,7 @@ def test_refusals():
         "load = -3 must be": {"load": -3.0},
         "differ in length": {"load": [1.0, 2.0], "speed": [0.1, 0.2, 0.3]},
         "is for line contacts": {"film": films.MoesLine()},
-        "must be 'mean' or 'maximum'": {"pressure": "peak"},
+        "must be 'mean' or 'maximum'": {"hertz": "peak"},
         "must be films.Oil": {"oil": 0.04},
         "must be films.Point or films.Line": {"conjunction": 9.5e-3},
         "slide_roll = -1": {"slide_roll": -1},

@@ -50,7 +50,11 @@ def _through_asperities(
         touches = spots.area > 0
         b = np.sqrt(np.where(touches, spots.area, 1.0) / np.pi)
         R = spot_resistance(
-            b, rho(pair.first), rho(pair.second), film=film, mean_free_path=mean_free_path
+            b,
+            rho_1=rho(pair.first),
+            rho_2=rho(pair.second),
+            film=film,
+            mean_free_path=mean_free_path,
         )
         return np.where(touches, 1 / R, 0.0)
 
@@ -71,10 +75,12 @@ def _through_particles(
         touches = (spots.areas[0] > 0) & (spots.areas[1] > 0)
         b_1, b_2 = (np.sqrt(np.where(touches, area, 1.0) / np.pi) for area in spots.areas)
         radius = np.where(touches, spots.x / 2, 1.0)
-        R = sphere_resistance(b_1, b_2, r=radius, k=1 / own)
+        R = sphere_resistance(b_1, a_2=b_2, r=radius, k=1 / own)
         # its own constrictions are part of that; the other body, film and Γ come on top
         for b, material in ((b_1, pair.first), (b_2, pair.second)):
-            spot = spot_resistance(b, rho(material), own, film=film, mean_free_path=mean_free_path)
+            spot = spot_resistance(
+                b, rho_1=rho(material), rho_2=own, film=film, mean_free_path=mean_free_path
+            )
             R = R + spot - own / (4 * b)
         return np.where(touches, 1 / R, 0.0)
 

@@ -141,7 +141,7 @@ class Dents(AbstractOutput):
         particle = law.one(surfaces=contact.surfaces, particle=population.material)
         gap = spots.x - spots.depths[0] - spots.depths[1]
         x = np.minimum(spots.x, float(self.fragment or 0.0))
-        number = spots.number * fragments(spots.x, float(self.fragment or 0.0))
+        number = spots.number * fragments(spots.x, size=float(self.fragment or 0.0))
         found = particle.spots(x, np.maximum(x - gap, 0.0), share=spots.share, number=number)
         return replace(found, material=population.material, population=population)
 
@@ -149,13 +149,13 @@ class Dents(AbstractOutput):
         population = spots.population
         assert population is not None
         if self.debris != "ductile":
-            return dent_of(spots, side, population.material)
+            return dent_of(spots, side=side, particle=population.material)
         law = contact.law_of(population)
         if isinstance(law, Series) and law.forms(contact.surfaces, population.material)[side]:
             wide = 2 * np.sqrt(spots.areas[side] / math.pi)
         else:
             gap = np.maximum(spots.x - spots.depths[0] - spots.depths[1], 1e-3 * spots.x)
-            wide = (spots.load > 0) * flattened_diameter(spots.x, gap)
+            wide = (spots.load > 0) * flattened_diameter(spots.x, gap=gap)
         return Dent(np.zeros_like(wide), wide, np.zeros_like(wide))
 
     def of(self, state: Solved) -> dict[str, Array]:

@@ -324,7 +324,7 @@ class Friction(AbstractOutput):
         if self.angle == "area":
             part = np.minimum(area / (np.pi * np.square(radius)), 1.0)
             depth = radius * part / (1 + np.sqrt(1 - part))
-        return coefficient(depth, radius, kappa)
+        return coefficient(depth, radius=radius, rear=kappa)
 
     def ratio(self, contact: Contact) -> float:
         """Hardness of the harder surface over that of the softer."""
@@ -381,8 +381,8 @@ class Friction(AbstractOutput):
             rolls = resistance * spots.load < np.minimum(*slide) * (1 - TIE)
         else:
             softer, harder = sorted(spots.hardness)
-            S = severity(spots.load, spots.x, *spots.hardness)
-            rolls = (threshold(softer, harder) > S) & (spots.load > 0)
+            S = severity(spots.load, x=spots.x, H_1=softer, H_2=harder)
+            rolls = (threshold(softer, H_b=harder) > S) & (spots.load > 0)
         if self.aspect > 1:
             gap = spots.x - spots.depths[0] - spots.depths[1]
             rolls &= self.aspect * spots.x < TUMBLES * gap

@@ -233,7 +233,8 @@ class FlashTemperature(AbstractOutput):
             G.append(takes)
         Q = sum(force.values()) * self.v
         with np.errstate(invalid="ignore"):
-            rise = partition(Q, G[0], G[1], *self._colder())
+            T_1, T_2 = self._colder()
+            rise = partition(Q, G_1=G[0], G_2=G[1], T_1=T_1, T_2=T_2)
         return np.where(spots.area > 0, rise, 0.0)
 
     def of_particles(self, spots: ParticleSpots, state: Solved) -> Array:
@@ -247,7 +248,7 @@ class FlashTemperature(AbstractOutput):
         assert k is not None
         with np.errstate(invalid="ignore", divide="ignore"):
             a_1, a_2 = (np.sqrt(area / np.pi) for area in spots.areas)
-            R = sphere_resistance(a_1, a_2, r=spots.x / 2, k=k, ends=(self.flux, self.kind))
+            R = sphere_resistance(a_1, a_2=a_2, r=spots.x / 2, k=k, ends=(self.flux, self.kind))
             G, heat = [], []
             pair = state.contact.surfaces
             for i, (material, a) in enumerate(
@@ -257,7 +258,7 @@ class FlashTemperature(AbstractOutput):
                 slow, half, fast = (self._takes(body, a, part * self.v) for part in (0, 0.5, 1))
                 G.append(np.where(rolls, half, np.where(side == i, fast, slow)))
                 heat.append(np.where(rolls, 0.5, side == i) * Q)
-            rise = np.maximum(*bridge((heat[0], heat[1]), (G[0], G[1]), R, self._colder()))
+            rise = np.maximum(*bridge((heat[0], heat[1]), G=(G[0], G[1]), R=R, T=self._colder()))
         return np.where(spots.load > 0, rise, 0.0)
 
     # ------------------------------------------------------------------ all of them
@@ -282,7 +283,7 @@ class FlashTemperature(AbstractOutput):
         force = force + state.total_of_particles(
             lambda spots: sum(friction.of_particles(spots).values())
         )
-        return partition(force * self.v, self.h_1, self.h_2, self.T_1, self.T_2)  # type: ignore[return-value]
+        return partition(force * self.v, G_1=self.h_1, G_2=self.h_2, T_1=self.T_1, T_2=self.T_2)  # type: ignore[return-value]
 
     def _summary(self, group: str, spots: Any, T: list[Array], states: int) -> dict[str, Array]:
         """Means, quantiles and peak of one group of contacts: NaN where there are none."""

@@ -174,7 +174,7 @@ class Wear(AbstractOutput):
         for side, acts in enumerate(friction.indents(spots)):
             slides = np.where(even, 0.5, motion.side == side) * ~rolls
             depth = spots.depths[side]
-            groove = acts * groove_area(depth, spots.radius)
+            groove = acts * groove_area(depth, radius=spots.radius)
             touch = self._archard("sa", spots.regimes[side], spots.areas[side])
             b = np.sqrt(spots.areas[side] / np.pi)
             out["sa"].append(slides * touch)
@@ -200,8 +200,9 @@ class Wear(AbstractOutput):
             for name, sides in self.of_particles(spots, friction).items():
                 for side, each in enumerate(sides):
                     volume[name][side] = volume[name][side] + spots.total(each)
-            value = severity(spots.load, spots.x, *spots.hardness)
-            over = value > threshold(*sorted(spots.hardness))
+            softer, harder = sorted(spots.hardness)
+            value = severity(spots.load, x=spots.x, H_1=softer, H_2=harder)
+            over = value > threshold(softer, H_b=harder)
             loaded = loaded + spots.total((spots.load > 0).astype(float))
             S = S + spots.total(value)
             severe = severe + spots.total(over.astype(float))
@@ -235,8 +236,9 @@ class Wear(AbstractOutput):
 
         def over(log_eps: float) -> float:
             spots = probe(np.exp([log_eps]))
-            S = severity(spots.load, spots.x, *spots.hardness)[0, 0]
-            return float(np.log(S / threshold(*sorted(spots.hardness))))
+            softer, harder = sorted(spots.hardness)
+            S = severity(spots.load, x=spots.x, H_1=softer, H_2=harder)[0, 0]
+            return float(np.log(S / threshold(softer, H_b=harder)))
 
         low, high = math.log(1e-9), math.log(2.0)
         if over(low) >= 0 or over(high) <= 0:

@@ -17,11 +17,16 @@ from .reader import Key, Reader, Table, get
 __all__ = ["SHAPES", "SPEED", "TABLE"]
 
 SHAPES: dict[str, type[Point] | type[Line]] = {"point": Point, "line": Line}
+NO_PRESSURE = (
+    'has no place here: film.hertz = "mean" or "maximum" says which Hertz pressure is nominal, and '
+    "the pressure itself follows from film.load"
+)
 SPEED = quantity("u", "m/s", "mean entrainment speed", gt=0).metadata["quantity"]
 
 
 def film(reader: Reader, path: str, data: Any) -> Any:
     """The bodies, the oil, the load, and the speeds."""
+    reader.known.refused[path] = {"pressure": NO_PRESSURE}
     speed = f"{path}.speed"
     keys = {
         "conjunction": Key(

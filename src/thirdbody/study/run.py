@@ -141,9 +141,9 @@ def _brought(study: Study, h_T: Any) -> dict[str, Any] | None:
     if dirt is None:
         return None
     return {
-        "largest": _listed(dirt.largest(h_T, R)),
+        "largest": _listed(dirt.largest(h_T, R=R)),
         "areal_density": [
-            [dirt.areal_density(each.diameter, float(h), R) for h in h_T]
+            [dirt.areal_density(each.diameter, h=float(h), R=R) for h in h_T]
             for each in study.contact.populations
         ],
     }

@@ -102,7 +102,7 @@ def _kappa(kappa: float) -> float:
     return min(kappa, KAPPA[1])
 
 
-def reference_viscosity(turns: float, D: float) -> float:
+def reference_viscosity(turns: float, *, D: float) -> float:
     r"""Viscosity ν_1 that a bearing needs for an adequate film.
 
     .. math:: \nu_1 = 45000\,n^{-0.83} D^{-1/2}\ (n<1000), \qquad 4500\,(n D)^{-1/2}
@@ -132,7 +132,7 @@ def reference_viscosity(turns: float, D: float) -> float:
 
     Examples
     --------
-    >>> round(reference_viscosity(25.0, 0.05) * 1e6, 3)
+    >>> round(reference_viscosity(25.0, D=0.05) * 1e6, 3)
     16.432
     """
     _positive(turns=turns, D=D)
@@ -142,7 +142,7 @@ def reference_viscosity(turns: float, D: float) -> float:
     return 1e-6 * 4500 / math.sqrt(rpm * mm)
 
 
-def viscosity_ratio(viscosity: float, turns: float, D: float) -> float:
+def viscosity_ratio(viscosity: float, *, turns: float, D: float) -> float:
     r"""Viscosity ratio of ISO 281.
 
     .. math:: \kappa = \nu/\nu_1
@@ -161,11 +161,11 @@ def viscosity_ratio(viscosity: float, turns: float, D: float) -> float:
 
     Examples
     --------
-    >>> round(viscosity_ratio(32e-6, 25.0, 0.05), 3)
+    >>> round(viscosity_ratio(32e-6, turns=25.0, D=0.05), 3)
     1.947
     """
     _positive(viscosity=viscosity)
-    return viscosity / reference_viscosity(turns, D)
+    return viscosity / reference_viscosity(turns, D=D)
 
 
 def _row(place: str, state: str, D: float) -> tuple[float, float]:

@@ -63,7 +63,7 @@ class Entrainment(Value):
     Examples
     --------
     >>> dirt = Entrainment(concentration=1e-5, entry_ratio=1.0, friction=0.1)
-    >>> round(float(dirt.largest(0.3e-6, 9.5e-3)) * 1e6)
+    >>> round(float(dirt.largest(0.3e-6, R=9.5e-3)) * 1e6)
     190
     """
 
@@ -76,11 +76,11 @@ class Entrainment(Value):
         """Particles per volume of oil n_v [1/m³]."""
         return 6 * self.concentration / (math.pi * diameter.moment(3))
 
-    def largest(self, h: ArrayLike, R: float) -> Array:
+    def largest(self, h: ArrayLike, *, R: float) -> Array:
         """Largest diameter [m] dragged into a film h [m] between bodies of radius R' [m]."""
         return np.asarray(h, float) + 2 * self.friction**2 * R
 
-    def passes(self, diameter: Distribution, h: ArrayLike) -> Array:
+    def passes(self, diameter: Distribution, *, h: ArrayLike) -> Array:
         """Share of the particles smaller than the film h [m], by number [1].
 
         Parameters
@@ -91,7 +91,7 @@ class Entrainment(Value):
         """
         return np.asarray(diameter.partial_moment(0, 0.0, np.asarray(h, float)))
 
-    def areal_density(self, diameter: Distribution, h: float, R: float) -> float:
+    def areal_density(self, diameter: Distribution, *, h: float, R: float) -> float:
         """Particles that enter per nominal area η_a [1/m²].
 
         Parameters
@@ -102,7 +102,7 @@ class Entrainment(Value):
         R : float
             Reduced radius of the bodies R' [m].
         """
-        reach = float(self.largest(h, R))
+        reach = float(self.largest(h, R=R))
         if self.height == "film":
             entered = h * float(diameter.partial_moment(0, 0.0, reach))
         else:
@@ -133,7 +133,7 @@ class FilmConditions(Value):
         Sliding over entrainment speed u_s/u [1]; without it there is no traction.
     formula : films.AbstractFilm, optional
         Film formula, that of every regime by default.
-    pressure : {"mean", "maximum"}, optional
+    hertz : {"mean", "maximum"}, optional
         Which Hertz pressure is nominal.
     few, most : float, optional
         Shares of the solids below which the film is full, and above which it is boundary [1].
@@ -168,7 +168,7 @@ class FilmConditions(Value):
         "u_s/u", "1", "sliding over entrainment speed", default=None, ge=0
     )
     formula: AbstractFilm | None = None
-    pressure: str = choice("which Hertz pressure is nominal", "mean", "maximum", default="mean")
+    hertz: str = choice("which Hertz pressure is nominal", "mean", "maximum", default="mean")
     few: float = quantity(
         "s_few", "1", "share of the solids below which the film is full", default=FEW, ge=0, le=1
     )
@@ -207,17 +207,17 @@ class FilmConditions(Value):
             "oil": self.oil,
             "load": self.load,
             "film": self.formula,
-            "pressure": self.pressure,
+            "hertz": self.hertz,
             "few": self.few,
             "most": self.most,
         }
 
     def nominal_pressure(self, contact: Contact) -> float:
         """Hertz pressure of the smooth dry bodies, the mean or the largest as asked [Pa]."""
-        hertz = self.conjunction.hertz(self.load, E=2 * contact.E_ss)
-        return float(hertz.mean if self.pressure == "mean" else hertz.maximum)
+        dry = self.conjunction.hertz(self.load, E=2 * contact.E_ss)
+        return float(dry.mean if self.hertz == "mean" else dry.maximum)
 
-    def at(self, contact: Contact, speed: ArrayLike | None = None) -> MixedFilm:
+    def at(self, contact: Contact, *, speed: ArrayLike | None = None) -> MixedFilm:
         """`mixed_film` at these speeds, or at another [m/s]; one speed gives floats."""
         if speed is None:
             speed = self.speed[0] if len(self.speed) == 1 else self.speed

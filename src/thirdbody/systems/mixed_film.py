@@ -52,7 +52,7 @@ DEEPEST = -4.0
 """Lowest separation from the mean asperity height at which solids are evaluated, in σ."""
 
 
-def mean_gap(h: ArrayLike, sigma: float) -> Array:
+def mean_gap(h: ArrayLike, *, sigma: float) -> Array:
     r"""Mean gap of a rough surface against a plane at height h: :math:`\sigma[\varphi+t\Phi]`.
 
     Parameters
@@ -69,7 +69,7 @@ def mean_gap(h: ArrayLike, sigma: float) -> Array:
 
     Examples
     --------
-    >>> round(float(mean_gap(1.0, 1.0)), 6)
+    >>> round(float(mean_gap(1.0, sigma=1.0)), 6)
     1.083315
     """
     t = np.asarray(h, float) / sigma
@@ -81,7 +81,7 @@ def _gap(t: Array) -> Array:
     return np.exp(-0.5 * t * t) / math.sqrt(2 * math.pi) + t * special.ndtr(t)
 
 
-def height_of(gap: ArrayLike, sigma: float) -> Array:
+def height_of(gap: ArrayLike, *, sigma: float) -> Array:
     r"""Height above the mean plane at which a rough surface has this mean gap.
 
     .. math:: \sigma[\varphi(t) + t\,\Phi(t)] = h_T, \qquad h = \sigma t
@@ -102,7 +102,7 @@ def height_of(gap: ArrayLike, sigma: float) -> Array:
 
     Examples
     --------
-    >>> float(height_of(mean_gap(63e-9, 100e-9), 100e-9)).__round__(15)
+    >>> float(height_of(mean_gap(63e-9, sigma=100e-9), sigma=100e-9)).__round__(15)
     6.3e-08
     """
     y = np.asarray(gap, float) / sigma
@@ -233,7 +233,7 @@ def mixed_film(
     speed: ArrayLike,
     slide_roll: float | None = None,
     film: AbstractFilm | None = None,
-    pressure: str = "mean",
+    hertz: str = "mean",
     few: float = FEW,
     most: float = MOST,
 ) -> MixedFilm:
@@ -261,7 +261,7 @@ def mixed_film(
         rolling: no traction either, but the number 0.
     film : films.AbstractFilm, optional
         The formula; `films.NijenbanningVennerMoes` or `films.MoesLine` by default.
-    pressure : {"mean", "maximum"}, optional
+    hertz : {"mean", "maximum"}, optional
         Which Hertz pressure is nominal.
     few, most : float, optional
         Shares of the solids below which the film is full, and above which it is boundary [1].
@@ -307,11 +307,11 @@ def mixed_film(
     """
     w, u, scalar = _given(load, speed)
     film = film or full_range(getattr(conjunction, "shape", "point"))
-    _check(contact, conjunction, oil, film, slide_roll, pressure, (few, most))
+    _check(contact, conjunction, oil, film, slide_roll, hertz, (few, most))
     bound = interface(contact)
     sigma, E = contact.roughness.sigma, 2 * contact.E_ss
-    hertz = conjunction.hertz(w, E=E)
-    p = hertz.mean if pressure == "mean" else hertz.maximum
+    dry = conjunction.hertz(w, E=E)
+    p = dry.mean if hertz == "mean" else dry.maximum
 
     def thickness(x: Array) -> Array:
         return _thickness(film, conjunction, oil, w, u, E, np.exp(x))
@@ -320,12 +320,12 @@ def mixed_film(
     floor = bound.asperities.centre + DEEPEST * sigma
 
     def excess(x: Array) -> Array:
-        d = np.maximum(height_of(thickness(x), sigma) - bound.mean_plane, floor)
+        d = np.maximum(height_of(thickness(x), sigma=sigma) - bound.mean_plane, floor)
         return bound.load(d)[:, 0] / p + np.expm1(-x)
 
     x = _root(excess, len(w), u)
     h_T = thickness(x)
-    h = height_of(h_T, sigma)
+    h = height_of(h_T, sigma=sigma)
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, d=h - bound.mean_plane)
@@ -437,7 +437,7 @@ def _check(
     oil: Any,
     film: Any,
     slide_roll: Any,
-    pressure: str,
+    hertz: str,
     shares: tuple[float, float],
 ) -> None:
     problems = []
@@ -457,8 +457,8 @@ def _check(
             f"film = {film.name} is for {film.shape} contacts, and the conjunction is a "
             f"{conjunction.shape}"
         )
-    if pressure not in ("mean", "maximum"):
-        problems.append(f"pressure = {pressure!r} must be 'mean' or 'maximum'")
+    if hertz not in ("mean", "maximum"):
+        problems.append(f"hertz = {hertz!r} must be 'mean' or 'maximum'")
     if slide_roll is not None and not (
         isinstance(slide_roll, int | float) and math.isfinite(slide_roll) and slide_roll >= 0
     ):

@@ -331,10 +331,10 @@ class FilmParticles(Value):
             return FilmDents(0.0, *4 * (math.nan,), *2 * (math.nan,), math.nan)._replace(volume=0.0)
         x, w = self._nodes()
         spots = self._spots(x[None, :], w[None, :])
-        dent = dent_of(spots, side - 1, self.material)
+        dent = dent_of(spots, side=side - 1, particle=self.material)
         sunk = (dent.depth > 0) & (2 * spots.depths[side - 1] > spots.radius)
         top = self.single(self._size(0.05 * count, lowest))
-        deep = dent_of(top, side - 1, self.material)
+        deep = dent_of(top, side=side - 1, particle=self.material)
         return FilmDents(
             number=self.columns_of_oil * count,
             depth=float(spots.total(dent.depth)[0] / count),
@@ -351,7 +351,7 @@ class FilmParticles(Value):
         count = float(w.sum())
         if count == 0:
             return FilmDents(0.0, 0.0, math.nan, math.nan, 0.0, 0.0, math.nan, 0.0)
-        wide = flattened_diameter(x, self.film)
+        wide = flattened_diameter(x, gap=self.film)
         top = self._size(0.05 * count, self.film)
         return FilmDents(
             number=self.columns_of_oil * count,
@@ -360,11 +360,11 @@ class FilmParticles(Value):
             area=float(np.pi / 4 * (w @ wide**2) / count),
             volume=0.0,
             depth_p95=0.0,
-            diameter_p95=float(flattened_diameter(top, self.film)),
+            diameter_p95=float(flattened_diameter(top, gap=self.film)),
             embedded=0.0,
         )
 
-    def largest(self, area: float, overrollings: float = 1.0, side: int = 1) -> Dent:
+    def largest(self, area: float, *, overrollings: float = 1.0, side: int = 1) -> Dent:
         """The largest dent in so much surface [m²] after so many overrollings (median).
 
         Exceeded in half of all cases, A N η_a(>x) = ln 2; nothing where even one is unlikely.
@@ -373,13 +373,17 @@ class FilmParticles(Value):
         lowest = self._first(side - 1)
         if not math.isfinite(lowest) or self._pressed(lowest) <= wanted:
             return Dent(np.array(0.0), np.array(0.0), np.array(0.0))
-        found = dent_of(self.single(self._size(wanted, lowest)), side - 1, self.material)
+        found = dent_of(
+            self.single(self._size(wanted, lowest)), side=side - 1, particle=self.material
+        )
         return Dent(*(each[0, 0] for each in found))
 
-    def after(self, overrollings: ArrayLike, side: int = 1) -> Array:
+    def after(self, overrollings: ArrayLike, *, side: int = 1) -> Array:
         """Dents per area of surface 1 or 2 after N overrollings, see `dents_after` [1/m²]."""
         found = self.dents(side)
-        return dents_after(found.number, overrollings, 0.0 if found.number == 0 else found.area)
+        return dents_after(
+            found.number, overrollings=overrollings, area=0.0 if found.number == 0 else found.area
+        )
 
     def severity_index(self) -> SeverityIndex:
         r"""Damaged volume per area and overrolling, with its parts.
@@ -403,14 +407,15 @@ class FilmParticles(Value):
         one, two = spots.depths
         even = np.abs(one - two) <= 1e-9 * (one + two)
         for side, (here, there) in enumerate(((one, two), (two, one))):
-            dent = dent_of(spots, side, self.material)
+            dent = dent_of(spots, side=side, particle=self.material)
             volumes.append(per_area * float(spots.total(dent.volume)[0]))
             share = np.where(even, 0.5, here < there) * (self.material.H > spots.hardness[side])
-            cut = share * groove_area(here, spots.radius)
+            cut = share * groove_area(here, radius=spots.radius)
             removed = self.slip * (self.f_ab or 0.0)
             grooves.append(per_area * removed * float(spots.total(cut)[0]))
-        S = severity(spots.load, spots.x, *spots.hardness)
-        above = (threshold(*sorted(spots.hardness)) < S).astype(float)
+        softer, harder = sorted(spots.hardness)
+        S = severity(spots.load, x=spots.x, H_1=softer, H_2=harder)
+        above = (threshold(softer, H_b=harder) < S).astype(float)
         count = float(spots.number.sum())
         return SeverityIndex(
             total=sum(volumes) + sum(grooves),

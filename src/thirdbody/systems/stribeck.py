@@ -140,7 +140,7 @@ def regime_speeds(
     oil: Oil,
     load: float,
     film: AbstractFilm | None = None,
-    pressure: str = "mean",
+    hertz: str = "mean",
     few: float = FEW,
     most: float = MOST,
 ) -> RegimeSpeeds:
@@ -153,7 +153,7 @@ def regime_speeds(
 
     Parameters
     ----------
-    contact, conjunction, oil, film, pressure
+    contact, conjunction, oil, film, hertz
         As in `mixed_film`.
     load : float
         w [N].
@@ -190,11 +190,11 @@ def regime_speeds(
     """
     w, _, _ = _given(load, 1.0)
     film = film or full_range(getattr(conjunction, "shape", "point"))
-    _check(contact, conjunction, oil, film, None, pressure, (few, most))
+    _check(contact, conjunction, oil, film, None, hertz, (few, most))
     bound = interface(contact)
     sigma, E = contact.roughness.sigma, 2 * contact.E_ss
-    hertz = conjunction.hertz(w, E=E)
-    p = float((hertz.mean if pressure == "mean" else hertz.maximum)[0])
+    dry = conjunction.hertz(w, E=E)
+    p = float((dry.mean if hertz == "mean" else dry.maximum)[0])
     floor = bound.asperities.centre + DEEPEST * sigma
 
     def carried(t: Array) -> Array:
@@ -205,7 +205,7 @@ def regime_speeds(
     known = (shares > 0) & (shares < 1) & (carried(np.full(2, -40.0)) > shares)
     # beyond e^40 sigma there is no contact
     t = _falling(lambda t: carried(t) - shares, np.full(2, -40.0), np.full(2, 40.0))
-    gap = mean_gap(floor + sigma * np.exp(t) + bound.mean_plane, sigma)
+    gap = mean_gap(floor + sigma * np.exp(t) + bound.mean_plane, sigma=sigma)
     gamma = 1 / (1 - np.where(known, shares, 0.5))
     ends = np.log([[SLOWEST] * 2, [FASTEST] * 2])
 

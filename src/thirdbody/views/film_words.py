@@ -42,7 +42,7 @@ def point(result: dict[str, Any], i: int) -> dict[str, str]:
 def bodies(result: dict[str, Any]) -> str:
     """The bodies, their load and its Hertz pressure."""
     film = result["inputs"]["film"]
-    which = "mean" if film["pressure"] == "mean" else "largest"
+    which = "mean" if film["hertz"] == "mean" else "largest"
     return (
         f"{film['conjunction']['type'].lower()} contact under {value_of(film['load'], 'N')}, "
         f"{which} Hertz pressure {value_of(result['states']['pressure'][0], 'Pa')}"

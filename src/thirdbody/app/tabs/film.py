@@ -246,7 +246,7 @@ def _entries(inputs: Inputs, state: State) -> None:
     for field in fields_of(Oil):
         inputs.field(("film", "oil"), field)
     with ui.expansion("more").classes("w-full"), ui.column().classes("w-full gap-2"):
-        for name in ("pressure", "few", "most"):
+        for name in ("hertz", "few", "most"):
             inputs.field(("film",), own[name])
         if isinstance(table.get("entrainment"), dict):
             for field in fields_of(Entrainment):

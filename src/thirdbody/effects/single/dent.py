@@ -28,7 +28,7 @@ __all__ = [
 
 
 # ------------------------------------------------------------------------------ one particle
-def dent_diameter(depth: ArrayLike, radius: ArrayLike) -> Array:
+def dent_diameter(depth: ArrayLike, *, radius: ArrayLike) -> Array:
     r"""Diameter of the dent of a hard sphere pressed δ deep.
 
     .. math:: D = 2\sqrt{2 r \delta - \delta^2}, \qquad D = 2 r \text{ for } \delta \ge r
@@ -45,14 +45,14 @@ def dent_diameter(depth: ArrayLike, radius: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> float(dent_diameter(1.0, 5.0))
+    >>> float(dent_diameter(1.0, radius=5.0))
     6.0
     """
     depth = np.clip(depth, 0.0, radius)
     return 2 * np.sqrt(depth * (2 * np.asarray(radius) - depth))
 
 
-def dent_volume(residual: ArrayLike, depth: ArrayLike, radius: ArrayLike) -> Array:
+def dent_volume(residual: ArrayLike, *, depth: ArrayLike, radius: ArrayLike) -> Array:
     r"""Volume of a dent: a spherical cap as wide as under load and as deep as what stays.
 
     .. math:: V = \frac{\pi}{6}\,\delta_{res}\left(\tfrac34 D^2+\delta_{res}^2\right)
@@ -71,17 +71,17 @@ def dent_volume(residual: ArrayLike, depth: ArrayLike, radius: ArrayLike) -> Arr
 
     Examples
     --------
-    >>> round(float(dent_volume(1.0, 1.0, 1.0)) / np.pi, 12)  # half a sphere
+    >>> round(float(dent_volume(1.0, depth=1.0, radius=1.0)) / np.pi, 12)  # half a sphere
     0.666666666667
     """
     radius = np.asarray(radius, dtype=float)
-    width = dent_diameter(depth, radius)
+    width = dent_diameter(depth, radius=radius)
     cap = np.minimum(residual, radius)
     shaft = np.maximum(np.asarray(residual) - radius, 0.0)
     return np.pi / 6 * cap * (0.75 * width**2 + cap**2) + np.pi * radius**2 * shaft
 
 
-def flattened_diameter(x: ArrayLike, gap: ArrayLike) -> Array:
+def flattened_diameter(x: ArrayLike, *, gap: ArrayLike) -> Array:
     r"""Diameter of the disc that a ductile sphere becomes in a gap, its volume kept.
 
     .. math:: D = x\sqrt{\frac{2x}{3g}}, \qquad g < \tfrac23 x
@@ -98,14 +98,14 @@ def flattened_diameter(x: ArrayLike, gap: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> float(flattened_diameter(6.0, 1.0))
+    >>> float(flattened_diameter(6.0, gap=1.0))
     12.0
     """
     x = np.asarray(x, dtype=float)
     return x * np.sqrt(np.maximum(2 * x / (3 * np.asarray(gap)), 1.0))
 
 
-def fragments(x: ArrayLike, size: float) -> Array:
+def fragments(x: ArrayLike, *, size: float) -> Array:
     r"""Fragments of one size that a brittle particle of size x breaks into, its volume kept.
 
     .. math:: N = \max\left[(x/x_f)^3,\,1\right]
@@ -124,13 +124,13 @@ def fragments(x: ArrayLike, size: float) -> Array:
 
     Examples
     --------
-    >>> fragments([0.5, 2.0], 1.0).tolist()
+    >>> fragments([0.5, 2.0], size=1.0).tolist()
     [1.0, 8.0]
     """
     return np.maximum(np.asarray(x, dtype=float) / size, 1.0) ** 3
 
 
-def dents_after(rate: ArrayLike, overrollings: ArrayLike, area: ArrayLike) -> Array:
+def dents_after(rate: ArrayLike, *, overrollings: ArrayLike, area: ArrayLike) -> Array:
     r"""Dents that one can tell apart after many overrollings.
 
     .. math:: N_d = \frac{1-e^{-N\eta a}}{a} \to N\eta\ \text{(few)},\quad 1/a\ \text{(many)}
@@ -152,7 +152,7 @@ def dents_after(rate: ArrayLike, overrollings: ArrayLike, area: ArrayLike) -> Ar
 
     Examples
     --------
-    >>> print(dents_after(10.0, [1.0, 1e6], 1e-3).round(2))
+    >>> print(dents_after(10.0, overrollings=[1.0, 1e6], area=1e-3).round(2))
     [   9.95 1000.  ]
     """
     thrown = np.multiply(rate, overrollings)
@@ -172,7 +172,7 @@ class Dent(NamedTuple):
     >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
     >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
     ...                                  material=silica, film=0.5e-6, entry=1.0)
-    >>> dent = dent_of(oil.single([2e-6, 5e-6]), 0, silica)
+    >>> dent = dent_of(oil.single([2e-6, 5e-6]), side=0, particle=silica)
     >>> (dent.diameter.ravel() * 1e6).round(2).tolist()  # µm
     [1.94, 4.97]
     """
@@ -185,7 +185,7 @@ class Dent(NamedTuple):
     """Its volume [m³]."""
 
 
-def dent_of(spots: ParticleSpots, side: int, particle: Material) -> Dent:
+def dent_of(spots: ParticleSpots, *, side: int, particle: Material) -> Dent:
     """The dents of particles in surface 1 (side 0) or 2 (side 1).
 
     Only a particle that is harder than the surface dents it; otherwise it is deformed itself. No
@@ -217,17 +217,17 @@ def dent_of(spots: ParticleSpots, side: int, particle: Material) -> Dent:
     >>> steel, silica = tb.materials["S45C"], tb.materials["SiO2"]
     >>> oil = FilmParticles.from_iso4406("18/16/13", surfaces=tb.MaterialPair(steel, steel),
     ...                                  material=silica, film=0.5e-6, entry=1.0)
-    >>> depth = dent_of(oil.single(2e-6), 0, silica).depth[0, 0]
+    >>> depth = dent_of(oil.single(2e-6), side=0, particle=silica).depth[0, 0]
     >>> f"{depth * 1e6:.2f} µm"
     '0.52 µm'
     """
     depth = np.minimum(spots.depths[side], spots.x)
     first = spots.yields[side] * spots.x
     ratio = np.divide(depth, first, out=np.zeros_like(depth), where=first > 0)
-    left = residual_depth(depth, ratio) * (particle.H > spots.hardness[side])
+    left = residual_depth(depth, depth_over_yield=ratio) * (particle.H > spots.hardness[side])
     there = left > 0
     return Dent(
         left,
-        there * dent_diameter(depth, spots.radius),
-        there * dent_volume(left, depth, spots.radius),
+        there * dent_diameter(depth, radius=spots.radius),
+        there * dent_volume(left, depth=depth, radius=spots.radius),
     )

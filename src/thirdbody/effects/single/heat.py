@@ -252,7 +252,7 @@ def sudden_share(Fo: Number, *, kind: str = "mean", flux: str = "uniform") -> Nu
 
 
 # ------------------------------------------------------------------ two bodies and a bridge
-def partition(Q: Number, G_1: Number, G_2: Number, T_1: Number, T_2: Number) -> Number:
+def partition(Q: Number, *, G_1: Number, G_2: Number, T_1: Number, T_2: Number) -> Number:
     r"""Temperature of a contact between two bodies in which heat Q is set free.
 
     .. math:: T_c = \frac{Q + G_1T_1 + G_2T_2}{G_1+G_2}
@@ -277,7 +277,7 @@ def partition(Q: Number, G_1: Number, G_2: Number, T_1: Number, T_2: Number) -> 
 
     Examples
     --------
-    >>> partition(3.0, 1.0, 2.0, 0.0, 0.0)
+    >>> partition(3.0, G_1=1.0, G_2=2.0, T_1=0.0, T_2=0.0)
     1.0
     """
     return (Q + G_1 * T_1 + G_2 * T_2) / (G_1 + G_2)
@@ -285,6 +285,7 @@ def partition(Q: Number, G_1: Number, G_2: Number, T_1: Number, T_2: Number) -> 
 
 def bridge(
     heat: tuple[Number, Number],
+    *,
     G: tuple[Number, Number],
     R: Number,
     T: tuple[Number, Number] = (0.0, 0.0),
@@ -313,7 +314,7 @@ def bridge(
     --------
     Heat at end 2 alone leaves through body 2, and through the particle and body 1 in series.
 
-    >>> one, two = bridge((0.0, 6.0), (1.0, 1.0), 1.0)
+    >>> one, two = bridge((0.0, 6.0), G=(1.0, 1.0), R=1.0)
     >>> float(one), float(two)
     (2.0, 4.0)
     """
@@ -325,7 +326,7 @@ def bridge(
 
 
 def sphere_resistance(
-    a_1: Number, a_2: Number, *, r: Number, k: float, ends: str | tuple[str, str] = "isothermal"
+    a_1: Number, *, a_2: Number, r: Number, k: float, ends: str | tuple[str, str] = "isothermal"
 ) -> Number:
     r"""Resistance of a sphere between contacts at its two poles [K/W].
 
@@ -368,7 +369,7 @@ def sphere_resistance(
 
     Examples
     --------
-    >>> R = sphere_resistance(0.1, 0.1, r=1.0, k=1.0, ends=("uniform", "mean"))
+    >>> R = sphere_resistance(0.1, a_2=0.1, r=1.0, k=1.0, ends=("uniform", "mean"))
     >>> f"{R:.3f}; series: 5.858"
     '5.872; series: 5.858'
     """
@@ -380,9 +381,9 @@ def sphere_resistance(
 # ------------------------------------------------------------------ conductance
 def spot_resistance(
     b: Number,
+    *,
     rho_1: float,
     rho_2: float,
-    *,
     mean_free_path: float = 0.0,
     film: float = 0.0,
 ) -> Number:
@@ -416,7 +417,7 @@ def spot_resistance(
 
     Examples
     --------
-    >>> float(spot_resistance(1e-6, 2e-7, 2e-7))
+    >>> float(spot_resistance(1e-6, rho_1=2e-7, rho_2=2e-7))
     0.1
     """
     K = mean_free_path / b

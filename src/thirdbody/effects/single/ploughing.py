@@ -46,7 +46,7 @@ def _segment(w: Array) -> Array:
     return out
 
 
-def groove_area(depth: ArrayLike, radius: ArrayLike) -> Array:
+def groove_area(depth: ArrayLike, *, radius: ArrayLike) -> Array:
     r"""Cross-section of the groove that a sphere leaves.
 
     .. math:: A_g = r^2(\theta-\sin\theta\cos\theta) \approx \tfrac43 b\,\delta
@@ -69,13 +69,13 @@ def groove_area(depth: ArrayLike, radius: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> round(float(groove_area(0.5, 1.0)), 12)
+    >>> round(float(groove_area(0.5, radius=1.0)), 12)
     0.614184849304
     """
     return np.square(radius) * _segment(_relative(depth, radius, 2.0))
 
 
-def coefficient(depth: ArrayLike, radius: ArrayLike, rear: ArrayLike = 0.0) -> Array:
+def coefficient(depth: ArrayLike, *, radius: ArrayLike, rear: ArrayLike = 0.0) -> Array:
     r"""Ploughing force of a sphere over its load.
 
     .. math:: \mu_p = \frac{2(\theta-\sin\theta\cos\theta)}{\pi\sin^2\theta}\,
@@ -110,7 +110,7 @@ def coefficient(depth: ArrayLike, radius: ArrayLike, rear: ArrayLike = 0.0) -> A
 
     Examples
     --------
-    >>> print(coefficient([1e-4, 1.0], 1.0).round(6))
+    >>> print(coefficient([1e-4, 1.0], radius=1.0).round(6))
     [0.006002 1.      ]
     """
     w = _relative(depth, radius, 1.0)
@@ -149,7 +149,7 @@ def rear_support(depth_over_yield: ArrayLike) -> Array:
     return one + two - one * two
 
 
-def residual_depth(depth: ArrayLike, depth_over_yield: ArrayLike) -> Array:
+def residual_depth(depth: ArrayLike, *, depth_over_yield: ArrayLike) -> Array:
     r"""Depth left after unloading.
 
     .. math:: \delta_{res} = \delta\,(1-s^{-0.28})(1-s^{-0.69})
@@ -179,7 +179,7 @@ def residual_depth(depth: ArrayLike, depth_over_yield: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> round(float(residual_depth(10.0, 10.0)), 9)
+    >>> round(float(residual_depth(10.0, depth_over_yield=10.0)), 9)
     3.781706758
     """
     s = np.maximum(np.asarray(depth_over_yield, dtype=float), 1.0)

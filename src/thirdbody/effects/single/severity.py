@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["severity", "threshold"]
 
 
-def severity(load: ArrayLike, x: ArrayLike, H_1: ArrayLike, H_2: ArrayLike) -> Array:
+def severity(load: ArrayLike, *, x: ArrayLike, H_1: ArrayLike, H_2: ArrayLike) -> Array:
     r"""Severity S of one particle between two surfaces.
 
     .. math:: S = \frac{6 f}{\pi x^2 H'}, \qquad \frac1{H'} = \frac1{H_1}+\frac1{H_2}
@@ -51,14 +51,14 @@ def severity(load: ArrayLike, x: ArrayLike, H_1: ArrayLike, H_2: ArrayLike) -> A
     Examples
     --------
     >>> f, x, H = 1e-3, 4e-6, 7e9
-    >>> round(float(severity(f, x, H, H)), 6)
+    >>> round(float(severity(f, x=x, H_1=H, H_2=H)), 6)
     0.034105
     """
     softness = 1 / np.asarray(H_1) + 1 / np.asarray(H_2)
     return 6 * np.asarray(load) * softness / (np.pi * np.asarray(x) ** 2)
 
 
-def threshold(H_s: ArrayLike, H_b: ArrayLike) -> Array:
+def threshold(H_s: ArrayLike, *, H_b: ArrayLike) -> Array:
     r"""Severity S* above which particles groove, and below which they roll.
 
     .. math:: S^* = 0.0076\,(H_s/H_b)^{-0.49}
@@ -84,7 +84,7 @@ def threshold(H_s: ArrayLike, H_b: ArrayLike) -> Array:
 
     Examples
     --------
-    >>> round(float(threshold(2e9, 8e9)), 5)
+    >>> round(float(threshold(2e9, H_b=8e9)), 5)
     0.01499
     """
     return 0.0076 * (np.asarray(H_s) / np.asarray(H_b)) ** -0.49
