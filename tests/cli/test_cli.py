@@ -507,6 +507,21 @@ def test_one_state_loads_little_and_is_small():
     assert "scipy.optimize" in loaded
 
 
+def test_help_loads_nothing_that_computes():
+    code = (
+        "import runpy, sys\n"
+        "sys.argv = ['thirdbody', '--help']\n"
+        "try:\n    runpy.run_module('thirdbody', run_name='__main__')\n"
+        "except SystemExit as end:\n    assert not end.code, end.code\n"
+        "print(*sys.modules, file=sys.stderr)\n"
+    )
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "solve" in done.stdout
+    heavy = {"numpy", "scipy", "pydantic", "rich", "matplotlib", "thirdbody.contact.contact"}
+    assert not heavy & set(done.stderr.split())
+
+
 @pytest.mark.parametrize("command", [("assess", "--html"), ("design", "--csv", "--figure")])
 def test_a_missing_folder_is_told_before_long_work(tmp_path, command, monkeypatch):
     name, *options = command

@@ -65,9 +65,9 @@ def test_a_report_on_paper(file, browser, words_of, tmp_path):
     assert 2 <= len(pages) <= LONGEST
     title = found.study.title
     for number, words in enumerate(pages, 1):
-        foot = " ".join(word for y, word in words if y > 0.94)
+        foot = " ".join(word for y, word in words if y > 0.95)
         assert foot == f"{title} {number} / {len(pages)}"
-        body = max(y for y, _ in words if y < 0.94)
+        body = max(y for y, _ in words if y < 0.95)
         assert body > LEAST or number == len(pages), f"page {number} ends at {body:.0%}"
 
 
@@ -83,5 +83,5 @@ def test_a_title_of_any_letters_stands_below_the_page(browser, words_of, tmp_pat
     page.pdf(path=pdf, prefer_css_page_size=True)
     page.close()
     (words,) = words_of(pdf)
-    foot = " ".join(word for y, word in words if y > 0.94)
+    foot = " ".join(word for y, word in words if y > 0.95)
     assert foot.replace("&quot;", '"').replace("&lt;", "<").replace("&gt;", ">") == f"{title} 1 / 1"

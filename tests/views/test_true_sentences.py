@@ -13,7 +13,7 @@ from random_studies import draw
 
 import thirdbody as tb
 from thirdbody.cli.commands.solve import summary
-from thirdbody.equilibrium.columns import EPS_1, EPS_2
+from thirdbody.equilibrium.modes import EPS_1, EPS_2
 from thirdbody.quantities.say import number, percent, signed, value_of
 from thirdbody.study import check
 from thirdbody.views.report import report

@@ -64,7 +64,9 @@ def test_the_search_finds_what_it_seeks():
 
 def test_sentences_of_modes_stand_in_one_place():
     found = {
-        name for name, line in lines() if re.search("real contact is on|of the real contact area \\(", line)
+        name
+        for name, line in lines()
+        if re.search("real contact is on|of the real contact area \\(", line)
     }
     assert found == {"equilibrium/words.py"}
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from ..quantities.say import number, percent, plural, value_of
-from .columns import EPS_1, EPS_2, HYBRID, P_S, S_S
+from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S
 
 __all__ = [
     "BANDS",

@@ -596,7 +596,7 @@ class Report:
         )
         more = f"<p class=soft>{len(rows)} of {len(order)} inputs.</p>" * (len(order) > len(rows))
         head = ["input", "value", *(about(name)["meaning"] for name in (of, *others))]
-        return [f"<p>{words(sentence)}</p>", text_table(head, rows), more]
+        return [f"<p class=lead-in>{words(sentence)}</p>", text_table(head, rows), more]
 
     def _strongest(self, of: str, order: list[str]) -> str:
         first = order[:MATTER]
@@ -675,7 +675,7 @@ class Report:
         )
         head = ["for", "law", "chosen by", "valid", "provenance", "source"]
         return [
-            f"<p>{words(why)}</p>",
+            f"<p class=lead-in>{words(why)}</p>",
             table(head, rows),
             "<p class=soft>Provenance: seen means that the formulas were read in the source, "
             "derived that they follow from what is said here, recalled that they were known "

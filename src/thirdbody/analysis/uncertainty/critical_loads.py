@@ -10,8 +10,8 @@ import numpy as np
 
 from ...contact.contact import Contact
 from ...contact.interface import interface
-from ...equilibrium.columns import EPS_1, EPS_2
 from ...equilibrium.load_scan import DEEPEST, load_scan
+from ...equilibrium.modes import EPS_1, EPS_2
 from ...equilibrium.states import FEWEST, carries, state_columns
 from ...errors import InvalidValue
 
