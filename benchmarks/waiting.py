@@ -1,6 +1,7 @@
 """What a user waits for at the command line and at the page, in seconds of one processor.
 
-python benchmarks/waiting.py
+python benchmarks/waiting.py             # seconds of single things
+python benchmarks/waiting.py commands    # every command on an example, over bare Python
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ import importlib.util
 import resource
 import subprocess
 import sys
+import tempfile
 import time
 import tomllib
 import warnings
@@ -26,6 +28,20 @@ EXAMPLES = Path(__file__).parent.parent / "examples"
 REPEATS = 3
 LOADING = ["-c", "import numpy, pydantic, scipy.optimize.elementwise, scipy.special, typer"]
 
+BARE = ["-c", "import numpy, scipy.special"]
+"""What processor time is told as a multiple of: the same machine, the same minute."""
+COMMANDS = {
+    "--help": (0.6, ["--help"]),
+    "solve": (2, ["solve", "dusty_ball_screw"]),
+    "compare": (2.5, ["compare", "dusty_ball_screw"]),
+    "film": (3, ["film", "oil_film"]),
+    "table": (2.5, ["table", "dusty_ball_screw", "--out", "table.csv"]),
+    "assess": (6, ["assess", "assess"]),
+    "design": (8, ["design", "additive"]),
+    "report": (10, ["report", "dusty_ball_screw", "--out", "report.html"]),
+}
+"""What is aimed at, and the words of each command; a second word is an example."""
+
 
 def here(call: Callable[[], Any]) -> float:
     """The least processor time of a call, after one that loads and compiles."""
@@ -38,18 +54,34 @@ def here(call: Callable[[], Any]) -> float:
     return min(spent)
 
 
-def process(*words: str) -> float:
-    """The least processor time of a Python process."""
+def process(*words: str, cwd: str | None = None) -> float:
+    """The least processor time, user and system, of a Python process."""
     spent = []
     for _ in range(REPEATS):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        subprocess.run([sys.executable, *words], capture_output=True, check=True)
+        subprocess.run([sys.executable, *words], capture_output=True, check=True, cwd=cwd)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         spent.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
     return min(spent)
 
 
+def commands() -> int:
+    """Every command on a shipped example, as a multiple of what loading NumPy and SciPy takes."""
+    with tempfile.TemporaryDirectory() as folder:
+        bare = process(*BARE)
+        print(f"{'bare Python':12s} {bare:6.2f} s")
+        for name, (aim, (*words,)) in COMMANDS.items():
+            if len(words) > 1:
+                words[1] = str(EXAMPLES.resolve() / f"{words[1]}.toml")
+            spent = process("-m", "thirdbody", *words, cwd=folder)
+            print(f"{name:12s} {spent:6.2f} s  {spent / bare:5.1f} x bare  (aim {aim})", flush=True)
+        print(f"{'bare, again':12s} {process(*BARE):6.2f} s")
+    return 0
+
+
 def main() -> int:
+    if sys.argv[1:] == ["commands"]:
+        return commands()
     warnings.simplefilter("ignore", tb.RangeWarning)
     dusty, additive = (str(EXAMPLES / f"{n}.toml") for n in ("dusty_ball_screw", "additive"))
     one = ["-m", "thirdbody", "solve", dusty, "--json", "--set", "load.pressure=5 MPa"]

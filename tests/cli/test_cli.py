@@ -509,9 +509,24 @@ def test_one_state_loads_little_and_is_small():
     # kilobytes, on macOS bytes
     assert int(peak) * (1 if sys.platform == "darwin" else 1024) < 400e6
     heavy = {"matplotlib", "xarray", "pandas", "numba", "pint", "zarr", "distributed", "nicegui"}
-    heavy |= {"scipy.stats", "scipy.integrate", "scipy.interpolate", "rich"}
+    heavy |= {"scipy.stats", "scipy.integrate", "scipy.interpolate", "scipy.optimize", "rich"}
     assert not heavy & set(loaded)
-    assert "scipy.optimize" in loaded
+    assert "scipy.special" in loaded
+
+
+def test_help_loads_nothing_that_computes():
+    code = (
+        "import runpy, sys\n"
+        "sys.argv = ['thirdbody', '--help']\n"
+        "try:\n    runpy.run_module('thirdbody', run_name='__main__')\n"
+        "except SystemExit as end:\n    assert not end.code, end.code\n"
+        "print(*sys.modules, file=sys.stderr)\n"
+    )
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "solve" in done.stdout
+    heavy = {"numpy", "scipy", "pydantic", "rich", "matplotlib", "thirdbody.contact.contact"}
+    assert not heavy & set(done.stderr.split())
 
 
 @pytest.mark.parametrize("command", [("assess", "--html"), ("design", "--csv", "--figure")])

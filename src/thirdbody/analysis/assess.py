@@ -241,7 +241,9 @@ def _usual(contact: Contact) -> dict[str, Uncertain]:
     both = ["surfaces.first.H", "surfaces.second.H"]
     labels += ["+".join(both)] if contact.surfaces.first == contact.surfaces.second else both
     ends = {label: own[label.partition("+")[0]] for label in labels}
-    return {label: Uncertain.uniform(low=value / FAR, high=value * FAR) for label, value in ends.items()}
+    return {
+        label: Uncertain.uniform(low=value / FAR, high=value * FAR) for label, value in ends.items()
+    }
 
 
 def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int) -> Array:

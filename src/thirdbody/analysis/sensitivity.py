@@ -22,7 +22,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.contact import Contact
-from ..equilibrium.columns import EPS_1, EPS_2, Equilibrium, quantity_of
+from ..equilibrium.columns import Equilibrium, quantity_of
+from ..equilibrium.modes import EPS_1, EPS_2
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue

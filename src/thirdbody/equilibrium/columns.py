@@ -16,6 +16,7 @@ from ..contact.output import column
 from ..errors import InvalidValue
 from ..quantities import notebook
 from ..version import __version__
+from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S
 
 if TYPE_CHECKING:
     import pandas
@@ -27,12 +28,7 @@ Array = NDArray[np.float64]
 
 Number = float | Array
 
-P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
 MODES = np.array(["", S_S, HYBRID, P_S])
-EPS_1, EPS_2 = 0.02, 0.05
-"""Default shares that separate the contact modes: read-off resolution, and the paper's 95 %."""
-WINDOW = (1e-8, 1e-2)
-"""Loads F* between which critical loads are sought."""
 
 
 def _column(symbol: str, unit: str, meaning: str) -> Any:

@@ -11,8 +11,8 @@ import numpy as np
 from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import InvalidValue
-from .columns import EPS_1, EPS_2, WINDOW
 from .load_scan import DEEPEST, load_scan
+from .modes import EPS_1, EPS_2, WINDOW
 from .states import FEWEST, carries, state_columns
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import InvalidValue
 from ..quantities import notebook
-from .columns import EPS_1, EPS_2, WINDOW
 from .load_scan import load_scan
+from .modes import EPS_1, EPS_2, WINDOW
 from .words import happens
 
 __all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from ..quantities.say import number, percent, plural, value_of
-from .columns import HYBRID, P_S, S_S, WINDOW
+from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S, WINDOW
 
 __all__ = [
     "BANDS",
@@ -35,8 +35,8 @@ MEANS = {
 """Modes are parts of the area, whatever the load does."""
 BANDS = "bands: p-s real contact on particles, hybrid on both, s-s on asperities"
 CRITICAL = {
-    "F_cr1": "asperities come into contact (p-s to hybrid)",
-    "F_cr2": "particles have little of the contact left (hybrid to s-s)",
+    "F_cr1": f"asperities reach {percent(EPS_1)} of the real contact area (p-s to hybrid)",
+    "F_cr2": f"particles are down to {percent(EPS_2)} of the real contact area (hybrid to s-s)",
     "F_tpca A": "particles have their largest share of the real area",
     "F_tpca B": "asperities and particles carry equal loads",
     "F_tpca C": "the area bends most over the load",
@@ -44,12 +44,13 @@ CRITICAL = {
 """What happens at each critical load."""
 BELOW, ABOVE = ("never p-s", "always s-s"), ("always p-s", "never s-s")
 """Statuses of critical loads that lie below, or above, every load searched."""
-STATUS = {
-    ("F_cr1", BELOW): "never p-s",
-    ("F_cr2", BELOW): "always s-s",
-    ("F_cr1", ABOVE): "always p-s",
-    ("F_cr2", ABOVE): "never s-s",
+THERE = {
+    ("F_cr1", BELOW): "at the least of them the mode is not p-s any more",
+    ("F_cr2", BELOW): "the mode is s-s at all of them",
+    ("F_cr1", ABOVE): "the mode is p-s at all of them",
+    ("F_cr2", ABOVE): "at the greatest of them the mode is not s-s yet",
 }
+"""What is known where a critical load lies outside: share and load need not fall together."""
 
 
 def mode_of(mode: str | None) -> str:
@@ -92,18 +93,20 @@ def carried(share: float | None, parts: Mapping[str, float | None] | None = None
 
 
 def mode_path(modes: Iterable[str | None]) -> str:
-    """Modes along rising loads as a sentence.
+    """Modes along the rising loads of a study, those that were solved, as a sentence.
 
-    >>> mode_path(["p-s", "p-s", "hybrid"]), mode_path(["s-s"])
-    ('In between the mode goes p-s → hybrid', 'The mode is s-s at every load of the study')
+    >>> mode_path(["p-s", "p-s", "hybrid"]), mode_path(["s-s", "s-s"])
+    ('Over these loads the mode goes p-s → hybrid', 'The mode is s-s at each of these loads')
+    >>> mode_path(["s-s"]), mode_path(["", ""])
+    ('The mode is s-s', 'There is no contact in any state of the study')
     """
     met = [mode or NO_CONTACT for mode in modes]
     path = [mode for i, mode in enumerate(met) if i == 0 or mode != met[i - 1]]
     if len(path) > 1:
-        return f"In between the mode goes {' → '.join(path)}"
+        return f"Over these loads the mode goes {' → '.join(path)}"
     if path[0] == NO_CONTACT:
-        return "There is no contact at any load of the study"
-    return f"The mode is {path[0]} at every load of the study"
+        return "There is no contact in any state of the study"
+    return f"The mode is {path[0]}" + (" at each of these loads" if len(met) > 1 else "")
 
 
 def critical_name(name: str) -> str:
@@ -158,15 +161,15 @@ def not_met(name: str, value: float | None, status: str = "") -> str:
     """Why a load is not compared with F_cr1 or F_cr2.
 
     >>> not_met("F_cr1", None, "never p-s")
-    'F_cr1 lies below every load searched: the mode is never p-s.'
+    'F_cr1 lies below every load searched: at the least of them the mode is not p-s any more.'
     >>> not_met("F_cr2", math.inf)
-    'F_cr2 lies above every load searched: the mode is never s-s.'
+    'F_cr2 lies above every load searched: at the greatest of them the mode is not s-s yet.'
     """
     side = _side(value, status)
     if side is None:
         return f"{name} was not found."
     word = "below" if side is BELOW else "above"
-    return f"{name} lies {word} every load searched: the mode is {STATUS[name, side]}."
+    return f"{name} lies {word} every load searched: {THERE[name, side]}."
 
 
 def unsolved(statuses: Sequence[str]) -> list[str]:

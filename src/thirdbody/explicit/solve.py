@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.contact import Contact
-from ..equilibrium.columns import EPS_1, EPS_2, _mode
+from ..equilibrium.columns import _mode
+from ..equilibrium.modes import EPS_1, EPS_2
 from ..errors import InvalidValue, RangeWarning
 from ..laws.base import REGIMES
 from ..quantities.say import number, percent, plural

@@ -50,14 +50,24 @@ figure img{max-width:100%;width:32rem;height:auto;background:#fff;border-radius:
 figcaption{font-size:.82rem}
 .figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(25rem,100%),1fr));gap:1rem}
 .figures figure{margin:0}.figures img{width:100%}
-@media print{body{margin:0;padding:0;max-width:none;font-size:10pt}
-h2,h3{break-after:avoid}figure,tr{break-inside:avoid}thead{display:table-header-group}
-.scroll{overflow:visible}table{font-size:8pt}th,td{padding:.15rem .35rem}td.words{min-width:0}
+@media print{html{font-size:9.5pt}body{margin:0;padding:0;max-width:none;font-size:9.5pt}
+h1,h2,h3,.lead-in{break-after:avoid}h2{margin:.9rem 0 .3rem}p{max-width:none;orphans:3;widows:3}
+figure,tr,li{break-inside:avoid}thead{display:table-header-group}
+.scroll{overflow:visible;break-inside:avoid}.scroll.long{break-inside:auto}
+table{font-size:7.5pt}th,td{padding:.1rem .35rem}td.words{min-width:0}
 figure img{width:11cm}
-.figures{grid-template-columns:1fr 1fr}.figures img{width:100%}
-@page{size:A4;margin:15mm}}
+.figures{grid-template-columns:1fr 1fr;gap:.5rem}
+.figures img{width:auto;max-width:100%;max-height:5.2cm}
+.figures.tall{grid-template-columns:1fr}.figures.tall img{max-height:12cm}
+.figures figure:last-child:nth-child(odd){grid-column:1/-1}
+@page{size:A4;margin:15mm 15mm 17mm;
+@bottom-right{content:counter(page) " / " counter(pages);font:8pt sans-serif;color:#555}}}
 """
 """Every colour is a variable that the dark scheme sets anew; paper is always light."""
+
+
+LONG = 25
+"""Rows beyond which a table may be continued on the next page."""
 
 
 def document(title: str, body: Iterable[str], *, style: str = "") -> str:
@@ -148,8 +158,10 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]], kind: str = "") ->
         "<tr>" + "".join(c if c.startswith("<td") else f"<td>{c}</td>" for c in row) + "</tr>"
         for row in rows
     )
+    about = ' class="scroll long"' if lines.count("<tr>") > LONG else " class=scroll"
+    named = f" class={kind}" if kind else ""
     return (
-        f"<div class=scroll><table{f' class={kind}' if kind else ''}><thead><tr>{top}</tr></thead>"
+        f"<div{about}><table{named}><thead><tr>{top}</tr></thead>"
         f"<tbody>\n{lines}\n</tbody></table></div>"
     )
 

@@ -82,6 +82,10 @@ STANDING = {
     "from memory": "from memory: the source was not at hand",
 }
 CRITICAL_HEADS = ("critical load", "F*", "pressure", "status", "what happens there")
+CARRIERS = ("the film", "asperities", "particles")
+"""Who shares the load of a lubricated contact."""
+SATED = 0.01
+"""A share so near to 0 or 1 ranks no inputs."""
 STATES = ("F_star", "pressure", "h", "d_star", "A_t", "A_ss")
 SHARED = ("A_sa", "particle_load_share", "particle_area_share", "mode")
 """Columns of the table of states, and those that particles add."""
@@ -90,8 +94,17 @@ STYLE = """
 padding:.1rem .8rem;margin:.8rem 0}
 .default{color:var(--soft);font-style:italic}
 pre{font-size:.8rem;background:var(--head);padding:.6rem .8rem;white-space:pre-wrap}
-@media print{.warning{break-inside:avoid}.figures figure{break-inside:avoid}}
+@media print{.warning{break-inside:avoid}.lead p{font-size:1rem;max-width:none}
+header{border:solid var(--rule);border-width:1.5pt 0 .5pt;padding:.5rem 0 .3rem}
+pre{font-size:6.8pt;line-height:1.3;padding:.4rem .6rem}}
 """
+
+
+def running(title: str) -> str:
+    """The style that puts a title below every printed page."""
+    plain = re.sub(r"[^\w .,;:()/-]", lambda m: f"\\{ord(m[0]):x} ", title)
+    box = f'@bottom-left{{content:"{plain}";font:8pt sans-serif;color:#555}}'
+    return f"@media print{{@page{{{box}}}}}\n"
 
 
 class Row(NamedTuple):
@@ -145,17 +158,17 @@ class Report:
         """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
         title = self.result["title"] or "Contact of rough surfaces"
         parts = [
-            f"<h1>{escape(title)}</h1>",
-            f"<p class=soft>Report of thirdbody {escape(self.result['version'])}.</p>",
+            f"<header><h1>{escape(title)}</h1>",
+            f"<p class=soft>Report of thirdbody {escape(self.result['version'])}.</p></header>",
             section("The answer", self._answer(), name="answer").replace(
                 "<section", "<section class=lead", 1
             ),
             *self._warnings(),
+            *self._film(),
             section("Figures", self._figures(), name="figures"),
             section("States", self._states(), name="states"),
             *self._critical(),
             *self._outputs(),
-            *self._film(),
             section("Error bars", self._error_bars(), name="errors"),
             section("Which inputs matter", self._slopes(), name="inputs-that-matter"),
             section("Inputs and their sources", self._inputs(), name="inputs"),
@@ -163,32 +176,61 @@ class Report:
             section("To be cited", self._citations(), name="citations"),
         ]
         if self.file:
-            use = "<p>With thirdbody, this file gives the same report again.</p>"
+            use = "<p class=lead-in>With thirdbody, this file gives the same report again.</p>"
             text = f"<pre>{escape(self.file)}</pre>"
             parts.append(section("The study file", [use, text], name="study"))
-        return document(title, parts, style=STYLE)
+        return document(title, parts, style=STYLE + running(title))
 
     # ------------------------------------------------------------------ the answer
-    def sentences(self) -> tuple[str, str, str]:
-        """The answer: what carries, how close the surfaces are, how far it is from changing."""
+    def sentences(self) -> tuple[str, ...]:
+        """The answer: what carries, how close the surfaces are, how far it is from changing.
+
+        Where the study has a film, first what it says with the oil.
+        """
+        return (*self._with_oil(), *self._without_oil())
+
+    def _without_oil(self) -> tuple[str, str, str]:
         states = self.result["states"]
         known = sorted(self._known(), key=lambda i: states["pressure"][i])
         first, last = known[0], known[-1]
         if first == last:
             return (
-                f"At {self._load(first)} {self._carries(first)}.",
-                f"{self._closeness(first)}.",
+                f"{self._at_load(first)} {self._carries(first)}.",
+                f"{_capital(self._closeness(first))}.",
                 self._distance(first),
             )
-        low, high = (f"At {self._load(i)} {self._carries(i)}" for i in (first, last))
+        low, high = (f"{self._at_load(i)} {self._carries(i)}" for i in (first, last))
         near, far = (self._apart(i) for i in (first, last))
         return f"{low}: {near}.", f"{high}: {far}.", self._path(known)
+
+    def _with_oil(self) -> list[str]:
+        """Which film, what carries at its ends, and where its regime changes."""
+        if self.film is None:
+            return []
+        from .film_words import bodies, point, summary
+
+        speeds = self.film["states"]["speed"]
+        eta = value_of(self.film["inputs"]["film"]["oil"]["eta"], "Pa s")
+        out = [f"This is a {bodies(self.film)}, in oil of {eta}."]
+        for i in sorted({speeds.index(min(speeds)), speeds.index(max(speeds))}):
+            told = point(self.film, i)
+            film, *solids = (
+                (who, told[f"load on {who}"]) for who in CARRIERS if f"load on {who}" in told
+            )
+            out.append(
+                f"At {value_of(speeds[i], 'm/s')} lubrication is {told['regime']}: {film[0]} "
+                f"carries {film[1]} of the load, {listed([' '.join(each) for each in solids])}."
+            )
+        return out + (summary(self.film)[:1] if len(speeds) > 1 else [])
 
     def _answer(self) -> list[str]:
         return [f"<p>{words(sentence)}</p>" for sentence in self.sentences()]
 
     def _known(self) -> list[int]:
         return [i for i, status in enumerate(self.result["states"]["status"]) if status == "ok"]
+
+    def _at_load(self, i: int) -> str:
+        return f"{'At' if self.film is None else 'Without the oil, at'} {self._load(i)}"
 
     def _load(self, i: int) -> str:
         states = self.result["states"]
@@ -204,43 +246,48 @@ class Report:
         share = carried(states["particle_load_share"][i], parts)
         return f"{mode_of(states['mode'][i])}, and {share}"
 
-    def _gap(self, i: int) -> tuple[str, str]:
-        states = self.result["states"]
-        area = f"{percent(states['A_t'][i])} of the nominal area"
-        return value_of(states["h"][i], "m"), area
+    def _gap(self, i: int) -> str:
+        """How far the mean planes are from each other."""
+        h = self.result["states"]["h"][i]
+        if h < 0:
+            return f"the mean planes of the surfaces overlap by {value_of(-h, 'm')}"
+        return f"the mean planes of the surfaces are {value_of(h, 'm')} apart"
+
+    def _area(self, i: int) -> str:
+        return (
+            f"real contact area is {percent(self.result['states']['A_t'][i])} of the nominal area"
+        )
 
     def _apart(self, i: int) -> str:
-        gap, area = self._gap(i)
-        apart = f"the mean planes of the surfaces are {gap} apart"
         touching = self.result["states"]["A_t"][i] > 0
-        return f"{apart} and the real contact area is {area}" if touching else apart
+        return f"{self._gap(i)} and the {self._area(i)}" if touching else self._gap(i)
 
     def _closeness(self, i: int) -> str:
         states = self.result["states"]
-        gap, area = self._gap(i)
         if not states["A_t"][i]:
-            return f"The mean planes of the surfaces are {gap} apart"
-        plastic = states["A_p"][i] / states["A_t"][i]
-        return (
-            f"The real contact area is {area}, {percent(plastic)} of it plastic, and the mean "
-            f"planes of the surfaces are {gap} apart "
-            f"({times(states['h'][i] / self.contact.roughness.sigma)} the roughness)"
-        )
+            return self._gap(i)
+        plastic = states["A_p"][i]
+        part = "" if plastic is None else f", {percent(plastic / states['A_t'][i])} of it plastic"
+        ratio = times(abs(states["h"][i]) / self.contact.roughness.sigma)
+        return f"the {self._area(i)}{part}, and {self._gap(i)} ({ratio} the roughness)"
 
     def _distance(self, i: int) -> str:
         """How far the load is from what would change the mode."""
         F = self.result["states"]["F_star"][i]
         found = self._found("F_cr1", "F_cr2")
-        if not F > 0:
-            return "There is no load to compare with a critical one."
         if self.contact.two_body:
             return self._first_input()
+        if not F > 0:
+            what = "The surfaces pull at each other" if F < 0 else "There is no load"
+            return f"{what}: nothing to compare with a critical load."
         if not found:
             entries = {name: self._entry(name) for name in ("F_cr1", "F_cr2")}
             return " ".join(not_met(name, **entry) for name, entry in entries.items())
         name = min(found, key=lambda key: abs(math.log(F / found[key])))
-        side = "above" if found[name] < F else "below"
-        ratio = max(F / found[name], found[name] / F)
+        ratio = number(max(F / found[name], found[name] / F), 3)
+        side = f"a factor {ratio} {'above' if found[name] < F else 'below'}"
+        if ratio == number(1):
+            side = "close to"
         band = ""
         if self.assessment is not None:
             odds = self.assessment.propagation.mode_probability
@@ -248,7 +295,7 @@ class Report:
             band = f"; with the inputs as uncertain as stated, the mode is {likely} in "
             band += f"{percent(odds[likely])} of cases"
         return (
-            f"The load is a factor {number(ratio, 3)} {side} {name} = {number(found[name])} "
+            f"The load is {side} {name} = {number(found[name])} "
             f"({value_of(found[name] * self.contact.E_ss, 'Pa')}), where {happens(name)}{band}."
         )
 
@@ -256,23 +303,30 @@ class Report:
         states = self.result["states"]
         if self.contact.two_body:
             return self._first_input()
+        loads = [states["F_star"][i] for i in known]
         found = [
-            f"{name} = {number(F)} ({value_of(F * self.contact.E_ss, 'Pa')})"
+            f"{name} = {number(F)} ({value_of(F * self.contact.E_ss, 'Pa')}{_beyond(F, loads)})"
             for name, F in self._found("F_cr1", "F_cr2").items()
         ]
         path = mode_path(states["mode"][i] for i in known)
-        loads = "the critical load is" if len(found) == 1 else "critical loads are"
-        return f"{path}; {loads} {listed(found)}." if found else f"{path}."
+        critical = "the critical load is" if len(found) == 1 else "critical loads are"
+        return f"{path}; {critical} {listed(found)}." if found else f"{path}."
 
     def _first_input(self) -> str:
-        if self.slopes is None:
+        order = [] if self.slopes is None else _order(self.slopes, "A_t")
+        if not order:
             return "Which input matters most could not be found."
-        order = _order(self.slopes, "A_t")
+        assert self.slopes is not None
         slope = float(self.slopes.elasticity["A_t"][order[0]])
         return (
-            f"Of the inputs, {order[0]} moves the area most: 1 % more of it makes "
+            f"{self._when()}{order[0]} moves the real contact area most: 1 % more of it makes "
             f"{signed(slope, 2, '%')} of area."
         )
+
+    def _when(self) -> str:
+        """Of the inputs, and at which of several loads."""
+        at = f", at {self._load(self.at)}" if len(self._known()) > 1 else ""
+        return f"Of the inputs{at}, "
 
     def _found(self, *names: str) -> dict[str, float]:
         """Critical loads F* that exist."""
@@ -303,7 +357,7 @@ class Report:
         out: list[tuple[Axes, str]] = []
         if not self.contact.two_body:
             ax = plot.modes(self.curve, transitions=_transitions(self.result["transitions"]))
-            out.append((self._at(ax), "Contact modes over the load, with the critical loads."))
+            out.append((self._at(ax), "Contact modes over the load."))
         ax = self._marked(plot.area(self.curve))
         out.append((ax, "Real contact area over the load."))
         if not self.contact.two_body:
@@ -316,35 +370,34 @@ class Report:
         ax.set_ylabel(ax.get_ylabel().removesuffix(" [m]"))
         out.append((ax, "Separation of the mean planes over the load."))
         out.append((self._at(plot.regimes(self.curve)), "How the real contact is deformed."))
-        loads = len(self._known())
-        mark = "Bar" if loads > FEW else "Triangles" if loads > 1 else "Triangle"
-        legend = (
-            "F* = F/(A_n E_ss), with E_ss = "
-            f"{value_of(self.contact.E_ss, 'Pa')}. {mark} on the axis: the "
-            f"load{'s' if loads > 1 else ''} of the study; dotted lines: critical loads."
-        )
+        legend = f"F* = F/(A_n E_ss), with E_ss = {value_of(self.contact.E_ss, 'Pa')}."
+        loads = len(set(self._marks()))
+        if loads:
+            mark = "Bar" if loads > FEW else plural(loads, "Triangle").partition(" ")[2]
+            legend += f" {mark} on the axis: the load{'s' if loads > 1 else ''} of the study."
+        if drawn := self._drawn():
+            legend += f" Dotted: {listed(list(drawn))}."
         pictures = "\n".join(figure(svg_of(ax.figure), caption) for ax, caption in out)
-        return [f"<p class=soft>{words(legend)}</p>", f"<div class=figures>{pictures}</div>"]
+        lead = f'<p class="soft lead-in">{words(legend)}</p>'
+        return [lead, f"<div class=figures>{pictures}</div>"]
 
     def _marked(self, ax: Axes) -> Axes:
         """Loads of the study and critical loads, and the pressure above."""
         from matplotlib.ticker import EngFormatter
 
         E = self.contact.E_ss
-        drawn = np.atleast_1d(self.curve.F_star)
         self._at(ax)
-        for name, F in self._found("F_cr1", "F_cr2").items():
-            if drawn[0] <= F <= drawn[-1]:
-                ax.axvline(F, color="0.25", linewidth=0.8, linestyle=":")
-                ax.annotate(
-                    f"$F^*_{{{name.removeprefix('F_')}}}$",
-                    (F, 1),
-                    xycoords=("data", "axes fraction"),
-                    xytext=(2, -3),
-                    textcoords="offset points",
-                    fontsize="small",
-                    va="top",
-                )
+        for name, F in self._drawn().items():
+            ax.axvline(F, color="0.25", linewidth=0.8, linestyle=":")
+            ax.annotate(
+                f"$F^*_{{{name.removeprefix('F_')}}}$",
+                (F, 1),
+                xycoords=("data", "axes fraction"),
+                xytext=(2, -3),
+                textcoords="offset points",
+                fontsize="small",
+                va="top",
+            )
         ax.tick_params(which="both", top=False)
         above = ax.secondary_xaxis("top", functions=(scaled(E), scaled(1 / E)))
         above.set_xlabel("Nominal pressure")
@@ -352,11 +405,22 @@ class Report:
         above.tick_params(which="both", direction="in")
         return ax
 
+    def _drawn(self) -> dict[str, float]:
+        """Critical loads F* within the curves."""
+        if self.contact.two_body:
+            return {}
+        drawn = np.atleast_1d(self.curve.F_star)
+        found = self._found("F_cr1", "F_cr2")
+        return {name: F for name, F in found.items() if drawn[0] <= F <= drawn[-1]}
+
+    def _marks(self) -> list[float]:
+        """Loads F* of the study that can be marked."""
+        states = self.result["states"]
+        return [F for i in self._known() if (F := states["F_star"][i]) >= FAINT]
+
     def _at(self, ax: Axes) -> Axes:
         """The loads of the study."""
-        states = self.result["states"]
-        every = np.array([states["F_star"][i] for i in self._known()])
-        loads = every[every >= FAINT].tolist()
+        loads = self._marks()
         style: dict[str, Any] = dict(marker="^", markersize=5, linestyle="")
         if len(loads) > FEW:
             loads = [min(loads), max(loads)]
@@ -456,12 +520,12 @@ class Report:
         total = len(states["speed"])
         lead = f"A {bodies(self.film)}, in oil of {value_of(given['oil']['eta'], 'Pa s')}. "
         pressed = "the load of the study" if self.study.own_load else "this Hertz pressure"
-        lead += f"Everything else on this page leaves the oil out, under {pressed}."
+        lead += f"What follows after this section leaves the oil out, under {pressed}."
         out = [f"<p>{words(text)}</p>" for text in (lead, *summary(self.film))]
         if total > 1:
             drawn = svg_of(stribeck(states, self.film["regime_speeds"]))
             caption = "Friction, load shares and film thickness over speed; grey: the regimes."
-            out.append(f"<div class=figures>{figure(drawn, caption)}</div>")
+            out.append(f'<div class="figures tall">{figure(drawn, caption)}</div>')
         which = _some(total, MOST_COLUMNS)
         columns = [point(self.film, i) for i in which]
         head = ["at a speed of", *(value_of(states["speed"][i], "m/s") for i in which)]
@@ -472,7 +536,9 @@ class Report:
     def _error_bars(self) -> list[str]:
         found = self.assessment
         if found is None:
-            names = [body.name or label for label, body in self._bodies().items()]
+            if not self.result["states"]["F_star"][self.at] >= FAINT:
+                return ["<p>There are none: nothing presses the surfaces together.</p>"]
+            names = [body.name or label for label, body in alike(self._bodies())]
             return [
                 "<p>There are none: the study has no table [uncertainty] that says something of "
                 "this contact, and the materials library states no ranges for "
@@ -496,11 +562,26 @@ class Report:
         pictures = "\n".join(figure(svg, caption) for caption, svg in pictures_of(found))
         return [*out, f"<div class=figures>{pictures}</div>"]
 
-    def _slopes(self) -> list[str]:
+    def ranked(self) -> tuple[str, list[str]]:
+        """Which result inputs are ranked by, and the inputs, the strongest first.
+
+        A share at its end hardly answers to anything, so that the area ranks then.
+        """
         if self.slopes is None:
-            return ["<p>Derivatives could not be formed for this contact.</p>"]
-        of, *others = self.slopes.elasticity
-        order = _order(self.slopes, of)
+            return "A_t", []
+        share = self.result["states"]["particle_load_share"][self.at]
+        within = not self.contact.two_body and share is not None and SATED < share < 1 - SATED
+        of = "particle_load_share" if within else "A_t"
+        return of, _order(self.slopes, of)
+
+    def _slopes(self) -> list[str]:
+        of, order = self.ranked()
+        if self.slopes is None or not order:
+            reason = "Derivatives could not be formed for this contact."
+            if not self.result["states"]["A_t"][self.at]:
+                reason = "There is no contact, so that nothing answers to the inputs."
+            return [f"<p>{reason}</p>"]
+        others = [name for name in self.slopes.elasticity if name != of]
         rows = []
         for label in order[:10]:
             value = self.slopes.inputs[label]
@@ -510,13 +591,22 @@ class Report:
             slopes = (signed(slope, 3) for slope in each)
             rows.append([label, value_of(float(value), unit), *slopes])
         sentence = (
-            f"At {self._load(self.at)}, {listed(order[:MATTER])} matter most to the "
-            f"{about(of)['meaning']}. The numbers tell by how many per cent a result changes when "
-            "an input grows by one per cent, all others held, however well the input is known."
+            f"At {self._load(self.at)}, {self._strongest(of, order)}. The numbers tell by how many "
+            "per cent a result changes when an input grows by one per cent, all others held, "
+            "however well the input is known."
         )
         more = f"<p class=soft>{len(rows)} of {len(order)} inputs.</p>" * (len(order) > len(rows))
         head = ["input", "value", *(about(name)["meaning"] for name in (of, *others))]
-        return [f"<p>{words(sentence)}</p>", text_table(head, rows), more]
+        return [f"<p class=lead-in>{words(sentence)}</p>", text_table(head, rows), more]
+
+    def _strongest(self, of: str, order: list[str]) -> str:
+        first = order[:MATTER]
+        most = f"{listed(first)} matter{'s' if len(first) == 1 else ''} most"
+        most += f" to the {about(of)['meaning']}"
+        if self.contact.two_body or of != "A_t":
+            return most
+        share = self.result["states"]["particle_load_share"][self.at]
+        return f"{carried(share)}, which leaves that share little to answer with; {most}"
 
     # ------------------------------------------------------------------ what it rests on
     def _bodies(self) -> dict[str, Material]:
@@ -586,7 +676,7 @@ class Report:
         )
         head = ["for", "law", "chosen by", "valid", "provenance", "source"]
         return [
-            f"<p>{words(why)}</p>",
+            f"<p class=lead-in>{words(why)}</p>",
             table(head, rows),
             "<p class=soft>Provenance: seen means that the formulas were read in the source, "
             "derived that they follow from what is said here, recalled that they were known "
@@ -629,10 +719,24 @@ def scaled(factor: float) -> Any:
 
 
 def _order(slopes: Sensitivity, of: str) -> list[str]:
-    """Inputs, the one to which a result answers most first."""
+    """Inputs to which a result answers, the strongest first; then those with no number."""
     row = slopes.elasticity[of]
     size = {label: abs(float(value)) for label, value in row.items()}
+    if not any(0 < each < math.inf for each in size.values()):
+        return []
     return sorted(size, key=lambda label: -(size[label] if math.isfinite(size[label]) else -1.0))
+
+
+def _beyond(F: float, loads: Sequence[float]) -> str:
+    """Whether a load lies outside those of the study."""
+    low, high = min(loads), max(loads)
+    if low <= F <= high:
+        return ""
+    return f", {'below' if F < low else 'above'} the loads of this study"
+
+
+def _capital(sentence: str) -> str:
+    return sentence[:1].upper() + sentence[1:]
 
 
 def _transitions(found: dict[str, Any]) -> Transitions:

@@ -26,6 +26,7 @@ from ...laws.particle.one_particle import Side
 from ...numerics.chebyshev import PiecewiseChebyshev, chebyshev_transform
 from ...numerics.products import in_pieces
 from ...numerics.quadrature import gauss_legendre
+from ...numerics.roots import bracketed_root
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -137,16 +138,13 @@ class InverseLaw:
             raise NotCompiled(f"{law.name} is not a law whose load tells its indentation")
 
     def _solve(self, quantity: str, value: Array) -> Array:
-        from scipy.optimize.elementwise import find_root
-
         def excess(y: Array, value: Array) -> Array:
             pressure = quantity == "pressure"
             return (self._pressure_at(y) if pressure else self.law.reduced(quantity, y)) - value
 
         ends = np.full_like(value, self.first), np.full_like(value, self.last)
-        tolerances = {"xatol": 0.0, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
-        root = find_root(excess, ends, args=(value,), tolerances=tolerances)
-        return np.clip(root.x, self.first, self.last)
+        root = bracketed_root(excess, *ends, (value,), xrtol=4e-16)
+        return np.clip(root, self.first, self.last)
 
     def numbers(self, plateau: bool) -> Array:
         """The ends of the middle branch, as the compiled code reads them."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...errors import InvalidValue
 from ...numerics.chebyshev import PiecewiseChebyshev
+from ...numerics.roots import bracketed_root
 from ...populations.materials import reduced_modulus
 from ..base import REGIMES, AbstractAsperityLaw, OneParticle, Squeezed
 
@@ -75,8 +76,6 @@ class Side:
 
     def _cap(self) -> Array:
         """Reduced interference at which the area reaches the great circle."""
-        from scipy.optimize.elementwise import find_root
-
         full = np.asarray(self.full, dtype=float)
 
         def excess(y: Array, full: Array) -> Array:
@@ -91,13 +90,8 @@ class Side:
         if np.any(rest):
             low, high = 0.4 * full[rest], np.maximum(full[rest], 1.0)
             low = np.where(excess(low, full[rest]) < 0, low, 0.0)
-            found = find_root(
-                excess,
-                (low, high),
-                args=(full[rest],),
-                tolerances={"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0},
-            )
-            y[rest] = np.where(excess(high, full[rest]) <= 0, high, found.x)
+            found = bracketed_root(excess, low, high, (full[rest],))
+            y[rest] = np.where(excess(high, full[rest]) <= 0, high, found)
         return y
 
     @staticmethod
@@ -248,8 +242,6 @@ class SqueezedParticle(OneParticle):
         return hash(self.key)
 
     def _solve_split(self, eps: Array) -> Array:
-        from scipy.optimize.elementwise import find_root
-
         one, two = self.sides
 
         def excess(t: Array, e: Array) -> Array:
@@ -264,13 +256,7 @@ class SqueezedParticle(OneParticle):
         if self.let_go:
             good = (low < high) & (excess(low, eps) <= 0) & (excess(high, eps) >= 0)
             low, high = np.where(good, low, 0.0), np.where(good, high, 1.0)
-        root = find_root(
-            excess,
-            (low, high),
-            args=(eps,),
-            tolerances={"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0},
-        )
-        return root.x
+        return bracketed_root(excess, low, high, (eps,))
 
     def _tabulate_split(self) -> PiecewiseChebyshev:
         v = np.log(self.kinks)

@@ -1,0 +1,11 @@
+"""Names of the contact modes, and the shares of the real area that separate them."""
+
+from __future__ import annotations
+
+__all__ = ["EPS_1", "EPS_2", "HYBRID", "P_S", "S_S", "WINDOW"]
+
+P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
+EPS_1, EPS_2 = 0.02, 0.05
+"""Default shares that separate the contact modes: read-off resolution, and the paper's 95 %."""
+WINDOW = (1e-8, 1e-2)
+"""Loads F* between which critical loads are sought."""
