@@ -19,6 +19,7 @@ from ..contact.asperity_sums import ReducedSum
 from ..contact.contact import Contact
 from ..contact.evaluation import evaluate
 from ..contact.interface import Interface, interface
+from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
@@ -478,6 +479,8 @@ def _warnings(
             out.append("particles shadow the whole area: the area correction was cut at zero")
         if not bound.particles.monotone and np.any(d < 0):
             out.append("d < 0: the paper's particle integrals have no meaning there")
+        if np.any(np.isfinite(d)):
+            out += about_pressed(contact, d)
     return tuple(out)
 
 
