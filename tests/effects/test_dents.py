@@ -2,6 +2,7 @@
 
 import math
 import runpy
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -177,3 +178,24 @@ def test_example(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     runpy.run_path(str(Path(__file__).parents[2] / "examples" / "ball_screw_dents.py"))
     assert (tmp_path / "ball_screw_dents.png").exists()
+
+
+# ---------------------------------------------------------------- few dents
+@pytest.mark.parametrize("density", [1e9, 1e7, 1e6, 1e5, 1e3])
+def test_the_deepest_of_few_dents_is_no_shallower_than_the_mean(density):
+    """And where fewer than ten lie in the area, a sentence says so."""
+    case = contact(density=density)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        state = tb.solve(case, pressure=5e6)
+    found = state.outputs
+    for side in (1, 2):
+        n = found[f"n_dents_{side}"] * 1e-6
+        if n > 0:
+            assert found[f"dent_depth_max_{side}"] >= found[f"dent_depth_{side}"]
+            assert found[f"dent_width_max_{side}"] >= found[f"dent_width_{side}"]
+    few = min(n for n in (found["n_dents_1"], found["n_dents_2"]) if n > 0) * 1e-6
+    told = [text for text in state.warnings if "on average: the deepest" in text]
+    assert bool(told) == (few < 10)
+    if told:
+        assert f"as few as {few:.2g} dents" in told[0] or "×10" in told[0]

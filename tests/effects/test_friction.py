@@ -428,8 +428,11 @@ def test_mistakes_of_a_contact():
 
 
 def test_deep_particles_are_told():
-    with pytest.warns(tb.RangeWarning, match="deeper than their radius"):
-        tb.solve(contact(second=SOFT), pressure=5e6)
+    """Once, by the state itself, with outputs and without."""
+    for case in (contact(second=SOFT), contact(second=SOFT).replace(outputs=())):
+        with pytest.warns(tb.RangeWarning, match="deeper than their radius"):
+            state = tb.solve(case, pressure=5e6)
+        assert sum("deeper than their radius" in text for text in state.warnings) == 1
 
 
 # ------------------------------------------------------------------ static friction

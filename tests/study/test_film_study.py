@@ -322,7 +322,7 @@ def test_the_command_tells_point_and_curve():
     assert "121.6 nm" in done.stdout
     assert "0.04828" in done.stdout
     assert "S45C: 0 % of the particles are narrower than the gap of 115.4 nm" in done.stdout
-    assert "warning: outputs.friction: 12 % of the particles' load" in done.stderr
+    assert "warning: 12 % of the particles' load" in done.stderr
     done = run(EXAMPLE, "--set", "film.speed.points=5")
     assert (
         "boundary up to 0.02275 m/s, where solids carry 99 % of the load, and a full film from "
@@ -334,15 +334,40 @@ def test_the_command_tells_point_and_curve():
 @pytest.mark.parametrize(
     ("most", "few", "said"),
     [
-        (1, 0.01, "Lubrication is a full film from 14.9 m/s, where solids carry 1 % of the load."),
+        (
+            1,
+            0.01,
+            "because there is no speed at which solids carry 100 % of the load, and a full film",
+        ),
         (0.99, 0, "Lubrication is boundary up to 0.02275 m/s, where solids carry 99 % of the"),
-        (1, 0, "The regime is the same at every speed."),
+        (1, 0, "and never a full film, because there is none at which solids carry 0 % of"),
     ],
 )
-def test_a_regime_that_is_never_reached_is_not_told(most, few, said):
+def test_a_regime_that_is_never_reached_is_told_so(most, few, said):
     more = ["--set", f"film.most={most}", "--set", f"film.few={few}"]
     done = run(EXAMPLE, "--set", "film.speed.points=3", *more)
     assert done.exit_code == 0
+    assert said in " ".join(done.stdout.split())
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        (["roughness.eta_R_sigma=1e-9"], "Lubrication is never boundary"),
+        (["film.load=20 MN", "film.speed=1e-6 m/s"], "load on particles not known"),
+        (["surfaces.first.H=1 MPa", "surfaces.second.H=1 MPa"], "a full film at every speed"),
+        (["film.load=1e-6 N"], "full film"),  # wider than every particle at every speed
+        (["film.speed=1e9 m/s"], "full film"),
+        (["particles.areal_density=0"], "Lubrication is boundary up to"),
+    ],
+)
+def test_the_film_of_any_contact_is_told(settings, said):
+    """Solids that never carry 99 %, states without numbers, particles that nothing touches."""
+    bodies = ["surfaces.first", "surfaces.second"]
+    steel = [f"{body}={{ E = '205 GPa', nu = 0.29, H = '5 GPa' }}" for body in bodies]
+    more = [word for setting in (*steel, *settings) for word in ("--set", setting)]
+    done = run(EXAMPLE, "--set", "film.speed.points=3", *more)
+    assert done.exit_code == 0, done.output
     assert said in " ".join(done.stdout.split())
 
 

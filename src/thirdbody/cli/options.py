@@ -12,10 +12,26 @@ from .streams import warn
 if TYPE_CHECKING:
     from ..study import Study
 
-__all__ = ["AsJson", "Settings", "StudyFile", "not_a_folder", "read_study"]
+__all__ = [
+    "AsJson",
+    "ParquetFile",
+    "Settings",
+    "StudyFile",
+    "XlsxFile",
+    "not_a_folder",
+    "read_study",
+]
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
+XlsxFile = Annotated[
+    Path | None,
+    typer.Option("--xlsx", metavar="FILE", help="The same as a workbook (needs openpyxl)."),
+]
+ParquetFile = Annotated[
+    Path | None,
+    typer.Option("--parquet", metavar="FILE", help="The same as Parquet (needs pyarrow)."),
+]
 Settings = Annotated[
     list[str] | None,
     typer.Option(

@@ -8,13 +8,14 @@ error. Exit status: 0 done, 2 bad input, 3 no equilibrium or no transition in th
 from __future__ import annotations
 
 import csv
+import importlib.util
 import io
 import os
 import sys
 import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import typer
 from typer.core import TyperGroup
@@ -25,10 +26,10 @@ from .interrupt import INTERRUPTED, interruptible
 __all__ = [
     "INTERRUPTED",
     "Commands",
+    "TableFiles",
     "complain",
     "figure_format",
     "warn",
-    "write_csv",
     "write_figure",
 ]
 
@@ -77,15 +78,82 @@ def warn(message: Warning | str, *_: Any, **__: Any) -> None:
     print(f"warning: {' '.join(str(message).split())}", file=sys.stderr)
 
 
-def write_csv(path: Path, columns: dict[str, list[Any]], units: Mapping[str, str]) -> None:
-    """A file with a line of names and units, and a row a state."""
+class TableFiles(NamedTuple):
+    """Files that a table is written to; None for those not asked for."""
+
+    csv: Path | None = None
+    xlsx: Path | None = None
+    parquet: Path | None = None
+
+    @property
+    def asked(self) -> list[Path]:
+        return [path for path in self if path is not None]
+
+    def need(self) -> None:
+        """Refuse a missing folder or library before long work is done."""
+        from ..quantities.files import need_folders
+
+        problems = []
+        for option, library in (("xlsx", "openpyxl"), ("parquet", "pyarrow")):
+            path = getattr(self, option)
+            if path is not None and importlib.util.find_spec(library) is None:
+                problems.append(
+                    f"--{option} {path} needs {library}, which is not installed: "
+                    f"pip install 'thirdbody[{option}]'"
+                )
+        if problems:
+            raise InvalidValue(*problems)
+        need_folders(*self)
+
+    def write(self, columns: Mapping[str, list[Any]], units: Mapping[str, str]) -> None:
+        """A column each, its unit in its name, a row a state; the same bytes every time."""
+        named = {f"{n} [{units[n]}]" if units[n] else n: values for n, values in columns.items()}
+        if self.csv is not None:
+            _write_csv(self.csv, named)
+        if self.xlsx is not None:
+            _write_xlsx(self.xlsx, named)
+        if self.parquet is not None:
+            import pandas
+
+            from ..quantities.files import whole
+
+            with whole(self.parquet) as part:
+                pandas.DataFrame(named).to_parquet(part, engine="pyarrow", index=False)
+
+
+def _write_csv(path: Path, columns: Mapping[str, list[Any]]) -> None:
     from ..quantities.files import write_text
 
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(f"{name} [{units[name]}]" if units[name] else name for name in columns)
+    writer.writerow(columns)
     writer.writerows(zip(*columns.values(), strict=True))
     write_text(path, text.getvalue())
+
+
+def _write_xlsx(path: Path, columns: Mapping[str, list[Any]]) -> None:
+    """A workbook of one sheet; when it was made stands nowhere in it."""
+    import re
+    import zipfile
+
+    import pandas
+
+    from ..quantities.files import whole
+
+    made = io.BytesIO()
+    pandas.DataFrame(columns).to_excel(made, engine="openpyxl", index=False, freeze_panes=(1, 1))
+    with (
+        whole(path) as part,
+        zipfile.ZipFile(made) as book,
+        zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as out,
+    ):
+        for name in book.namelist():
+            data = book.read(name)
+            if name == "docProps/core.xml":
+                data = re.sub(rb"\d{4}-\d\d-\d\dT[\d:]+Z", b"1980-01-01T00:00:00Z", data)
+            entry = zipfile.ZipInfo(name)  # dated 1980
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            out.writestr(entry, data)
 
 
 def figure_format(figure: Path) -> str:

@@ -136,7 +136,9 @@ class SizeAverage:
         place = edges[:, :-1, None] + from_edge * (2 * root + from_edge)
         root = root + from_edge
         weight = root * step[..., None] * weight
-        root, place, weight = (each.reshape(len(gap), -1) for each in (root, place, weight))
+        root, place, weight = (
+            each.reshape(len(gap), math.prod(each.shape[1:])) for each in (root, place, weight)
+        )
         place = np.where(start, place + gap_at, place)
         diameter = np.clip(zero + place, low, high)
         density = sizes.pdf_below(-place) if close else sizes.pdf(diameter)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -10,11 +9,12 @@ import numpy as np
 
 from ..contact.output import AbstractOutput, Column
 from ..laws.particle.series import Series
+from ..quantities.say import number
 from ..quantities.value import choice, quantity
 from .single.dent import Dent, dent_of, flattened_diameter, fragments
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -29,6 +29,8 @@ __all__ = ["Dents"]
 
 LEVELS = 240
 """Depths and widths at which dents are counted, evenly over their logarithm."""
+FEW = 10
+"""Dents in an area below which its deepest one is a matter of chance."""
 LOWEST = 1e-4
 """The smallest of them over the largest dent."""
 
@@ -56,7 +58,9 @@ class Dents(AbstractOutput):
         Depth from which a dent counts [m].
     A_n : float, optional
         Nominal area of which the largest dent is asked [m²]: the depth that the deepest dent of
-        A_n exceeds in half of all cases, :math:`A_n N(>\delta)=\ln 2`.
+        A_n exceeds in half of all cases with a dent at all,
+        :math:`A_n N(>\delta)=\ln[2/(1+e^{-A_n N})]`, :math:`\ln 2` for many; where few lie in
+        A_n, at least the mean, and a warning tells of fewer than ten.
 
     Notes
     -----
@@ -190,8 +194,12 @@ class Dents(AbstractOutput):
             values = [
                 (spots, getattr(dent, kind), counts.astype(float)) for spots, dent, counts in dents
             ]
-            quantiles[kind] = _exceeded(values, [0.05 * n, nothing + math.log(2) / self.A_n])
+            largest = np.log(2 / (1 + np.exp(-n * self.A_n))) / self.A_n
+            quantiles[kind] = _exceeded(values, [0.05 * n, largest])
         with np.errstate(invalid="ignore", divide="ignore"):
+            for kind, name in (("depth", "depth"), ("diameter", "width")):
+                at_least = np.where(n > 0, sums[name] / n, 0.0)
+                quantiles[kind][1] = np.maximum(quantiles[kind][1], at_least)
             return {
                 f"n_dents_{side + 1}": n,
                 f"dent_depth_{side + 1}": sums["depth"] / n,
@@ -203,6 +211,16 @@ class Dents(AbstractOutput):
                 f"dent_volume_{side + 1}": sums["volume"],
                 f"embedded_{side + 1}": sums["embedded"],
             }
+
+    def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
+        found = np.concatenate([values[f"n_dents_{side}"] for side in (1, 2)]) * self.A_n
+        if not np.any(few := (found > 0) & (found < FEW)):
+            return []
+        return [
+            f"outputs.dents: as few as {number(float(found[few].min()), 2)} dents lie in "
+            f"A_n = {number(self.A_n)} m² on average: the deepest and the widest of fewer than "
+            f"{FEW} scatter from one place to the next; a larger A_n has more"
+        ]
 
     def splits(self, probe: Probe) -> Sequence[float]:
         """Squeezes at which a side reaches half the radius."""

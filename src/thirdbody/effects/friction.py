@@ -10,7 +10,6 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column
-from ..quantities.say import percent
 from ..quantities.value import choice, quantity
 from .single.ploughing import coefficient, rear_support
 from .single.severity import severity, threshold
@@ -457,16 +456,3 @@ class Friction(AbstractOutput):
             return out
 
         return changes(probe, kind)
-
-    def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        F_sa = state.total_of_particles(lambda spots: spots.load)
-        sunk = state.total_of_particles(
-            lambda spots: spots.load * (np.maximum(*spots.depths) > spots.radius)
-        )
-        share = np.max(np.divide(sunk, F_sa, out=np.zeros_like(sunk), where=F_sa > 0), initial=0)
-        if share <= 0.01:
-            return []
-        return [
-            f"outputs.friction: {percent(share, digits=2)} of the particles' load is on particles "
-            "that sit deeper than their radius, where the ploughing formula ends"
-        ]

@@ -20,6 +20,7 @@ from ..contact.contact import Contact
 from ..contact.evaluation import evaluate
 from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
+from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
 from ..laws.particle.breakage import about_strength
 from ..quantities.say import percent
@@ -494,6 +495,8 @@ def _warnings(
         printed = any(isinstance(each, PrintedIntegrals) for each in bound.populations)
         if printed and np.any(d < 0):
             out.append("d < 0: the paper's particle integrals have no meaning there")
+        if np.any(np.isfinite(d)):
+            out += about_pressed(contact, d)
     return tuple(out)
 
 

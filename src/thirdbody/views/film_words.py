@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..quantities.say import number, percent, value_of
+from ..systems.mixed_film import FULL
 
 __all__ = ["bodies", "point", "share", "summary"]
 
@@ -51,24 +52,8 @@ def bodies(result: dict[str, Any]) -> str:
 
 def summary(result: dict[str, Any]) -> list[str]:
     """Where regimes change, what passes, and why there is no friction, a sentence each."""
-    states, film = result["states"], result["inputs"]["film"]
-    slow, fast = (result["regime_speeds"][name] for name in ("boundary", "full"))
-    regimes = []
-    if slow is not None:
-        regimes.append(
-            f"boundary up to {value_of(slow, 'm/s')}, where solids carry {percent(film['most'])} "
-            "of the load"
-        )
-    if fast is not None:
-        regimes.append(
-            f"a full film from {value_of(fast, 'm/s')}, where solids carry {percent(film['few'])} "
-            "of the load"
-        )
-    out = [
-        f"Lubrication is {', and '.join(regimes)}."
-        if regimes
-        else "The regime is the same at every speed."
-    ]
+    states = result["states"]
+    out = [f"Lubrication is {', and '.join(_regimes(result))}."]
     ends = sorted({0, len(states["speed"]) - 1})
     for part in result["passing"]:
         at = [
@@ -80,6 +65,21 @@ def summary(result: dict[str, Any]) -> list[str]:
     if lacking := _lacking(result):
         out.append(f"There is no friction coefficient without {', '.join(lacking)}.")
     return out
+
+
+def _regimes(result: dict[str, Any]) -> list[str]:
+    """Up to where it is boundary, and from where the film is full; or why it never is."""
+    film = result["inputs"]["film"]
+    slow, fast = (result["regime_speeds"][name] for name in ("boundary", "full"))
+    most, few = (f"solids carry {percent(film[name])} of the load" for name in ("most", "few"))
+    out = [f"boundary up to {value_of(slow, 'm/s')}, where {most}"]
+    if slow is None:
+        out = [f"never boundary, because there is no speed at which {most}"]
+    if fast is not None:
+        return [*out, f"a full film from {value_of(fast, 'm/s')}, where {few}"]
+    if set(result["states"]["regime"]) == {FULL}:
+        return [f"a full film at every speed, because there is none at which {few}"]
+    return [*out, f"never a full film, because there is none at which {few}"]
 
 
 def share(value: float | None) -> str:

@@ -6,14 +6,13 @@ import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...contact.contact import Contact
-from ...contact.interface import interface
+from ...contact.pressed import buried
 from ...equilibrium.states import state_columns
 from ...errors import InvalidValue
 from ...numerics.sampling import Span, sobol
@@ -22,8 +21,7 @@ from ..inputs import Input, inputs
 from ..uncertainty.inputs import Drawn
 
 if TYPE_CHECKING:
-    from ...laws.base import AbstractParticleLaw
-    from ...populations.materials import Material, MaterialPair
+    from ...populations.materials import Material
     from .problem import Limit, Objective, Suspension
 
 __all__ = ["AMOUNT", "Point", "Task", "Variable"]
@@ -405,36 +403,3 @@ def _cube(count: int, width: int, seed: int) -> Array:
 def _number(excess: float) -> float:
     """An excess without value counts as broken."""
     return math.inf if math.isnan(excess) else float(excess)
-
-
-# -------------------------------------------------------------------------- buried particles
-def buried(contact: Contact, d: Array) -> Array:
-    """Share of the particles' load on those that sit deeper than their radius: (N,).
-
-    Zero where the particle law knows no single particles.
-    """
-    total, deep = np.zeros(len(d)), np.zeros(len(d))
-    for each, response in zip(contact.populations, interface(contact).populations, strict=True):
-        try:
-            split = _radius_squeeze(contact.law_of(each), contact.surfaces, each.material)
-            groups = response.spots(d, split)
-        except InvalidValue:
-            continue
-        for spots in groups:
-            total += spots.total(spots.load)
-            deep += spots.total(spots.load * (np.maximum(*spots.depths) > spots.radius))
-    return np.divide(deep, total, out=np.zeros_like(deep), where=total > 0)
-
-
-@lru_cache(maxsize=512)
-def _radius_squeeze(
-    law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
-) -> tuple[float, ...]:
-    """Squeeze over diameter at which a particle sits as deep as its radius."""
-    from scipy.optimize import brentq
-
-    def beyond(eps: float) -> float:
-        one = law.probe(np.array([eps]), surfaces=surfaces, particle=particle)
-        return float((np.maximum(*one.depths) - one.radius)[0, 0])
-
-    return (brentq(beyond, 1e-6, 4.0, xtol=1e-12),) if beyond(1e-6) < 0 < beyond(4.0) else ()

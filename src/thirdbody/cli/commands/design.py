@@ -11,9 +11,9 @@ import typer
 
 from ...quantities.say import concentration_of, number, percent, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, Settings, read_study
+from ..options import AsJson, ParquetFile, Settings, XlsxFile, read_study
 from ..show import MOST_ROWS, some, terminal
-from ..streams import figure_format, warn, write_csv, write_figure
+from ..streams import TableFiles, figure_format, warn, write_figure
 
 if TYPE_CHECKING:
     from ...analysis.design.design import Best
@@ -30,6 +30,8 @@ def command(
     csv_file: Annotated[
         Path | None, typer.Option("--csv", metavar="FILE", help="Write every point tried.")
     ] = None,
+    xlsx_file: XlsxFile = None,
+    parquet_file: ParquetFile = None,
     figure: Annotated[
         Path | None, typer.Option("--figure", metavar="FILE", help="Draw the points tried.")
     ] = None,
@@ -40,16 +42,18 @@ def command(
     from ...study.analyses import design_study
 
     asked = read_study(study, settings)
-    need_folders(csv_file, figure)
+    files = TableFiles(csv_file, xlsx_file, parquet_file)
+    files.need()
+    need_folders(figure)
     if figure is not None:
         figure_format(figure)  # refused before long work
     best = design_study(asked, progress=True)
     for sentence in best.warnings:
         warn(sentence)
-    if csv_file is not None:
-        columns = {str(name): best.points[name].values.tolist() for name in best.points}
-        write_csv(csv_file, columns, dict.fromkeys(columns, ""))
-        print(f"written: {csv_file}", file=sys.stderr)
+    columns = {str(name): best.points[name].values.tolist() for name in best.points}
+    files.write(columns, dict.fromkeys(columns, ""))
+    for path in files.asked:
+        print(f"written: {path}", file=sys.stderr)
     if figure is not None:
         from ...views.plot.design import tried
 

@@ -11,9 +11,9 @@ import typer
 
 from ...quantities.say import number, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, Settings, read_study
+from ..options import AsJson, ParquetFile, Settings, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import figure_format, warn, write_csv, write_figure
+from ..streams import TableFiles, figure_format, warn, write_figure
 
 __all__ = ["columns_of", "command"]
 
@@ -37,6 +37,8 @@ def command(
     csv_file: Annotated[
         Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per speed.")
     ] = None,
+    xlsx_file: XlsxFile = None,
+    parquet_file: ParquetFile = None,
     figure: Annotated[
         Path | None, typer.Option("--figure", metavar="FILE", help="Draw the curve over speed.")
     ] = None,
@@ -46,6 +48,8 @@ def command(
     from ...study import run_film
 
     asked = read_study(study, settings)
+    files = TableFiles(csv_file, xlsx_file, parquet_file)
+    files.need()
     if figure is not None:
         figure_format(figure)  # refused before long work
     result = run_film(asked)
@@ -56,9 +60,9 @@ def command(
         from ...views.plot.film import stribeck
 
         drawn = stribeck(result["states"], result["regime_speeds"])
-    if csv_file is not None:
-        write_csv(csv_file, *columns_of(result))
-        print(f"written: {csv_file}", file=sys.stderr)
+    files.write(*columns_of(result))
+    for path in files.asked:
+        print(f"written: {path}", file=sys.stderr)
     if figure is not None:
         write_figure(figure, drawn)
     if as_json:

@@ -23,9 +23,9 @@ from ...equilibrium.words import (
 from ...errors import NoEquilibrium
 from ...quantities.say import number, percent, unit_of, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, Settings, StudyFile, read_study
+from ..options import AsJson, ParquetFile, Settings, StudyFile, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import warn, write_csv
+from ..streams import TableFiles, warn
 
 __all__ = ["command", "summary"]
 
@@ -55,13 +55,19 @@ def command(
     csv_file: Annotated[
         Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per state.")
     ] = None,
+    xlsx_file: XlsxFile = None,
+    parquet_file: ParquetFile = None,
     settings: Settings = None,
 ) -> None:
     """Separation, real contact area, load shares and contact mode under the loads of a study."""
     from ...study import run_study
 
-    if as_json and csv_file is not None:
-        raise typer.BadParameter("--json and --csv exclude each other; run the command twice")
+    files = TableFiles(csv_file, xlsx_file, parquet_file)
+    if as_json and files.asked:
+        raise typer.BadParameter(
+            "--json and --csv, --xlsx or --parquet exclude each other; run the command twice"
+        )
+    files.need()
     asked = read_study(study, settings)
     result = run_study(asked)
     for sentence in result["warnings"][len(asked.notes) :]:
@@ -70,9 +76,10 @@ def command(
     solved = statuses.count("ok")
     if as_json:
         print(json.dumps(result, indent=1, allow_nan=False))
-    elif solved and csv_file is not None:
-        write_csv(csv_file, *_columns(result))
-        print(f"{len(statuses)} states written to {csv_file}", file=sys.stderr)
+    elif solved and files.asked:
+        files.write(*_columns(result))
+        for path in files.asked:
+            print(f"{len(statuses)} states written to {path}", file=sys.stderr)
     elif solved:
         _show(result)
     if not solved:

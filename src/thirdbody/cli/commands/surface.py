@@ -12,9 +12,9 @@ import typer
 from ...errors import InvalidValue
 from ...quantities.say import number, signed, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, not_a_folder
+from ..options import AsJson, ParquetFile, XlsxFile, not_a_folder
 from ..show import ALL, finite, terminal
-from ..streams import warn, write_csv
+from ..streams import TableFiles, warn
 
 __all__ = ["command"]
 
@@ -62,6 +62,8 @@ def command(
     csv_file: Annotated[
         Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per cut-off.")
     ] = None,
+    xlsx_file: XlsxFile = None,
+    parquet_file: ParquetFile = None,
     out: Annotated[
         Path | None,
         typer.Option("--out", metavar="DIR", help="Folder for surface.png, .svg and .json."),
@@ -80,6 +82,8 @@ def command(
             problems.extend(f"{option}: {sentence}" for sentence in error.problems)
             return 1.0
 
+    files = TableFiles(csv_file, xlsx_file, parquet_file)
+    files.need()
     given: dict[str, Any] = {"detrend": detrend, "unit": unit, "channel": channel}
     for name, text in (("cutoff", cutoff), ("resolution", resolution)):
         given[name] = None if text is None else metres(f"--{name}", text)
@@ -92,10 +96,8 @@ def command(
     result = found.to_dict()
     for sentence in found.warnings:
         warn(sentence)
-    written = []
-    if csv_file is not None:
-        write_csv(csv_file, finite(result["curve"]), result["units"])
-        written.append(csv_file)
+    files.write(finite(result["curve"]), result["units"])
+    written = files.asked
     if out is not None:
         written += _write_surface(out, found, result)
     if as_json:

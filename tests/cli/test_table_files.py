@@ -1,0 +1,108 @@
+"""Workbooks and Parquet beside CSV: the same numbers, the same bytes, whole or not at all."""
+
+import csv
+import importlib.util
+import zipfile
+
+import pytest
+
+from thirdbody.cli import streams
+
+from .test_cli import EXAMPLES, run
+
+ADDITIVE, FILM, SWEEP = (
+    next(path for path in EXAMPLES if path.stem == stem)
+    for stem in ("additive", "oil_film", "sweep")
+)
+LIBRARY = {"xlsx": "openpyxl", "parquet": "pyarrow"}
+COMMANDS = [
+    ("solve", SWEEP, "--set", "load.pressure=[1e6, 1e16]"),
+    ("film", FILM, "--set", "film.speed.points=3"),
+    ("surface", "example"),
+]
+
+
+def read(path):
+    import pandas
+
+    return pandas.read_excel(path) if path.suffix == ".xlsx" else pandas.read_parquet(path)
+
+
+@pytest.mark.parametrize("kind", LIBRARY)
+@pytest.mark.parametrize("arguments", COMMANDS, ids=lambda arguments: arguments[0])
+def test_the_numbers_of_the_csv_file(tmp_path, kind, arguments):
+    """Cells without a value, of a state that is not solved, stay empty."""
+    pytest.importorskip(LIBRARY[kind], reason=f"needs the extra: pip install 'thirdbody[{kind}]'")
+    text, table, again = tmp_path / "t.csv", tmp_path / f"t.{kind}", tmp_path / f"u.{kind}"
+    done = run(*arguments, "--csv", text, f"--{kind}", table)
+    assert done.exit_code == 0, done.output
+    assert str(table) in done.stderr
+    head, *rows = csv.reader(text.open(encoding="utf-8"))
+    found = read(table)
+    assert list(found.columns) == head
+    assert len(found) == len(rows)
+    for name, column in zip(head, zip(*rows, strict=True), strict=True):
+        for told, value in zip(column, found[name], strict=True):
+            if told == "":
+                assert value is None or value != value, name
+            elif isinstance(value, str):
+                assert value == told
+            else:
+                assert float(value) == pytest.approx(float(told), rel=1e-15), name
+    run(*arguments, f"--{kind}", again)
+    assert again.read_bytes() == table.read_bytes()
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(
+        ["t.csv", f"t.{kind}", f"u.{kind}"]
+    )
+
+
+def test_a_workbook_tells_no_time(tmp_path):
+    pytest.importorskip("openpyxl", reason="needs the extra: pip install 'thirdbody[xlsx]'")
+    run("surface", "example", "--xlsx", tmp_path / "t.xlsx")
+    with zipfile.ZipFile(tmp_path / "t.xlsx") as book:
+        assert {entry.date_time[0] for entry in book.infolist()} == {1980}
+        assert b"T00:00:00Z" in book.read("docProps/core.xml")
+        assert book.read("docProps/core.xml").count(b"1980-01-01") == 2
+
+
+@pytest.mark.parametrize("kind", LIBRARY)
+@pytest.mark.parametrize(
+    "arguments", [*COMMANDS, ("design", ADDITIVE)], ids=lambda arguments: arguments[0]
+)
+def test_a_missing_library_is_told_before_work(tmp_path, monkeypatch, kind, arguments):
+    found = importlib.util.find_spec
+    monkeypatch.setattr(
+        streams.importlib.util,
+        "find_spec",
+        lambda name, *more: None if name == LIBRARY[kind] else found(name, *more),
+    )
+    done = run(*arguments, f"--{kind}", tmp_path / f"t.{kind}")
+    assert done.exit_code == 2
+    errors = [line for line in done.stderr.splitlines() if line.startswith("error")]
+    assert len(errors) == 1
+    assert f"pip install 'thirdbody[{kind}]'" in errors[0]
+    assert done.stdout == ""
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_file_that_fails_leaves_the_older_one(tmp_path, monkeypatch):
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("pyarrow", reason="needs the extra: pip install 'thirdbody[parquet]'")
+    older = tmp_path / "t.parquet"
+    older.write_bytes(b"older")
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(pandas.DataFrame, "to_parquet", full)
+    done = run("surface", "example", "--parquet", older)
+    assert done.exit_code == 2
+    assert "no space left" in done.stderr.lower()
+    assert older.read_bytes() == b"older"
+    assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]
+
+
+def test_json_and_a_file_of_states_exclude_each_other(tmp_path):
+    done = run("solve", SWEEP, "--json", "--parquet", tmp_path / "t.parquet")
+    assert done.exit_code == 2
+    assert "exclude each other" in done.stderr
