@@ -18,7 +18,10 @@ from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue
 from ..quantities.value import slips_are_told
+from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
+from .body import loads_of
+from .film import on_body
 from .overrides import override
 from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names
@@ -54,6 +57,10 @@ class Study:
         What the table [film] says of bodies, oil and speeds.
     own_load : bool, optional
         Whether the file gives a load of its own; else it is the Hertz pressure of [film].
+    body : Body, optional
+        What the table [body] says that a force presses together.
+    forces : array (M,), optional
+        Forces on the body [N]; ``values`` are then the mean and the largest pressure of each.
     """
 
     title: str
@@ -66,6 +73,8 @@ class Study:
     design: dict[str, Any] | None = None
     film: FilmConditions | None = None
     own_load: bool = True
+    body: Body | None = None
+    forces: np.ndarray | None = None
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -163,7 +172,15 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     film: Any = own.get("film")
     contact = reader.make(Contact, "", parts)
     loaded = own.get("load") or ends(asked or {})
+    bodies: Any = own.get("body")
+    given_forces = loaded[1] if loaded and loaded[0] == "force" else None
+    film = on_body(reader, film, bodies, given_forces)
     load, loads = loaded or _pressed(film, contact)
+    forces = None
+    if load == "force":
+        load, forces, loads = "pressure", loads, loads_of(bodies, loads, contact)
+    elif bodies is not None:
+        reader.notes.append("[body] has no effect, because [load] gives no force")
     if load == "separation" and asked is None and np.any(deep := loads < deepest(contact)):
         raise InvalidValue(
             *(f"load.separation = {d:g} m is refused: {why_deep(contact)}" for d in loads[deep][:5])
@@ -180,6 +197,8 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         design=own.get("design"),
         film=film,
         own_load=loaded is not None,
+        body=bodies if forces is not None else None,
+        forces=forces,
     )
 
 

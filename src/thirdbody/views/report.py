@@ -184,7 +184,8 @@ class Report:
         return f"{low}: {near}.", f"{high}: {far}.", self._path(known)
 
     def _answer(self) -> list[str]:
-        return [f"<p>{words(sentence)}</p>" for sentence in self.sentences()]
+        body = self.result.get("body", {}).get("sentences", ())
+        return [f"<p>{words(sentence)}</p>" for sentence in (*body, *self.sentences())]
 
     def _known(self) -> list[int]:
         return [i for i, status in enumerate(self.result["states"]["status"]) if status == "ok"]
