@@ -14,6 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 from ..analysis.sweep.plan import Plan
 from ..analysis.uncertainty.inputs import Uncertainty
 from ..contact.contact import Contact
+from ..effects.own_code import load_installed
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue
@@ -127,6 +128,7 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
 
 def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
+    load_installed()
     data = with_nested_names(data)
     with slips_are_told():
         try:
