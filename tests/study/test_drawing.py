@@ -10,7 +10,7 @@ import pytest
 import thirdbody as tb
 from thirdbody.analysis.uncertainty.inputs import stated_ranges
 from thirdbody.errors import InvalidValue
-from thirdbody.populations.finish import processes
+from thirdbody.populations.finish import processes, slopes
 from thirdbody.study import check
 from thirdbody.study.overrides import override
 
@@ -79,7 +79,7 @@ def test_ranges_hold_every_pair_of_faces():
         total = None
         for face, process in ((first, "ground"), (second, "honed")):
             Rq = rng.uniform(face.heights[0], face.heights[2])
-            slope, alpha = rng.uniform(*processes()[process]["slope"]), rng.uniform(2.2, 8.7)
+            slope, alpha = rng.uniform(*slopes(process, Rq)), rng.uniform(2.2, 8.7)
             one = tb.SpectralMoments(m0=Rq**2, m2=slope**2, m4=alpha * slope**4 / Rq**2)
             total = one if total is None else total + one
         rough = total.roughness()
@@ -98,18 +98,19 @@ def test_slopes_hold_the_published_correlations():
     usual = {"ground": 0.4, "lapped": 0.1, "superfinished": 0.05, "turned": 1.6, "blasted": 3.2}
     for process, Ra in usual.items():
         sigma = ROOT * Ra
-        slopes = [0.076 * sigma**0.5, 0.152 * sigma**0.4]
+        published = [0.076 * sigma**0.5, 0.152 * sigma**0.4]
         if sigma <= 1.6:
-            slopes.append(0.124 * sigma**0.743)
-        low, high = processes()[process]["slope"]
-        assert all(low <= ROOT * m <= high for m in slopes), process
+            published.append(0.124 * sigma**0.743)
+        low, high = slopes(process, sigma * 1e-6)
+        assert all(low <= ROOT * m <= high for m in published), process
 
 
 def test_no_process_gives_a_needle():
     """At every height that a process reaches the usual radius is that of no atomic tip."""
     for process, entry in processes().items():
         for Ra in entry["Ra"]:
-            assert tb.Roughness.from_drawing(tb.Finish(Ra=Ra, process=process)).R > 0.4e-6
+            rough = tb.Roughness.from_drawing(tb.Finish(Ra=Ra, process=process))
+            assert rough.ranges["R"][0] > 1e-6
 
 
 def test_what_is_known_better_stays():

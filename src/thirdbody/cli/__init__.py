@@ -14,6 +14,7 @@ from typing import Annotated
 import typer
 
 from .commands import COMMANDS
+from .options import OwnCode, load_own_code, with_own_code
 from .streams import Commands
 
 __all__ = ["app", "main"]
@@ -50,9 +51,11 @@ def options(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
     ] = False,
+    own_code: OwnCode = None,
 ) -> None:
     """Contact of rough surfaces with particles between them."""
+    load_own_code(own_code)
 
 
 for name in COMMANDS:
-    app.command(name)(import_module(f".commands.{name}", __name__).command)
+    app.command(name)(with_own_code(import_module(f".commands.{name}", __name__).command))

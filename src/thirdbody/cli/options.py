@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
+import os
+from collections.abc import Callable, Iterable
+from importlib.metadata import entry_points
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -14,12 +18,15 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AsJson",
+    "OwnCode",
     "ParquetFile",
     "Settings",
     "StudyFile",
     "XlsxFile",
+    "load_own_code",
     "not_a_folder",
     "read_study",
+    "with_own_code",
 ]
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")]
@@ -40,6 +47,45 @@ Settings = Annotated[
         help='Change a key of the file, e.g. particles.mean="500 nm"; may be repeated.',
     ),
 ]
+OwnCode = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--import",
+        metavar="FILE.py",
+        help="A Python file with laws or outputs of your own; may be repeated.",
+        show_default=False,
+    ),
+]
+
+
+def load_own_code(files: Iterable[Path] | None) -> None:
+    """Laws and outputs of one's own: of installed packages, then of these files."""
+    # asked by name first: loading takes a while, and most have none
+    installed = any(entry_points(group=each) for each in ("thirdbody.laws", "thirdbody.outputs"))
+    if files or installed or os.environ.get("THIRDBODY_IMPORT"):
+        from ..effects.own_code import load_file, load_installed
+
+        load_installed()
+        for file in files or ():
+            load_file(file)
+
+
+def with_own_code(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The command with an option ``--import``, whose files are loaded before anything is read."""
+
+    def run(*, own_code: list[Path] | None = None, **arguments: Any) -> Any:
+        load_own_code(own_code)
+        return command(**arguments)
+
+    run.__name__, run.__doc__ = command.__name__, command.__doc__
+    signature = inspect.signature(command, eval_str=True)
+    added = inspect.Parameter(
+        "own_code", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=OwnCode
+    )
+    whole = signature.replace(parameters=[*signature.parameters.values(), added])
+    run.__signature__ = whole  # type: ignore[attr-defined]
+    run.__annotations__ = {name: each.annotation for name, each in whole.parameters.items()}
+    return run
 
 
 def read_study(file: Path, settings: list[str] | None) -> Study:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import math
+
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column

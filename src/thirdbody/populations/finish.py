@@ -15,7 +15,7 @@ from ..errors import InvalidValue
 from ..quantities.say import listed, number, value_of
 from ..quantities.value import Value, problem_with, quantity
 
-__all__ = ["STATED", "Drawing", "Finish", "drawing", "processes"]
+__all__ = ["STATED", "Drawing", "Finish", "drawing", "processes", "slopes"]
 
 RQ_OVER_RA = math.sqrt(math.pi / 2)
 """Rq/Ra of Gaussian heights."""
@@ -39,7 +39,8 @@ def _tables() -> dict[str, Any]:
 
 
 def processes() -> dict[str, dict[str, Any]]:
-    """Every finishing process by its word: reach of Ra [m], range of RMS slopes of profiles [1].
+    """Every finishing process by its word: reach of Ra [m], range of RMS slopes of profiles [1] at
+    one Ra [m].
 
     Examples
     --------
@@ -47,6 +48,20 @@ def processes() -> dict[str, dict[str, Any]]:
     [0.05, 0.2]
     """
     return dict(_tables()["process"])
+
+
+def slopes(process: str, Rq: float) -> tuple[float, float]:
+    """Range of the RMS slopes of profiles [1] of a face with this height [m].
+
+    Examples
+    --------
+    >>> [round(s, 3) for s in slopes("ground", 0.1 * 1.2533e-6)]
+    [0.025, 0.1]
+    """
+    entry = processes()[process]
+    scale = (Rq / RQ_OVER_RA / entry["at"]) ** _tables()["slopes"]["power"]
+    low, high = entry["slope"]
+    return scale * low, scale * high
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -145,22 +160,23 @@ def drawing(faces: Sequence[Finish]) -> Drawing:
     if any(face.process is None for face in faces):
         return Drawing(sigma, None, None, None)  # type: ignore[arg-type]
     spread = _tables()["spread"]["alpha"]
-    slopes = [processes()[face.process]["slope"] for face in faces]  # type: ignore[index]
-    usual = _pair(
-        [(f.heights[1], _mid(s), _mid(spread)) for f, s in zip(faces, slopes, strict=True)]
-    )
-    ends = [
-        _pair(list(each))
-        for each in product(
-            *(
-                list(product(dict.fromkeys(face.heights[::2]), slope, spread))
-                for face, slope in zip(faces, slopes, strict=True)
-            )
+    usual = []
+    corners: list[list[tuple[float, float, float]]] = []
+    for face in faces:
+        assert face.process is not None
+        low, middle, high = face.heights
+        usual.append((middle, _mid(slopes(face.process, middle)), _mid(spread)))
+        corners.append(
+            [
+                (Rq, slope, alpha)
+                for Rq in dict.fromkeys((low, high))
+                for slope, alpha in product(slopes(face.process, Rq), spread)
+            ]
         )
-    ]
+    ends = [_pair(each) for each in product(*corners)]
     found = [
         (min(column), middle, max(column))
-        for column, middle in zip(zip(*ends, strict=True), usual, strict=True)
+        for column, middle in zip(zip(*ends, strict=True), _pair(usual), strict=True)
     ]
     return Drawing(sigma, *found)  # type: ignore[arg-type]
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ..analysis.assess import assess
 from ..analysis.assessment import Assessment
 from ..errors import InvalidValue
 from ..numerics.sampling import Span
+from ..quantities.say import value_of
+from ..systems.bodies import press
 from .amounts import is_span
 
 if TYPE_CHECKING:
@@ -24,13 +27,39 @@ def assess_study(study: Study) -> Assessment:
             "load.separation: an assessment needs the operating load; give load.pressure or "
             "load.F_star instead"
         )
+    if study.body is not None:
+        return _assess_body(study)
     if len(study.values) != 1:
         raise InvalidValue(
             f"load.{study.load} has {len(study.values)} values, and an assessment is of one "
             'operating load; choose it, e.g. --set load.pressure="5 MPa"'
         )
+    return _assess(study, float(study.values[0]))
+
+
+def _assess_body(study: Study) -> Assessment:
+    """At the mean pressure of the one force, with what the largest and the integral are."""
+    assert study.body is not None
+    assert study.forces is not None
+    if len(study.forces) != 1:
+        raise InvalidValue(
+            f"load.force has {len(study.forces)} values, and an assessment is of one operating "
+            'load; choose it, e.g. --set load.force="50 N"'
+        )
+    found = press(study.contact, study.body, float(study.forces[0]))
+    page = _assess(study, found.mean)
+    notes = [found.sentence(), *(f"Warning: {text}." for text in found.warnings)]
+    if found.kind != "flat":
+        largest = value_of(found.maximum, "Pa")
+        notes.append(
+            f"This page is for the mean pressure; for the largest: --set load.pressure={largest!r}."
+        )
+    return replace(page, notes=(*notes, *page.notes))
+
+
+def _assess(study: Study, load: float) -> Assessment:
     asked = study.uncertainty
-    value: dict[str, Any] = {study.load: float(study.values[0])}
+    value: dict[str, Any] = {study.load: load}
     if asked is None:
         return assess(study.contact, title=study.title, **value)
     return assess(

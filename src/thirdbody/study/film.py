@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import InvalidValue
 from ..quantities.value import quantity
+from ..systems.bodies import Body
 from ..systems.film_conditions import Entrainment, FilmConditions
 from ..systems.film_formulas import AbstractFilm, Line, Oil, Point
 from .amounts import amounts
@@ -14,7 +16,7 @@ from .fields import about_of
 from .laws import named_law
 from .reader import Key, Reader, Table, get
 
-__all__ = ["SHAPES", "SPEED", "TABLE"]
+__all__ = ["SHAPES", "SPEED", "TABLE", "on_body"]
 
 SHAPES: dict[str, type[Point] | type[Line]] = {"point": Point, "line": Line}
 NO_PRESSURE = (
@@ -64,13 +66,38 @@ def film(reader: Reader, path: str, data: Any) -> Any:
         ),
     }
 
-    def build(values: dict[str, Any]) -> FilmConditions | None:
+    pressed = get(reader.whole, "body") is not None
+    if pressed:
+        for name in ("conjunction", "load"):
+            keys[name] = keys[name]._replace(required=False)
+
+    def build(values: dict[str, Any]) -> FilmConditions | dict[str, Any] | None:
         speeds = tuple(np.sort(values.pop("speed")).tolist())
         if not speeds:
             return None  # an empty range, which was told
-        return reader.make(FilmConditions, path, values | {"speed": speeds})
+        values |= {"speed": speeds}
+        if pressed and not {"conjunction", "load"} <= values.keys():
+            return values
+        return reader.make(FilmConditions, path, values)
 
     return reader.table(path, keys, build)
+
+
+def on_body(
+    reader: Reader, film: Any, bodies: Body | None, forces: np.ndarray | None
+) -> FilmConditions | None:
+    """The film, its conjunction and load those of one contact of [body] where it gives none."""
+    if not isinstance(film, dict):
+        return film
+    shape = None if bodies is None else bodies.conjunction
+    if bodies is not None and forces is not None and len(forces) == 1 and shape is not None:
+        own = {"conjunction": shape, "load": float(forces[0]) / bodies.bodies}
+        return reader.make(FilmConditions, "film", own | film)
+    missing = " and ".join(name for name in ("conjunction", "load") if name not in film)
+    raise InvalidValue(
+        f"film has no {missing}, and takes them from [body] only where its faces are curved and "
+        "load.force is one force"
+    )
 
 
 TABLE = Table(

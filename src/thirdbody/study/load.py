@@ -1,4 +1,4 @@
-"""The table [load]: one of F*, pressure and separation."""
+"""The table [load]: one of F*, pressure, separation, and a force on the bodies of [body]."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import InvalidValue
 from .amounts import amounts
+from .body import FORCE
 from .fields import about_of
 from .reader import Key, Reader, Table, get
 from .vocabulary import LOADS
@@ -21,16 +22,17 @@ def load(reader: Reader, path: str, data: Any) -> Any:
         name: Key(
             amounts(reader, f"{path}.{name}", about, get(data, name)), False, about_of(name, about)
         )
-        for name, about in LOADS.items()
+        for name, about in (LOADS | {"force": FORCE}).items()
     }
     reader.only_one(path, data)
 
     def build(values: dict[str, Any]) -> tuple[str, np.ndarray]:
-        for name in LOADS:
+        for name in (*LOADS, "force"):
             if name in values:
                 return name, values[name]
         raise InvalidValue(
-            f'[{path}] is empty; give exactly one of {", ".join(LOADS)}, e.g. pressure = "5 MPa"'
+            f'[{path}] is empty; give exactly one of {", ".join(LOADS)}, e.g. pressure = "5 MPa", '
+            "or force on a [body]"
         )
 
     return reader.table(path, keys, build)

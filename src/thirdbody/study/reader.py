@@ -21,7 +21,7 @@ from .vocabulary import near
 __all__ = ["Key", "Reader", "Table", "get", "plain", "rivals"]
 
 ONE_OF = {
-    "load": ("F_star", "pressure", "separation"),
+    "load": ("F_star", "pressure", "separation", "force"),
     "sweep": ("F_star", "pressure", "separation"),
     "roughness": ("eta", "eta_R_sigma"),
     "roughness.drawing": ("sigma", "Ra", "Rq", "Rz"),

@@ -13,8 +13,10 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
 from ..errors import InvalidValue, RangeWarning, ThirdBodyError
+from ..systems.bodies import Pressed
 from ..systems.film_conditions import FilmConditions
 from ..systems.film_formulas import full_range
+from .body import pressed, told
 from .whole import Study
 
 SHARING = "Johnson, Greenwood, Poon 1972, Wear 19, 91, doi:10.1016/0043-1648(72)90445-0"
@@ -35,8 +37,9 @@ def run_study(study: Study) -> dict[str, Any]:
     -------
     dict
         Title, version, inputs (SI), scales, states (a list each), what each of several populations
-        carries in them, transitions, warnings, citations. A state that cannot be solved keeps its
-        place with None and a status that says why.
+        carries in them, transitions, warnings, citations; and ``body``, where a force presses one:
+        pressures and integrals of each force, and sentences. A state that cannot be solved keeps
+        its place with None and a status that says why.
     """
     from ..version import __version__
 
@@ -44,7 +47,9 @@ def run_study(study: Study) -> dict[str, Any]:
         warnings.simplefilter("always", RangeWarning)
         state = study.solve()
         critical = _transitions(study.contact)
+        forced = [] if study.body is None else pressed(study.body, study.forces, study.contact)  # type: ignore[arg-type]
     sentences = [*study.notes, *state.warnings, *(str(item.message) for item in heard)]
+    sentences += [sentence for each in forced for sentence in each.warnings]
     states = {name: _listed(column) for name, column in state.columns().items()}
     states["mode"] = [mode or None for mode in states["mode"]]
     return {
@@ -58,6 +63,15 @@ def run_study(study: Study) -> dict[str, Any]:
         "transitions": critical.to_dict(),
         "warnings": list(dict.fromkeys(sentences)),
         "citations": cite(study.contact).splitlines(),
+    } | (_body(study, forced) if forced else {})
+
+
+def _body(study: Study, forced: list[Pressed]) -> dict[str, Any]:
+    """What presses, its forces, and sentences."""
+    assert study.body is not None
+    return {
+        "body": study.body.to_dict()
+        | {"forces": [each.to_dict() for each in forced], "sentences": told(forced)}
     }
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from .body import TABLE as BODY
 from .design import TABLE as DESIGN
 from .ellipticity import ellipticity
 from .film import TABLE as FILM
@@ -40,6 +41,7 @@ TABLES: tuple[Table, ...] = (
     PARTICLES,
     PARTICLE_LAW,
     OUTPUTS,
+    BODY,
     LOAD,
     FILM,
     SWEEP,

@@ -14,11 +14,15 @@ from pydantic import TypeAdapter, ValidationError
 from ..analysis.sweep.plan import Plan
 from ..analysis.uncertainty.inputs import Uncertainty
 from ..contact.contact import Contact
+from ..effects.own_code import load_installed
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue
 from ..quantities.value import slips_are_told
+from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
+from .body import loads_of
+from .film import on_body
 from .overrides import override
 from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names
@@ -54,6 +58,10 @@ class Study:
         What the table [film] says of bodies, oil and speeds.
     own_load : bool, optional
         Whether the file gives a load of its own; else it is the Hertz pressure of [film].
+    body : Body, optional
+        What the table [body] says that a force presses together.
+    forces : array (M,), optional
+        Forces on the body [N]; ``values`` are then the mean and the largest pressure of each.
     """
 
     title: str
@@ -66,6 +74,8 @@ class Study:
     design: dict[str, Any] | None = None
     film: FilmConditions | None = None
     own_load: bool = True
+    body: Body | None = None
+    forces: np.ndarray | None = None
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -118,6 +128,7 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
 
 def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
+    load_installed()
     data = with_nested_names(data)
     with slips_are_told():
         try:
@@ -163,7 +174,15 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     film: Any = own.get("film")
     contact = reader.make(Contact, "", parts)
     loaded = own.get("load") or ends(asked or {})
+    bodies: Any = own.get("body")
+    given_forces = loaded[1] if loaded and loaded[0] == "force" else None
+    film = on_body(reader, film, bodies, given_forces)
     load, loads = loaded or _pressed(film, contact)
+    forces = None
+    if load == "force":
+        load, forces, loads = "pressure", loads, loads_of(bodies, loads, contact)
+    elif bodies is not None:
+        reader.notes.append("[body] has no effect, because [load] gives no force")
     if load == "separation" and asked is None and np.any(deep := loads < deepest(contact)):
         raise InvalidValue(
             *(f"load.separation = {d:g} m is refused: {why_deep(contact)}" for d in loads[deep][:5])
@@ -180,6 +199,8 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         design=own.get("design"),
         film=film,
         own_load=loaded is not None,
+        body=bodies if forces is not None else None,
+        forces=forces,
     )
 
 

@@ -305,14 +305,20 @@ def balance_at(
         if tail < tolerance or first == len(NODES) - 1:
             break
         first += 1
-    if tolerance == TAIL and np.min(gap) < skin.floor:
-        raise NoEquilibrium(
-            f"the local gap falls to {np.min(gap):.4g} m, below the {skin.floor:.4g} m "
-            f"({DEEPEST:g} sigma_s) at which every asperity is in contact"
-        )
     sinking = np.linalg.solve(np.eye(n) - grid.compliance * slope, np.ones(n))
     load, rate = float(grid.weights @ p), float(grid.weights @ (slope * sinking))
-    return Balance(d, grid, gap, p, load, rate, tail, residual, extent, series)
+    found = Balance(d, grid, gap, p, load, rate, tail, residual, extent, series)
+    return _deep_enough(skin, found) if tolerance == TAIL else found
+
+
+def _deep_enough(skin: Skin, found: Balance) -> Balance:
+    """The balance, unless it lies where the law of the skin ends."""
+    if np.min(found.gap) < skin.floor:
+        raise NoEquilibrium(
+            f"the local gap falls to {np.min(found.gap):.4g} m, below the {skin.floor:.4g} m "
+            f"({DEEPEST:g} sigma_s) at which every asperity is in contact"
+        )
+    return found
 
 
 def balance(
@@ -322,8 +328,12 @@ def balance(
     d: float | None,
     load: float | None,
     guess: float | None = None,
+    quick: bool = False,
 ) -> Balance:
-    """The balance at an approach or under a load; ``guess`` is an approach to start from."""
+    """The balance at an approach or under a load; ``guess`` is an approach to start from.
+
+    ``quick`` stops at five digits.
+    """
     if (d is None) == (load is None):
         raise InvalidValue("give exactly one of the separation d and the load")
     given = d if load is None else load
@@ -333,6 +343,8 @@ def balance(
         return balance_at(skin, shape, given)
     d = _rigid(skin, shape, given) if guess is None else guess
     coarse = _seek(skin, shape, given, d, None, COARSE, 1e-5)
+    if quick:
+        return _deep_enough(skin, coarse)
     return _seek(skin, shape, given, coarse.d, coarse, TAIL, 1e-14)
 
 

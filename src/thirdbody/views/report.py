@@ -224,7 +224,8 @@ class Report:
         return out + (summary(self.film)[:1] if len(speeds) > 1 else [])
 
     def _answer(self) -> list[str]:
-        return [f"<p>{words(sentence)}</p>" for sentence in self.sentences()]
+        body = self.result.get("body", {}).get("sentences", ())
+        return [f"<p>{words(sentence)}</p>" for sentence in (*body, *self.sentences())]
 
     def _known(self) -> list[int]:
         return [i for i, status in enumerate(self.result["states"]["status"]) if status == "ok"]

@@ -1,6 +1,7 @@
 """One file for each command, with a function ``command``; the order is that of the help."""
 
 COMMANDS = (
+    "new",
     "solve",
     "sweep",
     "film",

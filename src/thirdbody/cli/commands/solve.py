@@ -110,6 +110,9 @@ def _show(result: dict[str, Any]) -> None:
         f"E_ss = {value_of(scales['E_ss'], 'Pa')}, sigma = {value_of(scales['sigma'], 'm')}"
     )
 
+    for sentence in result.get("body", {}).get("sentences", ()):
+        console.print(sentence)
+
     loads: Columns = {
         "F*": lambda i: number(states["F_star"][i]),
         "pressure": lambda i: value_of(states["pressure"][i], "Pa"),

@@ -1,0 +1,72 @@
+"""``thirdbody new``: a study file to begin with."""
+
+from __future__ import annotations
+
+import json
+import sys
+from importlib import resources
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ...errors import InvalidValue
+
+__all__ = ["KINDS", "command"]
+
+KINDS = (
+    "ball-screw",
+    "rolling-bearing",
+    "additive",
+    "electrical",
+    "two-body",
+    "measured-surface",
+)
+
+
+def command(
+    kind: Annotated[str, typer.Argument(metavar="KIND", help=f"One of {', '.join(KINDS)}.")],
+    measured: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="[FILE]", help="The file of a measured-surface.", show_default=False
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="STUDY.toml", help="The file to write, KIND.toml else."),
+    ] = None,
+) -> None:
+    """A commented study file that runs at once, to be changed into your own."""
+    from ...quantities.files import need_folders, write_text
+    from ...quantities.units import say
+    from ...study.vocabulary import near
+
+    problems = []
+    if kind not in KINDS:
+        meant = near(kind, KINDS)
+        guess = f"; did you mean {meant}?" if meant else ""
+        problems.append(f"KIND {kind} must be one of {', '.join(KINDS)}{guess}")
+    elif measured is not None and kind != "measured-surface":
+        problems.append(f"FILE {measured} goes with measured-surface; {kind} needs none")
+    if measured is not None and not measured.is_file():
+        problems.append(f"FILE {measured}: there is no such file")
+    target = out or Path(f"{kind}.toml")
+    if not problems and target.exists():
+        problems.append(
+            f"{target} exists and is not overwritten; remove it, or choose another: --out NAME.toml"
+        )
+    if problems:
+        raise InvalidValue(*problems)
+    need_folders(target)
+    text = resources.files("thirdbody").joinpath(f"data/studies/{kind}.toml").read_text("utf-8")
+    if out is not None:
+        text = text.replace(f"{kind}.toml", str(out))
+    if measured is not None:
+        where = measured if measured.is_absolute() or out is None else measured.resolve()
+        text = text.replace('topography = "example"', f"topography = {json.dumps(str(where))}")
+        text = text.replace('cutoff = "1 um"  ', '# cutoff = "1 um"')
+        text = text.replace("thirdbody surface FILE", f"thirdbody surface {say(str(measured))}")
+    write_text(target, text)
+    print(f"written: {target}", file=sys.stderr)
+    print(f"thirdbody solve {target}")

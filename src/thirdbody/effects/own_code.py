@@ -1,0 +1,159 @@
+"""Laws and outputs of one's own: files named on the command line, and installed packages.
+
+A class that derives from `AbstractAsperityLaw`, `AbstractParticleLaw` or `AbstractOutput` enters a
+registry when its module is imported; here modules are imported, and what they bring is looked over.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import inspect
+import os
+import sys
+import traceback
+import warnings
+from collections.abc import Callable, Iterator
+from functools import cache
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any
+
+from ..errors import InvalidValue
+from ..laws import asperity, particle
+from ..laws.base import Law
+from . import REGISTRY as OUTPUTS
+
+__all__ = ["GROUPS", "NAMED", "load_file", "load_installed"]
+
+GROUPS = ("thirdbody.laws", "thirdbody.outputs")
+"""Entry points of installed packages whose modules are imported."""
+NAMED = "THIRDBODY_IMPORT"
+"""Environment variable that names files; `load_file` adds to it, for processes started later."""
+
+_loaded: set[str] = set()
+
+
+def load_file(path: str | os.PathLike[str]) -> None:
+    """Import a Python file, so that its laws and outputs can be named like those of the library.
+
+    Parameters
+    ----------
+    path : path-like
+        The file; what was imported before is not imported again.
+
+    Raises
+    ------
+    InvalidValue
+        One sentence: the file cannot be read, fails, brings nothing, or takes a name that exists.
+    """
+    file = Path(path).resolve()
+    if str(file) in _loaded:
+        return
+    where = f"--import {path}"
+    if not file.is_file():
+        raise InvalidValue(f"{where}: there is no such file")
+    name = file.stem if file.stem.isidentifier() else "own_code"
+    while name in sys.modules or importlib.util.find_spec(name):
+        name += "_"
+
+    def run() -> None:
+        spec = importlib.util.spec_from_file_location(name, file)
+        if spec is None or spec.loader is None:
+            raise InvalidValue(f"{where} is not a Python file; its name must end in .py")
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[name] = module  # dataclasses look it up
+        spec.loader.exec_module(module)
+
+    try:
+        if not _looked_over(where, run, file):
+            raise InvalidValue(
+                f"{where} brings no law and no output: a law derives from AbstractAsperityLaw or "
+                "AbstractParticleLaw, an output from AbstractOutput, and has a name"
+            )
+    except BaseException:
+        sys.modules.pop(name, None)
+        raise
+    _loaded.add(str(file))
+    others = [part for part in os.environ.get(NAMED, "").split(os.pathsep) if part]
+    os.environ[NAMED] = os.pathsep.join(dict.fromkeys([*others, str(file)]))
+
+
+def load_installed() -> None:
+    """Import what installed packages offer, and the files of THIRDBODY_IMPORT; once a process.
+
+    A package that fails is told in a warning, so that the others and the library still work.
+    """
+    for file in os.environ.get(NAMED, "").split(os.pathsep):
+        if file:
+            load_file(file)
+    _load_entry_points()
+
+
+@cache
+def _load_entry_points() -> None:
+    for group in GROUPS:
+        for entry in sorted(entry_points(group=group), key=lambda each: (each.name, each.value)):
+            where = f"entry point {entry.name} = {entry.value} of {group}"
+            try:
+                _looked_over(where, entry.load, None)
+            except InvalidValue as error:
+                warnings.warn(f"{error}; it is left out", UserWarning, stacklevel=3)
+
+
+def _registries() -> Iterator[tuple[str, dict[str, type[Law]]]]:
+    yield from (("law", asperity.REGISTRY), ("law", particle.REGISTRY), ("output", OUTPUTS))
+
+
+def _looked_over(where: str, run: Callable[[], Any], file: Path | None) -> list[type[Law]]:
+    """What running this brings; where it fails the registries are as before."""
+    before = [(kind, registry, dict(registry)) for kind, registry in _registries()]
+    try:
+        run()
+        found = [
+            (kind, name, law, known.get(name))
+            for kind, registry, known in before
+            for name, law in registry.items()
+            if law is not known.get(name)
+        ]
+        for kind, name, law, taken in found:
+            if taken is not None:
+                raise InvalidValue(
+                    f"{where}: there is a {kind} {name!r} already, {taken.__module__}."
+                    f"{taken.__name__}; choose another name"
+                )
+            _complete(where, kind, law)
+        return [law for _, _, law, _ in found]
+    except Exception as error:
+        for _, registry, known in before:
+            registry.clear()
+            registry.update(known)
+        if isinstance(error, InvalidValue) and str(error).startswith(where):
+            raise
+        raise InvalidValue(f"{where}{_place(error, file)}: {_why(error)}") from None
+
+
+def _complete(where: str, kind: str, law: type[Law]) -> None:
+    """What a law must say of itself, and how to make one."""
+    needed = ["title", "citation", "provenance"]
+    needed += ["year", "valid_range"] if kind == "law" else []
+    missing = [name for name in needed if not hasattr(law, name)]
+    missing += sorted(getattr(law, "__abstractmethods__", ())) if inspect.isabstract(law) else []
+    if missing:
+        raise InvalidValue(f"{where}: {law.__name__} lacks {', '.join(missing)}")
+
+
+def _why(error: Exception) -> str:
+    """The error in one line."""
+    return " ".join(f"{type(error).__name__}: {error}".split())
+
+
+def _place(error: Exception, file: Path | None) -> str:
+    """The line of the file in which it fails."""
+    if isinstance(error, SyntaxError) and error.lineno:
+        return f", line {error.lineno}"
+    lines = [
+        frame.lineno
+        for frame in traceback.extract_tb(error.__traceback__)
+        if file is not None and Path(frame.filename) == file
+    ]
+    return f", line {lines[-1]}" if lines else ""

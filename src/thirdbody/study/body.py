@@ -1,0 +1,66 @@
+"""The table [body]: what a force in newtons presses together."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..contact.contact import Contact
+from ..errors import InvalidValue
+from ..quantities.value import quantity
+from ..systems.bodies import BODIES, Body, Pressed, press
+from .reader import Reader, Table
+
+__all__ = ["FORCE", "TABLE", "loads_of", "pressed", "told"]
+
+FORCE = quantity(
+    "F", "N", "force on the bodies of [body]", gt=0, hint="kN are 5e3 or '5 kN'"
+).metadata["quantity"]
+MOST_INTEGRATED = 3
+"""Forces that are integrated over the contact, which takes seconds each; of more, the ends."""
+
+
+def body(reader: Reader, path: str, data: Any) -> Any:
+    """The bodies, by their kind."""
+
+    def build(values: dict[str, Any]) -> Any:
+        return reader.make(BODIES[values.pop("kind")], path, values)
+
+    return reader.variant(path, data, "kind", BODIES, build, {})
+
+
+def loads_of(bodies: Body | None, forces: np.ndarray, contact: Contact) -> np.ndarray:
+    """The pressures at which the study is solved: mean and largest of every force [Pa]."""
+    if bodies is None:
+        raise InvalidValue(
+            f"load.force = {forces[0]:g} N needs a table [body] that says on what it acts, e.g. "
+            '[body] kind = "ball-on-flat", diameter = "6 mm" (kinds: '
+            f"{', '.join(BODIES)}); or give load.pressure"
+        )
+    hertz = bodies.hertz(forces, contact.E_ss)
+    if bodies.conjunction is None:
+        return np.asarray(hertz.mean)
+    return np.stack([hertz.mean, hertz.maximum], axis=-1).ravel()
+
+
+def pressed(bodies: Body, forces: np.ndarray, contact: Contact) -> list[Pressed]:
+    """Every force; integrated over the contact where they are few, else the ends."""
+    some = range(len(forces)) if len(forces) <= MOST_INTEGRATED else (0, len(forces) - 1)
+    return [
+        press(contact, bodies, float(force), integrate=i in some) for i, force in enumerate(forces)
+    ]
+
+
+def told(found: list[Pressed]) -> list[str]:
+    """Sentences of the forces; of many, those of the ends."""
+    some = found if len(found) <= MOST_INTEGRATED else [found[0], found[-1]]
+    return [each.sentence() for each in some]
+
+
+TABLE = Table(
+    name="body",
+    read=body,
+    about='what the force presses, e.g. kind = "ball-on-flat", diameter = "6 mm"',
+    role="study",
+)

@@ -1,0 +1,465 @@
+r"""Bodies that a force presses together: what they are, and the pressure between them.
+
+A force in newtons becomes the Hertz pressure of the smooth dry bodies, its mean and its largest,
+and the contact of the rough ones integrated over it:
+
+.. math:: \bar p = F/A, \qquad p_0 = \tfrac32\bar p\ \text{(point)},\ \tfrac4\pi\bar p\
+          \text{(line)},\ \bar p\ \text{(flat)}, \qquad A_t = \int A_t^*(p)\,dA
+
+A circular point contact and a line contact are integrated with the elastic bodies under the rough
+skin (`rough_body`), which spread the load beyond Hertz; an ellipse over Hertz's pressure.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.contact import Contact
+from ..equilibrium.solve import solve
+from ..errors import InvalidValue, NoEquilibrium, RangeWarning
+from ..laws.asperity import ZMC
+from ..numerics.quadrature import gauss_legendre
+from ..quantities.say import number, percent, value_of
+from ..quantities.value import Value, choice, quantity
+from .film_formulas import Hertz, Line, Point
+from .rough_body import rough_cylinder, rough_sphere
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = [
+    "BODIES",
+    "BallInGroove",
+    "BallOnFlat",
+    "Body",
+    "Cylinders",
+    "Flat",
+    "Pressed",
+    "Roller",
+    "press",
+]
+
+YIELD = 1.5 * ZMC().k
+"""Largest Hertz pressure at first yield over the hardness [1]: 0.6, 1.5 k of the law ZMC."""
+NODES = 24
+
+
+def _diameter(meaning: str, **options: Any) -> Any:
+    return quantity("D", "m", meaning, gt=0, usual=10.0, **options)
+
+
+class Body(Value):
+    """One of the pairs of bodies that a study can name under [body]; `BODIES` lists them."""
+
+    __slots__ = ()
+    bodies: float
+    """Contacts among which the force is divided equally [1]."""
+
+    @property
+    def conjunction(self) -> Point | Line | None:
+        """The shape between the bodies; None for flat ones."""
+        raise NotImplementedError
+
+    def hertz(self, force: Any, E_star: float) -> Hertz:
+        """Area and pressures of one smooth dry contact under the force on all [N]."""
+        shape = self.conjunction
+        assert shape is not None
+        return shape.hertz(np.asarray(force, float) / self.bodies, 2 * E_star)
+
+
+def _bodies() -> Any:
+    return quantity("Z", "1", "contacts that share the force equally", default=1.0, ge=1)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BallOnFlat(Body):
+    """A ball on a flat.
+
+    Parameters
+    ----------
+    diameter : float
+        Of the ball D [m].
+    bodies : float, optional
+        Balls that share the force Z [1].
+
+    Examples
+    --------
+    >>> round(float(BallOnFlat(diameter=10e-3).hertz(50.0, 115e9).mean) / 1e6)
+    1149
+    """
+
+    diameter: float = _diameter("diameter of the ball")
+    bodies: float = _bodies()
+
+    @property
+    def conjunction(self) -> Point:
+        """A circle: R = D/2."""
+        return Point(R=self.diameter / 2)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BallInGroove(Body):
+    r"""A ball in the groove of a ball bearing or a ball screw.
+
+    .. math:: \frac1{R_x} = \frac2D\,\frac{1}{1 \mp \gamma}, \quad
+              \gamma = \frac{D\cos\beta}{d_m}, \qquad \frac1{R_y} = \frac2D - \frac1{fD}
+
+    Parameters
+    ----------
+    diameter : float
+        Of the ball D [m].
+    conformity : float, optional
+        Radius of the groove over the diameter of the ball f [1], above 0.5.
+    pitch_diameter : float, optional
+        Of the circle on which the balls run d_m [m]; without it the groove is straight.
+    contact_angle : float, optional
+        β [rad].
+    ring : {"inner", "outer"}, optional
+        Where the groove is: on the inner ring or screw (−), or the outer ring or nut (+).
+    bodies : float, optional
+        Balls that share the force Z [1].
+
+    Examples
+    --------
+    >>> ball = BallInGroove(diameter=6e-3, conformity=0.52)
+    >>> round(float(ball.hertz(300.0, 115e9).maximum) / 1e6)
+    1882
+    """
+
+    diameter: float = _diameter("diameter of the ball")
+    conformity: float = quantity(
+        "f", "1", "groove radius over ball diameter", default=0.52, gt=0.5, le=10
+    )
+    pitch_diameter: float | None = quantity(
+        "d_m", "m", "diameter of the circle of balls", default=None, gt=0, usual=10.0
+    )
+    contact_angle: float = quantity(
+        "β", "rad", "contact angle", default=0.0, ge=0, lt=math.pi / 2, hint="write '45 deg'"
+    )
+    ring: str = choice("where the groove is", "inner", "outer", default="inner")
+    bodies: float = _bodies()
+
+    def _problems(self) -> list[str]:
+        if self.pitch_diameter is not None and self.pitch_diameter <= self.diameter:
+            return [
+                f"BallInGroove.pitch_diameter = {self.pitch_diameter:g} must be above the "
+                f"diameter of a ball, {self.diameter:g} [m]"
+            ]
+        return []
+
+    @property
+    def conjunction(self) -> Point:
+        """An ellipse, long across the motion."""
+        gamma = 0.0
+        if self.pitch_diameter is not None:
+            gamma = self.diameter * math.cos(self.contact_angle) / self.pitch_diameter
+        sign = -1 if self.ring == "inner" else 1
+        along = 0.5 * self.diameter * (1 + sign * gamma)
+        return Point(R=along, R_y=1 / (2 / self.diameter - 1 / (self.conformity * self.diameter)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Roller(Body):
+    r"""A cylindrical roller on a flat or on a ring.
+
+    .. math:: \frac1R = \frac2D \pm \frac2{d_r}
+
+    Parameters
+    ----------
+    diameter, length : float
+        Of the roller D [m]; length of the contact l [m].
+    track_diameter : float, optional
+        Of the track d_r [m]; without it the track is flat.
+    ring : {"inner", "outer"}, optional
+        Whether the roller runs outside (+) or inside (−) of the track.
+    bodies : float, optional
+        Rollers that share the force Z [1].
+
+    Examples
+    --------
+    >>> round(float(Roller(diameter=0.01, length=0.01).hertz(1000.0, 115e9).maximum) / 1e6)
+    856
+    """
+
+    diameter: float = _diameter("diameter of the roller")
+    length: float = quantity("l", "m", "length of the contact", gt=0, usual=10.0)
+    track_diameter: float | None = quantity(
+        "d_r", "m", "diameter of the track", default=None, gt=0, usual=10.0
+    )
+    ring: str = choice("where the track is", "inner", "outer", default="inner")
+    bodies: float = _bodies()
+
+    def _problems(self) -> list[str]:
+        track = self.track_diameter
+        if self.ring == "outer" and track is not None and track <= self.diameter:
+            return [
+                f"Roller.track_diameter = {track:g} must be above the diameter of the roller, "
+                f'{self.diameter:g} [m], with ring = "outer"'
+            ]
+        return []
+
+    @property
+    def conjunction(self) -> Line:
+        """A line."""
+        track = 0.0 if self.track_diameter is None else 2 / self.track_diameter
+        sign = 1 if self.ring == "inner" else -1
+        return Line(R=1 / (2 / self.diameter + sign * track), length=self.length)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cylinders(Body):
+    """Two parallel cylinders side by side: rollers, gear teeth.
+
+    Parameters
+    ----------
+    first_diameter, second_diameter, length : float
+        Diameters [m]; length of the contact l [m].
+    bodies : float, optional
+        Pairs that share the force Z [1].
+
+    Examples
+    --------
+    >>> pair = Cylinders(first_diameter=0.02, second_diameter=0.02, length=0.01)
+    >>> pair.conjunction.R
+    0.005
+    """
+
+    first_diameter: float = _diameter("diameter of the first cylinder")
+    second_diameter: float = _diameter("diameter of the second cylinder")
+    length: float = quantity("l", "m", "length of the contact", gt=0, usual=10.0)
+    bodies: float = _bodies()
+
+    @property
+    def conjunction(self) -> Line:
+        """A line."""
+        R = 0.5 / (1 / self.first_diameter + 1 / self.second_diameter)
+        return Line(R=R, length=self.length)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flat(Body):
+    """Two flat faces under an even pressure.
+
+    Parameters
+    ----------
+    area : float
+        Nominal area of one contact [m²].
+    bodies : float, optional
+        Contacts that share the force Z [1].
+
+    Examples
+    --------
+    >>> float(Flat(area=1e-4).hertz(500.0, 115e9).mean)
+    5000000.0
+    """
+
+    area: float = quantity("A_n", "m^2", "nominal area of one contact", gt=0)
+    bodies: float = _bodies()
+
+    @property
+    def conjunction(self) -> None:
+        """No curvature."""
+        return None
+
+    def hertz(self, force: Any, E_star: float) -> Hertz:
+        """The even pressure."""
+        even = np.asarray(force, float) / self.bodies / self.area
+        return Hertz(np.full_like(even, self.area), even, even)
+
+
+BODIES: dict[str, type[Body]] = {
+    "ball-on-flat": BallOnFlat,
+    "ball-in-groove": BallInGroove,
+    "roller": Roller,
+    "cylinders": Cylinders,
+    "flat": Flat,
+}
+"""Every pair of bodies by the word that study files use."""
+
+
+# ------------------------------------------------------------------ under a force
+@dataclass(frozen=True, kw_only=True)
+class Pressed:
+    """One contact of bodies under a force.
+
+    Attributes
+    ----------
+    kind : str
+        The word of the study file.
+    force, bodies : float
+        On all contacts together [N], and how many share it [1].
+    area, mean, maximum : float
+        Hertz contact of smooth bodies: area [m²], mean and largest pressure [Pa].
+    yields : float
+        Largest pressure at which the bodies themselves begin to yield [Pa].
+    method : str
+        How it was integrated: "rough body", "Hertz pressure", "even", or "" where it was not.
+    real_area, particle_load_share : float or None
+        Real contact area of one contact [m²], and the part of its load on particles [1].
+    peak_pressure : float or None
+        Largest pressure between the rough bodies [Pa].
+    note : str
+        Why it was not integrated, or not with the rough body.
+    """
+
+    kind: str
+    force: float
+    bodies: float
+    area: float
+    mean: float
+    maximum: float
+    yields: float
+    method: str = ""
+    real_area: float | None = None
+    particle_load_share: float | None = None
+    peak_pressure: float | None = None
+    note: str = ""
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Where the bodies themselves yield."""
+        if self.maximum <= self.yields:
+            return ()
+        if self.kind == "flat":
+            first = "the yield stress Y = 0.375 H: p_0 = 1.6 Y = 0.6 H at first yield under a ball"
+        else:
+            first = "p_0 = 1.6 Y = 0.6 H, at which yield begins below a ball (ZMC, k = 0.4)"
+        return (
+            f"under {value_of(self.force, 'N')} the bodies themselves yield: the largest pressure, "
+            f"{value_of(self.maximum, 'Pa')}, is above {value_of(self.yields, 'Pa')}, {first}; "
+            "Hertz and the elastic bodies then overestimate the pressure",
+        )
+
+    def sentence(self) -> str:
+        """Force, pressures and what the integral gives, in words."""
+        shared = "" if self.bodies == 1 else f" shared by {number(self.bodies)}"
+        out = f"{value_of(self.force, 'N')} on the body {self.kind}{shared}: "
+        area = f"{number(self.area * 1e6)} mm²"
+        if self.kind == "flat":
+            return f"{out}pressure {value_of(self.mean, 'Pa')} on {area}."
+        out += (
+            f"Hertz contact of {area}, mean pressure {value_of(self.mean, 'Pa')}, "
+            f"largest {value_of(self.maximum, 'Pa')}"
+        )
+        if self.real_area is None:
+            return f"{out}." + (f" Not integrated: {self.note}." if self.note else "")
+        out += (
+            f". Integrated over the contact ({self.method}), the real area is "
+            f"{number(self.real_area * 1e6)} mm², {percent(self.real_area / self.area)} of Hertz's"
+        )
+        if self.particle_load_share is not None:
+            out += f", and particles carry {percent(self.particle_load_share)} of the load"
+        if self.method == "rough body" and self.peak_pressure is not None:
+            largest = value_of(self.peak_pressure, "Pa")
+            out += f"; roughness changes the largest pressure to {largest}"
+        return f"{out}."
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, ready for JSON."""
+        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+
+
+def press(contact: Contact, body: Body, force: float, *, integrate: bool = True) -> Pressed:
+    """A body under a force: pressures, and the rough contact integrated over it.
+
+    Parameters
+    ----------
+    contact : Contact
+    body : Body
+    force : float
+        On all its contacts together [N].
+    integrate : bool, optional
+        Whether to integrate; the pressures alone take no time.
+
+    Returns
+    -------
+    Pressed
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> found = press(contact, BallOnFlat(diameter=10e-3), 10.0)
+    >>> found.method, round(found.maximum / 1e6), round(found.peak_pressure / 1e6)
+    ('rough body', 990, 886)
+    """
+    if not (math.isfinite(force) and force > 0):
+        raise InvalidValue(f"force = {force!r} must be > 0 [N]")
+    hertz = body.hertz(force, contact.E_ss)
+    kind = next(name for name, each in BODIES.items() if type(body) is each)
+    H = contact.surfaces.H
+    given: dict[str, Any] = {
+        "kind": kind,
+        "force": float(force),
+        "bodies": body.bodies,
+        "area": float(hertz.area),
+        "mean": float(hertz.mean),
+        "maximum": float(hertz.maximum),
+        "yields": YIELD * H / (1.6 if kind == "flat" else 1.0),
+    }
+    return Pressed(**given, **(_integrated(contact, body, force, hertz) if integrate else {}))
+
+
+def _integrated(contact: Contact, body: Body, force: float, hertz: Hertz) -> dict[str, Any]:
+    shape, one, why = body.conjunction, force / body.bodies, ""
+    try:
+        if isinstance(shape, Line):
+            roller = rough_cylinder(contact, radius=shape.R, load=one / shape.length, quick=True)
+            return _told(contact, roller, shape.length)
+        if isinstance(shape, Point) and shape.ratio == 1:
+            return _told(contact, rough_sphere(contact, radius=shape.R, load=one, quick=True), 1.0)
+    except (NoEquilibrium, InvalidValue) as error:
+        why = str(error).splitlines()[0]
+    return _over_pressure(contact, shape, hertz) | ({"note": why} if why else {})
+
+
+def _told(contact: Contact, found: Any, length: float) -> dict[str, Any]:
+    share = None if contact.two_body else found.particle_load_share
+    return {
+        "method": "rough body",
+        "real_area": length * found.real_area,
+        "particle_load_share": share,
+        "peak_pressure": found.peak_pressure,
+    }
+
+
+def _over_pressure(contact: Contact, shape: Point | Line | None, hertz: Hertz) -> dict[str, Any]:
+    """Over the pressure of the smooth bodies, each place as if it were alone."""
+    pressure, weights = _places(shape, float(hertz.maximum))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        state = solve(contact, pressure=pressure)
+    status = np.atleast_1d(state.status)
+    if bad := [text for text in status.tolist() if text != "ok"]:
+        return {"note": bad[0]}
+    load = weights @ pressure
+    share = None
+    if not contact.two_body:
+        share = float(weights @ (pressure * np.atleast_1d(state.particle_load_share)) / load)
+    return {
+        "method": "even" if shape is None else "Hertz pressure",
+        "real_area": float(hertz.area) * float(weights @ np.atleast_1d(state.A_t)),
+        "particle_load_share": share,
+        "peak_pressure": float(hertz.maximum),
+    }
+
+
+def _places(
+    shape: Point | Line | None, largest: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Pressures [Pa], and the parts of the area where they are."""
+    if shape is None:
+        return np.array([largest]), np.ones(1)
+    nodes, weights = gauss_legendre(NODES)
+    t, w = 0.5 * (1 + nodes), 0.5 * weights
+    if isinstance(shape, Point):  # p = p_0 √(1 − s) over even s
+        return largest * t, 2 * t * w
+    angle = 0.5 * math.pi * t  # p = p_0 cos θ at x = b sin θ
+    return largest * np.cos(angle), 0.5 * math.pi * np.cos(angle) * w

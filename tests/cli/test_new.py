@@ -1,0 +1,108 @@
+"""``thirdbody new`` in an empty folder: files that run at once, at 80 columns."""
+
+import fnmatch
+import re
+import tomllib
+from importlib import resources
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from thirdbody import cli, load_study
+from thirdbody.cli.commands.new import KINDS
+
+ROOT = Path(__file__).parents[2]
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+
+@pytest.fixture(autouse=True)
+def empty_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    return tmp_path
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_runs_at_once(kind, empty_folder):
+    made = run("new", kind)
+    assert made.exit_code == 0
+    assert made.stdout == f"thirdbody solve {kind}.toml\n"
+    assert [path.name for path in empty_folder.iterdir()] == [f"{kind}.toml"]
+    text = Path(f"{kind}.toml").read_text("utf-8")
+    assert max(map(len, text.splitlines())) <= 80
+    solved = run("solve", f"{kind}.toml", "--json")
+    assert solved.exit_code == 0
+    assert '"ok"' in solved.stdout
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_commands_in_the_file_are_commands(kind):
+    """What the head of a file says to type reads the file as it stands."""
+    run("new", kind)
+    lines = Path(f"{kind}.toml").read_text("utf-8").splitlines()
+    commands = [line for line in lines if re.match(r"#   thirdbody \w", line)]
+    assert commands
+    for line in commands:
+        words = re.sub(r"\s{3,}.*", "", line.removeprefix("#   thirdbody ")).split(" ", 3)
+        assert words[0] in {each.name for each in cli.app.registered_commands}
+        if words[1] != "FILE":
+            load_study(words[1], [words[3].replace('"', "")] if words[2:3] == ["--set"] else [])
+
+
+def test_nothing_is_overwritten():
+    run("new", "two-body")
+    Path("two-body.toml").write_text("mine", "utf-8")
+    again = run("new", "two-body")
+    assert again.exit_code == 2
+    assert "two-body.toml exists and is not overwritten" in again.stderr
+    assert Path("two-body.toml").read_text("utf-8") == "mine"
+    other = run("new", "two-body", "--out", "second.toml")
+    assert other.stdout == "thirdbody solve second.toml\n"
+    assert "thirdbody compare second.toml" in Path("second.toml").read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["balscrew"], "did you mean ball-screw?"),
+        (["additive", "part.x3p"], "FILE part.x3p goes with measured-surface"),
+        (["measured-surface", "part.x3p"], "there is no such file"),
+    ],
+)
+def test_mistakes(arguments, words, empty_folder):
+    done = run("new", *arguments)
+    assert done.exit_code == 2
+    assert words in done.stderr
+    assert not list(empty_folder.iterdir())
+
+
+def test_a_file_of_ones_own(empty_folder):
+    Path("heights.txt").write_text("1 2\n", "utf-8")
+    assert run("new", "measured-surface", "heights.txt").exit_code == 0
+    table = tomllib.loads(Path("measured-surface.toml").read_text("utf-8"))["roughness"]
+    assert table == {"topography": "heights.txt"}
+    Path("below").mkdir()
+    run("new", "measured-surface", "heights.txt", "--out", "below/study.toml")
+    table = tomllib.loads(Path("below/study.toml").read_text("utf-8"))["roughness"]
+    assert (empty_folder / "below" / table["topography"]).exists()
+
+
+def test_what_ships_is_declared():
+    """Every file of the data folder is in the wheel."""
+    tool = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["setuptools"]
+    declared = tool["package-data"]["thirdbody"]
+    package = Path(str(resources.files("thirdbody")))
+    for file in sorted((package / "data").rglob("*")):
+        name = file.relative_to(package).as_posix()
+        if file.is_file():
+            assert any(
+                fnmatch.fnmatch(name, each) and name.count("/") == each.count("/")
+                for each in declared
+            ), name
+    examples = tool["data-files"]["share/thirdbody/examples"]
+    shipped = {path for each in examples for path in ROOT.glob(each)}
+    assert shipped == {path for path in (ROOT / "examples").iterdir() if path.is_file()}

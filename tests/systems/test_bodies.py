@@ -1,0 +1,212 @@
+"""Forces on bodies: Hertz pressures, integrals over the contact, and the study that gives newtons."""
+
+import math
+import tomllib
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.errors import InvalidValue
+from thirdbody.reference import elliptic_hertz
+from thirdbody.study import check, run_film, run_study
+from thirdbody.study.analyses import assess_study
+from thirdbody.study.overrides import override
+from thirdbody.systems.bodies import (
+    BODIES,
+    BallInGroove,
+    BallOnFlat,
+    Cylinders,
+    Flat,
+    Roller,
+    press,
+)
+from thirdbody.systems.rough_body import rough_cylinder, rough_sphere
+
+STEEL = tb.materials["S45C"]
+CLEAN = tb.Contact(
+    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
+)
+DUSTY = CLEAN.replace(
+    particles=tb.Particles(
+        material=tb.materials["SiO2"],
+        areal_density=1e11,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+    )
+)
+E = CLEAN.E_ss
+STUDY = """
+[surfaces]
+first = "S45C"
+second = "S45C"
+[roughness]
+sigma = "100 nm"
+R = "2.8 um"
+[body]
+kind = "ball-on-flat"
+diameter = "6 mm"
+[load]
+force = "10 N"
+"""
+
+
+def study(*overrides, more=""):
+    return check(override(tomllib.loads(STUDY + more), overrides))
+
+
+def test_hertz_of_every_kind():
+    ball = BallOnFlat(diameter=10e-3).hertz(30.0, E)
+    a = (0.75 * 30 * 5e-3 / E) ** (1 / 3)
+    assert ball.area == pytest.approx(math.pi * a * a, rel=1e-12)
+    assert ball.maximum == pytest.approx(1.5 * ball.mean, rel=1e-12)
+    roller = Roller(diameter=10e-3, length=8e-3, track_diameter=40e-3).hertz(1e3, E)
+    R = 1 / (200 + 50)
+    assert roller.maximum == pytest.approx(math.sqrt(1e3 / 8e-3 * E / (math.pi * R)), rel=1e-12)
+    outer = Roller(diameter=10e-3, length=8e-3, track_diameter=40e-3, ring="outer")
+    assert outer.conjunction.R == pytest.approx(1 / (200 - 50), rel=1e-12)
+    pair = Cylinders(first_diameter=10e-3, second_diameter=40e-3, length=8e-3).hertz(1e3, E)
+    assert pair == pytest.approx(roller, rel=1e-12)
+    flat = Flat(area=2e-4, bodies=2).hertz(100.0, E)
+    assert (flat.mean, flat.maximum) == (250e3, 250e3)
+
+
+def test_curvatures_of_a_ball_in_its_groove():
+    """Curvatures of the races as books on bearings have them."""
+    D, d_m, beta, f = 8e-3, 50e-3, math.radians(40), 0.52
+    gamma = D * math.cos(beta) / d_m
+    for ring, sign in (("inner", -1), ("outer", 1)):
+        body = BallInGroove(
+            diameter=D, pitch_diameter=d_m, contact_angle=beta, conformity=f, ring=ring
+        )
+        found = body.conjunction
+        track = -sign * 2 * gamma / (D * (1 + sign * gamma))
+        assert 1 / found.R == pytest.approx(2 / D + track, rel=1e-12)
+        assert 1 / found.R_y == pytest.approx(2 / D - 1 / (f * D), rel=1e-12)
+    straight = BallInGroove(diameter=D).conjunction
+    assert straight.R == D / 2
+    shape = elliptic_hertz(straight.R_y / straight.R)
+    assert shape.root_R_F > 0
+
+
+def test_a_shared_force_is_a_smaller_force():
+    one = press(CLEAN, BallInGroove(diameter=6e-3), 50.0)
+    many = press(CLEAN, BallInGroove(diameter=6e-3, bodies=60), 3000.0)
+    assert (many.mean, many.real_area) == (one.mean, one.real_area)
+
+
+@pytest.mark.parametrize("contact", [CLEAN, DUSTY], ids=["clean", "dusty"])
+def test_the_integral_is_that_of_the_rough_body(contact):
+    found = press(contact, BallOnFlat(diameter=10e-3), 5.0)
+    exact = rough_sphere(contact, radius=5e-3, load=5.0)
+    assert found.method == "rough body"
+    assert found.real_area == pytest.approx(exact.real_area, rel=1e-5)
+    assert found.peak_pressure == pytest.approx(exact.peak_pressure, rel=1e-4)
+    share = None if contact.two_body else pytest.approx(exact.particle_load_share, rel=1e-5)
+    assert found.particle_load_share == share
+    line = press(contact, Roller(diameter=10e-3, length=5e-3), 100.0)
+    exact = rough_cylinder(contact, radius=5e-3, load=100.0 / 5e-3)
+    assert line.real_area == pytest.approx(5e-3 * exact.real_area, rel=1e-5)
+
+
+def test_the_integral_over_pressure_is_the_sum_of_places():
+    """Against midpoints of the area of an ellipse."""
+    body = BallInGroove(diameter=6e-3)
+    found = press(DUSTY, body, 20.0)
+    assert found.method == "Hertz pressure"
+    s = (np.arange(4000) + 0.5) / 4000
+    p = found.maximum * np.sqrt(1 - s)
+    state = tb.solve(DUSTY, pressure=p)
+    assert found.real_area == pytest.approx(found.area * np.mean(state.A_t), rel=1e-4)
+    carried = np.mean(p * state.particle_load_share) / np.mean(p)
+    assert found.particle_load_share == pytest.approx(carried, rel=1e-4)
+    assert np.mean(p) == pytest.approx(found.mean, rel=1e-6)
+
+
+def test_heavy_loads_are_told():
+    found = press(CLEAN, BallOnFlat(diameter=6e-3), 300.0)
+    assert found.maximum > 0.6 * STEEL.H
+    (sentence,) = found.warnings
+    assert "the bodies themselves yield" in sentence
+    assert "0.6 H" in sentence
+    below = press(CLEAN, BallOnFlat(diameter=6e-3), 50.0, integrate=False)
+    assert below.maximum < 0.6 * STEEL.H
+    assert below.warnings == ()
+    flat = press(CLEAN, Flat(area=1e-6), 0.4 * STEEL.H * 1e-6, integrate=False)
+    assert "Y = 0.375 H" in flat.warnings[0]
+
+
+def test_a_study_is_solved_at_both_pressures():
+    found = study()
+    hertz = BallOnFlat(diameter=6e-3).hertz(10.0, E)
+    assert found.load == "pressure"
+    np.testing.assert_array_equal(found.values, [hertz.mean, hertz.maximum])
+    result = run_study(found)
+    (force,) = result["body"]["forces"]
+    assert (force["mean"], force["maximum"]) == (hertz.mean, hertz.maximum)
+    assert result["states"]["pressure"] == [hertz.mean, hertz.maximum]
+    (sentence,) = result["body"]["sentences"]
+    assert "mean pressure" in sentence
+    assert "Integrated over the contact (rough body)" in sentence
+    many = study("load.force={from=1, to=100, points=5}")
+    assert len(many.values) == 10
+    told = run_study(many)["body"]["forces"]
+    assert [bool(each["method"]) for each in told] == [True, False, False, False, True]
+
+
+def test_other_loads_are_as_they_were():
+    found = study("load.pressure=5 MPa")
+    assert found.values.tolist() == [5e6]
+    assert "body" not in run_study(found)
+    assert found.notes == ("[body] has no effect, because [load] gives no force",)
+
+
+def test_an_assessment_of_a_force():
+    ranges = '[uncertainty]\nsamples = 64\ninputs = { "roughness.R" = { low = 2e-6, high = 3e-6 } }'
+    page = assess_study(study(more=ranges))
+    assert page.propagation.loads == study().values[0]
+    assert page.notes[0].startswith("10 N on the body ball-on-flat: Hertz contact")
+    with pytest.raises(InvalidValue, match=r"load\.force has 2 values"):
+        assess_study(study("load.force=[1, 2]", more=ranges))
+
+
+def test_a_film_between_the_bodies():
+    oil = '[film]\nspeed = "0.5 m/s"\noil = { eta = "60 mPa s", alpha = "20 / GPa" }'
+    given = study(more=oil).film
+    assert (given.conjunction, given.load) == (tb.films.Point(R=3e-3), 10.0)
+    shared = study("body.bodies=4", more=oil)
+    assert shared.film.load == 2.5
+    assert run_film(shared)["states"]["pressure"] == [pytest.approx(shared.values[0], rel=1e-9)]
+    with pytest.raises(InvalidValue, match="film has no conjunction and load"):
+        study("load.force=[1, 2]", more=oil)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ('body={kind="ball"}', ["body.kind", "ball-on-flat"]),
+        ('body={kind="roller"}', ["body.diameter is missing", "body.length is missing"]),
+        ("load.force=3 MPa", ["a force [N] is needed"]),
+        ("load.force=-3", ["must be > 0 [N]"]),
+        ('body.length="3 mm"', ['goes with kind = "roller"']),
+        ('load={force="3 N", pressure="3 MPa"}', ["only one of these"]),
+    ],
+)
+def test_mistakes(change, words):
+    with pytest.raises(InvalidValue) as caught:
+        study(change)
+    for word in words:
+        assert any(word in problem for problem in caught.value.problems)
+
+
+def test_a_force_needs_a_body():
+    data = tomllib.loads(STUDY)
+    del data["body"]
+    with pytest.raises(InvalidValue, match=r"load.force = 10 N needs a table \[body\]"):
+        check(data)
+
+
+def test_every_kind_survives_the_round_trip():
+    sizes = dict(diameter=1e-2, length=1e-2, first_diameter=1e-2, second_diameter=1e-2, area=1e-4)
+    for kind in BODIES.values():
+        body = kind(**{name: size for name, size in sizes.items() if name in kind.__slots__})
+        assert kind.from_dict(body.to_dict()) == body
