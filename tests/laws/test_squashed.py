@@ -208,6 +208,31 @@ def test_what_changes_against_a_sphere():
     assert jg == pytest.approx(want, rel=0.02)
 
 
+@pytest.mark.parametrize(
+    ("onset", "E_over_H", "pressure", "radius"),
+    [
+        ("hermite", 23, 0.95, 0.22),
+        ("hermite", 38, 1.01, 0.17),
+        ("hermite", 60, 1.04, 0.13),
+        ("hermite", 117, 1.07, 0.08),
+        ("jg", 23, 0.81, 0.27),
+        ("jg", 38, 0.92, 0.22),
+        ("jg", 60, 0.99, 0.17),
+        ("jg", 117, 1.06, 0.11),
+    ],
+)
+def test_spheres_between_platens(onset, E_over_H, pressure, radius):
+    """Measured: at most 0.7 to 0.8 HV at a/R of 0.20 to 0.28, then less. The level is lost."""
+    side = half(onset=onset, E_over_H=E_over_H, surface=1e4)
+    delta = np.geomspace(1e-5, 0.2, 4000)
+    area = side.area(delta)
+    over_HV, wide = side.force(delta) / area / 0.927e9, 2 * np.sqrt(area / math.pi)
+    most = np.argmax(over_HV)
+    assert over_HV[most] == pytest.approx(pressure, abs=0.006)
+    assert wide[most] == pytest.approx(radius, abs=0.006)
+    assert over_HV[-1] < 0.7 * over_HV[most]
+
+
 # ---------------------------------------------------------------------------- refusals
 @pytest.mark.parametrize(
     ("kind", "options", "words"),
