@@ -2,11 +2,14 @@
 
 import itertools
 import math
+from unittest import mock
 
 import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.equilibrium import solve as equilibrium
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.laws.particle import Flakes, Series
 from thirdbody.laws.particle.one_particle import Side
 from thirdbody.laws.particle.squashed import Squash
@@ -290,3 +293,42 @@ def test_squashed_particles_keep_asperities_apart_by_what_they_cover():
     state = tb.solve(contact("plane", "projected"), d=[5e-9])
     assert state.shadow[0] == pytest.approx(state.A_sa[0], rel=1e-12)
     assert state.shadow[0] > 10 * contact("plane").particles.coverage
+
+
+def test_engines_agree():
+    """Tables in the compiled engine, and states beside each other, against the NumPy engine."""
+    pytest.importorskip("numba")
+    for seat in ("rough", "plane"):
+        case, loads = contact(seat), np.geomspace(1e5, 1e9, 40)
+        plain = tb.solve(case, pressure=loads)
+        with mock.patch.object(equilibrium.engine, "FEWEST", 1):
+            compiled = tb.solve(case, pressure=loads)
+        assert (plain.engine[:5], compiled.engine) == ("numpy", "compiled")
+        sigma = case.roughness.sigma * np.linspace(1.0, 1.3, 32)
+        many = state_columns(case, pressure=5e6, vary={"roughness.sigma": sigma})
+        first = tb.solve(case, pressure=5e6).columns()
+        for name, values in plain.columns().items():
+            if values.dtype.kind == "f" and name not in ("residual", "iterations"):
+                assert compiled.columns()[name] == pytest.approx(values, rel=1e-9, abs=1e-15), name
+                assert many[name][0] == pytest.approx(first[name][0], rel=1e-9, abs=1e-15), name
+
+
+def test_what_the_compiled_engine_does_not_take_has_a_reason():
+    """Hardness across that of the surfaces: only those that are squashed go one by one."""
+    pytest.importorskip("numba")
+    H = np.linspace(3e9, 12e9, 60)
+    vary = {"particles.material.H": H}
+    states = state_columns(contact("rough"), pressure=5e6, vary=vary)
+    soft = H < STEEL.H
+    assert set(states["engine"][soft]) == {
+        "numpy: squashed particles whose material or shape of sizes varies"
+    }
+    assert set(states["engine"][~soft]) == {"compiled"}
+    for i in (0, 20, 59):
+        alone = tb.solve(contact("rough", particle=SOFT.replace(H=H[i])), pressure=5e6)
+        assert states["d"][i] == pytest.approx(alone.d, rel=1e-9)
+    friction = {"particle_law.friction_factor": np.linspace(0.1, 0.5, 30)}
+    states = state_columns(contact("rough"), pressure=5e6, vary=friction)
+    assert set(states["engine"]) == {"numpy: the friction of squashed particles varies"}
+    alone = tb.solve(contact("rough", friction_factor=0.5), pressure=5e6)
+    assert states["d"][-1] == pytest.approx(alone.d, rel=1e-9)
