@@ -123,7 +123,7 @@ def series_twin(
 ) -> Twin:
     """``zeta_mean`` and ``zeta_std`` in units of σ."""
     sigma = interface.rough.sigma
-    options: dict[str, Any] = {"seat": seat, "shadow": shadow}
+    options: dict[str, Any] = {"soft": "sphere", "seat": seat, "shadow": shadow}
     if seat == "offset":
         options["h_0"] = h_0
     if seat == "rough":

@@ -266,12 +266,12 @@ class TestJump:
 def soft_dust(
     sizes: tb.Distribution | None = None, shadow: str = "footprint", coverage: float = 0.4
 ) -> tb.Contact:
-    """Particles softer than the pressure: on approach they take more load than they carry."""
+    """Spheres softer than the pressure: on approach they take more load than they carry."""
     sizes = sizes or tb.TruncatedGaussian(mean=3e-8, std=3e-9)
     soft = tb.Material(E=2e9, nu=0.3, H=50e6)
     density = coverage / (np.pi / 4 * sizes.moment(2))
     particles = tb.Particles(material=soft, diameter=sizes, areal_density=density)
-    law = tb.particle.Series(seat="plane", shadow=shadow)
+    law = tb.particle.Series(soft="sphere", seat="plane", shadow=shadow)
     return base(oracle.Interface(), particles, law)
 
 

@@ -8,6 +8,7 @@ from numpy.testing import assert_allclose
 
 import thirdbody as tb
 from thirdbody.contact.particle_sums import particle_sum
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.laws.asperity import GW, ZMC
 from thirdbody.laws.particle import Flakes, Series
 
@@ -168,3 +169,12 @@ def test_round_trip_and_name():
     assert Flakes.from_dict(law.to_dict()) == law
     assert tb.particle.REGISTRY["flakes"] is Flakes
     assert tb.particle.REGISTRY["series"] is Series
+
+
+def test_states_of_several_aspects():
+    """Flakes of other aspects are other particles: one contact after another."""
+    aspects = np.linspace(1.5, 4.0, 30)
+    states = state_columns(contact(Flakes()), pressure=1e7, vary={"particle_law.aspect": aspects})
+    for i in (0, 29):
+        alone = tb.solve(contact(Flakes(aspect=aspects[i])), pressure=1e7)
+        assert_allclose(states["d"][i], alone.d, rtol=1e-10)

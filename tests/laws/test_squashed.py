@@ -2,11 +2,14 @@
 
 import itertools
 import math
+from unittest import mock
 
 import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.equilibrium import solve as equilibrium
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.laws.particle import Flakes, Series
 from thirdbody.laws.particle.one_particle import Side
 from thirdbody.laws.particle.squashed import Squash
@@ -208,6 +211,31 @@ def test_what_changes_against_a_sphere():
     assert jg == pytest.approx(want, rel=0.02)
 
 
+@pytest.mark.parametrize(
+    ("onset", "E_over_H", "pressure", "radius"),
+    [
+        ("hermite", 23, 0.95, 0.22),
+        ("hermite", 38, 1.01, 0.17),
+        ("hermite", 60, 1.04, 0.13),
+        ("hermite", 117, 1.07, 0.08),
+        ("jg", 23, 0.81, 0.27),
+        ("jg", 38, 0.92, 0.22),
+        ("jg", 60, 0.99, 0.17),
+        ("jg", 117, 1.06, 0.11),
+    ],
+)
+def test_spheres_between_platens(onset, E_over_H, pressure, radius):
+    """Measured: at most 0.7 to 0.8 HV at a/R of 0.20 to 0.28, then less. The level is lost."""
+    side = half(onset=onset, E_over_H=E_over_H, surface=1e4)
+    delta = np.geomspace(1e-5, 0.2, 4000)
+    area = side.area(delta)
+    over_HV, wide = side.force(delta) / area / 0.927e9, 2 * np.sqrt(area / math.pi)
+    most = np.argmax(over_HV)
+    assert over_HV[most] == pytest.approx(pressure, abs=0.006)
+    assert wide[most] == pytest.approx(radius, abs=0.006)
+    assert over_HV[-1] < 0.7 * over_HV[most]
+
+
 # ---------------------------------------------------------------------------- refusals
 @pytest.mark.parametrize(
     ("kind", "options", "words"),
@@ -265,3 +293,42 @@ def test_squashed_particles_keep_asperities_apart_by_what_they_cover():
     state = tb.solve(contact("plane", "projected"), d=[5e-9])
     assert state.shadow[0] == pytest.approx(state.A_sa[0], rel=1e-12)
     assert state.shadow[0] > 10 * contact("plane").particles.coverage
+
+
+def test_engines_agree():
+    """Tables in the compiled engine, and states beside each other, against the NumPy engine."""
+    pytest.importorskip("numba")
+    for seat in ("rough", "plane"):
+        case, loads = contact(seat), np.geomspace(1e5, 1e9, 40)
+        plain = tb.solve(case, pressure=loads)
+        with mock.patch.object(equilibrium.engine, "FEWEST", 1):
+            compiled = tb.solve(case, pressure=loads)
+        assert (plain.engine[:5], compiled.engine) == ("numpy", "compiled")
+        sigma = case.roughness.sigma * np.linspace(1.0, 1.3, 32)
+        many = state_columns(case, pressure=5e6, vary={"roughness.sigma": sigma})
+        first = tb.solve(case, pressure=5e6).columns()
+        for name, values in plain.columns().items():
+            if values.dtype.kind == "f" and name not in ("residual", "iterations"):
+                assert compiled.columns()[name] == pytest.approx(values, rel=1e-9, abs=1e-15), name
+                assert many[name][0] == pytest.approx(first[name][0], rel=1e-9, abs=1e-15), name
+
+
+def test_what_the_compiled_engine_does_not_take_has_a_reason():
+    """Hardness across that of the surfaces: only those that are squashed go one by one."""
+    pytest.importorskip("numba")
+    H = np.linspace(3e9, 12e9, 60)
+    vary = {"particles.material.H": H}
+    states = state_columns(contact("rough"), pressure=5e6, vary=vary)
+    soft = H < STEEL.H
+    assert set(states["engine"][soft]) == {
+        "numpy: squashed particles whose material or shape of sizes varies"
+    }
+    assert set(states["engine"][~soft]) == {"compiled"}
+    for i in (0, 20, 59):
+        alone = tb.solve(contact("rough", particle=SOFT.replace(H=H[i])), pressure=5e6)
+        assert states["d"][i] == pytest.approx(alone.d, rel=1e-9)
+    friction = {"particle_law.friction_factor": np.linspace(0.1, 0.5, 30)}
+    states = state_columns(contact("rough"), pressure=5e6, vary=friction)
+    assert set(states["engine"]) == {"numpy: the friction of squashed particles varies"}
+    alone = tb.solve(contact("rough", friction_factor=0.5), pressure=5e6)
+    assert states["d"][-1] == pytest.approx(alone.d, rel=1e-9)

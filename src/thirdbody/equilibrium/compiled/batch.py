@@ -512,6 +512,8 @@ class States(_Batch):
             raise NotCompiled("the law of the particles varies")
         if "particle_law.friction_factor" in arrays:
             raise NotCompiled("the friction of squashed particles varies")
+        if "particle_law.aspect" in arrays:
+            raise NotCompiled("the aspect of flakes varies")
         self.kinds[:, k.SHADOW] = COLUMNS.index(law.shadow) if law.shadow in COLUMNS else -1
         own = law.seat == "rough" and own_particles(contact, arrays)
         parts = self._squeezed if own else self._averaged

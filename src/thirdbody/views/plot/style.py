@@ -82,6 +82,7 @@ SYMBOLS = {
     "particle_law.zeta_mean": (r"$m_\zeta$", "1"),
     "particle_law.zeta_std": (r"$s_\zeta$", "1"),
     "particle_law.seat": ("seat", "1"),
+    "particle_law.friction_factor": ("$m_f$", "1"),
 }
 """What a varied input is called in a legend; others keep their dotted name."""
 NO_PARTICLES = ("particles.diameter.mean", "particles.areal_density")
