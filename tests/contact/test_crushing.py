@@ -139,15 +139,17 @@ def test_largest_tension_under_the_pressure_of_plastic_contacts(nu, g, s):
 
 
 def test_running_maximum_from_its_definition():
-    eps = np.geomspace(1e-7, 1.5, 4000)
+    eps = np.geomspace(1e-7, 1.5, 40_000)
     for pair in (PAIR, tb.MaterialPair(STEEL, SOFTER)):
         one = tb.particle.Series().one(surfaces=pair, particle=QUARTZ)
         inside = tension(one, 0.2, "sphere")
         found = one.at(eps)
         s = [np.minimum(2 * np.sqrt(area / np.pi), 1.0) for area in found.areas]
         now = found.load * 0.5 * (confined(s[0], 0.2) + confined(s[1], 0.2))
-        np.testing.assert_allclose(inside(eps), np.maximum.accumulate(now), rtol=1e-5)
+        np.testing.assert_allclose(inside(eps), np.maximum.accumulate(now), rtol=1e-6)
         assert inside(np.zeros(1))[0] == 0
+        # in front of the kink where the equator takes over, the tension falls by 1e-4
+        assert np.all(np.diff(inside(eps)) >= -1e-9 * inside.greatest)
         at_all = tension(one, 0.2, "none")(eps)
         np.testing.assert_allclose(at_all, found.load, rtol=1e-9)
 
@@ -335,8 +337,9 @@ def test_tables_are_the_sums(name, fragments):
     average, _ = average_of(STRENGTH.replace(fragments=fragments), SIZES[name])
     gaps = np.random.default_rng(1).uniform(average.bottom, average.top, 150)
     exact = average.average(gaps, average.top - gaps)
-    scale = np.maximum.accumulate(exact[np.argsort(-gaps)])[np.argsort(np.argsort(-gaps))]
-    assert np.max(np.abs(average(gaps) - exact) / np.maximum(scale, 1e-300)) < 1e-7
+    largest = exact[:, [0, *[5] * 5, 6]]  # the load, the larger area, the projected one
+    before = np.maximum.accumulate(largest[np.argsort(-gaps)])[np.argsort(np.argsort(-gaps))]
+    assert np.max(np.abs(average(gaps) - exact) / before) < 1e-7
 
 
 @pytest.mark.parametrize("seat", ["rough", "plane"])
@@ -393,7 +396,7 @@ def test_explicit_grains_break_one_by_one(fragments):
     sizes = tb.TruncatedGaussian(mean=14e-6, std=5e-6, n=2)
     strength = STRENGTH.replace(fragments=fragments, x_c=2e-6)
     gaps = np.geomspace(24e-6, 0.2e-6, 500)
-    loads = closing(rng, sizes.sample(rng, 1200), gaps, strength)
+    loads = closing(rng, sizes.sample(rng, 5000 if fragments == "gone" else 1200), gaps, strength)
     average, scale = average_of(strength, sizes)
     at = np.array([160, 260, 330, 400, 460, 499])
     expected = scale**2 * average.average(gaps[at] / scale, average.top - gaps[at] / scale)[:, 0]
