@@ -801,6 +801,62 @@ def test_syntax_errors_name_the_line(problems, old, new, words):
     only(problems((old, new)), "study.toml", *words)
 
 
+# ---------------------------------------------------------------- particles that break
+OF_QUARTZ = ('material = "SiO2"', 'material = "quartz"')
+
+
+@pytest.mark.parametrize(
+    ("line", "strength"),
+    [
+        ('strength = "material"', tb.WeibullStrength.of(tb.materials["quartz"])),
+        (
+            'strength = { fragments = "all", ratio = 0.4 }',
+            tb.WeibullStrength.of(tb.materials["quartz"], fragments="all", ratio=0.4),
+        ),
+        (
+            'strength = { sigma_0 = "80 MPa", at = "2 mm", m = 4, size_exponent = 0.6 }',
+            tb.WeibullStrength(sigma_0=80e6, x_0=2e-3, m=4, size_exponent=0.6),
+        ),
+    ],
+)
+def test_strength_of_particles(write, line, strength):
+    study = load_study(write(OF_QUARTZ, ("n = 3\n", f"n = 3\n{line}\n")))
+    assert study.contact.particles.strength == strength
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ('strength = "stone"', 'particles.strength = "stone" must be "material"'),
+        ('strength = { sigma_0 = "80 MPa", at = "2 mm" }', "particles.strength.m is missing"),
+        ('strength = { at = "2 mm", m = 3 }', "particles.strength.sigma_0 is missing"),
+        (
+            'strength = { sigma_0 = "80 MPa", at = "2 mm", x_0 = "1 mm", m = 3 }',
+            "both are the size of the test; keep one of them",
+        ),
+        ("strength = { ratio = 1 }", "particles.strength.ratio = 1 must be > 0 and < 1"),
+        ("strength = { kept = 1 }", "particles.strength.kept = 1 is not a known key"),
+    ],
+)
+def test_mistakes_in_a_strength(problems, line, sentence):
+    only(problems(OF_QUARTZ, ("n = 3\n", f"n = 3\n{line}\n")), sentence)
+
+
+def test_strength_of_a_material_that_has_none(problems):
+    found = problems(('material = "SiO2"', 'material = "MoS2"\nstrength = "material"'))
+    only(found, "particles.strength: the material 'MoS2' has no strength: it lacks sigma_0")
+
+
+def test_toughness_in_a_file(write, problems):
+    body = 'material = { E = "90 GPa", nu = 0.1, H = "12 GPa", K_c = "1.2 MPa m^0.5" }'
+    study = load_study(write(('material = "SiO2"', f'{body}\nstrength = "material"')))
+    assert study.contact.particles.material.K_c == 1.2e6
+    strength = study.contact.particles.strength
+    assert strength == tb.WeibullStrength.from_toughness(1.2e6)
+    found = problems(('material = "SiO2"', body.replace("m^0.5", "m^2")))
+    only(found, "particles.material.K_c", "a fracture toughness")
+
+
 def test_files_that_cannot_be_read(tmp_path):
     def told(path):
         with pytest.raises(tb.InvalidValue) as caught:

@@ -105,10 +105,11 @@ def about_strength(particles: Particles, surfaces: MaterialPair) -> list[str]:
     low = max(low, strength.least(material), 1e-3 * high)
     p, q = strength.tested
     if high > low and (low < p or high > q):
+        tested = f"{p:.3g}" if p == q else f"{p:.3g} to {q:.3g}"
         factor = max((p / low) ** strength.b, (high / q) ** strength.b)
         out.append(
             f"the strength of {name}: x from {low:.3g} to {high:.3g} m lies outside the sizes of "
-            f"the strength data ({p:.3g} to {q:.3g} m): strengths are extrapolated by a factor "
+            f"the strength data ({tested} m): strengths are extrapolated by a factor "
             f"{factor:.2g}"
         )
     softer = material.H < max(surfaces.first.H, surfaces.second.H)

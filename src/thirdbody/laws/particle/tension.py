@@ -186,10 +186,13 @@ class Tension:
         from scipy.optimize import brentq, minimize_scalar
 
         starts = np.concatenate([[1e-2 * edges[0]], edges])
-        grid = np.concatenate(
-            [np.geomspace(a, b, STEPS, endpoint=False) for a, b in itertools.pairwise(starts)]
-            + [edges[-1:]]
-        )
+        # closer and closer to each kink, in front of which the tension may fall a little
+        close = np.geomspace(1e-6, 0.3, STEPS)[::-1]
+        parts = [
+            np.union1d(np.geomspace(a, b, STEPS, endpoint=False), b - (b - a) * close)
+            for a, b in itertools.pairwise(starts)
+        ]
+        grid = np.concatenate([*parts, edges[-1:]])
         values = self.now(grid)
         most = np.maximum.accumulate(values)
         below = values < most * (1 - 1e-12)
