@@ -4,6 +4,7 @@ COMMANDS = (
     "solve",
     "sweep",
     "film",
+    "explicit",
     "assess",
     "design",
     "report",
