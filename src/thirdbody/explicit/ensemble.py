@@ -394,8 +394,8 @@ def _expected(
             share = each.areal_density * surface.area * count / QUANTILES
             for i, h in enumerate(grid):
                 eps = (x + seats - h) / x
-                force[i] += share * x**2 * float(weight @ law.force(eps))
-                area[i] += share * x**2 * float(weight @ law.area(eps))
+                force[i] += share * x**2 * float(np.sum(weight * law.force(eps)))
+                area[i] += share * x**2 * float(np.sum(weight * law.area(eps)))
     return {
         "bearing": (bearing * surface.area).tolist(),
         "law": force.tolist(),
@@ -535,7 +535,7 @@ def _at_loads(
 ) -> Array:
     """h, A_t and the two shares at each nominal pressure (4, loads), of some of the surfaces."""
     counts = good[which]
-    nominal = counts.T @ area[which]
+    nominal = np.sum(counts * area[which][:, None], axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
         now = {name: np.sum(v[which] * counts, axis=0) / nominal for name, v in sums.items()}
         hoped = {name: np.sum(v[which] * counts, axis=0) / nominal for name, v in hopes.items()}

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import InvalidValue
-from ..explicit.seats import SEATS
 from ..quantities.units import say
 from ..quantities.value import quantity
 from .fields import about_of
@@ -39,6 +38,8 @@ def explicit(reader: Reader, path: str, data: Any) -> Any:
 
 def _seats(reader: Reader, path: str, data: Any) -> Any:
     """A rule, by its word or as a table with its numbers."""
+    from ..explicit.seats import SEATS  # takes numba along, which other studies do without
+
     if not isinstance(data, dict):
         named = word(path, SEATS)
         return plain(lambda value: SEATS[named(value)]())
