@@ -1,10 +1,12 @@
 """The interface point by point: one height map, and every particle at its place.
 
-`solve` presses one surface, measured or synthetic. What it does without, against the statistical
+`solve` presses one surface, measured or synthetic; `ensemble` many, against the statistical
+model. What they do without, against the statistical
 model: asperities that are paraboloids with heights of one distribution, particles at independent
 places, a surface that is flat for each contact, contacts that do not feel each other.
 """
 
+from .ensemble import Ensemble, ensemble, surface_of
 from .seats import (
     DownhillSeats,
     GivenSeats,
@@ -20,6 +22,7 @@ from .state import ExplicitState
 
 __all__ = [
     "DownhillSeats",
+    "Ensemble",
     "ExplicitState",
     "GivenSeats",
     "HighestSeats",
@@ -28,5 +31,7 @@ __all__ = [
     "SphereSeats",
     "SummitSeats",
     "ValleySeats",
+    "ensemble",
     "solve",
+    "surface_of",
 ]

@@ -196,13 +196,13 @@ def _press(
         Hs = Ks.ravel()[where]
         beta = 0.0
         if sHs > 0:
-            beta = max(0.0, -(float(y @ Hs) + float(np.sum(y_k * Hs_k))) / sHs)
+            beta = max(0.0, -(_dot(y, Hs) + float(np.sum(y_k * Hs_k))) / sHs)
         r_A = r.ravel()[where]
         d, d_k = y, y_k
         if beta > 0:
             d = y + beta * s.ravel()[where]
             d_k = np.where(can, y_k + beta * s_k, 0.0)
-            if float(d @ (r_A - mu)) + float(np.sum(d_k * np.where(can, r_k - mu, 0.0))) <= 0:
+            if _dot(d, r_A - mu) + float(np.sum(d_k * np.where(can, r_k - mu, 0.0))) <= 0:
                 d, d_k = y, y_k
 
         # step, clipped before it is convolved
@@ -220,9 +220,9 @@ def _press(
         Ks = space.displacement(placed.spread(s_k, s) if len(bodies) else s)
         linear = placed.at(Ks) - own * s_k if len(bodies) else s_k
         Hs_k = linear + np.divide(s_k, M, out=np.zeros_like(M), where=M > 0)
-        quadratic = float(np.vdot(s, Ks)) + float(np.sum(s_k * linear))
+        quadratic = _dot(s, Ks) + float(np.sum(s_k * linear))
         sHs = quadratic + float(np.sum(s_k * (Hs_k - linear)))
-        rs = float(np.vdot(r, s)) + float(np.sum(r_k * s_k))
+        rs = _dot(r, s) + float(np.sum(r_k * s_k))
         iteration += 1
         if not (rs > 0 and sHs > 0):
             if step < 1e-9:
@@ -289,6 +289,11 @@ def _working_set(p, c, u, z, level):
     if deepest > 0:
         outer += deepest * total - under
     return where[:count].copy(), r, inner, outer, total
+
+
+def _dot(a: Array, b: Array) -> float:
+    """Σab, the same for any number of threads."""
+    return float(np.sum(a * b))
 
 
 def _secant(bodies: Bodies, missing: Array, r: Array, squeeze: Array, area: float) -> Array:

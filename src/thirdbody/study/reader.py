@@ -12,6 +12,7 @@ from pydantic import ConfigDict, PlainValidator, WrapValidator, create_model
 
 from ..errors import InvalidValue
 from ..populations.materials import MaterialLibrary, materials
+from ..populations.measured.topography import Topography
 from ..quantities.units import say
 from .fields import UNITS_OF_LISTS, about_of, filled_in, needed_fields
 from .mistakes import Known, retold
@@ -101,6 +102,8 @@ class Reader:
         """Mistakes that concern several keys at once."""
         self.notes: list[str] = []
         """What is allowed but looks like a slip."""
+        self.faces: list[Topography] = []
+        """The measured surfaces that stand in [roughness]."""
         self.known = Known()
 
     # ------------------------------------------------------------------ tables

@@ -10,6 +10,7 @@ from typing import Any
 from .body import TABLE as BODY
 from .design import TABLE as DESIGN
 from .ellipticity import ellipticity
+from .explicit import TABLE as EXPLICIT
 from .film import TABLE as FILM
 from .heights import heights
 from .laws import ASPERITY_LAW, PARTICLE_LAW, asperity_law
@@ -47,6 +48,7 @@ TABLES: tuple[Table, ...] = (
     SWEEP,
     UNCERTAINTY,
     DESIGN,
+    EXPLICIT,
 )
 
 FIELDS: dict[str, tuple[FieldReader, str]] = {

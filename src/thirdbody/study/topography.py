@@ -69,6 +69,7 @@ def topography(reader: Reader, path: str, data: dict[str, Any]) -> Any:
                 faces = [from_topography(f, **values | {"cutoff": cutoff}) for f in files]
             for face in faces:
                 reader.notes += [f"{path}.topography: {sentence}" for sentence in face.warnings]
+            reader.faces = faces
             if len(faces) == 1:
                 return faces[0].roughness(**shapes)
             both = (faces[0].moments + faces[1].moments).roughness(heights=shapes["heights"])

@@ -18,6 +18,7 @@ from ..effects.own_code import load_installed
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue
+from ..populations.measured.topography import Topography
 from ..quantities.value import slips_are_told
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
@@ -56,6 +57,10 @@ class Study:
         What the table [design] asks: arguments of `thirdbody.design`.
     film : FilmConditions, optional
         What the table [film] says of bodies, oil and speeds.
+    explicit : dict, optional
+        What the table [explicit] says of the surfaces with every particle at its place.
+    faces : tuple of Topography, optional
+        The measured surfaces that stand in [roughness].
     own_load : bool, optional
         Whether the file gives a load of its own; else it is the Hertz pressure of [film].
     body : Body, optional
@@ -73,6 +78,8 @@ class Study:
     uncertainty: Uncertainty | None = None
     design: dict[str, Any] | None = None
     film: FilmConditions | None = None
+    explicit: dict[str, Any] | None = None
+    faces: tuple[Topography, ...] = ()
     own_load: bool = True
     body: Body | None = None
     forces: np.ndarray | None = None
@@ -198,6 +205,8 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         uncertainty=own.get("uncertainty"),
         design=own.get("design"),
         film=film,
+        explicit=own.get("explicit"),
+        faces=tuple(reader.faces),
         own_load=loaded is not None,
         body=bodies if forces is not None else None,
         forces=forces,

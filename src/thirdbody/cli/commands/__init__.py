@@ -5,6 +5,7 @@ COMMANDS = (
     "solve",
     "sweep",
     "film",
+    "explicit",
     "assess",
     "design",
     "report",

@@ -1,6 +1,7 @@
-"""Figures of contacts, sweeps, uncertainty, films, designs and surfaces."""
+"""Figures of contacts, sweeps, uncertainty, films, designs, surfaces and maps under pressure."""
 
 from .curves import area, modes, regimes, separation, shares
+from .explicit import explicit
 from .maps import mode_map
 from .style import MODE_COLOURS, OKABE_ITO
 from .topography import surface
@@ -11,6 +12,7 @@ __all__ = [
     "OKABE_ITO",
     "area",
     "bands",
+    "explicit",
     "mode_map",
     "modes",
     "regimes",

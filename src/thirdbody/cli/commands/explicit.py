@@ -1,0 +1,142 @@
+"""``thirdbody explicit``: the loads of a study on maps of heights, every particle at its place."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ...errors import InvalidValue
+from ...quantities.say import number, percent, signed, value_of
+from ..options import AsJson, Settings, StudyFile, not_a_folder, read_study
+from ..show import finite, table_of, terminal
+from ..streams import NO_ANSWER, warn, write_csv, write_figure
+
+__all__ = ["command"]
+
+MAPS = ("last", "all")
+
+
+def command(
+    study: StudyFile,
+    surfaces: Annotated[
+        int | None, typer.Option("--surfaces", help="How many synthetic surfaces.")
+    ] = None,
+    size: Annotated[
+        int | None, typer.Option("--size", help="Points along each side of a surface.")
+    ] = None,
+    spacing: Annotated[
+        str | None, typer.Option("--spacing", metavar="LENGTH", help='Of the points: "100 nm".')
+    ] = None,
+    seats: Annotated[
+        str | None,
+        typer.Option("--seats", help="Where particles lie, e.g. random, settled, valleys."),
+    ] = None,
+    maps: Annotated[str, typer.Option("--maps", metavar="last|all", help="Maps to keep.")] = "last",
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="DIR", help="Folder for states.csv, maps.nc, explicit.png and .json."
+        ),
+    ] = None,
+    as_json: AsJson = False,
+    settings: Settings = None,
+) -> None:
+    """The loads of a study on maps of heights, with every particle at its place."""
+    from ...study.run_explicit import run_explicit
+
+    problems = not_a_folder(out)
+    if maps not in MAPS:
+        problems.append(f"--maps {maps} must be last or all")
+    if problems:
+        raise InvalidValue(*problems)
+    short = {"surfaces": surfaces, "size": size, "spacing": spacing, "seats": seats}
+    own = [
+        f"explicit.{name}={json.dumps(value)}" for name, value in short.items() if value is not None
+    ]
+    asked = read_study(study, [*(settings or ()), *own])
+    if out is not None:
+        out.mkdir(parents=True, exist_ok=True)
+    kept = None if out is None else out / "surfaces"
+    result = run_explicit(asked, folder=kept, maps=maps, progress=True)
+    for sentence in result.data["warnings"][len(asked.notes) :]:
+        warn(sentence)
+    if out is not None:
+        _write(out, result)
+    if as_json:
+        print(json.dumps(finite(result.data), indent=1, allow_nan=False))
+    else:
+        _show(result.data)
+    if not result.converged:
+        warn("some states did not converge to the certificate asked for; see states.csv")
+        raise typer.Exit(NO_ANSWER)
+
+
+def _write(out: Path, result: Any) -> None:
+    from ...quantities.files import write_text
+    from ...views.plot import explicit
+
+    write_csv(out / "states.csv", result.columns, result.units)
+    result.state.to_netcdf(out / "maps.nc")
+    write_text(
+        out / "explicit.json", json.dumps(finite(result.data), indent=1, allow_nan=False) + "\n"
+    )
+    for name in ("states.csv", "maps.nc", "explicit.json"):
+        print(f"written: {out / name}", file=sys.stderr)
+    write_figure(out / "explicit.png", explicit(result.state))
+
+
+def _show(data: dict[str, Any]) -> None:
+    """The table against the statistical model, the seat, one sentence."""
+    console = terminal()
+    many = data["surfaces"] > 1
+    source = f"{data['surfaces']} synthetic surfaces" if data["source"] == "synthetic" else (
+        data["source"]
+    )  # fmt: skip
+    console.print(f"{data['title'] or 'Study'} (thirdbody {data['version']})")
+    console.print(f"{source}, every particle at its place, against the statistical model")
+    table, synthetic = data["table"], "h_cv" in data["table"]
+    heads = ["F*", "", "explicit"]
+    heads += ["luck removed"] * synthetic + ["statistical"] + ["difference"] * (synthetic and many)
+    grid = table_of(heads, right=True)
+    three_body = data["inputs"]["particles"] is not None
+    shown = {"h": "separation h", "A_t": "area"}
+    if three_body:
+        shown |= {"particle_load_share": "particles' load", "particle_area_share": "their area"}
+    for i, load in enumerate(table["F_star"]):
+        for k, (name, words) in enumerate(shown.items()):
+            cells = [number(load) if k == 0 else "", words]
+            kinds = ("raw", "cv") if synthetic else ("raw",)
+            for kind in kinds:
+                error = table[f"{name}_{kind}_error"][i] if synthetic else None
+                cells.append(_cell(name, table[f"{name}_{kind}"][i], error))
+            cells.append(_cell(name, table[f"{name}_statistical"][i], None))
+            if synthetic and many:
+                away = table[f"{name}_difference"][i]
+                cells.append("-" if away is None else f"{signed(away, 1)} errors")
+            grid.add_row(*cells)
+    console.print(grid)
+    seats = data["seats"]
+    if three_body and seats["mean"] is not None and seats["mean"] == seats["mean"]:
+        console.print(
+            "The statistical model has these seats:  [particle_law] "
+            f"zeta_mean = {seats['mean']:.3f}, zeta_std = {seats['std']:.3f}"
+        )
+        console.print(
+            f"Seats above 2.5 sigma, which carry small loads: {percent(seats['high'])}; "
+            f"Gaussian: {percent(seats['high_gaussian'])}."
+        )
+    if data.get("summary"):
+        console.print(data["summary"])
+
+
+def _cell(name: str, value: float | None, error: float | None) -> str:
+    if value is None:
+        return "-"
+    if name == "h":
+        spread = f" ± {value_of(error, 'm', 2)}" if error else ""
+        return value_of(value, "m") + spread
+    return percent(value, error or 0.0)

@@ -1,0 +1,169 @@
+"""A study with every particle at its place: one measured surface, or many synthetic ones."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..contact.citations import cite
+from ..contact.contact import Contact
+from ..equilibrium.solve import solve as statistical
+from ..errors import InvalidValue, RangeWarning
+from ..explicit.ensemble import COMPARED, Ensemble, counterpart, ensemble, spacing_for, surface_of
+from ..explicit.solve import solve
+from ..explicit.state import COLUMNS, ExplicitState
+from ..version import __version__
+from .whole import Study
+
+__all__ = ["ExplicitResult", "run_explicit"]
+
+SURFACES, SIZE = 8, 512
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ExplicitResult:
+    """What a study with explicit surfaces gives.
+
+    Attributes
+    ----------
+    data : dict
+        Title, version, inputs (SI), the comparison with the statistical model, warnings,
+        citations: plain data ready for JSON.
+    columns, units : dict
+        One row a state: surface, load, shares, certificate.
+    state : ExplicitState
+        The measured surface, or the first synthetic one, under the loads of the study.
+    converged : bool
+        Whether every state is as exact as asked.
+    """
+
+    data: dict[str, Any]
+    columns: dict[str, list[Any]]
+    units: dict[str, str]
+    state: ExplicitState
+    converged: bool
+
+
+def run_explicit(
+    study: Study,
+    *,
+    folder: Path | None = None,
+    maps: str = "last",
+    progress: bool | Callable[[int], None] = False,
+) -> ExplicitResult:
+    """The loads of a study on explicit surfaces.
+
+    Parameters
+    ----------
+    study : Study
+        Its [explicit] table says how; a surface of [roughness] that was measured is pressed
+        itself, else surfaces are made with the σ, R and α of the study.
+    folder : Path, optional
+        Where finished synthetic surfaces are kept.
+    maps : {"last", "all"}, optional
+    progress : bool or callable, optional
+
+    Returns
+    -------
+    ExplicitResult
+
+    Raises
+    ------
+    InvalidValue
+        The study gives separations instead of loads, or its surfaces cannot be made or pressed.
+    """
+    if study.load == "separation":
+        raise InvalidValue(
+            "load.separation counts from a plane that a map has not; give load.pressure or F_star"
+        )
+    contact = study.contact.replace(outputs=())
+    loads = np.sort(study.values) / (contact.E_ss if study.load == "pressure" else 1.0)
+    asked = dict(study.explicit or {})
+    size = asked.pop("size", SIZE)
+    count, spacing = asked.pop("surfaces", SURFACES), asked.pop("spacing", None)
+    notes = list(study.notes)
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", RangeWarning)
+        if len(study.faces) == 1:
+            made = _measured(study, contact, loads, asked, maps)
+        else:
+            if study.faces:
+                notes.append(
+                    "roughness.topography gives two faces, which are not measured one above the "
+                    "other: surfaces with their moments are pressed"
+                )
+            spacing = spacing_for(contact) if spacing is None else spacing
+            found = ensemble(
+                contact, count, F_star=loads, size=size, spacing=spacing,
+                folder=folder, progress=progress, **asked,
+            )  # fmt: skip
+            first = surface_of(contact, size=size, spacing=spacing, seed=asked.get("seed", 0))
+            state = solve(contact, first, F_star=loads, maps=maps, **asked)
+            made = _of_ensemble(found, state)
+    sentences = [*notes, *made.data.pop("warnings"), *(str(each.message) for each in heard)]
+    data = {
+        "title": study.title,
+        "version": __version__,
+        "inputs": contact.to_dict(),
+        **made.data,
+        "warnings": list(dict.fromkeys(sentences)),
+        "citations": cite(contact),
+    }
+    return ExplicitResult(
+        data=data, columns=made.columns, units=made.units, state=made.state,
+        converged=made.converged,
+    )  # fmt: skip
+
+
+def _measured(
+    study: Study, contact: Contact, loads: np.ndarray, asked: dict[str, Any], maps: str
+) -> ExplicitResult:
+    """One map: the numbers are its own, and the model beside it has its seats."""
+    (face,) = study.faces
+    state = solve(contact, face, F_star=loads, maps=maps, **asked)
+    model = counterpart(contact, state.seats)
+    beside = statistical(model, F_star=loads)
+    table: dict[str, list[float | None]] = {"F_star": loads.tolist()}
+    for name in COMPARED:
+        table[f"{name}_raw"] = _finite(getattr(state, name))
+        table[f"{name}_statistical"] = _finite(getattr(beside, name))
+    columns = {name: values.tolist() for name, values in state.columns().items()}
+    data = {
+        "surfaces": 1,
+        "source": face.source,
+        "left_out": int(np.sum(~np.atleast_1d(state.converged))),
+        "seats": state.seats._asdict(),
+        "table": table,
+        "warnings": list(state.warnings),
+    }
+    return ExplicitResult(
+        data=data, columns={"surface": [0] * len(loads)} | columns, units=_units(),
+        state=state, converged=data["left_out"] == 0,
+    )  # fmt: skip
+
+
+def _of_ensemble(found: Ensemble, state: ExplicitState) -> ExplicitResult:
+    told = found.to_dict()
+    data = {
+        name: told[name]
+        for name in ("surfaces", "left_out", "seats", "table", "at_h", "summary", "warnings")
+    }
+    data["source"] = "synthetic"
+    return ExplicitResult(
+        data=data, columns=found.states, units=_units(), state=state,
+        converged=found.left_out == 0 and bool(np.all(state.converged)),
+    )  # fmt: skip
+
+
+def _units() -> dict[str, str]:
+    return {"surface": ""} | {name: told["unit"] for name, told in COLUMNS.items()}
+
+
+def _finite(values: Any) -> list[float | None]:
+    return [v if math.isfinite(v) else None for v in np.atleast_1d(values).tolist()]

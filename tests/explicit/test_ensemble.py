@@ -1,0 +1,231 @@
+"""Many surfaces against the statistical model, as Python and as a command."""
+
+import csv
+import dataclasses
+import json
+import re
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import thirdbody as tb
+from thirdbody import cli
+from thirdbody.explicit import ensemble as function
+from thirdbody.study import load_study
+from thirdbody.study.run_explicit import run_explicit
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "explicit.toml"
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+CONTACT = tb.Contact(
+    surfaces=tb.MaterialPair(STEEL, STEEL),
+    roughness=tb.Roughness(sigma=300e-9, R=3e-6),
+    particles=tb.Particles(
+        material=SILICA, areal_density=2e11, diameter=tb.Monodisperse(mean=4e-7)
+    ),
+)
+HOW = dict(F_star=[3e-4, 2e-3], size=128, spacing=2e-7, seed=3)
+
+
+def many(count=4, contact=CONTACT, **changes):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", tb.RangeWarning)
+        return function(contact, count, **(HOW | changes))
+
+
+@pytest.fixture(scope="module")
+def found():
+    return many(6)
+
+
+def test_surfaces_have_the_roughness_asked_for():
+    surface = tb.explicit.surface_of(CONTACT, size=256, spacing=1.5e-7, seed=1)
+    moments = surface.moments_at(0, method="spectrum")
+    rough = CONTACT.roughness
+    assert moments.sigma == pytest.approx(rough.sigma, rel=1e-6)
+    assert moments.alpha == pytest.approx(rough.alpha, rel=1e-6)
+    assert moments.R == pytest.approx(rough.R, rel=1e-6)
+
+
+def test_the_statistical_model_agrees_where_the_luck_is_taken_out(found):
+    """The stated agreement of the rough seat, 10 % of the share; errors are known."""
+    table = found.table
+    share, model = table.particle_load_share_cv, table.particle_load_share_statistical
+    error = table.particle_load_share_cv_error
+    assert np.all(np.abs(share - model) < 0.1 * model + 3 * error)
+    assert np.all(np.abs(table.h_cv - table.h_statistical) < 0.05 * 300e-9 + 3 * table.h_cv_error)
+    # the variate is there to make errors smaller
+    raw = table.particle_load_share_raw_error
+    assert np.all(error < raw)
+    assert found.left_out == 0
+    assert found.sentence.endswith(".")
+
+
+def test_loads_are_pooled_at_equal_separation(found):
+    """The pooled load at the separation found is the load, and its parts give the share."""
+    at, h = found.at_h, found.table.h_raw.values
+    nominal = 6 * (128 * 2e-7) ** 2
+    total = (at.asperities + at.particles).values / nominal / CONTACT.E_ss
+    back = np.exp(np.interp(h, at.h.values[::-1], np.log(total[::-1])))
+    # straight lines over 0.15 sigma against the curve
+    assert back == pytest.approx(HOW["F_star"], rel=0.01)
+    particles = np.exp(np.interp(h, at.h.values[::-1], np.log(at.particles.values[::-1])))
+    share = particles / nominal / CONTACT.E_ss / back
+    assert found.table.particle_load_share_raw.values == pytest.approx(share, rel=0.01)
+
+
+def test_ratios_say_why(found):
+    at = found.at_h.isel(h=-1)
+    assert 0.4 < float(at.bare_over_bearing) < 0.9
+    # few particles far apart carry what their law says, for the ground hardly moves
+    alone = found.at_h.particles_over_sum.values
+    assert alone[np.isfinite(alone)][0] == pytest.approx(1, abs=0.02)
+    assert 0.9 < float(at.asperities_with_over_without) < 1.0
+    assert 0.8 < float(at.bearing_over_gaussian) < 1.25
+
+
+def test_settled_particles_bring_the_model_to_their_seat():
+    lower = many(4, seats=tb.explicit.SettledSeats(within=1.5e-6))
+    law = lower.model.particle_law
+    assert (law.zeta_mean, law.zeta_std) == (lower.seats.mean, lower.seats.std)
+    assert -0.7 < law.zeta_mean < -0.3
+    table = lower.table
+    assert np.all(table.particle_load_share_statistical < 0.6 * tb.solve(
+        CONTACT, F_star=HOW["F_star"]).particle_load_share)  # fmt: skip
+    away = np.abs(table.particle_load_share_cv / table.particle_load_share_statistical - 1)
+    assert float(away[-1]) < 0.2
+
+
+def test_two_bodies():
+    clean = many(2, CONTACT.replace(particles=None))
+    assert np.all(clean.table.particle_load_share_raw == 0)
+    assert np.isnan(clean.seats.mean)
+    assert "real contact area" in clean.sentence
+
+
+def test_an_interrupted_run_goes_on(tmp_path):
+    def stop(done):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    whole = many(3)
+    with pytest.raises(KeyboardInterrupt):
+        many(3, folder=tmp_path, progress=stop)
+    kept = sorted(tmp_path.iterdir())
+    assert [file.name for file in kept] == ["surface_000.json", "surface_001.json"]
+    before = [file.read_bytes() for file in kept]
+    again = many(3, folder=tmp_path)
+    assert again.to_dict() == whole.to_dict()
+    assert [file.read_bytes() for file in kept] == before
+    # what was made for other numbers does not count
+    other = many(3, folder=tmp_path, seats="valleys")
+    assert other.seats.mean < -1
+
+
+def test_states_that_did_not_converge_are_left_out():
+    short = many(2, max_iterations=2, tol=1e-10)
+    assert short.left_out > 0
+    assert "did not converge and count nowhere" in " ".join(short.warnings)
+
+
+@pytest.mark.parametrize(
+    ("how", "words"),
+    [
+        (dict(count=0), "surfaces = 0 must be a whole number"),
+        (dict(F_star=[-1.0]), "must be finite and > 0"),
+        (dict(seats=[[0.0, 0.0]]), "positions belong to one surface"),
+        (dict(seats="nowhere"), "must be one of 'random'"),
+    ],
+)
+def test_bad_input_is_refused(how, words):
+    with pytest.raises(tb.InvalidValue, match=words):
+        many(**how)
+
+
+# ---------------------------------------------------------------- the command
+SMALL = ("--surfaces", "2", "--size", "128", "--spacing", "200 nm")
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, ["explicit", *map(str, arguments)])
+
+
+def test_the_command_writes_what_it_says(tmp_path):
+    out = tmp_path / "points"
+    done = run(EXAMPLE, *SMALL, "--out", out, "--json")
+    assert done.exit_code == 0, done.output
+    data = json.loads(done.stdout)
+    assert data == json.loads((out / "explicit.json").read_text("utf-8"))
+    assert data["table"]["F_star"] == [1e-4, 1e-3]
+    assert data["surfaces"] == 2
+    names = {"states.csv", "maps.nc", "explicit.json", "explicit.png", "surfaces"}
+    assert {file.name for file in out.iterdir()} == names
+    with (out / "states.csv").open(encoding="utf-8") as file:
+        head, *rows = csv.reader(file)
+    assert head[:3] == ["surface", "h [m]", "F_star [1]"]
+    assert {row[0] for row in rows} == {"0", "1"}
+    again = run(EXAMPLE, *SMALL, "--out", out, "--json")
+    assert again.stdout == done.stdout
+
+
+def test_the_command_in_words():
+    done = run(EXAMPLE, *SMALL, "--seats", "settled")
+    assert done.exit_code == 0, done.output
+    assert "2 synthetic surfaces, every particle at its place" in done.stdout
+    assert "zeta_mean = -0." in done.stdout
+
+
+def test_a_measured_surface_is_pressed_itself():
+    map_of = tb.synthetic.self_affine(
+        sigma=300e-9, hurst=0.8, shortest=2.4e-6, longest=8e-6, spacing=2e-7, points=128
+    ).heights
+    measured = tb.surfaces.from_topography(map_of, spacing=2e-7, cutoff=0)
+    asked = dataclasses.replace(load_study(EXAMPLE), faces=(measured,))
+    result = run_explicit(asked)
+    assert result.data["surfaces"] == 1
+    assert "h_cv" not in result.data["table"]
+    assert any("does not repeat itself" in sentence for sentence in result.data["warnings"])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", tb.RangeWarning)
+        alone = tb.explicit.solve(asked.contact, measured, F_star=[1e-4, 1e-3])
+    assert result.data["table"]["h_raw"] == alone.h.tolist()
+
+
+def test_a_measured_surface_with_holes_is_refused(tmp_path):
+    text = EXAMPLE.read_text("utf-8")
+    file = tmp_path / "own.toml"
+    file.write_text(re.sub(r"sigma = .*\nR .*\n", 'topography = "example"\n', text))
+    assert load_study(file).faces[0].missing > 0
+    done = run(file)
+    assert done.exit_code == 2
+    assert "have no datum; a map without gaps is needed" in done.stderr
+
+
+def test_states_that_did_not_converge_end_in_3(tmp_path):
+    short = ("--set", "explicit.max_iterations=2", "--set", "explicit.tol=1e-10")
+    done = run(EXAMPLE, *SMALL, *short)
+    assert done.exit_code == 3
+    assert "did not converge" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--seats", "vallies"), 'did you mean "valleys"'),
+        (("--surfaces", "0"), "explicit.surfaces = 0 must be a whole number from 1"),
+        (("--spacing", "3 GPa"), "explicit.spacing"),
+        (("--maps", "some"), "--maps some must be last or all"),
+        (("--set", "explicit.sizes=128"), "did you mean size"),
+        (("--set", 'explicit.cap="soft"'), 'must be "hardness", "none"'),
+        (("--set", 'explicit.seats={rule="settled", within="-1 um"}'), "explicit.seats.within"),
+        (("--set", "load.separation=1e-7"), "load.separation counts from a plane"),
+        (("--set", 'roughness.sigma="300 um"'), "no spectrum"),
+    ],
+)
+def test_mistakes_in_the_study(arguments, words):
+    done = run(EXAMPLE, *SMALL, *arguments)
+    assert done.exit_code == 2, done.output
+    assert words in done.stderr
+    assert "Traceback" not in done.output
