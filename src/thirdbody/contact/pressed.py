@@ -14,7 +14,7 @@ from .interface import interface
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..laws.base import AbstractParticleLaw
+    from ..laws.base import AbstractParticleLaw, OneParticle
     from ..populations.materials import Material, MaterialPair
     from .contact import Contact
 
@@ -24,12 +24,6 @@ __all__ = ["about_pressed", "buried"]
 
 TOLD = 0.01
 """Share of the particles' load from which such particles are told of."""
-BRITTLE = ("ceramic", "glass", "oxide particle")
-"""Kinds of the materials library whose grains break."""
-STRENGTH, AT, EXPONENT, SMALLEST = 67e6, 1e-3, 0.55, 1e-6
-"""Load at failure over the square of its size [Pa], of a grain of quartz of 1 mm, and how it falls
-with size (from memory; measured 0.47 to 0.65); below 1 µm quartz deforms and does not break
-(Schönert, Steier 1971)."""
 
 
 def buried(contact: Contact, d: Array) -> Array:
@@ -49,13 +43,14 @@ def _shares(contact: Contact, d: Array) -> tuple[Array, Array]:
             groups = response.spots(d, split)
         except InvalidValue:
             continue
-        breaks = _is_brittle(each.material)
+        strength = _strength(each)
         for spots in groups:
             total += spots.total(spots.load)
             deep += spots.total(spots.load * (np.maximum(*spots.depths) > spots.radius))
-            if breaks:
-                most = STRENGTH * (AT / spots.x) ** EXPONENT
-                beyond = (spots.x > SMALLEST) & (spots.load > most * spots.x**2)
+            if strength is not None:
+                beyond = _broken(
+                    spots, strength, contact.law_of(each), contact.surfaces, each.material
+                )
                 broken += spots.total(spots.load * beyond)
 
     def of(part: Array) -> Array:
@@ -77,17 +72,10 @@ def about_pressed(contact: Contact, d: Array) -> list[str]:
     if broken > TOLD:
         out.append(
             f"{percent(broken, digits=2)} of the particles' load is on brittle particles pressed "
-            "beyond the strength of a grain of quartz of their size: they would break, and the "
-            "laws keep them whole"
+            "beyond the strength of most grains of their size: they would break, and the laws keep "
+            'them whole; give the particles a strength ("material" takes the library\'s)'
         )
     return out
-
-
-@lru_cache(maxsize=512)
-def _is_brittle(material: Material) -> bool:
-    from ..populations.materials import materials
-
-    return materials.entries().get(material.name, {}).get("kind") in BRITTLE
 
 
 @lru_cache(maxsize=512)
@@ -102,3 +90,27 @@ def _radius_squeeze(
         return float((np.maximum(*one.depths) - one.radius)[0, 0])
 
     return (brentq(beyond, 1e-6, 4.0, xtol=1e-12),) if beyond(1e-6) < 0 < beyond(4.0) else ()
+
+
+def _strength(particles: Particles) -> WeibullStrength | None:
+    """Of particles that would break, and are not told to."""
+    if particles.strength is not None:
+        return None
+    try:
+        return WeibullStrength.of(particles.material)
+    except InvalidValue:
+        return None
+
+
+def _broken(
+    spots: ParticleSpots, strength: WeibullStrength, one: OneParticle, material: Material
+) -> NDArray[np.bool_]:
+    """Particles whose tension, now or on the way, is beyond the strength of 63 % of their size."""
+    most = strength.of_size(spots.x)
+    beyond = (spots.x > strength.least(material)) & (spots.load > most * spots.x**2)
+    if np.any(beyond):  # the surfaces around a particle only lessen its tension
+        squeeze = (spots.depths[0] + spots.depths[1]) / spots.x
+        found = np.zeros(beyond.shape)
+        found[beyond] = tension(one, material.nu, strength.confinement).met(squeeze[beyond])
+        beyond &= found > most
+    return beyond

@@ -69,7 +69,7 @@ class Body(Value):
         """Area and pressures of one smooth dry contact under the force on all [N]."""
         shape = self.conjunction
         assert shape is not None
-        return shape.hertz(np.asarray(force, float) / self.bodies, 2 * E_star)
+        return shape.hertz(np.asarray(force, float) / self.bodies, E=2 * E_star)
 
 
 def _bodies() -> Any:

@@ -11,9 +11,10 @@ import typer
 
 from ...errors import InvalidValue
 from ...quantities.say import number, percent, signed, value_of
+from ...quantities.tables import Table
 from ..options import AsJson, Settings, StudyFile, not_a_folder, read_study
-from ..show import finite, table_of, terminal
-from ..streams import NO_ANSWER, warn, write_csv, write_figure
+from ..show import finite, terminal
+from ..streams import NO_ANSWER, TableFiles, warn, write_figure
 
 __all__ = ["command"]
 
@@ -79,7 +80,7 @@ def _write(out: Path, result: Any) -> None:
     from ...quantities.files import write_text
     from ...views.plot import explicit
 
-    write_csv(out / "states.csv", result.columns, result.units)
+    TableFiles(csv=out / "states.csv").write(result.columns, result.units)
     result.state.to_netcdf(out / "maps.nc")
     write_text(
         out / "explicit.json", json.dumps(finite(result.data), indent=1, allow_nan=False) + "\n"
@@ -101,7 +102,7 @@ def _show(data: dict[str, Any]) -> None:
     table, synthetic = data["table"], "h_cv" in data["table"]
     heads = ["F*", "", "explicit"]
     heads += ["luck removed"] * synthetic + ["statistical"] + ["difference"] * (synthetic and many)
-    grid = table_of(heads, right=True)
+    grid = Table(heads, right=True)
     three_body = data["inputs"]["particles"] is not None
     shown = {"h": "separation h", "A_t": "area"}
     if three_body:
