@@ -18,6 +18,9 @@ sys.path.insert(0, str(HERE))
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
+# what commands print heeds COLUMNS, which workers of the tests set to a width of their own
+os.environ.pop("COLUMNS", None)
+
 # CI: the same examples every time, and the first counterexample as it is; a contact costs up to
 # a second to bind, so shrinking is left to HYPOTHESIS_PROFILE=search, which also looks elsewhere
 settings.register_profile(
