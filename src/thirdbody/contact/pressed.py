@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InvalidValue
+from ..laws.particle.tension import tension
+from ..populations.strength import WeibullStrength
 from ..quantities.say import percent
 from .interface import interface
 
@@ -15,7 +17,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..laws.base import AbstractParticleLaw, OneParticle
+    from ..laws.spots import ParticleSpots
     from ..populations.materials import Material, MaterialPair
+    from ..populations.particles import Particles
     from .contact import Contact
 
     Array = NDArray[np.float64]
@@ -48,9 +52,8 @@ def _shares(contact: Contact, d: Array) -> tuple[Array, Array]:
             total += spots.total(spots.load)
             deep += spots.total(spots.load * (np.maximum(*spots.depths) > spots.radius))
             if strength is not None:
-                beyond = _broken(
-                    spots, strength, contact.law_of(each), contact.surfaces, each.material
-                )
+                one = contact.law_of(each).one(surfaces=contact.surfaces, particle=each.material)
+                beyond = _broken(spots, strength, one, each.material)
                 broken += spots.total(spots.load * beyond)
 
     def of(part: Array) -> Array:
