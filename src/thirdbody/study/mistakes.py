@@ -77,13 +77,13 @@ class Known:
         if numbered:
             several = path.rpartition(".")[2]
             return f"{start}; there are several {several}: did you mean {numbered[0]}.{key}?", None
-        if meant is None and homes:
-            home = _heading(homes[0])
-            return f"{start} here; it belongs to {home}", None
         if meant is None and len(key) > 2:
             word = key.lower().replace("_", " ")
             meanings = {name: about.partition(", e.g.")[0] for name, about in known.items()}
             meant = next((name for name, text in meanings.items() if word in text.lower()), None)
+        if meant is None and homes:
+            home = _heading(homes[0])
+            return f"{start} here; it belongs to {home}", None
         if meant is not None:
             return f"{start}; did you mean {meant}?", meant
         return f"{start}; known here: {', '.join(known)}", None

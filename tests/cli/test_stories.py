@@ -1,0 +1,101 @@
+"""What an engineer types in an empty folder, from the drawing to the number."""
+
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from thirdbody import cli
+
+ROOT = Path(__file__).parents[2]
+
+
+def run(*arguments):
+    done = CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+    assert done.exit_code == 0, done.stderr
+    return done
+
+
+@pytest.fixture(autouse=True)
+def empty_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+
+
+def solved(file, *settings):
+    sets = [word for each in settings for word in ("--set", each)]
+    return json.loads(run("solve", file, "--json", *sets).stdout)
+
+
+def test_a_ball_screw_nut_from_ra_newtons_and_cleanliness():
+    run("new", "ball-screw")
+    usual = solved("ball-screw.toml")
+    (force,) = usual["body"]["forces"]
+    assert force["force"] == 2000
+    assert 0.1e9 < force["mean"] < force["maximum"] < force["yields"]
+    told = " ".join(usual["warnings"])
+    assert "Gaussian heights, Rq = 1.2533 Ra" in told
+    assert "from memory" in told
+    heavier = solved("ball-screw.toml", "load.force=4 kN")["body"]["forces"][0]
+    assert heavier["maximum"] == pytest.approx(force["maximum"] * 2 ** (1 / 3), rel=1e-12)
+    dirty = solved("ball-screw.toml", 'particles.iso4406="21/19/16"')["body"]["forces"][0]
+    assert dirty["particle_load_share"] == pytest.approx(8 * force["particle_load_share"], rel=0.1)
+    shown = run("solve", "ball-screw.toml").stdout
+    assert "2000 N on the body ball-in-groove shared by 60" in " ".join(shown.split())
+
+
+def test_an_additive_by_size_and_weight_per_cent():
+    run("new", "additive")
+    usual, more = (
+        solved("additive.toml", f'particles.concentration="{c} wt%"', "load.pressure=1 MPa")
+        for c in (0.1, 0.2)
+    )
+    numbers = [each["inputs"]["particles"]["areal_density"] for each in (usual, more)]
+    assert numbers[1] == pytest.approx(2 * numbers[0], rel=2e-3)
+    shares = [each["states"]["particle_load_share"][0] for each in (usual, more)]
+    assert shares[0] < shares[1]
+    larger = solved("additive.toml", 'particles.median="200 nm"', "load.pressure=1 MPa")
+    assert larger["inputs"]["particles"]["diameter"]["median"] == 200e-9
+
+
+def test_the_contact_of_the_paper_with_a_material_of_ones_own():
+    Path("mine.toml").write_text(
+        '[our-oxide]\nE = "150 GPa"\nnu = 0.25\nH = "12 GPa"\nsource = "our laboratory"\n', "utf-8"
+    )
+    run("new", "two-body", "--out", "figure.toml")
+    text = Path("figure.toml").read_text("utf-8")
+    text = (
+        'materials = "mine.toml"\n'
+        + text.split("[load]")[0]
+        + """
+[particles]
+material = "our-oxide"
+distribution = "truncated-gaussian"
+mean = "300 nm"
+std  = "24 nm"
+areal_density = "1e11 / m^2"
+[particle_law]
+name = "horng2022"
+[load]
+F_star = { from = 5e-7, to = 2.4e-4, points = 7 }
+"""
+    )
+    Path("figure.toml").write_text(text, "utf-8")
+    found = solved("figure.toml")
+    assert found["inputs"]["particles"]["material"]["H"] == 12e9
+    assert set(found["states"]["status"]) == {"ok"}
+    silica = solved("figure.toml", 'particles.material="SiO2"')
+    assert silica["states"]["A_sa"] != found["states"]["A_sa"]
+
+
+def test_the_text_of_the_package_index():
+    """It stands alone: no link into the source, and its example is that of the README."""
+    name = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["readme"]
+    text = (ROOT / name).read_text("utf-8")
+    assert re.findall(r"\]\((?!https?://)", text) == []
+    assert "<img" not in text
+    (example,) = re.findall(r"^```python\n(.*?)^```$", text, re.S | re.M)
+    assert example in (ROOT / "README.md").read_text("utf-8")
