@@ -74,6 +74,9 @@ _POWERS = {
     "1/m^2": {"1/m^2": 0, "/ m^2": 0},
     "N": {"N": 0, "kN": 3},
     "m/s": {"mm/s": -3, "m/s": 0},
+    "Pa s": {"mPa s": -3, "Pa s": 0},
+    "1/Pa": {"1/GPa": -9, "/ GPa": -9, "1/Pa": 0},
+    "kg/m^3": {"kg/m^3": 0, "g/cm^3": 3},
 }
 """The usual units as powers of ten of those that are needed: the registry takes half a second."""
 

@@ -119,10 +119,9 @@ def run_film(study: Study) -> dict[str, Any]:
     given, contact = film_conditions(study), study.contact
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
-        curve = given.stribeck(contact)
+        curve = given.stribeck_columns(contact)
         changes = given.regime_speeds(contact)
-    states = {str(name): _listed(curve[name].values) for name in ("speed", "hersey")}
-    states |= {str(name): _listed(curve[name].values) for name in curve.data_vars}
+    states = {name: _listed(column) for name, column in curve.items()}
     sentences = [*study.notes, *(str(item.message) for item in heard)]
     return {
         "title": study.title,
@@ -130,8 +129,8 @@ def run_film(study: Study) -> dict[str, Any]:
         "inputs": contact.to_dict() | {"film": given.to_dict()},
         "states": states,
         "regime_speeds": changes._asdict(),
-        "passing": passing(study, curve["h"].values),
-        "entrainment": _brought(study, curve["h_T"].values),
+        "passing": passing(study, curve["h"]),
+        "entrainment": _brought(study, curve["h_T"]),
         "warnings": list(dict.fromkeys(sentences)),
         "citations": _sources(study),
     }

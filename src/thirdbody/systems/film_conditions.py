@@ -13,7 +13,7 @@ from ..populations.distributions import Distribution
 from ..quantities.value import Value, choice, quantity
 from .film_formulas import AbstractFilm, Line, Oil, Point
 from .mixed_film import FEW, MOST, MixedFilm, mixed_film
-from .stribeck import RegimeSpeeds, regime_speeds, stribeck
+from .stribeck import RegimeSpeeds, regime_speeds, stribeck, stribeck_columns
 
 if TYPE_CHECKING:
     import xarray
@@ -226,6 +226,11 @@ class FilmConditions(Value):
     def stribeck(self, contact: Contact) -> xarray.Dataset:
         """`stribeck` over these speeds."""
         return stribeck(contact, speed=self.speed, slide_roll=self.slide_roll, **self.arguments())
+
+    def stribeck_columns(self, contact: Contact) -> dict[str, Any]:
+        """The columns of `stribeck`, as arrays."""
+        asked = {"speed": self.speed, "slide_roll": self.slide_roll} | self.arguments()
+        return stribeck_columns(contact, **asked)[0]
 
     def regime_speeds(self, contact: Contact) -> RegimeSpeeds:
         """`regime_speeds` of this load."""

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["RegimeSpeeds", "regime_speeds", "stribeck"]
+__all__ = ["RegimeSpeeds", "regime_speeds", "stribeck", "stribeck_columns"]
 
 
 def stribeck(
@@ -81,6 +81,39 @@ def stribeck(
     """
     import xarray as xr
 
+    columns, told = stribeck_columns(
+        contact, conjunction=conjunction, oil=oil, load=load, speed=speed, **options
+    )
+
+    def attributes(name: str) -> dict[str, str]:
+        about = COLUMNS[name]
+        return {"symbol": about["symbol"], "units": about["unit"], "long_name": about["meaning"]}
+
+    about = {"symbol": "ηu/w", "units": "1", "long_name": "Hersey number"}
+    return xr.Dataset(
+        {
+            name: ("speed", values, attributes(name))
+            for name, values in columns.items()
+            if name not in ("speed", "hersey")
+        },
+        coords={
+            "speed": ("speed", columns["speed"], attributes("speed")),
+            "hersey": ("speed", columns["hersey"], about),
+        },
+        attrs={"load": float(load), "warnings": "\n".join(told)},
+    )
+
+
+def stribeck_columns(
+    contact: Contact,
+    *,
+    conjunction: Point | Line,
+    oil: Oil,
+    load: float,
+    speed: ArrayLike,
+    **options: Any,
+) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """The columns of `stribeck`, speed and Hersey number first, and its warnings: no xarray."""
     speeds = np.atleast_1d(np.asarray(speed, dtype=float))
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
@@ -90,27 +123,11 @@ def stribeck(
     for each in heard:
         warnings.warn(each.message, each.category, stacklevel=2)
 
-    def attributes(name: str) -> dict[str, str]:
-        about = COLUMNS[name]
-        return {"symbol": about["symbol"], "units": about["unit"], "long_name": about["meaning"]}
-
-    columns = state.columns()
     hersey = oil.eta * speeds / conjunction.intensity(float(load))
     if conjunction.shape == "point":
         hersey = hersey * conjunction.R
-    about = {"symbol": "ηu/w", "units": "1", "long_name": "Hersey number"}
-    return xr.Dataset(
-        {
-            name: ("speed", values, attributes(name))
-            for name, values in columns.items()
-            if name not in ("speed", "load")
-        },
-        coords={
-            "speed": ("speed", speeds, attributes("speed")),
-            "hersey": ("speed", hersey, about),
-        },
-        attrs={"load": float(load), "warnings": "\n".join(state.warnings)},
-    )
+    columns = {k: v for k, v in state.columns().items() if k not in ("speed", "load")}
+    return {"speed": speeds, "hersey": hersey} | columns, state.warnings
 
 
 # ------------------------------------------------------------------ where regimes change
