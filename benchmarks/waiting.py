@@ -74,11 +74,11 @@ def slider() -> float:
     from thirdbody.app.state import State
     from thirdbody.app.tabs.curves import figures
 
-    state, nm = State(example("dusty_ball_screw")), iter(range(101, 200))
+    state, nm = State(example(), Path()), iter(range(101, 200))
 
     def step() -> None:
         state.set("roughness", "sigma", f"{next(nm)} nm")
-        figures(state.answer, "F_star", state.at, critical=False)
+        figures(state.answer, "F_star", critical=False)
 
     return here(step)
 

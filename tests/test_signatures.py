@@ -24,7 +24,7 @@ NUMBER = re.compile(r"\b(float|int|ArrayLike|Array|Number|Any)\b")
 INTEGRAL = "an integral as it is written, n from a to b; called in inner loops"
 DRAWN = "as in NumPy: the generator, and how many"
 WHICH = "a word says which curve, the number is where: one number, by place"
-HOOK = "called by the library alone, for every law or output alike"
+HOOK = "called by the library alone, alike for every law, output or seat"
 GAP = "a particle and the gap it lies in are one thing, and both are arrays of one shape"
 EXCEPTIONS = {
     r".*\.partial_moment": INTEGRAL,
@@ -34,6 +34,7 @@ EXCEPTIONS = {
     r"particle\.OneParticle\.(regime|spots)": HOOK,
     r"outputs\.\w+\.of_asperities": HOOK,
     r"films\.\w+\.warnings": HOOK,
+    r"explicit\.\w+\.draw": HOOK,
     r"Objective\.cost": HOOK,
     r"particle\.AbstractParticleLaw\.single": GAP,
 }

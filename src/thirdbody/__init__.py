@@ -10,6 +10,7 @@ from .version import __version__ as __version__
 
 if TYPE_CHECKING:
     from . import effects as outputs
+    from . import explicit as explicit
     from . import reference
     from . import systems as systems
     from .analysis.assess import assess
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
         Weibull,
     )
     from .populations.ellipticity import Ellipticity
+    from .populations.finish import Finish
     from .populations.heights import (
         ExponentialHeights,
         GaussianHeights,
@@ -61,6 +63,7 @@ if TYPE_CHECKING:
     from .populations.measured.topography import Topography
     from .populations.particles import Particles
     from .populations.roughness import Roughness
+    from .populations.strength import WeibullStrength
     from .study.whole import load_study
     from .systems import film_formulas as films
     from .systems import fractal, interaction, rough_body, waviness
@@ -76,6 +79,7 @@ __all__ = [
     "Ellipticity",
     "Equilibrium",
     "ExponentialHeights",
+    "Finish",
     "GaussianHeights",
     "Heights",
     "Histogram",
@@ -108,6 +112,7 @@ __all__ = [
     "Uniform",
     "Weibull",
     "WeibullHeights",
+    "WeibullStrength",
     "asperity",
     "assess",
     "cite",
@@ -116,6 +121,7 @@ __all__ = [
     "design",
     "dust",
     "equal_share_size",
+    "explicit",
     "films",
     "fractal",
     "interaction",
@@ -147,6 +153,7 @@ __all__ = [
 _MODULES = {
     "asperity": "laws.asperity",
     "dust": "populations.measured.cleanliness",
+    "explicit": "explicit",
     "films": "systems.film_formulas",
     "fractal": "systems.fractal",
     "heights": "populations.heights",
@@ -171,6 +178,7 @@ _HOMES = {
     "Ellipticity": "populations.ellipticity",
     "Equilibrium": "equilibrium.columns",
     "ExponentialHeights": "populations.heights",
+    "Finish": "populations.finish",
     "GaussianHeights": "populations.heights",
     "Heights": "populations.heights",
     "Histogram": "populations.distributions",
@@ -203,6 +211,7 @@ _HOMES = {
     "Uniform": "populations.distributions",
     "Weibull": "populations.distributions",
     "WeibullHeights": "populations.heights",
+    "WeibullStrength": "populations.strength",
     "assess": "analysis.assess",
     "cite": "contact.citations",
     "compare": "analysis.compare",

@@ -6,6 +6,7 @@ r"""The model as it is meant, slow and plain: two integrals and a balance.
 Every formula is a law's own, every integral is `scipy.integrate.cubature`'s, every balance a root
 of SciPy: no tables, no engine. All that is faster in this library is held to this module by a test.
 The particle law is `Series` or `Flakes`; `Horng2022` prints its integrals in closed form.
+Particles that break (`strength`) are not written out here.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ from scipy.optimize import brentq
 from scipy.optimize.elementwise import find_root
 from scipy.special import ndtr
 
+from .errors import InvalidValue
+from .laws.asperity.jg import JG
 from .laws.base import REGIMES
 from .populations.distributions import Monodisperse
 from .populations.materials import reduced_modulus
@@ -95,11 +98,12 @@ class Tip:
 # ---------------------------------------------------------------- particles
 def particles(contact: Any, some: Any, d: float) -> Any:
     """F_sa, areas on surface 1 by regime, area on surface 2, shadow ς, of one population: (6,)."""
+    if some.strength is not None:
+        raise InvalidValue("particles that break (strength) are not written out in the definition")
     law, rough = contact.law_of(some), contact.roughness
     one, two = [
-        Side(law.law, law.tip_radius, reduced_modulus(body, some.material), softer.H, softer.nu)
+        half_of(law, reduced_modulus(body, some.material), body, some.material)
         for body in (contact.surfaces.first, contact.surfaces.second)
-        for softer in [min(body, some.material, key=lambda each: each.H)]
     ]
     eps = squeezes(one, two)
     width = law.zeta_std * rough.sigma if law.seat == "rough" else 0.0
@@ -150,6 +154,114 @@ class Side(Tip):
         return out
 
 
+def half_of(law: Any, E_star: float, surface: Any, particle: Any) -> Side:
+    """What a particle does on one surface: squashed where it is the softer of the two."""
+    softer = min(surface, particle, key=lambda each: each.H)
+    body = E_star, softer.H, softer.nu
+    sphere = Side(law.law, law.tip_radius, *body)
+    if law.soft == "sphere" or not particle.H < surface.H:
+        return sphere
+    if law.onset == "jg":
+        return SquashedOfJG(*body, surface.H, law.friction_factor)
+    return Squashed(law.law, *body, surface.H, law.friction_factor) if sphere.plastic else sphere
+
+
+class Squashed(Side):
+    r"""Half of a particle of size 1 that keeps its volume, on a surface that is harder.
+
+    .. math:: A = \frac{\min(A_L, \pi/6)}{1-2\delta}, \qquad p = p_L\left\{1 -
+        \tfrac{0.92}{2.84}[1-\cos\pi q] + \tfrac{2m}{3\sqrt3\cdot2.84}\tfrac{a}{1-2\delta}\right\}
+
+    with q = min(1, 2a), up to where p is the hardness of the surface.
+    """
+
+    def __init__(self, law: Any, E_star: float, H: float, nu: float, most: float, m: float):
+        super().__init__(law, 0.5, E_star, H, nu)
+        self.m, self.end = m, 0.5
+        self.cap = self.first(self.over_volume)
+        wide = self.first(lambda u: self.at(u)[1] - np.pi / 4)
+        sinks = self.at(max(self.cap, wide))[0] < most
+        u = max(self.cap, wide)
+        self.end = brentq(lambda u: self.at(u)[0] - most, u, 0.5 - 1e-9) if sinks else u
+        points = [*(self.omega_1 * np.array(self.law.breakpoints)), self.cap, wide, *self.more()]
+        # what is left of the height falls fourfold from one to the next
+        points += [0.5 - (0.5 - u) / 4**i for i in range(1, 30)]
+        self.kinks = np.unique([*(u for u in points if u < self.end), self.end])
+
+    def first(self, excess: Any) -> float:
+        """The first indentation at which this is positive."""
+        u = np.linspace(0, 0.49999, 2001)[1:]
+        i = int(np.argmax([excess(each) > 0 for each in u]))
+        return brentq(excess, u[i] - u[0], u[i])
+
+    def free(self, delta: Any) -> Any:
+        """As a tip that knows nothing of a volume."""
+        return Tip.__call__(self, delta)
+
+    def over_volume(self, delta: Any) -> Any:
+        return self.free(delta)[1:].sum(axis=0) - np.pi / 6
+
+    def more(self) -> list[float]:
+        return []
+
+    def at(self, delta: Any) -> Any:
+        """Mean pressure and area."""
+        load, *areas = self.free(delta)
+        area, t = np.sum(areas, axis=0), 1 - 2 * delta
+        wide = np.minimum(area, np.pi / 6) / t
+        a = np.sqrt(wide / np.pi)
+        fall = 0.92 * (1 - np.cos(np.pi * np.minimum(1, 2 * a)))
+        hill = 2 * self.m / (3 * np.sqrt(3)) * a / t
+        p = np.divide(load, area, out=np.zeros_like(wide), where=area > 0)
+        return p * (1 + (hill - fall) / 2.84), wide
+
+    def __call__(self, delta: Any) -> Any:
+        u = np.minimum(delta, self.end)
+        p, area = self.at(u)
+        areas = np.where(self.free(u)[1:] > 0, area, 0.0)
+        areas = np.where(u >= self.cap, np.stack([0 * area, 0 * area, area]), areas)
+        return np.stack([p * area, *areas])
+
+
+class SquashedOfJG(Squashed):
+    """The same from the area and load of Jackson and Green, whose hardness here ends at S_y."""
+
+    def __init__(self, E_star: float, H: float, nu: float, most: float, m: float):
+        self.S_y, self.C = H / 2.8, 1.295 * np.exp(0.736 * nu)
+        super().__init__(JG(), E_star, H, nu, most, m)
+
+    def over_volume(self, delta: Any) -> Any:
+        return self.free(delta)[1:].sum(axis=0) * (1 - 2 * delta) - np.pi / 6
+
+    def more(self) -> list[float]:
+        u = np.linspace(1.9 * self.omega_1, self.end, 2001)
+        off = self.bare(u) - self.S_y
+        return [
+            brentq(lambda u: self.bare(u) - self.S_y, u[i], u[i + 1])
+            for i in np.flatnonzero(off[1:] * off[:-1] < 0)
+        ]
+
+    def area(self, delta: Any) -> Any:
+        return np.where(
+            delta < self.cap, self.free(delta)[1:].sum(axis=0), np.pi / 6 / (1 - 2 * delta)
+        )
+
+    def bare(self, delta: Any) -> Any:
+        """Mean pressure without friction."""
+        y, area = delta / self.omega_1, np.maximum(self.area(delta), 1e-300)
+        H_G = 2.84 - 0.92 * (1 - np.cos(np.pi * np.minimum(1, 2 * np.sqrt(area / np.pi))))
+        F_c = 2 / 3 * np.pi * 0.5 * self.omega_1 * self.C * self.S_y
+        first = np.exp(-0.25 * y ** (5 / 12)) * y**1.5
+        return F_c * (first + 4 / self.C * H_G * (1 - np.exp(-(y ** (5 / 9)) / 25)) * y) / area
+
+    def at(self, delta: Any) -> Any:
+        area, load = self.area(delta), self.free(delta)[0]
+        elastic = np.divide(load, area, out=np.zeros_like(area), where=area > 0)
+        p = np.where(delta < 1.9 * self.omega_1, elastic, np.maximum(self.bare(delta), self.S_y))
+        hill = 2 * self.m / (3 * np.sqrt(3)) * np.sqrt(area / np.pi) / (1 - 2 * delta)
+        return p + hill * self.S_y, area
+
+
 def squeezed(one: Side, two: Side, eps: Any) -> Any:
     """A particle of size 1 squeezed by ε: both sides carry one load, F_1(δ_1) = F_2(ε − δ_1).
 
@@ -161,8 +273,8 @@ def squeezed(one: Side, two: Side, eps: Any) -> Any:
     ).x
     first, second = one(share * e), two((1 - share) * e)
     a, b = first[1:].sum(axis=0), second[1:].sum(axis=0)
-    load, great_circle = np.minimum(first[0], second[0]), np.full_like(a, one.full)
-    rows = np.stack([load, *first[1:], b, np.maximum(a, b), great_circle])
+    load, footprint = np.minimum(first[0], second[0]), np.maximum(a, b)
+    rows = np.stack([load, *first[1:], b, footprint, np.maximum(footprint, one.full)])
     return np.where(np.asarray(eps) > 0, rows, 0.0)
 
 

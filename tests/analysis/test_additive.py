@@ -115,8 +115,9 @@ def test_command(tmp_path):
     # what a user waits for; benchmarks/waiting.py measures it
     assert len(rows) == len(told["points"]["mu"]) < 1000
     assert {row["feasible"] for row in rows} == {"True", "False"}
+    assert told["plateau"].keys() <= told["tolerance"].keys()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["p.csv", "p.png"]
-    assert "the best particles.concentration is an end of its range" in done.stderr
+    assert "the best concentration of the particles is an end of its range" in done.stderr
 
 
 # ---------------------------------------------------------------------------- mistakes in a file

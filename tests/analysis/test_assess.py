@@ -115,10 +115,10 @@ def test_sentences_hold_the_numbers(page):
     parts = {part.title: part for part in page.sections()}
     margin = page.propagation.nominal["F/F_cr1"]
     assert f"The load is {margin:.3g} times F_cr1" in parts["Margins"].sentences[0]
-    assert "roughness.sigma" in parts["Inputs that matter"].sentences[1]
+    assert "RMS of equivalent surface heights" in parts["Inputs that matter"].sentences[1]
     text = " ".join(parts["What this rests on"].sentences)
     assert "512 samples" in text
-    assert "particles.diameter.std" in text  # taken as exact
+    assert "standard deviation of the diameter of the particles" in text  # taken as exact
     for part in parts.values():
         assert len({len(part.head), *map(len, part.rows)}) <= 2
         assert not re.search(r"\b(nan|inf|None)\b", " ".join(part.sentences))
@@ -137,7 +137,7 @@ def test_two_bodies_have_no_modes_to_change():
 
 def test_a_nominal_value_outside_its_range_is_told():
     page = tb.assess(DUSTY, vary={"roughness.R": (3e-6, 4e-6)}, pressure=5e6, samples=64)
-    assert any("2.8 µm of roughness.R lies outside" in note for note in page.notes)
+    assert any("2.8 µm of the mean asperity radius lies outside" in note for note in page.notes)
 
 
 def test_only_the_load_uncertain():
@@ -150,17 +150,44 @@ def test_only_the_load_uncertain():
 
 
 # ---------------------------------------------------------------- refusals
-def test_without_ranges_it_refuses(tmp_path):
-    text = EXAMPLE.read_text("utf-8").partition("[uncertainty]")[0]
+def test_without_ranges_it_answers_what_can_be_told(tmp_path, page):
+    """Mode, margins and what would change the mode are those of the values; no probability."""
     file = tmp_path / "bare.toml"
-    file.write_text(text, "utf-8")
-    if not tb.analysis.uncertainty.inputs.library_ranges(load_study(file).contact):
-        done = run("assess", file)
-        assert done.exit_code == 2
-        assert "there is no table [uncertainty]" in done.stderr
-        assert "roughness.sigma" in done.stderr
-        with pytest.raises(tb.InvalidValue, match="no input has a range"):
-            tb.assess(load_study(file).contact, pressure=5e6)
+    file.write_text(EXAMPLE.read_text("utf-8").partition("[uncertainty]")[0], "utf-8")
+    contact = load_study(file).contact
+    assert not tb.analysis.uncertainty.inputs.library_ranges(contact)
+    done = run("assess", file, "--html", tmp_path / "page.html")
+    assert done.exit_code == 0, done.stderr
+    text = " ".join(done.stdout.split())
+    assert text.count("No ranges of the inputs were given") == 1
+    for word in ("MARGINS", "WHAT WOULD CHANGE THE MODE", "(hybrid)"):
+        assert word in text
+    for word in ("robability of", "nine of ten", "95 %", "outside its range"):
+        assert word not in text
+    bare = tb.assess(contact, pressure=5e6)
+    critical = tb.transitions(contact).F_cr1.value
+    assert bare.propagation.nominal["F_cr1"] == pytest.approx(critical, rel=1e-4)
+    for change in bare.changes:
+        for factor in (1 / 1.003, 1.003):
+            names = change.input.split("+")
+            own = tb.analysis.inputs.inputs(contact)
+            ratio = change.value * factor / own[names[0]]
+            moved = contact.replace(**{name: own[name] * ratio for name in names})
+            there = tb.solve(moved, pressure=5e6).mode
+            outside = (factor > 1) == (ratio > 1)
+            assert (there == change.mode) == outside, change
+    told = strict(run("assess", file, "--json").stdout)
+    assert told["propagation"]["inputs"] == {}
+    assert {change["probability"] for change in told["changes"]} == {None}
+
+
+def test_ranges_of_each_of_several_populations_count(monkeypatch):
+    entries = {name: dict(entry) for name, entry in tb.materials.entries().items()}
+    entries["SiO2"]["range"] = {"H": [7e9, 8e9]}
+    monkeypatch.setattr(type(tb.materials), "entries", staticmethod(lambda: entries))
+    several = DUSTY.replace(particles=(DUSTY.particles,))
+    found = tb.analysis.uncertainty.inputs.library_ranges(several)
+    assert "particles.0.material.H" in found
 
 
 def test_ranges_of_the_library_are_named(monkeypatch):
@@ -170,7 +197,9 @@ def test_ranges_of_the_library_are_named(monkeypatch):
     monkeypatch.setattr(type(tb.materials), "entries", staticmethod(lambda: entries))
     page = tb.assess(DUSTY, pressure=5e6, samples=64)
     assert list(page.propagation.inputs) == ["surfaces.first.H+surfaces.second.H"]
-    assert any(note.startswith("Ranges of the materials library: surf") for note in page.notes)
+    assert any(
+        note.startswith("Ranges of the materials library: hardness of both") for note in page.notes
+    )
 
 
 @pytest.mark.parametrize(

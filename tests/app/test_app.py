@@ -2,12 +2,14 @@
 
 import asyncio
 import dataclasses
+import itertools
 import json
 import re
 import subprocess
 import sys
 import tomllib
 from pathlib import Path
+from urllib.parse import parse_qsl
 
 import numpy as np
 import pytest
@@ -19,17 +21,22 @@ from thirdbody.study import DISTRIBUTIONS, check
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
 from thirdbody.app import exports, text
-from thirdbody.app.cross_section import profile, section, to_svg
+from thirdbody.app.cross_section import CARRIES, profile, section, to_svg
 from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.fields import engineering, fields_of, number_of, shown, value_from
+from thirdbody.app.folders import Folders
 from thirdbody.app.guard import LARGEST_UPLOAD, Guard, Headers, allowed_hosts
 from thirdbody.app.inputs import about_of
 from thirdbody.app.jobs import Job, Stopped
+from thirdbody.app.page import Start
 from thirdbody.app.python_text import to_python
 from thirdbody.app.sizing import size_of, with_size
 from thirdbody.app.sliders import at_position, position_of
 from thirdbody.app.state import State
+from thirdbody.app.tabs.interface import headline
 from thirdbody.app.uploads import harmless
+from thirdbody.equilibrium.words import two_bodies
+from thirdbody.quantities import say
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / "examples").glob("*.toml"))
@@ -99,6 +106,52 @@ def test_setting_and_removing_an_entry(state):
     state.set("roughness", "alpha", None)
     assert "alpha" not in state.study["roughness"]
     assert len(heard) == 2
+
+
+def test_changes_of_one_entry_in_a_row_are_one_step(state):
+    start = state.study
+    for at in (1e-5, 2e-5, 3e-5):
+        state.go(at)
+    for sigma in ("90 nm", "80 nm"):
+        state.set("roughness", "sigma", sigma)
+    for law in ("ke", "jg"):
+        state.set("asperity_law", {"name": law}, whole=True)
+    assert state.steps == 4
+    seen = []
+    while state.past:
+        state.undo()
+        seen.append((state.study["asperity_law"]["name"], state.study["roughness"]["sigma"]))
+    assert seen == [("ke", "80 nm"), ("zmc", "80 nm"), ("zmc", "100 nm"), ("zmc", "100 nm")]
+    assert state.study == start
+    assert state.wanted is None
+    state.undo()
+    for step in range(200):
+        state.open(start | {"title": str(step)})
+    assert len(state.past) == 100
+
+
+def test_an_address_keeps_the_files_that_the_page_was_opened_with(tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "own.toml").write_text("[own]\nE = 2e11\nnu = 0.3\nH = 5e9\n")
+    (tmp_path / "mine" / "other.toml").write_text("[other]\nE = 2e11\nnu = 0.3\nH = 5e9\n")
+    study = example() | {"materials": "own.toml"}
+    start = Start(study, tmp_path / "mine", Folders())
+    for query, found in (
+        ({}, ["own.toml"]),
+        (dict(parse_qsl(text.to_link(study, 2e-5))), ["own.toml"]),
+        (dict(parse_qsl(text.to_link(study | {"materials": "other.toml"}))), []),
+        (dict(parse_qsl(text.to_link(study | {"materials": "mine/own.toml"}))), []),
+    ):
+        state, _ = start.state(query)
+        assert [each.name for each in state.folder.iterdir()] == found
+    start.folders.close()
+
+
+@pytest.mark.parametrize("tab", ["", "curves", "nowhere", "../curves", "__init__"])
+def test_an_address_opens_a_tab_of_the_page_alone(tab):
+    assert Start(None, None, None).read({"tab": tab})[2] == (
+        tab if tab == "curves" else "interface"
+    )
 
 
 def test_a_mistake_keeps_the_last_answer_and_names_its_field(state):
@@ -214,7 +267,7 @@ def test_curves_of_200_loads_follow_a_slider_by_one_solution(state, monkeypatch)
     """What makes them quick; benchmarks/waiting.py measures it."""
     from thirdbody.app.tabs.curves import figures
 
-    figures(state.answer, "F_star", state.at, critical=False)
+    figures(state.answer, "F_star", critical=False)
     solve, solved = tb.solve, []
 
     def counting(contact, **load):
@@ -224,7 +277,7 @@ def test_curves_of_200_loads_follow_a_slider_by_one_solution(state, monkeypatch)
     monkeypatch.setattr(tb, "solve", counting)
     for step in range(3):
         state.set("roughness", "sigma", f"{101 + step} nm")
-        drawn = figures(state.answer, "F_star", state.at, critical=False)
+        drawn = figures(state.answer, "F_star", critical=False)
         assert len(drawn["area"]["data"][0]["x"]) == 200
     assert solved == [200] * 3
 
@@ -309,6 +362,45 @@ def test_particles_of_the_section_are_loaded_as_often_as_in_the_model(state):
     drawn = np.mean([grain.loaded for grain in grains])
     # 80 profiles hold some 3 independent seats each
     assert drawn == pytest.approx(share, abs=3 * np.sqrt(share * (1 - share) / 240))
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_a_population_that_carries_has_a_loaded_particle(name, tmp_path):
+    answer = State(example(name), tmp_path).answer
+    contact = answer.contact
+    several = contact.replace(
+        particles=(
+            *contact.populations,
+            *(
+                dust.replace(name="larger", areal_density=1e-4 * dust.areal_density,
+                             diameter=dust.diameter.scaled(1.5))
+                for dust in contact.populations
+            ),
+        )
+        or None
+    )  # fmt: skip
+    met = []
+    for made, load in itertools.product((contact, several), answer.loads[::33]):
+        point = tb.solve(made, **{answer.load: load})
+        shares = [part.load_share for part in point.populations] or [point.particle_load_share]
+        for seed in range(3):
+            drawn = section(made, point, seed=seed)
+            loaded = {grain.population for grain in drawn.grains if grain.loaded}
+            carrying = {i for i, share in enumerate(shares) if share > CARRIES}
+            assert carrying <= loaded, (load, seed, shares)
+            met.append(drawn.met)
+    assert any(met) == (name in list(EXAMPLES)[:2])  # in oil those that carry are many
+
+
+def test_the_headline_says_what_the_command_line_says(state, tmp_path):
+    bare = State(example("Two surfaces without particles"), tmp_path)
+    assert headline(bare.point()).endswith(f"{two_bodies()}.")
+    for at in (5e-7, 2e-5, 2.4e-4):
+        point = state.answer.solve(at)
+        said = headline(point)
+        assert f"articles carry {say.percent(point.particle_load_share)} of the load" in said
+        assert f"({point.mode})" in said
+        assert say.value_of(point.pressure, "Pa") in said
 
 
 def test_the_section_is_well_formed_and_to_scale(state):

@@ -15,7 +15,7 @@ import tomllib
 import urllib.error
 import urllib.request
 from pathlib import Path
-from urllib.parse import urlsplit
+from urllib.parse import parse_qsl, urlsplit
 
 import numpy as np
 import pytest
@@ -31,6 +31,8 @@ from browser import chromium  # noqa: E402
 from hostile import PAYLOADS, several, wrong  # noqa: E402
 
 from thirdbody.app.examples import example  # noqa: E402
+from thirdbody.app.sliders import STEPS, at_position  # noqa: E402
+from thirdbody.app.tabs.interface import abouts, headline  # noqa: E402
 from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
 from thirdbody.quantities import say  # noqa: E402
 
@@ -259,6 +261,10 @@ def test_numbers_are_those_of_the_library_and_sliders_move_them(visit):
     assert fact(page, "real contact area") == say.percent(point.A_t)
     assert fact(page, "particles carry") == say.percent(point.particle_load_share)
     assert fact(page, "mode") == point.mode
+    assert fact(page, "headline") == headline(point)
+    assert page.locator(".grain.loaded").count()
+    page.get_by_text("What the words mean").click()
+    page.get_by_text(abouts()["p-s"], exact=True).wait_for()
     looked_at(page, "interface")
     before = fact(page, "load")
     moved(page, "load", 4)
@@ -268,7 +274,7 @@ def test_numbers_are_those_of_the_library_and_sliders_move_them(visit):
     curves = check(STUDY).solve()
     area = drawn(page, "area")
     assert area[0]["y"] == curves.A_t.tolist()
-    assert area[0]["x"] == curves.F_star.tolist()
+    assert area[0]["x"] == (curves.pressure * 1e-6).tolist()
     shares = {trace["name"]: trace["y"] for trace in drawn(page, "shares")}
     assert shares["of the load"] == (100 * curves.particle_load_share).tolist()
     critical = tb.transitions(check(STUDY).contact)
@@ -408,6 +414,95 @@ def test_a_film_is_added_changed_and_removed(visit):
     assert not page.locator('[data-said="page"]').inner_text()
     page.locator('[data-path="film.remove"]').click()
     page.locator('[data-path="film.add"]').wait_for()
+
+
+# ---------------------------------------------------------------- the address
+def address_of(page):
+    return dict(parse_qsl(urlsplit(page.url).query))
+
+
+def addressed(page, **wanted):
+    """What the address holds, once it holds these."""
+    when(
+        page,
+        "wanted => { const q = new URLSearchParams(location.search);"
+        " return Object.entries(wanted).every(([k, v]) => q.get(k) === v); }",
+        arg=wanted,
+    )
+    return address_of(page)
+
+
+def after(page, presses):
+    """Moves the slider of the load up; the operating load then."""
+    slider = page.locator('[data-slider="load"]')
+    there = int(slider.get_attribute("aria-valuenow")) + presses
+    moved(page, "load", presses)
+    return at_position(check(STUDY).values, there / STEPS)
+
+
+def test_the_address_keeps_the_work_and_back_undoes_it(visit):
+    page = visit()
+    page.wait_for_timeout(400)
+    assert address_of(page) == dict(parse_qsl(to_link(STUDY, AT)))  # nothing was changed
+    entries = page.evaluate("history.length")
+    field = page.locator('.q-drawer [data-path="particles.mean"]').first
+    field.fill("0.5 µm")
+    wider = STUDY | {"particles": STUDY["particles"] | {"mean": "0.5 um"}}
+    link = parse_qsl(to_link(wider, AT))[0][1]
+    addressed(page, study=link, tab="interface")
+    tab(page, "Curves")
+    drawn(page, "area")
+    addressed(page, study=link, tab="curves")
+    at = after(page, 12)
+    addressed(page, study=link, at=repr(at))
+    # a field, a tab and a slider, each one entry
+    assert page.evaluate("history.length") == entries + 3
+
+    page.reload()
+    drawn(page, "area")
+    assert page.locator('[data-path="particles.mean"]').first.input_value() == "0.5 µm"
+    tab(page, "Interface")
+    assert fact(page, "separation h") == say.value_of(state_of(wider, at).h, "m")
+    addressed(page, tab="interface", at=repr(at))
+
+    for wanted in ({"tab": "curves", "at": repr(at)}, {"at": repr(AT)}, {"tab": "interface"}):
+        page.go_back()
+        addressed(page, study=link, **wanted)
+    when(page, "document.querySelector('.q-tab--active').innerText.trim() === 'Interface'")
+    until(page, "separation h", say.value_of(state_of(wider, at).h, "m"))
+    assert fact(page, "separation h") == say.value_of(state_of(wider).h, "m")
+    page.go_back()
+    until(page, "separation h", say.value_of(state_of(wider).h, "m"))
+    assert fact(page, "separation h") == say.value_of(state_of(STUDY).h, "m")
+    assert page.locator('[data-path="particles.mean"]').first.input_value() == "300 nm"
+    page.go_forward()
+    until(page, "separation h", say.value_of(state_of(STUDY).h, "m"))
+    assert fact(page, "separation h") == say.value_of(state_of(wider).h, "m")
+
+
+def test_undo_takes_back_one_step_after_another(visit):
+    page = visit()
+    undo = page.locator('[data-path="undo"]')
+
+    def stands(study, at):
+        """The page shows this study."""
+        wanted = say.value_of(tb.solve(check(study).contact, **at).h, "m")
+        page.locator('[data-fact="separation h"]').get_by_text(wanted, exact=True).wait_for()
+
+    assert undo.is_disabled()
+    at = {"F_star": after(page, 5)}
+    stands(STUDY, at)
+    page.locator('.q-drawer [data-path="particles.mean"]').first.fill("0.5 µm")
+    wider = STUDY | {"particles": STUDY["particles"] | {"mean": "500 nm"}}
+    stands(wider, at)
+    page.get_by_label("open an example").click()
+    page.locator(".q-menu .q-item", has_text="Oil of code").click()
+    stands(example("Oil of code 18/16/13"), {"pressure": 1e6})
+    for study, load in ((wider, at), (STUDY, at), (STUDY, {"F_star": AT})):
+        undo.click()
+        stands(study, load)
+    assert page.locator('[data-path="particles.mean"]').first.input_value() == "300 nm"
+    when(page, "document.querySelector('[data-path=undo]').disabled")
 
 
 # ---------------------------------------------------------------- links made to do harm

@@ -129,6 +129,21 @@ def test_ductile():
     assert flat["dent_width_1"] == flat["dent_width_2"] > 500e-9
 
 
+def test_ductile_particles_are_as_wide_as_they_are_squashed():
+    """From a third of their height on, discs of the volume in the gap."""
+    x, debris = 500e-9, tb.Material(E=193e9, nu=0.29, H=1e9)
+    dust = tb.Particles(material=debris, areal_density=1e10, diameter=tb.Monodisperse(mean=x))
+    pair = tb.MaterialPair(STEEL, STEEL)
+    one = tb.Contact(surfaces=pair, roughness=tb.Roughness(sigma=20e-9, R=2.8e-6), particles=dust,
+                     particle_law=Series(seat="plane"), outputs=Dents(debris="ductile"))  # fmt: skip
+    gaps = np.array([0.9, 0.6, 0.3]) * x
+    wide = tb.solve(one, d=gaps).outputs["dent_width_1"]
+    assert wide[1:] == pytest.approx(one_dent.flattened_diameter(x, gap=gaps[1:]), rel=1e-9)
+    area = Series().single(x, gaps, surfaces=pair, particle=debris)["area_1"]
+    assert wide == pytest.approx(2 * np.sqrt(area / math.pi), rel=1e-9)
+    assert wide[0] < x
+
+
 def test_a_film_is_a_contact_with_a_plane_seat():
     """The single-particle route and the contact agree where the gap is one height."""
     law = Series(seat="plane")

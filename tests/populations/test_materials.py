@@ -57,7 +57,7 @@ def test_library():
         # strain at yield of any solid: H/E between 1e-4 and 0.5
         assert 1e-4 < entry.H / entry.E < 0.5
         # a material that a user writes with the same numbers is the same material
-        assert entry == tb.Material(E=entry.E, nu=entry.nu, H=entry.H)
+        assert entry == tb.Material(E=entry.E, nu=entry.nu, H=entry.H, K_c=entry.K_c)
         assert tb.Material.from_dict(entry.to_dict()) == entry
 
 
@@ -73,7 +73,10 @@ def test_unknown_material():
 # ---------------------------------------------------------------- what ships
 ENTRIES = tb.materials.entries()
 KINDS = {"steel", "ceramic", "bronze", "aluminium", "titanium", "DLC", "oxide particle", "diamond"}
-OPTIONAL = ("density", "thermal_conductivity", "specific_heat", "resistivity")
+OPTIONAL = (
+    *("density", "thermal_conductivity", "specific_heat", "resistivity"),
+    *("K_c", "sigma_0", "x_0", "m", "size_exponent"),
+)
 
 
 def test_what_the_library_holds():

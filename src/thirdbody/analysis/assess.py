@@ -18,11 +18,11 @@ from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..quantities.say import value_of
 from ..quantities.value import problem_with
 from .assessment import COARSE, FAR, FINE, SHOWN, Assessment, Change, _nominal, _unit
-from .inputs import declared
+from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
 from .sensitivity import sensitivity
-from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, library_ranges
-from .uncertainty.propagation import Propagation, columns_at, propagate, swing
+from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
+from .uncertainty.propagation import Propagation, certain, columns_at, propagate, swing
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -50,7 +50,9 @@ def assess(
     contact : Contact
     vary : mapping, optional
         What is uncertain, as in `propagate`. Without it the ranges of the materials library, where
-        it states some; none is invented.
+        it states some, and of the finishing process, where a drawing names one; none is
+        invented. Without any range the page tells mode, margins and what would change the mode,
+        and no probability.
     pressure, F_star : float
         The operating load: p [Pa] or F* [1]; exactly one.
     samples, seed : int, optional
@@ -67,7 +69,7 @@ def assess(
     Raises
     ------
     InvalidValue
-        No uncertain input, several loads, or a mistake in the inputs.
+        Several loads, or a mistake in the inputs.
     NoEquilibrium
         The contact does not carry the load.
 
@@ -97,32 +99,38 @@ def assess(
     if not one:
         raise InvalidValue(f"{load}: an assessment is of one operating load, not {len(values)}")
     notes: list[str] = []
+    none = False
     if vary is None:
-        vary = library_ranges(contact)
-        if not vary:
-            known = ", ".join(all_inputs(contact))
-            raise InvalidValue(
-                f"no input has a range, and the materials library states none for these bodies: "
-                f"say what is known of {known}, e.g. roughness.sigma = (80e-9, 120e-9)"
-            )
-        notes.append(f"Ranges of the materials library: {', '.join(vary)}.")
+        vary = stated_ranges(contact)
+        none = not vary
+        for source, finished in (
+            ("the materials library", False),
+            ("the finishing process, from memory", True),
+        ):
+            named = [words_of(contact, k) for k in vary if k.startswith("roughness.") == finished]
+            if named:
+                notes.append(f"Ranges of {source}: {'; '.join(named)}.")
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, **{load: given[load]})  # type: ignore[arg-type]
     notes += [f"Warning: {text}." for text in dict.fromkeys(str(item.message) for item in heard)]
-    found = propagate(contact, vary=vary, **{load: given[load]}, samples=samples, seed=seed)  # type: ignore[arg-type]
+    if none:
+        found = certain(contact, load, float(given[load] or 0.0))
+    else:
+        found = propagate(contact, vary=vary, **{load: given[load]}, samples=samples, seed=seed)  # type: ignore[arg-type]
     if found.solved == 0:
         raise NoEquilibrium("no sample has an equilibrium; check the unit of the load")
     for label, one_input in found.inputs.items():
         if not TINY < one_input.cdf(_nominal(found, label)) < 1 - TINY:
             unit = _unit(contact, label)
             notes.append(
-                f"The value {value_of(_nominal(found, label), unit)} of {label} lies outside what "
+                f"The value {value_of(_nominal(found, label), unit)} of the "
+                f"{words_of(contact, label)} lies outside what "
                 "its range says; nominal results and bands do not belong together."
             )
     decisive = _decisive(found)
     others = [name for name in SHOWN[:4] if name in found.bands and name != decisive]
-    tornado = found.tornado([decisive, *others])
+    tornado = found.tornado([decisive, *others]) if found.inputs else {decisive: {}}
     moved = {name.strip() for label in found.inputs for name in label.split("+")}
     return Assessment(
         title=title,
@@ -192,7 +200,8 @@ def _changes(found: Propagation, mode: str) -> tuple[Change, ...]:
     if found.contact.two_body:
         return ()
     ways: dict[tuple[str, int], tuple[Drawn, Array]] = {}
-    for label, known in found.inputs.items():
+    inputs = found.inputs or _usual(found.contact)
+    for label, known in inputs.items():
         if label != found.load:
             drawn = drawn_inputs(found.contact, {label: known}, found.load, float(found.loads))
             for side in (-1, 1):
@@ -202,15 +211,39 @@ def _changes(found: Propagation, mode: str) -> tuple[Change, ...]:
         way: (ways[way][0], np.linspace(low, high, FINE)) for way, (low, high, _) in steps.items()
     }
     for (label, side), (low, high, other) in _departures(found, finer, mode).items():
-        value, known = 0.5 * (low + high), found.inputs[label]
-        beyond = known.cdf(value) if side < 0 else 1 - known.cdf(value)
+        value, beyond = 0.5 * (low + high), math.nan
+        if found.inputs:
+            known = found.inputs[label]
+            beyond = known.cdf(value) if side < 0 else 1 - known.cdf(value)
         out.append(Change(label, value, other, beyond))
     near = {
         label: abs(math.log(change.value / start)) if change.value * start > 0 else math.inf
         for change in out
         for label, start in [(change.input, _nominal(found, change.input))]
     }
-    return tuple(sorted(out, key=lambda change: (-change.beyond, near[change.input])))
+    return tuple(
+        sorted(out, key=lambda change: (-np.nan_to_num(change.beyond), near[change.input]))
+    )
+
+
+def _usual(contact: Contact) -> dict[str, Uncertain]:
+    """Inputs that are moved where none has a range: roughness, sizes, number, hardness."""
+    own = {name: value for name, value in all_inputs(contact).items() if value > 0}
+    labels: list[str] = ["roughness.sigma", "roughness.R"]
+    labels += [name for name in own if name.endswith(".areal_density")]
+    sizes: dict[str, list[str]] = {}
+    for name in own:
+        owner, found, _ = name.rpartition(".diameter.")
+        if found and declared(contact, name)["unit"] == "m":
+            sizes.setdefault(owner, []).append(name)
+    labels += ["+".join(names) for names in sizes.values()]
+    labels += [name for name in own if name.endswith(".material.H")]
+    both = ["surfaces.first.H", "surfaces.second.H"]
+    labels += ["+".join(both)] if contact.surfaces.first == contact.surfaces.second else both
+    ends = {label: own[label.partition("+")[0]] for label in labels}
+    return {
+        label: Uncertain.uniform(low=value / FAR, high=value * FAR) for label, value in ends.items()
+    }
 
 
 def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int) -> Array:

@@ -22,7 +22,8 @@ from ..equilibrium.words import (
 )
 from ..quantities import notebook
 from ..quantities.say import listed, number, percent, span, times, value_of
-from .inputs import declared
+from ..quantities.tables import WIDER, Table
+from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
 from .uncertainty.propagation import OUTPUTS, Propagation, about_result, plain
 
@@ -63,6 +64,8 @@ class Section(NamedTuple):
     head: tuple[str, ...] = ()
     rows: tuple[tuple[str, ...], ...] = ()
     sentences: tuple[str, ...] = ()
+    drop: tuple[str, ...] = ()
+    """Heads of columns in the order in which they go where the width is small."""
 
 
 # -------------------------------------------------------------------------- the page
@@ -152,6 +155,8 @@ class Assessment:
         load = load_of(found.nominal["pressure"], found.nominal["F_star"])
         if found.contact.two_body:
             return f"At {load} {two_bodies()}."
+        if not found.inputs:
+            return f"At {load} {mode_of(self.mode)}."
         agree = "" if likely == self.mode else f" The likeliest mode is {likely}."
         return (
             f"At {load} {mode_of(self.mode)}. Probability of each mode: {', '.join(parts)}.{agree}"
@@ -159,11 +164,13 @@ class Assessment:
 
     def sections(self) -> list[Section]:
         """The page from top to bottom."""
-        parts = [Section("Mode at the operating load", sentences=(self.headline(),))]
-        if not self.propagation.contact.two_body:
+        found = self.propagation
+        said = (self.headline(),) if found.inputs else (self.headline(), NO_RANGES)
+        parts = [Section("Mode at the operating load", sentences=said)]
+        if not found.contact.two_body:
             parts.append(self._margins())
-        parts += [self._state(), self._inputs()]
-        if not self.propagation.contact.two_body:
+        parts += [self._state(), self._inputs()] if found.inputs else [self._state()]
+        if not found.contact.two_body:
             parts.append(Section("What would change the mode", sentences=self._ways()))
         parts.append(Section("What this rests on", sentences=self._basis()))
         return parts
@@ -177,7 +184,7 @@ class Assessment:
         if "F_cr1" not in found.bands:
             return Section("Margins", sentences=(NO_CRITICAL.format(_law_of(found)),))
         rows, sentences = [], []
-        E = found.contact.E_ss
+        E, uncertain = found.contact.E_ss, bool(found.inputs)
         for name in (name for name in CRITICAL if name in found.bands):
             nominal, (low, _, high) = found.nominal[name], self._band(name)
             status = found.critical_status[name]
@@ -187,9 +194,7 @@ class Assessment:
                     critical_name(name),
                     critical_load(nominal),
                     critical_load(nominal, E_ss=E),
-                    critical_load(low),
-                    critical_load(high),
-                    percent(exists),
+                    *((critical_load(low), critical_load(high), percent(exists)) * uncertain),
                     happens(name),
                 )
             )
@@ -201,21 +206,23 @@ class Assessment:
             band = f"{number(low, 3)} to {times(high)}"
             if low == 0 or math.isinf(high):
                 band = f"at most {times(high)}" if low == 0 else f"at least {times(low)}"
-            sentences.append(
-                f"The load is {times(nominal)} {name}, where {happens(name)}; in nine of ten "
-                f"cases it is {band} that load."
-            )
-        head = ("critical load", "F*", "pressure", "5 %", "95 %", "exists", "where")
-        return Section("Margins", head, tuple(rows), tuple(sentences))
+            cases = f"; in nine of ten cases it is {band} that load" * uncertain
+            sentences.append(f"The load is {times(nominal)} {name}, where {happens(name)}{cases}.")
+        bands = ("5 %", "95 %", "exists") * uncertain
+        head = ("critical load", "F*", "pressure", *bands, "where")
+        return Section("Margins", head, tuple(rows), tuple(sentences), ("where", "exists", "F*"))
 
     def _state(self) -> Section:
         found = self.propagation
-        rows = []
+        rows: list[tuple[str, ...]] = []
         outputs = [name for each in found.contact.outputs for name in each.columns]
         for name in (name for name in (*SHOWN, *outputs) if name in found.bands):
             if found.contact.two_body and name.startswith("particle"):
                 continue
             low, middle, high = self._band(name)
+            if not found.inputs:
+                rows.append((about_result(name)["meaning"], _amount(found.nominal[name], name)))
+                continue
             each = (found.nominal[name], low, middle, high)
             where = [found.probabilities.index(q) for q in BAND]
             error = _error(float(np.max(found.error[name][where])), name)
@@ -223,7 +230,9 @@ class Assessment:
         head = ("result", "nominal", "5 %", "50 %", "95 %", "error of the bands")
         lost = 1 - found.solved
         told = (f"{percent(lost)} of the samples have no equilibrium.",) if lost else ()
-        return Section("State", head, tuple(rows), told)
+        if not found.inputs:
+            return Section("State", ("result", "value"), tuple(rows), told)
+        return Section("State", head, tuple(rows), told, ("error of the bands", "50 %"))
 
     def _inputs(self) -> Section:
         found = self.propagation
@@ -235,7 +244,7 @@ class Assessment:
             slope = self.elasticity.get(label, math.nan)
             rows.append(
                 (
-                    label,
+                    self._words(label),
                     value_of(value, unit),
                     *(value_of(known.at(end), unit) for end in (0.05, 0.95)),
                     *(_amount(end, self.decisive) for end in (low, high)),
@@ -243,15 +252,15 @@ class Assessment:
                     number(0.0 if abs(slope) < 1e-4 else slope, 3),
                 )
             )
-        strongest = list(self.matter)[:3]
+        strongest = [self._words(label) for label in list(self.matter)[:3]]
         sentences = [
             f"Of the inputs, {listed(strongest)} matter{'s' if len(strongest) == 1 else ''} most "
             f"to {self._decisive()}."
         ]
-        first = self.matter[strongest[0]] if strongest else math.nan
+        first = next(iter(self.matter.values()), math.nan)
         if math.isfinite(first):
             sentences.append(
-                f"A better value of {strongest[0]} pays most: it alone makes about "
+                f"A better value of the {strongest[0]} pays most: it alone makes about "
                 f"{percent(first)} of the spread of {self.decisive}"
                 + (" (of its logarithm)." if self.decisive in CRITICAL else ".")
             )
@@ -260,7 +269,11 @@ class Assessment:
             *(f"{self.decisive} at {end}" for end in ("5 %", "95 %")),
             *("part of spread", "elasticity"),
         )
-        return Section("Inputs that matter", head, tuple(rows), tuple(sentences))
+        drop = ("elasticity", "value", *head[4:6])
+        return Section("Inputs that matter", head, tuple(rows), tuple(sentences), drop)
+
+    def _words(self, label: str) -> str:
+        return words_of(self.propagation.contact, label)
 
     def _decisive(self) -> str:
         if self.decisive in CRITICAL:
@@ -284,18 +297,20 @@ class Assessment:
         for change in self.changes:
             unit, value = _unit(found.contact, change.input), _nominal(found, change.input)
             word = "falling" if change.value < value else "rising"
-            where = "outside its range"
+            where = ": outside its range"
             if change.beyond >= RARE:
-                where = f"it is there or beyond in {percent(change.beyond)} of cases"
+                where = f": it is there or beyond in {percent(change.beyond)} of cases"
             out.append(
-                f"{change.input} {word} from {span(value, change.value, unit)} makes it "
-                f"{change.mode}: {where}."
+                f"{_upper(self._words(change.input))} {word} from "
+                f"{span(value, change.value, unit)} makes it {change.mode}"
+                f"{where if found.inputs else ''}."
             )
         changed = {change.input for change in self.changes}
         still = [label for label in found.inputs if label not in changed and label != found.load]
         if still:
+            named = _upper("; ".join(map(self._words, still)))
             out.append(
-                f"{listed(still)}: no change of mode within a factor of {number(FAR)}, the other "
+                f"{named}: no change of mode within a factor of {number(FAR)}, the other "
                 "inputs as they are."
             )
         return tuple(out)
@@ -310,30 +325,29 @@ class Assessment:
             f"(scrambled Sobol points, seed {found.seed}); inputs independent of each "
             f"other; thirdbody {__version__}."
         ]
-        if self.exact:
-            out.append(f"Taken as exactly known: {', '.join(self.exact)}.")
+        if not found.inputs:
+            out = [f"The values of the study, taken as exactly known; thirdbody {__version__}."]
+        elif self.exact:
+            out.append(f"Taken as exactly known: {'; '.join(map(self._words, self.exact))}.")
         return (*out, *self.notes)
 
     # ------------------------------------------------------------------ terminal
-    def page(self) -> Any:
-        """The page for a terminal, to print by rich."""
-        from rich import box
+    def page(self, more: str = WIDER) -> Any:
+        """The page for a terminal, to print by rich; ``more`` is how to see what has no room."""
         from rich.console import Group
-        from rich.table import Table
 
         parts: list[Any] = [self.title or "Assessment"]
         for section in self.sections():
             parts += ["", section.title.upper()]
             if section.rows:
-                table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-                for i, head in enumerate(section.head):
-                    words = not i or head == "where"
-                    table.add_column(
-                        head,
-                        justify="left" if words else "right",
-                        overflow="fold",
-                        no_wrap=not i or head == "elasticity",
-                    )
+                table = Table(
+                    section.head,
+                    right=True,
+                    words=[section.head[0], "where"],
+                    drop=section.drop,
+                    more=more,
+                    legend={"elasticity": ELASTICITY.format(self.decisive)},
+                )
                 for row in section.rows:
                     table.add_row(*row)
                 parts.append(table)
@@ -341,6 +355,12 @@ class Assessment:
         return Group(*parts)
 
 
+ELASTICITY = "relative change of {} for that of the input, no unit"
+NO_RANGES = (
+    "No ranges of the inputs were given and the materials library states none for these bodies, so "
+    "no probability can be told; a table [uncertainty] in the study says what is uncertain."
+)
+"""What stands for probabilities where nothing is uncertain."""
 NO_CRITICAL = (
     "No critical loads: with {} as the law of the particles, the load need not fall as the "
     "separation grows, so that several separations may carry one load and the mode may change "
@@ -348,6 +368,10 @@ NO_CRITICAL = (
     "loads of single contacts."
 )
 """What stands for the margins of a law whose load does not tell its separation."""
+
+
+def _upper(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 def _law_of(found: Propagation) -> str:

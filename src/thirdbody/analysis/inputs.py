@@ -14,6 +14,7 @@ from ..equilibrium.columns import COLUMNS
 from ..equilibrium.states import carries, varied
 from ..errors import InvalidValue
 from ..populations.roughness import ETA_R_SIGMA
+from ..quantities.say import listed
 from ..quantities.value import Value
 
 if TYPE_CHECKING:
@@ -108,6 +109,63 @@ def declared(contact: Contact, name: str) -> dict[str, Any]:
     owner = contact.part(path)
     (about,) = (i.metadata["quantity"] for i in dataclasses.fields(owner) if i.name == last)
     return about
+
+
+BODIES = {
+    "surfaces.first": "of the first surface",
+    "surfaces.second": "of the second surface",
+    "asperity_law": "of the asperity law",
+    "particle_law": "of the particle law",
+    "particles": "of the particles",
+}
+"""Whose a number is that its own words leave open."""
+WHOLE = {
+    "pressure": "nominal pressure",
+    "F_star": "load F/(A_n E_ss)",
+    "d": "separation from the mean asperity height",
+    "particles.concentration": "concentration of the particles",
+    "particles.areal_density": "particles per nominal area",
+    "particles.material": "material of the particles",
+    "roughness.eta_R_sigma": "product of asperity density, radius and RMS height",
+}
+"""Words of names that have no owner, or tell it themselves."""
+
+
+def words_of(contact: Contact, label: str) -> str:
+    """An input in words, or several joined by "+"; a name without words as it is.
+
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                   roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> words_of(contact, "roughness.R"), words_of(contact, "surfaces.first.H+surfaces.second.H")
+    ('mean asperity radius', 'hardness of both surfaces')
+    """
+    each = [_named(contact, name.strip()) for name in label.split("+")]
+    meanings = list(dict.fromkeys(meaning for meaning, _ in each))
+    owners = list(dict.fromkeys(owner for _, owner in each))
+    if owners == [BODIES["surfaces.first"], BODIES["surfaces.second"]]:
+        owners = ["of both surfaces"]
+    if len(owners) > 1 and len(meanings) > 1:
+        return listed([f"{meaning} {owner}".strip() for meaning, owner in each])
+    return f"{listed(meanings)} {listed(owners)}".strip()
+
+
+def _named(contact: Contact, name: str) -> tuple[str, str]:
+    """What a number is, and whose."""
+    if name in WHOLE:
+        return WHOLE[name], ""
+    try:
+        meaning = str(declared(contact, name)["meaning"])
+    except (InvalidValue, ValueError, TypeError):
+        return name, ""
+    first, _, place = name.partition(".")
+    if first == "particles" and (number := place.partition(".")[0]).isdecimal():
+        part = contact.part(f"particles.{number}")
+        called = part.name or part.material.name or f"population {int(number) + 1}"
+        law = "law of " if place.partition(".")[2].startswith("law.") else ""
+        return meaning, f"of {law}{called}"
+    return meaning, next((said for of, said in BODIES.items() if name.startswith(f"{of}.")), "")
 
 
 def _no_input(contact: Contact, name: str, known: Iterable[str]) -> str:

@@ -3,7 +3,8 @@
 What is drawn is one draw from the model. The profile is a sum of waves with the moments of the
 roughness: over many draws its RMS height is σ, its curvature gives R, its bandwidth is α. The
 particles in a slab of stated depth lie on their seats; those larger than the gap above their seat
-are loaded.
+are loaded. A population that carries has one at least: where the slab held none, one is drawn from
+those of the model that are, at another place of the surface if need be.
 """
 
 from __future__ import annotations
@@ -29,6 +30,12 @@ WAVES = 96
 POINTS = 900
 DRAWN = 12
 """Particles drawn, about; the depth of the slab follows from it."""
+CARRIES = 5e-4
+"""Share of the load below which no loaded particle is looked for."""
+PLACES = 64
+"""Profiles among which one with a place for a loaded particle is looked for."""
+TAIL = 1 - np.geomspace(1, 1e-12, 400)
+"""Parts of a population, finer towards its largest."""
 COLOURS = tuple(OKABE_ITO[name] for name in ("orange", "sky", "purple", "green"))
 
 
@@ -61,6 +68,8 @@ class Section:
     names: tuple[str, ...]
     soft: tuple[bool, ...]
     """Populations that are softer than both surfaces: they give way."""
+    met: bool = False
+    """Whether a loaded particle stands for a free one."""
 
     @property
     def width(self) -> float:
@@ -94,11 +103,20 @@ def section(contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0) -> Sec
     largest = max((float(dust.diameter.ppf(0.999)) for dust in dusts), default=0.0)
     tall = 3 * rough.sigma + max(4 * rough.sigma, largest)
     width = float(f"{8.5 * tall:.2g}")
-    x, z = profile(rough.sigma, rough.R, rough.alpha, width, seed)
+    carriers = [i for i, share in enumerate(_shares(state)) if share > CARRIES]
+
+    def room(other: int) -> tuple[Array, Array, dict[int, tuple[Array, Array]]]:
+        x, z = profile(rough.sigma, rough.R, rough.alpha, width, seed + 1000 * other)
+        every = {i: _chances(contact, dusts[i], z, h) for i in carriers}
+        return x, z, {i: found for i, found in every.items() if found[1].any()}
+
+    rooms = map(room, range(PLACES))
+    x, z, chances = next((r for r in rooms if len(r[2]) == len(carriers)), room(0))
     density = sum(dust.areal_density for dust in dusts)
     depth = DRAWN / (density * width) if density else 0.0
     rng = np.random.default_rng(seed + 1)
-    grains = []
+    grains: list[Grain] = []
+    met = False
     for number, dust in enumerate(dusts):
         expected = dust.areal_density * width * depth
         count = max(round(expected), 1)
@@ -108,6 +126,11 @@ def section(contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0) -> Sec
             place, seat = _seat(contact, dust, float(place), x, z, rng)
             # particles of the slab lie before or behind the cut where they would leave the picture
             grains.append(Grain(number, float(diameter), place, seat, h - seat))
+        if number in chances and not any(grain.loaded for grain in grains[-count:]):
+            met = True
+            grains[-1 - int(rng.integers(count))] = _loaded(
+                number, dust, x, *chances[number], h, rng
+            )
     pair = contact.surfaces
     hardness = min(pair.first.H, pair.second.H)
     return Section(
@@ -121,7 +144,37 @@ def section(contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0) -> Sec
             dust.name or dust.material.name or f"particles {i + 1}" for i, dust in enumerate(dusts)
         ),
         soft=tuple(dust.material.H < hardness for dust in dusts),
+        met=met,
     )
+
+
+def _shares(state: tb.Equilibrium) -> list[float]:
+    """Of the load, on each population."""
+    if state.contact.two_body:
+        return []
+    if state.populations:
+        return [float(np.ravel(part.load_share)[0]) for part in state.populations]
+    return [float(np.ravel(state.particle_load_share)[0])]
+
+
+def _chances(contact: tb.Contact, dust: tb.Particles, z: Array, h: float) -> tuple[Array, Array]:
+    """Seat heights along the profile, and how probable a particle there is loaded."""
+    law: Any = contact.law_of(dust)
+    seats = z if getattr(law, "seat", "plane") == "rough" else np.full_like(z, _flat(contact, law))
+    sizes = np.asarray(dust.diameter.ppf(TAIL), dtype=float)
+    larger = np.searchsorted(sizes, h - seats, side="right")
+    return seats, np.append(1 - TAIL, 0.0)[larger]
+
+
+def _loaded(
+    number: int, dust: tb.Particles, x: Array, seats: Array, chances: Array, h: float, rng: Any
+) -> Grain:
+    """One of the particles of the model that are loaded."""
+    at = int(rng.choice(len(x), p=chances / chances.sum()))
+    # the parts of the population that are large enough there
+    part = 1 - chances[at] * rng.uniform(0, 1)
+    diameter = float(dust.diameter.ppf(part))
+    return Grain(number, diameter, float(x[at]), float(seats[at]), float(h - seats[at]))
 
 
 def _seat(
@@ -138,9 +191,14 @@ def _seat(
             near = np.abs(z - wanted) / rough.sigma + np.abs(x - place) / np.ptp(x)
             place = float(x[int(np.argmin(near))])
         return place, float(np.interp(place, x, z))
-    if kind == "offset":
-        return place, rough.y_s + law.h_0
-    return place, rough.y_s if kind == "plane" and hasattr(law, "seat") else 0.0
+    return place, _flat(contact, law)
+
+
+def _flat(contact: tb.Contact, law: Any) -> float:
+    """The seat height of a law that has one for all particles."""
+    if getattr(law, "seat", "plane") == "offset":
+        return float(contact.roughness.y_s + law.h_0)
+    return float(contact.roughness.y_s) if hasattr(law, "seat") else 0.0
 
 
 # ---------------------------------------------------------------------- drawing

@@ -17,6 +17,7 @@ __all__ = [
     "INKS",
     "MODE_FILLS",
     "REGIME_FILLS",
+    "SCALES",
     "empty",
     "figure",
     "line",
@@ -31,10 +32,12 @@ INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "or
 DASHES = ["solid", "dash", "dashdot", "dot", "longdash", "longdashdot"]
 AXES = {
     "F_star": "load F* = F/(A<sub>n</sub> E<sub>ss</sub>)",
-    "pressure": "nominal pressure [Pa]",
+    "pressure": "nominal pressure [MPa]",
     "d": "separation d [m]",
 }
 """What loads are called, by the arguments of `tb.solve`."""
+SCALES = {"pressure": 1e-6}
+"""What loads are drawn in is so much of their SI unit."""
 GREY = "#7f7f7f"
 CONFIG = {
     "displaylogo": False,
@@ -86,7 +89,7 @@ def figure(
             },
             "yaxis": axis
             | {
-                "title": {"text": y, "font": {"size": 13}},
+                "title": {"text": y, "font": {"size": 13}, "standoff": 10},
                 "type": "log" if ylog else "linear",
                 "exponentformat": "power" if ylog else "e",
             },

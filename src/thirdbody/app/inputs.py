@@ -214,7 +214,7 @@ class Inputs:
 
     def change(self, *path_and_value: Any) -> None:
         """Set an entry on which depends which others there are."""
-        self.state.set(*path_and_value)
+        self.state.set(*path_and_value, whole=True)
         self.again()
 
     # ------------------------------------------------------------------ tables

@@ -5,16 +5,18 @@ from __future__ import annotations
 import asyncio
 import shutil
 import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from nicegui import background_tasks, ui
+from nicegui import background_tasks, events, run, ui
+from starlette.datastructures import QueryParams
 
 from ..errors import InvalidValue, ThirdBodyError
 from ..study.tables import TABLES
+from .address import FOLLOW, TRAVELLED, Address
 from .examples import EXAMPLES, example
 from .fields import Field
 from .folders import Folders
@@ -35,11 +37,16 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .problem { color: var(--problem); font-size: 0.85rem; font-weight: 600; }
 .subhead { font-weight: 600; margin-top: 0.4rem; }
 .facts { gap: 0.5rem 1.6rem; }
+.headline { font-size: 1.25rem; font-weight: 600; line-height: 1.35; text-wrap: balance; }
+.words { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1rem; }
 .fact .value { font-size: 1.05rem; font-weight: 600; }
 .figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
 @media (min-width: 1100px) { .figures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
 .figures > * { min-width: 0; }
-.sliders { gap: 0.4rem 1.6rem; }
+.js-plotly-plot { position: relative; }
+.here { position: absolute; border-left: 2px solid var(--hint); pointer-events: none; }
+.here[hidden] { display: none; }
+.sliders { gap: 0.4rem 1.6rem; align-items: flex-end; }
 .slider { flex: 1 1 150px; min-width: 140px; padding: 0 8px; }
 .scroll-x { overflow-x: auto; }
 .section { display: block; width: 100%; min-width: 640px; height: auto; }
@@ -76,6 +83,19 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 
 RESIZE = """
 <script type="module">
+const here = (plot) => {
+  const around = plot.closest("[data-at]"), { xaxis } = plot._fullLayout ?? {};
+  if (!around || !xaxis) return;
+  let line = plot.querySelector(":scope > .here");
+  if (!line) {
+    line = Object.assign(document.createElement("div"), { className: "here" });
+    plot.append(line);
+  }
+  const { _offset: left, _length: width } = xaxis, { t, h } = plot._fullLayout._size;
+  const x = xaxis.d2p(Number(around.dataset.at));
+  line.hidden = !(x >= 0 && x <= width);
+  Object.assign(line.style, { left: `${left + x}px`, top: `${t}px`, height: `${h}px` });
+};
 const sized = new ResizeObserver(async (entries) => {
   const { Plotly } = await import("nicegui-plotly");
   for (const { target } of entries)
@@ -86,10 +106,19 @@ new MutationObserver(() => {
     plot.dataset.sized = "";
     sized.observe(plot);
   }
+  for (const plot of document.querySelectorAll("[data-at] .js-plotly-plot:not([data-here])"))
+    if (plot.on) {
+      plot.dataset.here = "";
+      plot.on("plotly_afterplot", () => here(plot));
+      here(plot);
+    }
 }).observe(document.body, { childList: true, subtree: true });
+new MutationObserver(() => document.querySelectorAll("[data-at] .js-plotly-plot").forEach(here))
+  .observe(document.body, { subtree: true, attributeFilter: ["data-at"] });
 </script>
 """
-"""Figures follow the width of their place; one that is out of sight has none."""
+"""Figures follow the width of their place; one that is out of sight has none. The operating load,
+which moves most, is a line over them: `data-at` around them says where."""
 
 
 class Start:
@@ -108,22 +137,32 @@ class Start:
         self.folder = folder
         self.folders = folders
 
-    def state(self, query: dict[str, str]) -> tuple[State, str]:
+    def state(self, query: Mapping[str, str]) -> tuple[State, str]:
         """The state of a new page: that of the link, or the start; and what to tell."""
         own = self.folders.new()
-        if "study" in query:
-            try:
-                at = float(query["at"]) if "at" in query else None
-                return State(from_link(query["study"]), own, at, later=True), ""
-            except (InvalidValue, ValueError) as error:
-                told = "; ".join(getattr(error, "problems", ["the link has no number after at="]))
-                return State(example(), own, later=True), f"{told}; here is the example instead"
+        study, at, tab, told = self.read(query)
+        named = files_of(study)
         if self.folder is not None:
             for name in files_of(self.study):
                 beside = self.folder / name
-                if beside.is_file():
+                if Path(name).name in named and beside.is_file():
                     shutil.copyfile(beside, own / Path(name).name)
-        return State(_plain_names(self.study), own, later=True), ""
+        state = State(study, own, at, later=True)
+        state.tab = tab
+        return state, told
+
+    def read(self, query: Mapping[str, str]) -> tuple[dict[str, Any], float | None, str, str]:
+        """Study, operating load and tab of an address, and what to tell."""
+        tab = query.get("tab", "")
+        tab = tab if tab in TABS else TABS[0]
+        if "study" not in query:
+            return _plain_names(self.study), None, tab, ""
+        try:
+            at = float(query["at"]) if "at" in query else None
+            return from_link(query["study"]), at, tab, ""
+        except (InvalidValue, ValueError) as error:
+            told = "; ".join(getattr(error, "problems", ["the link has no number after at="]))
+            return example(), None, tab, f"{told}; here is the example instead"
 
 
 def _plain_names(study: Any) -> Any:
@@ -167,7 +206,7 @@ class Soon:
             self.running = False
 
 
-def page(state: State, told: str) -> None:
+def page(state: State, told: str, start: Start) -> None:
     """Put everything on the page of one visitor; what is computed follows."""
     client = ui.context.client
 
@@ -178,7 +217,7 @@ def page(state: State, told: str) -> None:
     client.on_delete(closed)
     when_left(state.close)
     ui.add_css(LOOK)
-    ui.add_body_html(RESIZE)
+    ui.add_body_html(RESIZE + FOLLOW)
     ui.colors(primary="#0072B2", accent="#D55E00", positive="#009E73", negative="#b3261e")
     dark = ui.dark_mode(value=None)
 
@@ -198,6 +237,8 @@ def page(state: State, told: str) -> None:
         menu.props('flat dense color=white aria-label="inputs"')
         ui.label("thirdbody").classes("text-lg font-bold")
         ui.space()
+        undo = ui.button(icon="undo", on_click=lambda: undone())
+        undo.props('flat dense color=white aria-label="undo" data-path="undo"')
         names = ui.select(
             list(EXAMPLES), label="open an example", on_change=lambda e: opened(e.value)
         )
@@ -248,12 +289,14 @@ def page(state: State, told: str) -> None:
         ):
             for name in TABS:
                 ui.tab(name, label=import_module(f".tabs.{name}", __package__).TITLE)
-        with ui.tab_panels(tabs, value=TABS[0], animated=False).classes("w-full bg-transparent"):
+        with ui.tab_panels(tabs, value=state.tab, animated=False).classes("w-full bg-transparent"):
             places = {}
             for name in TABS:
                 with ui.tab_panel(name).classes("q-px-none"):
                     places[name] = ui.column().classes("w-full gap-3")
         notes = ui.column().classes("w-full gap-1")
+        said: list[str] = []
+        address = Address(state)
         clock = ui.label().classes("hint").props('data-fact="time"')
 
     async def refresh() -> None:
@@ -264,7 +307,9 @@ def page(state: State, told: str) -> None:
             again()
         inputs.tell()
         sliders.tell()
-        name = str(tabs.value or TABS[0])
+        name = state.tab
+        undo.set_enabled(bool(state.past))
+        remark = address.tell()
         wrong = ""
         if state.problems and state.answer is not None:
             wrong = (
@@ -284,17 +329,38 @@ def page(state: State, told: str) -> None:
         except ThirdBodyError as error:
             wrong = "; ".join(getattr(error, "problems", None) or [str(error)])
         banner.set_text(with_micro(wrong or told))
-        notes.clear()
-        with notes:
-            for text in state.answer.notes[:6]:
-                ui.label(with_micro(without_paths(f"Note: {text}"))).classes("hint")
+        known = [f"Note: {text}" for text in state.answer.notes[:6]]
+        known = [with_micro(without_paths(text)) for text in known] + [remark] * bool(remark)
+        if known != said:
+            said[:] = known
+            notes.clear()
+            with notes:
+                for text in known:
+                    ui.label(text).classes("hint")
         clock.set_text(f"answered in {1e3 * (time.perf_counter() - state.began):.0f} ms")
 
     def opened(name: str | None) -> None:
         if name:
-            state.wanted = None
-            state.replace(example(name))
+            names.set_value(None)
+            state.open(example(name))
             again()
+
+    def undone() -> None:
+        state.undo()
+        again()
+
+    async def travelled(event: events.GenericEventArguments) -> None:
+        query = QueryParams(str(event.args).removeprefix("?"))
+        read = await run.io_bound(start.read, query)
+        if read is None:  # as it is when the server ends
+            return
+        study, at, state.tab, wrong = read
+        if wrong:
+            ui.notify(wrong)
+        state.travel(study, at)
+        address.travelled()
+        tabs.set_value(state.tab)
+        again()
 
     def turn() -> None:
         dark.value = not dark.value if dark.value is not None else True
@@ -303,8 +369,10 @@ def page(state: State, told: str) -> None:
     state.changed.append(soon)
 
     def turned() -> None:
+        state.tab = str(tabs.value or TABS[0])
         state.began = time.perf_counter()
         soon()
 
     tabs.on_value_change(turned)
+    ui.on(TRAVELLED, travelled)
     soon()

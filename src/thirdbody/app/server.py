@@ -53,7 +53,7 @@ def serve(
         # a long link takes a while to unpack
         opened = await run.io_bound(start.state, dict(request.query_params))
         if opened is not None:  # as it is when the server ends
-            page(*opened)
+            page(*opened, start)
 
     def end() -> None:
         for job in list(RUNNING):

@@ -16,7 +16,7 @@ from ..quantities.say import value_of
 from .fields import engineering, number_of
 from .inputs import Inputs
 from .sizing import size_of, with_size
-from .state import State
+from .state import Answer, State
 from .widgets import put
 
 __all__ = ["Sliders", "at_position", "position_of"]
@@ -43,6 +43,14 @@ def position_of(loads: np.ndarray, at: float) -> float:
     if first > 0 and at > 0:
         return math.log(at / first) / math.log(last / first)
     return (at - first) / (last - first)
+
+
+def _said(answer: Answer, at: float) -> str:
+    """The operating load as a slider says it: as a pressure where it is a load."""
+    if answer.load == "d":
+        return f"separation d = {value_of(at, 'm')}"
+    pressure = at if answer.load == "pressure" else at * answer.contact.E_ss
+    return f"load {value_of(pressure, 'Pa')}"
 
 
 @dataclass
@@ -115,7 +123,9 @@ class Sliders:
                 "mean size x_a",
                 "particles.size",
                 size,
-                lambda v: state.replace(with_size(state.study, float(f"{v:.3g}"))),
+                lambda v: state.replace(
+                    with_size(state.study, float(f"{v:.3g}")), kind="particles.size"
+                ),
                 length,
             ),
             Knob(
@@ -166,9 +176,7 @@ class Sliders:
             at = self.state.at
             part = position_of(answer.loads, at)
             self.load.set_value(round(STEPS * part))
-            names = {"F_star": "load F*", "pressure": "load p", "d": "separation d"}
-            unit = {"F_star": "1", "pressure": "Pa", "d": "m"}[answer.load]
-            self.load_label.set_text(f"{names[answer.load]} = {value_of(at, unit)}")
+            self.load_label.set_text(_said(answer, at))
             for made in self.knobs:
                 self._tell(made)
         finally:

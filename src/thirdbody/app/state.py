@@ -33,6 +33,8 @@ POINTS = 200
 """Loads of the curves where the study gives one load."""
 MOST_TOLD = 40
 """Mistakes that are told."""
+MOST_STEPS = 100
+"""Steps that can be undone."""
 SECONDS = 60.0
 """A measured file that takes longer to read is refused."""
 
@@ -193,6 +195,14 @@ class State:
         self.problems: list[str] = []
         self.answer: Answer | None = None
         self.wanted = at
+        self.tab = ""
+        """The tab in sight."""
+        self.past: list[tuple[dict[str, Any], float | None]] = []
+        """Study and operating load before each step."""
+        self.steps = 0
+        """How many there were."""
+        self.kind: str | None = None
+        """What the last change was of; more of the same goes on with its step."""
         self.changed: list[Callable[[], None]] = []
         self.began = time.perf_counter()
         """When the last change came."""
@@ -210,8 +220,11 @@ class State:
                 return None
         return where
 
-    def set(self, *path_and_value: Any) -> None:
-        """Set an entry, or remove it with None, and tell everybody."""
+    def set(self, *path_and_value: Any, whole: bool = False) -> None:
+        """Set an entry, or remove it with None, and tell everybody.
+
+        Changes of one entry in a row are one step, but for those that are ``whole``.
+        """
         *path, value = path_and_value
         if self.get(*path) == value and type(self.get(*path)) is type(value):
             return
@@ -225,16 +238,49 @@ class State:
             del where[path[-1]]
         else:
             where.pop(path[-1], None)
-        self.replace(study)
+        self.replace(study, kind=None if whole else ".".join(map(str, path)))
 
-    def replace(self, study: dict[str, Any], at: float | None = None) -> None:
+    def replace(
+        self, study: dict[str, Any], at: float | None = None, *, kind: str | None = None
+    ) -> None:
         """Another study in the place of this one."""
+        self._step(kind)
+        self._put(study, at if at is not None else self.wanted)
+
+    def open(self, study: dict[str, Any]) -> None:
+        """A study that begins anew, with an operating load of its own."""
+        self._step(None)
+        self._put(study, None)
+
+    def _step(self, kind: str | None) -> None:
+        """Keep what is now, unless the change goes on with the last one."""
+        if kind is None or kind != self.kind:
+            self._keep()
+            self.steps += 1
+        self.kind = kind
+
+    def _keep(self) -> None:
+        self.past = [*self.past[1 - MOST_STEPS :], (self.study, self.wanted)]
+
+    def _put(self, study: dict[str, Any], at: float | None) -> None:
         self.began = time.perf_counter()
-        self.study = study
-        self.wanted = at if at is not None else self.wanted
+        self.study, self.wanted = study, at
         if not self.later:
             self.check()
         self.tell()
+
+    def undo(self) -> None:
+        """Take the last step back."""
+        if self.past:
+            self.kind = None
+            self.steps += 1
+            self._put(*self.past.pop())
+
+    def travel(self, study: dict[str, Any], at: float | None) -> None:
+        """What an entry of the browser's history holds."""
+        self._keep()
+        self.kind = None
+        self._put(study, at)
 
     def check(self) -> None:
         """Read the study as the command line does; keep the last answer when it has mistakes."""
@@ -315,6 +361,7 @@ class State:
 
     def go(self, at: float) -> None:
         """Move the operating load."""
+        self._step("at")
         self.began = time.perf_counter()
         self.wanted = at
         self.tell()

@@ -9,6 +9,7 @@ import re
 import tomllib
 import zlib
 from typing import Any
+from urllib.parse import quote
 
 from ..errors import InvalidValue
 from .bounds import refuse_large, refuse_long_names
@@ -140,7 +141,7 @@ def to_link(study: dict[str, Any], at: float | None = None) -> str:
     """The query string that reopens a study at an operating load."""
     packed = zlib.compress(to_toml(study).encode(), 9)
     code = base64.urlsafe_b64encode(packed).decode().rstrip("=")
-    return f"study={code}" + ("" if at is None else f"&at={at!r}")
+    return f"study={code}" + ("" if at is None else f"&at={quote(repr(at))}")
 
 
 def from_link(code: str) -> dict[str, Any]:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 from typing import Any
 
 from nicegui import ui
 
-__all__ = ["facts", "put", "table"]
+from .figures import empty
+
+__all__ = ["Facts", "Plot", "facts", "put", "table"]
 
 
 def put(element: Any, props: Mapping[str, Any]) -> Any:
@@ -26,6 +29,60 @@ def facts(pairs: Iterable[tuple[str, str]], kind: str = "") -> None:
         with ui.column().classes("fact gap-0"):
             ui.label(name).classes("hint")
             put(ui.label(value).classes("value"), {"data-fact": f"{kind}{name}"})
+
+
+class Facts:
+    """Named numbers side by side that change in place."""
+
+    def __init__(self, abouts: Mapping[str, str] = MappingProxyType({})) -> None:
+        self.abouts = abouts
+        self.row = ui.row().classes("facts w-full")
+        self.labels: dict[str, Any] = {}
+
+    def show(self, pairs: Iterable[tuple[str, str]]) -> None:
+        """These numbers."""
+        told = dict(pairs)
+        if list(told) != list(self.labels):
+            self.row.clear()
+            self.labels = {}
+            with self.row:
+                for name in told:
+                    with ui.column().classes("fact gap-0") as both:
+                        ui.label(name).classes("hint")
+                        label = put(ui.label().classes("value"), {"data-fact": name})
+                    self.labels[name] = label
+                    if name in self.abouts:
+                        put(both, {"title": self.abouts[name]})
+        for name, value in told.items():
+            self.labels[name].set_text(value)
+
+
+class Plot:
+    """A figure; where lines and words on it alone are others, nothing else is drawn again."""
+
+    def __init__(self, name: str, height: int = 360) -> None:
+        self.widget = put(ui.plotly(empty(height)).classes("w-full"), {"data-figure": name})
+        self.made: dict[str, Any] = {}
+        self.drawn = False
+        self.widget.on("plotly_afterplot", self._drawn, args=[], throttle=1.0)
+
+    def _drawn(self) -> None:
+        self.drawn = True
+
+    def show(self, made: dict[str, Any]) -> None:
+        """This figure, as `figures.figure` gives it."""
+        if made == self.made:
+            return
+        marks = {name: made["layout"].get(name, []) for name in ("shapes", "annotations")}
+        same = self.drawn and self.made | {"layout": self.made["layout"] | marks} == made
+        self.made = made
+        if not same:
+            self.widget.update_figure(made)
+            return
+        self.widget.figure = made
+        with self.widget.props.suspend_updates():
+            self.widget.props["options"] = made
+        self.widget.run_plot_method("relayout", marks)
 
 
 def table(name: str, heads: dict[str, str], rows: list[dict[str, Any]], **more: Any) -> None:

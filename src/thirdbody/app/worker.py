@@ -158,13 +158,13 @@ def error_bars(
     """
     import thirdbody as tb
 
-    from ..analysis.uncertainty.inputs import library_ranges
+    from ..analysis.uncertainty.inputs import stated_ranges
     from ..equilibrium.critical_loads import CRITICAL
     from ..errors import InvalidValue
 
     asked = _study(study, folder)
     known = asked.uncertainty
-    inputs = known.inputs if known is not None else library_ranges(asked.contact)
+    inputs = known.inputs if known is not None else stated_ranges(asked.contact)
     if not inputs:
         raise InvalidValue("no input is uncertain yet; add one, and what is known of it")
     seed = 0 if known is None else known.seed

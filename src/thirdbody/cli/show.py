@@ -3,32 +3,36 @@
 from __future__ import annotations
 
 import math
+import os
 import sys
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["finite", "table_of", "terminal"]
+__all__ = ["ALL", "MOST_ROWS", "finite", "some", "terminal"]
+
+MOST_ROWS = 20
+"""Rows of a table that a terminal shows."""
+ALL = "--json or --csv FILE tells all"
+PIPE, LEAST = 120, 40
+"""Width of a pipe that is told none, and the least that a table is fitted to."""
 
 
 def terminal() -> Console:
     from rich.console import Console
 
-    # a pipe has no width of its own
-    width = None if sys.stdout.isatty() else 120
+    asked = os.environ.get("COLUMNS", "")
+    width = max(int(asked), LEAST) if asked.isdecimal() and int(asked) > 0 else None
+    if width is None and not sys.stdout.isatty():
+        width = PIPE
     return Console(file=sys.stdout, width=width, highlight=False, markup=False, emoji=False)
 
 
-def table_of(headers: Iterable[str], *, right: bool = False) -> Any:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
-    for header in headers:
-        table.add_column(header, justify="right" if right else "left", overflow="fold")
-    return table
+def some(total: int) -> list[int]:
+    """The rows shown of so many: all, or some evenly spread."""
+    rows = min(total, MOST_ROWS)
+    return [round(row * (total - 1) / max(rows - 1, 1)) for row in range(rows)]
 
 
 def finite(value: Any) -> Any:

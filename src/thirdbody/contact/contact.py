@@ -107,6 +107,11 @@ class Contact(Value):
                     f"Particles.law = {each.law!r} must be a particle law, e.g. "
                     "particle.Series(seat='plane')"
                 )
+            elif each.strength is not None and not self.law_of(each).breakable:
+                out.append(
+                    f"Particles.strength: particles of the law {self.law_of(each).name} do not "
+                    "break; use particle.Series, or remove strength"
+                )
         if not out and len({self.law_of(each).centre for each in self.populations}) > 1:
             out.append(
                 "Contact.particles follow laws that count d from different planes (Horng2022 and "

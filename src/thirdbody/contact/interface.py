@@ -48,6 +48,8 @@ class Interface:
         if self.particles is None:
             return two_body
         force, shadow = self.particles.load(d)
+        # squashed particles may spread until nothing is left to asperities
+        shadow = np.where(shadow[:, :1] >= 1, [1.0, 0.0, 0.0], shadow)
         f, f1, f2 = two_body.T
         bare = 1 - shadow[:, 0]
         out = force.copy()
@@ -63,6 +65,7 @@ class Interface:
         part = dict.fromkeys(("F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow"), zero)
         if self.particles is not None:
             part = self.particles.fields(d)
+            part["shadow"] = np.minimum(part["shadow"], 1.0)
         return together(F, areas, part)
 
 

@@ -228,9 +228,25 @@ class SizeAverage:
 
     def spots(self, gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         """Every particle squeezed in gaps (N,) under which they rest on a plane."""
-        rows = gap[:, None], self.top - gap[:, None]
-        x, delta, weight = self.of_sizes(*rows, splits, SIZE_NODES)
-        return self.particle.spots(x, np.maximum(delta, 0.0), share=None, number=weight)
+        return self.spots_in(gap[:, None], self.top - gap[:, None], splits, None, 1.0)
+
+    def spots_in(
+        self,
+        gap: Array,
+        rise: Array,
+        splits: Sequence[float],
+        share: Array | None,
+        weight: Array | float,
+    ) -> ParticleSpots:
+        """Every particle in gaps (M, 1), each gap as often as its weight says."""
+        x, delta, number = self.of_sizes(gap, rise, splits, SIZE_NODES)
+        return self.particle.spots(x, np.maximum(delta, 0.0), share=share, number=number * weight)
+
+    @property
+    def edges(self) -> Array:
+        """Ends of the panels of the tables, as gaps."""
+        below = self.lower.edges if self.lower is not None else np.empty(0)
+        return np.concatenate([below, self.top - self.upper.edges**2])
 
 
 def _seat_rule(
@@ -287,6 +303,11 @@ class SeatAverage:
         gaps, weight, values = self.average.nodes(self.width)
         return gaps, weight[:, None] * values / (self.width * math.sqrt(2 * math.pi))
 
+    @property
+    def edges(self) -> Array:
+        """Ends of the panels of the table, as mean gaps."""
+        return self.table.edges
+
     @cached_property
     def table(self) -> PiecewiseChebyshev:
         """Every column as a function of the mean gap."""
@@ -342,14 +363,9 @@ class SeatAverage:
             gaps = np.concatenate([below, gaps])
             rise = np.concatenate([average.top - below, rise])
             weights = np.concatenate([weight, weights])
-        x, delta, weight = average.of_sizes(gaps[:, None], rise[:, None], splits, SIZE_NODES)
         z = (mean_gap[:, None] - gaps) / self.width
-        return self.particle.spots(
-            x,
-            np.maximum(delta, 0.0),
-            share=np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi)),
-            number=weight * weights[:, None],
-        )
+        share = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
+        return average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])
 
     def derivatives(self, gap: Array, columns: tuple[int, ...]) -> Array:
         """Some columns with two derivatives: (N, len(columns), 3)."""

@@ -19,10 +19,12 @@ import numpy as np
 
 from ..errors import InvalidValue
 from ..laws.base import COLUMNS, AbstractParticleLaw, SeatedLaw
+from ..laws.particle.breakage import Breakage
 from ..laws.particle.horng2022 import NO_ONE_PARTICLE, Horng2022
 from ..populations.materials import MaterialPair, reduced_modulus
 from ..populations.particles import Particles
 from ..populations.roughness import Roughness
+from .broken_averages import BrokenAverage, broken_average
 from .particle_averages import SeatAverage, SizeAverage, seat_average, size_average
 
 if TYPE_CHECKING:
@@ -57,12 +59,23 @@ def _over_sizes_and_seats(
     parts = []
     for weight, sizes in particles.diameter.components:
         scale, shape = sizes.standardised()
-        average: SizeAverage | SeatAverage = size_average(one, shape)
+        average: SizeAverage | SeatAverage
+        if particles.strength is None:
+            average = size_average(one, shape)
+        else:
+            breakage = Breakage.of(particles.strength, particles.material, scale)
+            average = broken_average(one, shape, breakage)
         if law.seat == "rough":
             average = seat_average(average, law.zeta_std * roughness.sigma / scale)
         density = particles.areal_density * weight
         parts.append(Part(average, scale, density, offset=law.seat_offset(roughness)))
-    return SeatedParticles(parts, law.shadow, coverage)
+    made = SeatedParticles(parts, law.shadow, coverage)
+    if made.in_one_layer >= 1:
+        raise InvalidValue(
+            f"fragments in one layer would cover {made.in_one_layer:.3g} of the nominal area and "
+            "it must stay below 1; use fragments = 'footprint' or fewer particles"
+        )
+    return made
 
 
 @particle_sum.register(Horng2022)
@@ -96,6 +109,8 @@ class ParticleSum(ABC):
     """The load falls with d everywhere."""
     resolution: float = np.inf
     """Step of d [m] that resolves the load, where it is not monotone."""
+    in_one_layer: float = 0.0
+    """Part of the nominal area that fragments and whole particles cover where the gap closes."""
     marks: Array | tuple[float, ...] = ()
     """Separations d [m] between which load and shadow are smooth, where the law knows them."""
 
@@ -127,6 +142,7 @@ class ParticlesTogether(ParticleSum):
         self.reach = max(each.reach for each in sums)
         self.monotone = all(each.monotone for each in sums)
         self.resolution = min(each.resolution for each in sums)
+        self.in_one_layer = sum(each.in_one_layer for each in sums)
         self.marks = np.concatenate([np.asarray(each.marks, float) for each in sums])
 
     def load(self, d: Array) -> tuple[Array, Array]:
@@ -154,15 +170,26 @@ class Part:
         self.reach = scale * top - offset
 
     @property
+    def breaks(self) -> bool:
+        """Its particles break."""
+        average = self.average
+        one = average.average if isinstance(average, SeatAverage) else average
+        return isinstance(one, BrokenAverage)
+
+    @property
+    def resolution(self) -> float:
+        """Step of d [m] that resolves loads that rise and fall; infinite where they only fall."""
+        if not self.breaks:
+            return np.inf
+        if isinstance(self.average, SeatAverage):  # nothing changes faster than the seat is wide
+            return 0.25 * self.scale * self.average.width
+        low, high = self.average.sizes.support
+        return self.scale * (0.01 * low or 0.001 * high)
+
+    @property
     def marks(self) -> Array:
         """Ends of the panels of the tables, as separations d [m]."""
-        average = self.average
-        if isinstance(average, SeatAverage):
-            gaps = average.table.edges
-        else:
-            below = average.lower.edges if average.lower is not None else np.empty(0)
-            gaps = np.concatenate([below, average.top - average.upper.edges**2])
-        return self.scale * gaps - self.offset
+        return self.scale * self.average.edges - self.offset
 
     def load(self, d: Array, shadow: int) -> Array:
         values = self.average.derivatives((d + self.offset) / self.scale, (0, shadow))
@@ -184,10 +211,16 @@ class SeatedParticles(ParticleSum):
         self.shadow = shadow
         self.reach = max(part.reach for part in parts)
         self._shadow_column = COLUMNS.index(shadow) if shadow in COLUMNS else 0
+        self.monotone = not any(part.breaks for part in parts)
+        self.resolution = min((part.resolution for part in parts), default=np.inf)
+        self.in_one_layer = sum(
+            part.factor * part.average.floor[6] for part in parts if part.breaks
+        )
 
     @property
     def marks(self) -> Array:  # type: ignore[override]
-        if self.shadow not in COLUMNS:  # what does not change takes no load from asperities
+        # what does not change takes no load from asperities
+        if self.shadow not in COLUMNS and self.monotone:
             return np.empty(0)
         return np.concatenate([part.marks for part in self.parts])
 

@@ -4,6 +4,7 @@ from ..contact.evaluation import Solved
 from ..contact.output import AbstractOutput, Column
 from .conductance import ElectricalConductance, ThermalConductance
 from .counts import Counts
+from .crushing import Crushing
 from .dents import Dents
 from .friction import Friction
 from .static_friction import StaticFriction
@@ -18,6 +19,7 @@ __all__ = [
     "AbstractOutput",
     "Column",
     "Counts",
+    "Crushing",
     "Dents",
     "ElectricalConductance",
     "FlashTemperature",

@@ -46,8 +46,9 @@ class Dents(AbstractOutput):
     Parameters
     ----------
     debris : {"hard", "ductile", "brittle"}, optional
-        Hard particles keep their shape. Ductile ones flatten to discs as high as the gap: the
-        widths are their footprints, depths are 0 (they follow from friction on the disc). Brittle
+        Hard particles keep their shape. Ductile ones flatten to discs: the widths are their
+        footprints, as `thirdbody.particle.Series` squashes them where they are softer than the
+        surface, and otherwise those of discs as high as the gap; depths are 0. Brittle
         ones larger than ``fragment`` are replaced by fragments of the same volume in the same gap.
     fragment : float, optional
         Size of the fragments [m]; needed for brittle particles.
@@ -122,6 +123,11 @@ class Dents(AbstractOutput):
     def problems(self, contact: Contact) -> list[str]:
         if self.debris != "brittle":
             return []
+        if any(each.strength is not None for each in contact.populations):
+            return [
+                "outputs.dents: debris = 'brittle' and the strength of the particles would break "
+                "them twice; remove one"
+            ]
         laws = [contact.law_of(each) for each in contact.populations]
         if all(type(law) is Series for law in laws):
             return []
@@ -139,12 +145,17 @@ class Dents(AbstractOutput):
         found = particle.spots(x, np.maximum(x - gap, 0.0), share=spots.share, number=number)
         return replace(found, material=population.material, population=population)
 
-    def _left(self, spots: ParticleSpots, side: int) -> Dent:
-        assert spots.population is not None
+    def _left(self, spots: ParticleSpots, side: int, contact: Contact) -> Dent:
+        population = spots.population
+        assert population is not None
         if self.debris != "ductile":
-            return dent_of(spots, side=side, particle=spots.population.material)
-        gap = np.maximum(spots.x - spots.depths[0] - spots.depths[1], 1e-3 * spots.x)
-        wide = (spots.load > 0) * flattened_diameter(spots.x, gap=gap)
+            return dent_of(spots, side=side, particle=population.material)
+        law = contact.law_of(population)
+        if isinstance(law, Series) and law.forms(contact.surfaces, population.material)[side]:
+            wide = 2 * np.sqrt(spots.areas[side] / math.pi)
+        else:
+            gap = np.maximum(spots.x - spots.depths[0] - spots.depths[1], 1e-3 * spots.x)
+            wide = (spots.load > 0) * flattened_diameter(spots.x, gap=gap)
         return Dent(np.zeros_like(wide), wide, np.zeros_like(wide))
 
     def of(self, state: Solved) -> dict[str, Array]:
@@ -161,7 +172,7 @@ class Dents(AbstractOutput):
         sums = dict.fromkeys(("n", "depth", "width", "volume", "embedded"), nothing)
         dents = []
         for spots in groups:
-            dent = self._left(spots, side)
+            dent = self._left(spots, side, state.contact)
             counts = (dent.diameter > 0) & (dent.depth >= self.shallowest)
             dents.append((spots, dent, counts))
             deep = counts & (2 * spots.depths[side] > spots.radius) & (self.debris != "ductile")

@@ -19,7 +19,9 @@ from ..contact.asperity_sums import ReducedSum
 from ..contact.contact import Contact
 from ..contact.evaluation import evaluate
 from ..contact.interface import Interface, interface
+from ..contact.particle_sums import PrintedIntegrals
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
+from ..laws.particle.breakage import about_strength
 from ..quantities.say import percent
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
@@ -97,6 +99,7 @@ def solve(
     branch : {"loading", "unloading"}, optional
         Where the load does not fall monotonically with d (see `roots`): the largest d that
         carries the load, met on approach, or the smallest, left on retreat. A warning says so.
+        Particles that break do not heal: with a ``strength`` there is the loading branch alone.
 
     Returns
     -------
@@ -144,6 +147,11 @@ def solve(
     name, values, scalar = given_load(contact, pressure, F_star, d)
     if branch not in ("loading", "unloading"):
         raise InvalidValue(f"branch = {branch!r} must be 'loading' or 'unloading'")
+    if branch == "unloading" and any(each.strength is not None for each in contact.populations):
+        raise InvalidValue(
+            "branch = 'unloading' has no meaning with particles that break (strength): what is "
+            "broken does not heal; use branch = 'loading'"
+        )
     bound = interface(contact)
     raw, path = None, "compiled"
     target = None if name == "d" else values
@@ -205,7 +213,8 @@ def roots(
     A root is stable where the load falls with d. More than one exists where the load does not
     fall with d everywhere: the printed `Horng2022`, or particles that shade more asperities than
     they carry for, as particles softer than the nominal pressure do. Loading and unloading then
-    differ (hysteresis). A jump of the load is no root.
+    differ (hysteresis). A jump of the load is no root. Of particles that break all roots lie on
+    the curve of loading.
 
     Parameters
     ----------
@@ -475,9 +484,15 @@ def _warnings(
             )
     if bound.particles is not None:
         out += about_particles(contact)
+        if bound.particles.in_one_layer >= 0.3:
+            out.append(
+                f"fragments in one layer would cover {bound.particles.in_one_layer:.2g} of the "
+                "nominal area where the gap closes"
+            )
         if np.any(full["shadow"] >= 1):
             out.append("particles shadow the whole area: the area correction was cut at zero")
-        if not bound.particles.monotone and np.any(d < 0):
+        printed = any(isinstance(each, PrintedIntegrals) for each in bound.populations)
+        if printed and np.any(d < 0):
             out.append("d < 0: the paper's particle integrals have no meaning there")
     return tuple(out)
 
@@ -487,6 +502,7 @@ def about_particles(contact: Contact) -> list[str]:
     out = []
     for each in contact.populations:
         out += contact.law_of(each).warnings(contact.surfaces, contact.roughness, each)
+        out += about_strength(each, contact.surfaces)
     covered = sum(each.coverage for each in contact.populations)
     if covered >= 0.3:
         out.append(

@@ -220,6 +220,11 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
         return _by_groups(contact, arrays, load, loads)
     numbers = {name: values.astype(float) for name, values in arrays.items()}
     try:
+        soft = engine.squashed(contact, numbers, len(loads))
+        if soft.any() and not soft.all():
+            each = [np.flatnonzero(~soft), np.flatnonzero(soft)]
+            solved = [(i, _solve(contact, _taken(arrays, i), load, loads[i])) for i in each]
+            return _joined(len(loads), solved)
         return _by_nodes(contact, numbers, load, loads)
     except NotCompiled as error:
         why = str(error)

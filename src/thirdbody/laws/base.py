@@ -410,6 +410,8 @@ class AbstractParticleLaw(Law):
 
     __slots__ = ()
     registry: ClassVar[dict[str, type[Law]]] = {}
+    breakable: ClassVar[bool] = False
+    """Its particles are round: their strength has a meaning."""
 
     @property
     def centre(self) -> float:

@@ -80,6 +80,10 @@ class ParticleSpots(Spots):
     material : Material
         Of the particles.
     population : Particles
+    parents : array (M, n) or None
+        Of particles that break: how many there were of the size before any broke [1/m²].
+    survival : array (M, n) or None
+        Their P_s, and that of pieces of the size [1].
     """
 
     x: Array
@@ -91,6 +95,15 @@ class ParticleSpots(Spots):
     hardness: tuple[float, float]
     material: Material | None = None
     population: Particles | None = None
+    parents: Array | None = None
+    survival: Array | None = None
+
+    def thinned(self, factor: Array) -> Self:
+        """A part of the spots of each state: factor (N,)."""
+        thin = Spots.thinned(self, factor)
+        if self.share is None and self.parents is not None:
+            return replace(thin, parents=self.parents * factor[:, None])
+        return thin
 
     def of_size(self, scale: float, density: float) -> ParticleSpots:
         """So many particles per nominal area, every length ``scale`` times as large."""
@@ -99,6 +112,7 @@ class ParticleSpots(Spots):
         return replace(
             self,
             number=density * self.number,
+            parents=None if self.parents is None else density * self.parents,
             load=scale**2 * self.load,
             x=scale * self.x,
             radius=scale * self.radius,

@@ -108,7 +108,7 @@ def contact(
         roughness=tb.Roughness(sigma=SIGMA * roughness, R=RADIUS / sharpness),
         asperity_law=GW(),
         particles=dust,
-        particle_law=Series(law=LAWS[law], seat="plane", shadow="none"),
+        particle_law=Series(law=LAWS[law], soft="sphere", seat="plane", shadow="none"),
     )
 
 

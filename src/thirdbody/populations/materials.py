@@ -30,6 +30,12 @@ def _bulk(symbol: str, unit: str, meaning: str) -> Any:
     return field(default=None, compare=False, metadata=about)
 
 
+def _grain(symbol: str, unit: str, meaning: str) -> Any:
+    """What is known of the strength of grains of a material, for `WeibullStrength.of`."""
+    about = quantity(symbol, unit, meaning, gt=0, usual=1.0 if unit == "m" else None).metadata
+    return field(default=None, compare=False, metadata={**about, "grain": True})
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Material(Value):
     """An isotropic solid with a hardness.
@@ -52,6 +58,10 @@ class Material(Value):
         Specific heat c_p [J/(kg K)].
     resistivity : float, optional
         Electrical resistivity ρ_e [Ω m].
+    K_c : float, optional
+        Fracture toughness K_c [Pa √m].
+    sigma_0, x_0, m, size_exponent : float, optional
+        Strength of grains, as in `thirdbody.WeibullStrength.of`.
 
     Raises
     ------
@@ -60,7 +70,8 @@ class Material(Value):
 
     Notes
     -----
-    Two materials are equal when E, ν and H are: those alone decide how a contact carries load.
+    Two materials are equal when E, ν, H and K_c are: those alone decide how a contact carries load,
+    K_c where particles break.
 
     Examples
     --------
@@ -80,6 +91,13 @@ class Material(Value):
     thermal_conductivity: float | None = _bulk("κ", "W/m/K", "thermal conductivity")
     specific_heat: float | None = _bulk("c_p", "J/kg/K", "specific heat")
     resistivity: float | None = _bulk("ρ_e", "ohm*m", "electrical resistivity")
+    K_c: float | None = quantity(
+        "K_c", "Pa m^0.5", "fracture toughness", default=None, gt=0, hint="MPa m^0.5 are 1.2e6"
+    )
+    sigma_0: float | None = _grain("σ_0", "Pa", "strength F/x² of grains of size x_0")
+    x_0: float | None = _grain("x_0", "m", "size at which the strength was measured")
+    m: float | None = _grain("m", "1", "Weibull modulus of the strength of grains")
+    size_exponent: float | None = _grain("b", "1", "exponent of the size effect on strength")
 
     @property
     def plane_strain_modulus(self) -> float:
@@ -90,7 +108,7 @@ class Material(Value):
 BULK = frozenset(
     item.name
     for item in dataclasses.fields(Material)
-    if "quantity" in item.metadata and not item.compare
+    if "quantity" in item.metadata and not item.compare and "grain" not in item.metadata
 )
 """Quantities of a body that decide how it conducts, not how it carries load."""
 

@@ -12,6 +12,7 @@ from ..quantities.value import Value, quantity
 from .distributions import Distribution
 from .materials import Material
 from .measured import cleanliness
+from .strength import WeibullStrength
 
 __all__ = ["Particles"]
 
@@ -32,6 +33,8 @@ class Particles(Value):
         What results call this population, where several share one interface.
     law : AbstractParticleLaw, optional
         What one of these particles does; without it the particle law of the contact.
+    strength : WeibullStrength, optional
+        How strong the particles are: they break as the gap closes. Without it they never do.
 
     Raises
     ------
@@ -55,6 +58,7 @@ class Particles(Value):
     )
     name: str = ""
     law: Value | None = None
+    strength: WeibullStrength | None = None
 
     def _problems(self) -> list[str]:
         out: list[str] = []
@@ -62,6 +66,11 @@ class Particles(Value):
             out.append(f"Particles.material = {self.material!r} must be a Material")
         if not isinstance(self.diameter, Distribution):
             out.append(f"Particles.diameter = {self.diameter!r} must be a size distribution")
+        if not isinstance(self.strength, WeibullStrength | None):
+            out.append(
+                f"Particles.strength = {self.strength!r} must be a WeibullStrength, e.g. "
+                "WeibullStrength.of(material), or None"
+            )
         if not out and self.coverage >= 1:
             out.append(
                 f"Particles.areal_density = {self.areal_density:g} is jammed: the particles would "

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
+from ..errors import InvalidValue
 from ..quantities.value import Value, quantity
 from .ellipticity import Ellipticity
+from .finish import Finish, check_faces, drawing, given_or_drawn
 from .heights import GaussianHeights, Heights
 
 __all__ = ["ETA_R_SIGMA", "Roughness"]
@@ -39,6 +42,9 @@ class Roughness(Value):
     ellipticity : Ellipticity, optional
         Elliptic asperities of several shapes, for laws with a ratio of radii; R is then R_g =
         √(R′R″) of a class with radius 1.
+    finish : tuple of Finish, optional
+        What the drawing states of the faces: `from_drawing` sets it. It moves no number; the
+        ranges that `assess` carries come from it.
 
     Raises
     ------
@@ -66,6 +72,83 @@ class Roughness(Value):
     eta: float | None = quantity("η", "1/m^2", "asperity density", default=None, gt=0)
     heights: Heights = field(default_factory=GaussianHeights)
     ellipticity: Ellipticity | None = None
+    finish: tuple[Finish, ...] = ()
+
+    @classmethod
+    def from_drawing(
+        cls,
+        first: Finish,
+        second: Finish | None = None,
+        *,
+        R: float | None = None,
+        alpha: float | None = None,
+        eta_R_sigma: float | None = None,
+        eta: float | None = None,
+        **others: Any,
+    ) -> Roughness:
+        r"""The pair whose faces a drawing states by Ra, Rq or Rz and the finishing process.
+
+        .. math:: \sigma^2 = R_{q1}^2 + R_{q2}^2, \qquad R_q = \sqrt{\pi/2}\,R_a
+
+        Parameters
+        ----------
+        first, second : Finish
+            The faces; without a second one the other is smooth, or the first is the pair.
+        R, alpha, eta_R_sigma, eta : float, optional
+            What is known better than by the process [m], [1], [1], [1/m²].
+        **others
+            Heights and ellipticity.
+
+        Returns
+        -------
+        Roughness
+            With the usual values of the process; `ranges` has their ranges.
+
+        Raises
+        ------
+        InvalidValue
+            A face without a process, and no R.
+
+        Notes
+        -----
+        Heights are Gaussian and the faces isotropic. What a process says of the slope and of α is
+        wide and from memory, so R is known to a factor of some six either way: measure it where it
+        matters.
+
+        Examples
+        --------
+        >>> ground = Finish(Ra=0.4e-6, process="ground")
+        >>> lapped = Finish(Ra=0.1e-6, process="lapped")
+        >>> rough = Roughness.from_drawing(ground, lapped)
+        >>> round(rough.sigma * 1e9), round(rough.R * 1e6)
+        (517, 12)
+        >>> [round(end * 1e6) for end in rough.ranges["R"]]
+        [2, 76]
+        """
+        faces = (first,) if second is None else (first, second)
+        if problems := check_faces(faces):
+            raise InvalidValue(*problems)
+        given = {"R": R, "alpha": alpha, "eta_R_sigma": eta_R_sigma, "eta": eta}
+        return cls(**given_or_drawn(faces, given), **others, finish=faces)
+
+    @property
+    def ranges(self) -> dict[str, tuple[float, float]]:
+        """Low and high ends of what the drawing leaves open, in SI; of numbers set since, none."""
+        if not self.finish:
+            return {}
+        found = drawing(self.finish)._asdict()
+        return {
+            name: (known[0], known[2])
+            for name, known in found.items()
+            if known is not None and known[0] < known[2] and getattr(self, name) == known[1]
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """Every field in SI, ready for JSON; ``finish`` where a drawing states one."""
+        out = Value.to_dict(self)
+        if not self.finish:
+            del out["finish"]
+        return out
 
     def _problems(self) -> list[str]:
         if self.eta is not None and self.eta_R_sigma is not None:
@@ -74,7 +157,7 @@ class Roughness(Value):
             return [f"Roughness.heights = {self.heights!r} must be a height distribution"]
         if not isinstance(self.ellipticity, Ellipticity | None):
             return [f"Roughness.ellipticity = {self.ellipticity!r} must be an Ellipticity or None"]
-        return []
+        return check_faces(self.finish)
 
     @property
     def density(self) -> float:

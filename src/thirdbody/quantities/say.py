@@ -12,6 +12,7 @@ from collections.abc import Sequence
 __all__ = [
     "NOT_KNOWN",
     "UNITS",
+    "concentration_of",
     "listed",
     "number",
     "percent",
@@ -103,6 +104,21 @@ def value_of(value: float | None, unit: str, digits: int = 4) -> str:
         fitting = (pair for pair in PREFIXED[unit] if rounded >= pair[0])
         size, name = next(fitting, PREFIXED[unit][-1])
     return f"{number(value / size, digits)} {name}".rstrip()
+
+
+def concentration_of(value: float | None, by: str) -> str:
+    """How much of a fluid is particles, as study files write it.
+
+    >>> concentration_of(0.007, "mass"), concentration_of(1e12, "number")
+    ('0.7 wt %', '1×10⁶ per mL')
+    """
+    factor, unit = {
+        "mass": (100.0, "wt %"),
+        "volume": (100.0, "vol %"),
+        "number": (1e-6, "per mL"),
+        "mass per volume": (1e3, "mg/L"),
+    }[by]
+    return NOT_KNOWN if value is None else f"{number(factor * value, 3)} {unit}"
 
 
 def percent(value: float | None, error: float = 0.0, *, digits: int = 3, least: float = 0.0) -> str:

@@ -27,6 +27,7 @@ EXAMPLES = {
     "W/m/K": '"46 W/m/K"',
     "J/kg/K": '"460 J/kg/K"',
     "ohm*m": '"2e-7 ohm*m"',
+    "Pa m^0.5": '"1.2 MPa m^0.5"',
     "N": '"20 N"',
     "m/s": '"0.5 m/s"',
     "Pa s": '"20 mPa s"',
@@ -61,6 +62,7 @@ _KINDS = {
     "rad/s": "a rate",
     "Pa*s": "a viscosity",
     "Pa s": "a viscosity",
+    "Pa m**0.5": "a fracture toughness",
     "1/Pa": "one over a pressure",
     "A": "an electric current (angstrom is written angstrom)",
 }
@@ -79,7 +81,7 @@ _NUMBER = re.compile(
     r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?(?:infinity|inf|nan)\b", re.IGNORECASE
 )
 _FACTOR = re.compile(
-    r"\s*(?P<sign>[*/·×]?)\s*(?P<name>[^\W\d_]+|%|1)(?:(?:\s*(?:\^|\*\*)\s*)?(?P<power>-?\d\d?))?"
+    r"\s*(?P<sign>[*/·×]?)\s*(?P<name>[^\W\d_]+|%|1)(?:(?:\s*(?:\^|\*\*)\s*)?(?P<power>-?\d\d?(?:\.\d)?))?"
 )
 _HARDNESS = re.compile(
     r"(?P<number>[^\s\d]*[\d.,]+(?:[eE][+-]?\d+)?)\s*(?P<scale>H(?:V|BW?|BS|RC|K))(?:\s*[\d.]+)?"

@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 from ..analysis.assess import assess
 from ..analysis.assessment import Assessment
-from ..analysis.inputs import inputs as all_inputs
-from ..analysis.uncertainty.inputs import library_ranges
 from ..errors import InvalidValue
 from ..numerics.sampling import Span
 from .amounts import is_span
@@ -34,12 +32,6 @@ def assess_study(study: Study) -> Assessment:
     asked = study.uncertainty
     value: dict[str, Any] = {study.load: float(study.values[0])}
     if asked is None:
-        if not library_ranges(study.contact):
-            raise InvalidValue(
-                "there is no table [uncertainty], and the materials library states no ranges for "
-                f"these bodies; say what is known of {', '.join(all_inputs(study.contact))}, e.g. "
-                '[uncertainty.inputs] roughness.sigma = { low = "80 nm", high = "120 nm" }'
-            )
         return assess(study.contact, title=study.title, **value)
     return assess(
         study.contact,

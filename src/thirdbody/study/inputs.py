@@ -12,6 +12,7 @@ from ..laws import asperity, particle
 from ..populations.materials import BULK, Material
 from ..populations.particles import Particles
 from ..populations.roughness import Roughness
+from ..populations.strength import WeibullStrength
 from .fields import filled_in, idle
 from .laws import class_of
 from .particles import populations
@@ -84,6 +85,8 @@ def _kinds(whole: dict[str, Any]) -> list[tuple[str, type]]:
     for path, table in tables.items():
         sizes = DISTRIBUTIONS.get(str(get(table, "distribution")))
         found += [(path, Particles), (path, sizes), (f"{path}.material", Material)]
+        if get(table, "strength") is not None:
+            found.append((f"{path}.strength", WeibullStrength))
         if get(table, "law") is not None:
             found.append((f"{path}.law", class_of(table["law"], particle.REGISTRY)))
     if any(get(table, "law") is None for table in tables.values()):

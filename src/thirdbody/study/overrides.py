@@ -7,7 +7,7 @@ from typing import Any
 
 from ..errors import InvalidValue
 from ..quantities.units import say
-from .reader import ONE_OF
+from .reader import rivals
 from .toml import value_of
 
 __all__ = ["override"]
@@ -41,8 +41,7 @@ def _set(data: dict[str, Any], keys: list[str], value: Any) -> None:
         where = ".".join(keys[:depth])
         place = _place(table, where, key, keys[depth + 1 :])
         if depth == len(keys) - 1:
-            group = ONE_OF.get(where, ())
-            for other in group if key in group else ():
+            for other in rivals(where, key):
                 table.pop(other, None)
             table[place] = value
         elif isinstance(table, list):

@@ -13,6 +13,7 @@ from .concentration import amount, laden
 from .counted import COUNTED, counted
 from .laws import particle_law
 from .reader import Key, Reader, Table, get
+from .strength import strength
 from .vocabulary import DISTRIBUTIONS
 
 __all__ = ["TABLE", "populations"]
@@ -53,6 +54,7 @@ def _population(reader: Reader, path: str, data: Any) -> Any:
     own["areal_density"] = own["areal_density"]._replace(
         about=f'{own["areal_density"].about}, or concentration = "0.1 wt%" with gap = "1 um"'
     )
+    complete = strength(reader, path, get(data, "strength"), own)
     own["law"] = Key(_law(reader, f"{path}.law", get(data, "law")), False, LAW)
     given = [key for key in ("distribution", *COUNTED) if get(data, key) is not None]
     kind = given[0] if given else "distribution"
@@ -63,7 +65,7 @@ def _population(reader: Reader, path: str, data: Any) -> Any:
     reader.problems += wrong
     own |= {key: Key(Any, False, "") for key in COUNTED}
     if kind != "distribution":
-        return counted(reader, path, data, kind, own, wrong)
+        return Annotated[counted(reader, path, data, kind, own, wrong), complete]
 
     def build(values: dict[str, Any]) -> Particles:
         if wrong:
@@ -72,7 +74,8 @@ def _population(reader: Reader, path: str, data: Any) -> Any:
         diameter = reader.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
         return laden(reader, path, mine, diameter)
 
-    return reader.variant(path, data, "distribution", DISTRIBUTIONS, build, own)
+    found = reader.variant(path, data, "distribution", DISTRIBUTIONS, build, own)
+    return Annotated[found, complete]
 
 
 def _law(reader: Reader, path: str, data: Any) -> Any:

@@ -18,14 +18,24 @@ from .mistakes import Known, retold
 from .one_value import number, numbers, switch, text, word, word_or_number
 from .vocabulary import near
 
-__all__ = ["Key", "Reader", "Table", "get", "plain"]
+__all__ = ["Key", "Reader", "Table", "get", "plain", "rivals"]
 
 ONE_OF = {
     "load": ("F_star", "pressure", "separation"),
     "sweep": ("F_star", "pressure", "separation"),
     "roughness": ("eta", "eta_R_sigma"),
+    "roughness.drawing": ("sigma", "Ra", "Rq", "Rz"),
 }
-"""Keys of a table of which only one can be given."""
+"""Keys of a table of which only one can be given; after the dot a name where a table has several
+such groups."""
+
+
+def rivals(path: str, key: str) -> tuple[str, ...]:
+    """The other keys of a table that cannot stand beside this one."""
+    for name, keys in ONE_OF.items():
+        if name.partition(".")[0] == path and key in keys:
+            return tuple(other for other in keys if other != key)
+    return ()
 
 
 class Key(NamedTuple):
@@ -186,9 +196,9 @@ class Reader:
         return Annotated[model, WrapValidator(finish)]
 
     # ------------------------------------------------------------------ several keys at once
-    def only_one(self, path: str, data: Any) -> list[str]:
+    def only_one(self, path: str, data: Any, group: str = "") -> list[str]:
         """Tell of keys that say the same thing twice; the ones to leave out."""
-        given = [key for key in ONE_OF[path] if get(data, key) is not None]
+        given = [key for key in ONE_OF[group or path] if get(data, key) is not None]
         if len(given) > 1:
             shown = ", ".join(f"{path}.{key} = {say(data[key])}" for key in given)
             self.problems.append(f"{shown}: only one of these can be given; remove the other")

@@ -1,4 +1,4 @@
-"""The table [roughness]: σ, R and η, or a measured surface in their place."""
+"""The table [roughness]: σ, R and η, or a drawing or a measured surface in their place."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 from ..errors import InvalidValue
 from ..populations.roughness import Roughness
 from ..quantities.units import say, to_si
+from .drawing import drawn, is_drawn
 from .reader import Reader, Table, get
 from .topography import topography
 
@@ -18,7 +19,11 @@ def roughness(reader: Reader, path: str, data: Any) -> Any:
     """The equivalent rough surface."""
     if isinstance(data, dict) and "topography" in data:
         return topography(reader, path, data)
+    if is_drawn(data):
+        return drawn(reader, path, data)
     keys = reader.keys_of(Roughness, path, data)
+    about = keys["sigma"].about
+    keys["sigma"] = keys["sigma"]._replace(about=f'{about}, or Ra = "0.2 um" of the drawing')
     spare = reader.only_one(path, data)
     shape = get(data, "ellipticity")
     two_faces = get(shape, "R_first") is not None and get(shape, "R_second") is not None

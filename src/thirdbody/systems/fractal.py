@@ -639,6 +639,11 @@ class GhaedniaMultiscale(Value):
         ]
         if out:
             return out
+        if self.particles.strength is not None:
+            out.append(
+                "GhaedniaMultiscale.particles have a strength, and this model does not break "
+                "particles; remove it"
+            )
         for name in ("E_star", "H"):
             own, given = getattr(self.surface, name), getattr(self.surfaces, name)
             if own is not None and not math.isclose(own, given, rel_tol=1e-6):

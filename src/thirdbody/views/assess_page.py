@@ -25,8 +25,8 @@ def page(assessment: Assessment) -> str:
     for part in assessment.sections():
         lines = [text_table(part.head, part.rows, WORDS)] if part.rows else []
         lines += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
-        if part.title in ("State", "Inputs that matter"):
-            caption, picture = next(figures)
+        if part.title in ("State", "Inputs that matter") and (next_one := next(figures, None)):
+            caption, picture = next_one
             lines.append(figure(picture, caption))
         body.append(section(part.title, lines))
     return document(title, body)
@@ -40,6 +40,8 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
     from .html import svg_of
 
     found = assessment.propagation
+    if not found.inputs:
+        return []
     of = "A_t" if found.contact.two_body else "particle_load_share"
     value = float(found.loads)
     loads = value * np.geomspace(1 / 30, 30, LOADS_SHOWN)
@@ -64,5 +66,5 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
     return [*out, (words, svg_of(ax.figure))]
 
 
-WORDS = ("where", "result")
+WORDS = ("where", "result", "input")
 """Columns of words, which may break."""

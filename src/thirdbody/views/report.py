@@ -18,7 +18,7 @@ from ..analysis.assessment import Assessment
 from ..analysis.inputs import declared
 from ..analysis.inputs import inputs as numbers_of
 from ..analysis.sensitivity import Sensitivity, sensitivity
-from ..analysis.uncertainty.inputs import library_ranges
+from ..analysis.uncertainty.inputs import stated_ranges
 from ..contact.contact import Contact
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput
@@ -54,6 +54,7 @@ from ..quantities.say import (
 )
 from ..quantities.value import Value
 from ..study import Study, run_film, run_study
+from .assess_page import WORDS as ASSESSMENT_WORDS
 from .assess_page import pictures as pictures_of
 from .html import breaking, document, figure, section, svg_of, symbols, table, text_table, words
 
@@ -490,7 +491,7 @@ class Report:
         for part in found.sections()[1:]:
             out.append(f"<h3>{escape(part.title)}</h3>")
             if part.rows:
-                out.append(text_table(part.head, part.rows, ("where", "result")))
+                out.append(text_table(part.head, part.rows, ASSESSMENT_WORDS))
             out += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
         pictures = "\n".join(figure(svg, caption) for caption, svg in pictures_of(found))
         return [*out, f"<div class=figures>{pictures}</div>"]
@@ -834,7 +835,7 @@ def _curve(contact: Contact, result: dict[str, Any], loaded: Sequence[int]) -> E
 def _assessed(study: Study, contact: Contact, given: dict[str, float]) -> Assessment | None:
     asked = study.uncertainty
     if asked is None:
-        if not library_ranges(contact):
+        if not stated_ranges(contact):
             return None
         return assess(contact, **given, samples=MOST_SAMPLES)  # type: ignore[arg-type]
     loads = {"pressure", "F_star", "d"} - set(given)

@@ -26,6 +26,7 @@ from ...numerics.sampling import Span, latin
 from ...populations.materials import Material
 from ...quantities.progress import reporting
 from ..inputs import input_of as moved_input
+from ..inputs import words_of
 from ..sensitivity import sensitivity
 from ..uncertainty.inputs import drawn_inputs
 from .front import front, hypervolume
@@ -52,8 +53,10 @@ METRICS = {
 NOT_SMOOTH = {"mode", "status", "residual", "iterations"}
 CASES = 32
 """Load cases of a range."""
-LOSS = 0.05
-"""Of the objective, inside the tolerance band."""
+LOSS, FLAT = 0.05, 1e-3
+"""Of the objective, inside the tolerance band and on a plateau."""
+WIDE = 0.01
+"""Part of a value that a plateau is wider than."""
 AT_END = 1e-3
 """Part of a range that counts as its end."""
 
@@ -83,6 +86,8 @@ class Best:
     tolerance : dict
         Per variable the range about the best point in which the first objective loses less
         than 5 %.
+    plateau : dict
+        The same for 0.1 %, where that range is wider than 1 %: any value of it is as good.
     at_bound : tuple of str
         Variables whose best value is an end of their range: the optimum may lie beyond.
     slopes : dict
@@ -122,6 +127,7 @@ class Best:
     points: xarray.Dataset
     active: tuple[str, ...]
     tolerance: dict[str, tuple[float, float]]
+    plateau: dict[str, tuple[float, float]]
     at_bound: tuple[str, ...]
     slopes: dict[str, dict[str, float]]
     hypervolume: float | None = None
@@ -140,6 +146,7 @@ class Best:
             "reason": self.reason,
             "active": list(self.active),
             "tolerance": {name: list(band) for name, band in self.tolerance.items()},
+            "plateau": {name: list(band) for name, band in self.plateau.items()},
             "at_bound": list(self.at_bound),
             "slopes": self.slopes,
             "hypervolume": self.hypervolume,
@@ -314,7 +321,8 @@ def _answer(task: Task) -> Best:
     }
     ends = {name: each.place(best.numbers[name]) for name, each in task.variables.items()}
     at_bound = tuple(name for name, u in ends.items() if min(u, 1 - u) < AT_END)
-    notes = [f"the best {name} is an end of its range" for name in at_bound]
+    notes = [f"the best {words_of(task.contact, name)} is an end of its range" for name in at_bound]
+    tolerance, plateau = _bands(task, best)
     if task.scatter is None and any(
         each.over_scatter not in ("mean", "nominal") for each in task.objectives
     ):
@@ -328,7 +336,8 @@ def _answer(task: Task) -> Best:
         states=_states(task, best),
         points=xarray.Dataset(columns),
         active=best.active,
-        tolerance=_tolerance(task, best),
+        tolerance=tolerance,
+        plateau=plateau,
         at_bound=at_bound,
         slopes=_slopes(task, best, made),
         hypervolume=volume,
@@ -350,23 +359,37 @@ def _states(task: Task, best: Point) -> xarray.Dataset:
     return xarray.Dataset(columns, coords={task.load: task.loads})
 
 
-def _tolerance(task: Task, best: Point) -> dict[str, tuple[float, float]]:
-    """Where the first objective loses less than `LOSS`, variable by variable."""
+Bands = dict[str, tuple[float, float]]
+
+
+def _bands(task: Task, best: Point) -> tuple[Bands, Bands]:
+    """Where the first objective loses less than `LOSS`, and `FLAT`, variable by variable."""
+    tolerance = {name: _band(task, best, name, LOSS, (0.0, 1.0)) for name in task.variables}
+    plateau = {}
+    for name, ends in tolerance.items():
+        each = task.variables[name]
+        low, high = _band(task, best, name, FLAT, (each.place(ends[0]), each.place(ends[1])))
+        if high - low > WIDE * max(abs(low), abs(high)):
+            plateau[name] = low, high
+    return tolerance, plateau
+
+
+def _band(
+    task: Task, best: Point, name: str, part: float, places: tuple[float, float]
+) -> tuple[float, float]:
+    """Where the first objective loses less than this part of it, between two places."""
     label = task.objectives[0].label
-    value = best.costs[label]
-    out = {}
-    for name, each in task.variables.items():
-        own = best.numbers[name]
-        grid = np.unique(np.append(each.span.at(np.linspace(0, 1, GRID + 1)), own))
-        rows = task.judged([{**best.numbers, name: float(x)} for x in grid], best.materials)
-        lost = np.array([point.costs[label] for point in rows]) - value
-        good = (lost <= LOSS * abs(value)) & np.array([not point.reason for point in rows])
-        place = int(np.searchsorted(grid, own))
-        bad = np.flatnonzero(~good)
-        first = bad[bad < place].max(initial=-1) + 1
-        last = bad[bad > place].min(initial=len(grid)) - 1
-        out[name] = (float(grid[first]), float(grid[last]))
-    return out
+    value, own = best.costs[label], best.numbers[name]
+    among = task.variables[name].span.at(np.linspace(*places, GRID + 1))
+    grid = np.unique(np.append(among, own))
+    rows = task.judged([{**best.numbers, name: float(x)} for x in grid], best.materials)
+    lost = np.array([point.costs[label] for point in rows]) - value
+    good = (lost <= part * abs(value)) & np.array([not point.reason for point in rows])
+    place = int(np.searchsorted(grid, own))
+    bad = np.flatnonzero(~good)
+    first = bad[bad < place].max(initial=-1) + 1
+    last = bad[bad > place].min(initial=len(grid)) - 1
+    return float(grid[first]), float(grid[last])
 
 
 def _slopes(task: Task, best: Point, made: Contact) -> dict[str, dict[str, float]]:

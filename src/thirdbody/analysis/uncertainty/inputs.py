@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Arrays = dict[str, NDArray[Any]]
 
-__all__ = ["Uncertain", "Uncertainty", "library_ranges"]
+__all__ = ["Uncertain", "Uncertainty", "library_ranges", "stated_ranges"]
 
 TAIL = 1e-9
 """Probability beyond which no sample is drawn, on either side (six standard deviations)."""
@@ -173,6 +173,14 @@ class Uncertainty:
     seed: int = 0
 
 
+def stated_ranges(contact: Contact) -> dict[str, Uncertain]:
+    """Ranges that nobody gave: of the materials library, and of a finishing process."""
+    return library_ranges(contact) | {
+        f"roughness.{name}": Uncertain.log_uniform(low=ends[0], high=ends[1])
+        for name, ends in contact.roughness.ranges.items()
+    }
+
+
 def library_ranges(contact: Contact) -> dict[str, Uncertain]:
     """Ranges that the materials library states for the bodies of a contact, as uniform."""
     from ...populations.materials import materials
@@ -180,8 +188,11 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
     entries = materials.entries()
     known = inputs(contact)
     bodies = {"surfaces.first": contact.surfaces.first, "surfaces.second": contact.surfaces.second}
-    if (one := getattr(contact.particles, "material", None)) is not None:
-        bodies["particles.material"] = one
+    given = contact.particles
+    if isinstance(given, tuple):
+        bodies |= {f"particles.{i}.material": each.material for i, each in enumerate(given)}
+    elif given is not None:
+        bodies["particles.material"] = given.material
     alike = contact.surfaces.first == contact.surfaces.second
     out = {}
     for name, body in bodies.items():

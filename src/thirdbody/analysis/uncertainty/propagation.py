@@ -498,6 +498,38 @@ def propagate(
     )
 
 
+def certain(contact: Contact, load: str, value: float) -> Propagation:
+    """What a `Propagation` is where nothing is uncertain: every quantile is the value itself."""
+    names = _outputs(None, contact)
+    critical: Arrays = {}
+    statuses: dict[str, dict[str, float]] = {}
+    if set(names) & set(CRITICAL):
+        found = critical_loads(contact, vary={}, count=1)
+        critical = {name: values for name, (values, _) in found.items()}
+        statuses = {name: {str(words[0]): 1.0} for name, (_, words) in found.items()}
+    state = columns_at(contact, load, value, {}, 1, outputs=bool(contact.outputs))
+    few = np.zeros(1, int)
+    nominal = {name: float(_output(name, state, critical, few).flat[0]) for name in names}
+    mode = str(state["mode"][0]) or "none"
+    return Propagation(
+        contact=contact,
+        inputs={},
+        load=load,
+        loads=value,
+        samples=1,
+        critical_samples=len(critical) and 1,
+        seed=0,
+        probabilities=PROBABILITIES,
+        nominal=nominal,
+        bands={name: np.full(len(PROBABILITIES), one) for name, one in nominal.items()},
+        error={name: np.zeros(len(PROBABILITIES)) for name in names},
+        mode_probability={each: float(each == mode) for each in MODES},
+        mode_error=dict.fromkeys(MODES, 0.0),
+        critical_status=statuses,
+        solved=1.0,
+    )
+
+
 def about_result(name: str) -> dict[str, str]:
     """Symbol, unit and meaning of what has a band."""
     return OUTPUTS[name] if name in OUTPUTS else about(name)

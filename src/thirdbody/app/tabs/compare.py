@@ -9,7 +9,7 @@ import numpy as np
 from nicegui import ui
 
 from ...quantities.say import number, percent, signed, value_of
-from ..figures import AXES, empty, figure, line
+from ..figures import AXES, SCALES, empty, figure, line
 from ..state import Answer, State, loads_as
 from ..widgets import table as shown_table
 from ..work import Work
@@ -33,10 +33,11 @@ def law_figure(found: dict[str, Any], of: str) -> dict[str, Any]:
     """One curve a law; the study's own is the thickest."""
     label, ylog, scale = SHOWN[of]
     traces = []
+    loads = np.array(found["loads"]) * SCALES.get(found["load"], 1.0)
     for row, law in enumerate(found["laws"]):
         y = np.array([np.nan if v is None else scale * v for v in found["columns"][of][row]])
         own = law == found["own"]
-        traces.append(line(found["loads"], y, law, row, line={"width": 4 if own else 1.8}))
+        traces.append(line(loads, y, law, row, line={"width": 4 if own else 1.8}))
     return figure(
         traces, x=AXES[found["load"]], y=label, title="Asperity laws", ylog=ylog, height=460
     )

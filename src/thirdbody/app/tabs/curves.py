@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -9,14 +10,16 @@ import numpy as np
 from nicegui import ui
 
 from ...equilibrium.words import BANDS, critical_load, happens
-from ..figures import AXES, REGIME_FILLS, empty, figure, line, log_title, mark, mode_bands, plain
+from ..figures import AXES, REGIME_FILLS, SCALES, figure, line, log_title, mark, mode_bands, plain
 from ..state import Answer, State
-from ..widgets import put
+from ..widgets import Plot, put
 from ..widgets import table as shown_table
 
 __all__ = ["TITLE", "build", "figures"]
 
 TITLE = "Curves"
+SIGHT = 0.02
+"""Seconds in which the figures on top are drawn before those below."""
 CRITICAL = {
     "F_cr1": "F<sub>cr1</sub>",
     "F_cr2": "F<sub>cr2</sub>",
@@ -39,28 +42,22 @@ def critical_loads(answer: Answer) -> dict[str, float]:
     return {name: value for name, value in every.items() if value}
 
 
-def figures(
-    answer: Answer, against: str, at: float, *, critical: bool = True
-) -> dict[str, dict[str, Any]]:
+def figures(answer: Answer, against: str, *, critical: bool = True) -> dict[str, dict[str, Any]]:
     """The four figures as plain data."""
     state = answer.curves
-    x = np.asarray(getattr(state, against))
+    x = np.asarray(getattr(state, against)) * SCALES.get(against, 1.0)
     xlog = against != "d"
     two_body = answer.contact.two_body
     shapes = [] if two_body else mode_bands(x, state.mode)
     notes: list[dict[str, Any]] = []
     marked = critical_loads(answer) if critical else {}
-    scale = {"F_star": 1.0, "pressure": answer.contact.E_ss}.get(against)
+    scale = {"F_star": 1.0, "pressure": answer.contact.E_ss * SCALES["pressure"]}.get(against)
     if scale is not None:
         known = [(n, v * scale) for n, v in marked.items() if x.min() <= v * scale <= x.max()]
         for number, (name, value) in enumerate(sorted(known, key=lambda item: item[1])):
             shape, note = mark(value, CRITICAL[name], number=number)
             shapes.append(shape)
             notes.append(log_title(note))
-    here = at if against == answer.load else None
-    if here is not None:
-        shape, _ = mark(here, "", dash="solid")
-        shapes.append(shape)
     more: dict[str, Any] = {
         "x": AXES[against],
         "xlog": xlog,
@@ -125,52 +122,78 @@ def figures(
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Four figures and the critical loads."""
     with ui.row().classes("w-full items-center gap-4"):
-        against = ui.toggle({"F_star": "F*", "pressure": "pressure"}, value="F_star")
+        against = ui.toggle({"pressure": "pressure", "F_star": "F*"}, value="pressure")
         against.props('dense no-caps aria-label="horizontal axis" data-path="curves.against"')
         modes = ui.label().classes("hint")
     grid = ui.element("div").classes("figures w-full")
-    plots: dict[str, Any] = {}
     with grid:
-        for name in ("area", "shares", "regimes", "separation"):
-            plots[name] = ui.plotly(empty(360)).classes("w-full")
-            put(plots[name], {"data-figure": name})
+        plots = {name: Plot(name) for name in ("area", "shares", "regimes", "separation")}
     table = ui.column().classes("w-full scroll-x")
-    later: dict[str, Any] = {"timer": None}
+    now: dict[str, Any] = {"timer": None, "shown": None, "table": None}
 
     async def show(critical: bool) -> None:
         answer = state.answer
         assert answer is not None
-        found = await state.ask(_figures, str(against.value), state.at, critical)
-        for name, made in found.items():
-            plots[name].update_figure(made)
-        plots["shares"].set_visibility(not answer.contact.two_body)
+        asked = (answer, str(against.value), critical)
+        if asked == now["shown"]:
+            return
+        found = await state.ask(_figures, *asked[1:])
+        if answer is not state.answer:
+            return  # it moved on meanwhile
+        now["shown"] = asked
+        plots["shares"].widget.set_visibility(not answer.contact.two_body)
         modes.set_text("" if answer.contact.two_body else BANDS)
+        for number, (name, made) in enumerate(found.items()):
+            if number == 2:
+                await asyncio.sleep(SIGHT)
+                if state.study is not state.read:
+                    now["shown"] = None
+                    return
+            plots[name].show(made)
+
+    async def place() -> None:
+        answer, axis = state.answer, str(against.value)
+        assert answer is not None
+        at = await state.ask(_solved, state.at) if answer.load == "d" else state.at
+        F_star = at / answer.contact.E_ss if answer.load == "pressure" else at
+        here = F_star * (1.0 if axis == "F_star" else answer.contact.E_ss * SCALES[axis])
+        put(grid, {"data-at": repr(here)})
 
     async def finish() -> None:
-        later["timer"] = None
+        now["timer"] = None
         await show(critical=True)
-        _table(state, table)
+        _told(state.answer)
+
+    def _told(answer: Answer | None) -> None:
+        if answer is not now["table"]:
+            now["table"] = answer
+            _table(state, table)
 
     async def draw() -> None:
         answer = state.answer
         assert answer is not None
         known = "critical" in answer.__dict__
+        await place()
         await show(critical=known)
         if known:
-            _table(state, table)
-        elif later["timer"] is None:
+            _told(answer)
+        elif now["timer"] is None:
             # critical loads are many states: they follow when the slider rests
             with grid:
-                later["timer"] = ui.timer(0.25, finish, once=True)
+                now["timer"] = ui.timer(0.25, finish, once=True)
 
     against.on_value_change(lambda: draw())
     return draw
 
 
-def _figures(answer: Answer, against: str, at: float, critical: bool) -> dict[str, dict[str, Any]]:
+def _figures(answer: Answer, against: str, critical: bool) -> dict[str, dict[str, Any]]:
     if critical:
         _ = answer.critical  # which the table shows as well
-    return figures(answer, against, at, critical=critical)
+    return figures(answer, against, critical=critical)
+
+
+def _solved(answer: Answer, d: float) -> float:
+    return float(answer.solve(d).F_star)
 
 
 def _table(state: State, place: Any) -> None:

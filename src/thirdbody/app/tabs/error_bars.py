@@ -12,7 +12,7 @@ from ...analysis.uncertainty.propagation import about_result
 from ...equilibrium.critical_loads import CRITICAL
 from ...quantities.say import number, percent
 from ...views.plot.style import OKABE_ITO
-from ..figures import AXES, GREY, INKS, empty, figure, line, listed, mark, plain
+from ..figures import AXES, GREY, INKS, SCALES, empty, figure, line, listed, mark, plain
 from ..inputs import Inputs
 from ..state import State
 from ..widgets import put
@@ -46,7 +46,8 @@ def results_of(state: State) -> dict[str, str]:
 def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
     """Bands between outer and inner quantiles, the median, and the study's own numbers."""
     band = np.array([[np.nan if v is None else v for v in row] for row in found["bands"]])
-    x = found["loads"]
+    scale = SCALES.get(load, 1.0)
+    x = np.array(found["loads"]) * scale
     q = found["probabilities"]
     order = np.argsort(q)
     traces: list[dict[str, Any]] = []
@@ -79,7 +80,7 @@ def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
         ylog=positive,
         height=420,
     )
-    shape, _ = mark(found["at"], "", dash="solid")
+    shape, _ = mark(found["at"] * scale, "", dash="solid")
     made["layout"]["shapes"] = [shape]
     return made
 

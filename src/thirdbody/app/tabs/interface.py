@@ -9,15 +9,34 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ...equilibrium.words import NO_CONTACT, load_of
+from ...equilibrium.columns import COLUMNS
+from ...equilibrium.words import MODES, NO_CONTACT, carried, load_of, mode_of, two_bodies
 from ...quantities.say import number, percent, value_of
 from ..cross_section import section, to_svg
 from ..state import Answer, State
-from ..widgets import facts
+from ..widgets import Facts
 
-__all__ = ["TITLE", "build", "told"]
+__all__ = ["TITLE", "abouts", "build", "headline", "told"]
 
 TITLE = "Interface"
+LETTERS = {"h": "h", "d": "d", "F*": "F_star"}
+FILM = "The study has an oil film: here surfaces and particles carry the load alone; see Film."
+MET = (
+    " Where a population carries and the slab held none of its loaded particles, one of them is "
+    "drawn in the place of a free one."
+)
+
+
+def headline(point: tb.Equilibrium) -> str:
+    """The answer as a sentence, of the clauses of the command line."""
+    load = load_of(_one(point.pressure), _one(point.F_star))
+    if not _one(point.A_t):
+        return f"At {load} {mode_of(None)}."
+    if point.contact.two_body:
+        return f"At {load} {two_bodies()}."
+    parts = {part.name: _one(part.load_share) for part in point.populations}
+    share = carried(_one(point.particle_load_share), parts if len(parts) > 1 else None)
+    return f"{share[0].upper()}{share[1:]} at {load}; {mode_of(str(point.mode) or None)}."
 
 
 def told(point: tb.Equilibrium) -> list[tuple[str, str]]:
@@ -44,36 +63,61 @@ def told(point: tb.Equilibrium) -> list[tuple[str, str]]:
     return at
 
 
+def abouts() -> dict[str, str]:
+    """What the letters and modes of the page mean."""
+    letters = {name: COLUMNS[key]["meaning"] for name, key in LETTERS.items()}
+    return {mode: mode_of(mode).removesuffix(f" ({mode})") for mode in MODES} | letters
+
+
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
-    """The drawing, what it shows, and another draw."""
+    """The answer, the drawing, what it shows, and another draw."""
     seed = {"now": 0}
-    with ui.row().classes("w-full items-center justify-between"):
-        caption = ui.label().classes("hint grow")
-        ui.button("Another place", icon="casino", on_click=lambda: another()).props("flat dense")
+    answer = ui.label().classes("headline").props('data-fact="headline" role=status')
+    film = ui.label(FILM).classes("hint").props('data-fact="film"')
     picture = (
         ui.html("", sanitize=False)
         .classes("w-full scroll-x")
-        .props('data-figure="section" tabindex=0')
+        .props('data-figure="section" tabindex=0 role=group aria-label="cross-section"')
     )
-    legend = ui.row().classes("w-full gap-4")
-    table = ui.row().classes("facts w-full")
+    with ui.row().classes("w-full gap-4 items-center justify-between"):
+        legend = ui.row().classes("gap-4")
+        ui.button("Another place", icon="casino", on_click=lambda: another()).props(
+            "flat dense no-caps"
+        )
+    means = abouts()
+    numbers = Facts(
+        {"separation h": means["h"], "separation d": means["d"], "load": means["F*"]}
+        | {"mode": "; ".join(f"{mode}: {means[mode]}" for mode in MODES)}
+    )
     status = ui.label().classes("problem")
+    caption = ui.label().classes("hint")
+    fold = ui.expansion("What the words mean").classes("w-full").props("dense")
+    with fold, ui.element("dl").classes("words").props('data-figure="words"'):
+        for name, meaning in means.items():
+            with ui.element("dt").classes("font-bold"):
+                ui.label(name)
+            with ui.element("dd"):
+                ui.label(meaning)
+    shown: dict[str, Any] = {"names": None}
 
     async def draw() -> None:
+        assert state.answer is not None
+        film.set_visibility(state.answer.study.film is not None)
         bad, found = await state.ask(_drawn, state.at, seed["now"])
         status.set_text(bad)
         status.set_visibility(bool(bad))
         if bad:
             return
-        svg, says, names, numbers = found
+        svg, says, names, pairs, sentence = found
+        answer.set_text(sentence)
         picture.set_content(svg)
         caption.set_text(says)
-        legend.clear()
-        with legend:
-            _legend(names)
-        table.clear()
-        with table:
-            facts(numbers)
+        if names != shown["names"]:
+            shown["names"] = names
+            legend.clear()
+            with legend:
+                _legend(names)
+        numbers.show(pairs)
 
     async def another() -> None:
         seed["now"] += 1
@@ -89,7 +133,7 @@ def _drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
         return str(point.status), None
     drawn = section(answer.contact, point, seed=seed)
     svg = to_svg(drawn, title="Cross-section of the interface, to scale")
-    return "", (svg, _caption(drawn), drawn.names, told(point))
+    return "", (svg, _caption(drawn), drawn.names, told(point), headline(point))
 
 
 def _caption(drawn: Any) -> str:
@@ -103,6 +147,7 @@ def _caption(drawn: Any) -> str:
     return said + (
         f"Particles are those of a slab {value_of(drawn.depth, 'm')} deep: {loaded} of "
         f"{len(drawn.grains)} are larger than the gap above their seat and carry load."
+        + (MET if drawn.met else "")
     )
 
 

@@ -10,7 +10,7 @@ from nicegui import ui
 
 from ...equilibrium.columns import about
 from ...quantities.say import number
-from ..figures import AXES, figure, line, mark
+from ..figures import AXES, SCALES, figure, line, mark
 from ..inputs import Inputs
 from ..state import Answer, State
 from ..widgets import put
@@ -26,7 +26,8 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
     out: dict[str, dict[str, Any]] = {}
     state = answer.curves
     load = answer.load
-    x = answer.loads
+    scale = SCALES.get(load, 1.0)
+    x = answer.loads * scale
     for output in answer.contact.outputs:
         units: dict[str, list[str]] = {}
         for column, told in output.columns.items():
@@ -41,7 +42,7 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
             every = np.concatenate(values)
             every = every[np.isfinite(every) & (every != 0)]
             wide = len(every) > 0 and every.min() > 0 and every.max() > 30 * every.min()
-            shape, _ = mark(at, "", dash="solid")
+            shape, _ = mark(at * scale, "", dash="solid")
             out[f"{output.name} [{unit}]"] = figure(
                 traces,
                 x=AXES[load],

@@ -18,7 +18,9 @@ __all__ = ["command"]
 def command(
     study: Annotated[
         Path,
-        typer.Argument(metavar="STUDY.toml", help="A study file with a table [uncertainty]."),
+        typer.Argument(
+            metavar="STUDY.toml", help="A study file; its table [uncertainty] says what scatters."
+        ),
     ],
     as_json: AsJson = False,
     html_file: Annotated[
@@ -41,4 +43,4 @@ def command(
     if as_json:
         print(json.dumps(answer.to_dict(), indent=1, allow_nan=False))
     else:
-        terminal().print(answer.page())
+        terminal().print(answer.page("--json or --html FILE tells all"))

@@ -11,12 +11,25 @@ import typer
 from ...equilibrium.words import load_of
 from ...errors import InvalidValue, NoEquilibrium
 from ...quantities.say import number, percent, signed, value_of
+from ...quantities.tables import Table
 from ..options import Settings, StudyFile, not_a_folder, read_study
-from ..show import table_of, terminal
+from ..show import terminal
 from ..streams import warn
 
 __all__ = ["command"]
 
+MEANS = {
+    "A_t": "real contact area over the nominal area, no unit",
+    "diff. of A_t": "against the law of the study",
+    "F/A_t": "mean real pressure",
+    "d/sigma": "separation over the RMS roughness, no unit",
+    "diff. of d/sigma": "against the law of the study",
+    "plastic": "as elastic and el.-plastic, that part of the real area",
+    "particles' load": "their part of the load",
+}
+"""What the heads mean."""
+DROP = ("elastic", "el.-plastic", "diff. of d/sigma", "F/A_t", "particles' load")
+"""Columns in the order in which they go where the width is small."""
 PLACES = ("start", "middle", "end")
 
 
@@ -114,10 +127,11 @@ def _show_comparison(title: str, table: Any, index: int) -> None:
         shares += ["particle_load_share"] if particles else []
         return [*out, *(percent(value[name]) for name in shares), note]
 
-    heads = ["law", "A_t", "diff.", "F/A_t", "d/sigma", "diff.", "elastic", "el.-plastic"]
+    heads = ["law", "A_t", "diff. of A_t", "F/A_t", "d/sigma", "diff. of d/sigma"]
+    heads += ["elastic", "el.-plastic"]
     heads += ["plastic", "particles' load"] if particles else ["plastic"]
-    shown = table_of([*heads, "note"], right=True)
-    shown.columns[0].justify, shown.columns[0].no_wrap = "left", True
+    more = "--out DIR writes all"
+    shown = Table([*heads, "note"], right=True, words=["law"], drop=DROP, more=more, legend=MEANS)
     notes: list[str] = []
     for i in range(one.sizes["law"]):
         row = one.isel(law=i)

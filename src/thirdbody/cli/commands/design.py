@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ...quantities.say import number
+from ...quantities.say import concentration_of, number, percent, value_of
+from ...quantities.tables import Table
 from ..options import AsJson, Settings, read_study
-from ..show import table_of, terminal
+from ..show import MOST_ROWS, some, terminal
 from ..streams import figure_format, warn, write_csv, write_figure
 
 if TYPE_CHECKING:
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
     from ...study import Study
 
 __all__ = ["command"]
-
-MOST_OF_FRONT = 20
-"""Lines of a front that a terminal shows."""
 
 
 def command(
@@ -64,51 +62,127 @@ def command(
 
 
 def _page(asked: Study, best: Best) -> None:
+    from ...analysis.design.design import FLAT
+
     out = terminal()
     out.print(asked.title or "design")
+    said = _Words(asked, best)
     if not best.feasible:
-        out.print(f"\nNothing tried obeys the limits. Nearest is what follows: {best.reason}")
+        why = said.limits(best.reason)
+        out.print(f"\nNothing tried obeys the limits. Nearest is what follows: {why}")
     front = best.points["front"].values
     several = len(best.objectives) > 1
     out.print("\none of the best" if several else "\nbest")
-    table = table_of(("", "value", "within 5 % from", "to"), right=True)
+    heads = ("chosen", "value", "within 5 % from", "to")
+    table = Table(heads, right=True, words=["chosen"])
     for name, value in best.values.items():
         band = best.tolerance.get(name)
-        shown = [number(end) for end in band] if band else ["", ""]
-        table.add_row(name, value.name if band is None else number(value), *shown)
+        shown = [said.amount(name, end) for end in band] if band else ["", ""]
+        table.add_row(said.name(name), said.amount(name, value), *shown)
     out.print(table)
+    for name, (low, high) in best.plateau.items():
+        ends = f"{said.amount(name, low)} to {said.amount(name, high)}"
+        out.print(f"{said.name(name)}: from {ends}, equal within {percent(FLAT)}.")
     for label, value in best.objectives.items():
-        out.print(f"{label} = {number(value)}")
-    out.print(f"limits in force: {'; '.join(best.active) or 'none'}")
-    _against_load(out, best)
+        out.print(f"{said.objective(label)} = {said.metric(label, value)}")
+    out.print(f"limits in force: {said.limits('; '.join(best.active)) or 'none'}")
+    _against_load(out, best, said)
     if best.slopes:
-        out.print("change of a metric for a relative change of an input, at the middle load")
-        table = table_of(("", *next(iter(best.slopes.values()))), right=True)
+        out.print(
+            "change of a number for a relative change of an input, d/d ln, at the middle load; "
+            "units as above"
+        )
+        inputs = {name: said.name(name) for name in next(iter(best.slopes.values()))}
+        table = Table(("change of", *inputs.values()), right=True, words=["change of"], wrap=True)
         for column, slopes in best.slopes.items():
-            table.add_row(f"d {column}/d ln", *map(number, slopes.values()))
+            table.add_row(column, *map(number, slopes.values()))
         out.print(table)
     if several:
         out.print(f"{front.sum()} of {len(front)} points are beaten by none in every objective")
         chosen = best.points.isel(point=front).sortby(next(iter(best.objectives)))
-        names = [*best.values, *best.objectives]
-        table = table_of(names, right=True)
-        count = chosen.sizes["point"]
-        for i in sorted({round(k * (count - 1) / MOST_OF_FRONT) for k in range(MOST_OF_FRONT + 1)}):
-            table.add_row(*(_shown(chosen[name].values[i]) for name in names))
+        names = [*map(said.name, best.values), *map(said.objective, best.objectives)]
+        table = Table(names, right=True, wrap=True)
+        for i in some(chosen.sizes["point"]):
+            one = chosen.isel(point=i)
+            cells = [said.amount(name, one[name].item()) for name in best.values]
+            cells += [said.metric(name, one[name].item()) for name in best.objectives]
+            table.add_row(*cells)
         out.print(table)
 
 
-def _against_load(out: Any, best: Best) -> None:
-    """Metrics at the ends and in the middle of the loads."""
+class _Words:
+    """Names and amounts of a design as its reader knows them."""
+
+    def __init__(self, asked: Study, best: Best) -> None:
+        from ...study.analyses import arguments
+
+        self.contact, self.best = best.contact, best
+        given = arguments(asked)
+        self.fluid, self.asked = given.get("suspension"), given.get("limits", ())
+        self.own = {each.label: each for each in given["objective"]}
+
+    def name(self, name: str) -> str:
+        from ...analysis.inputs import words_of
+
+        return words_of(self.contact, name)
+
+    def amount(self, name: str, value: Any) -> str:
+        """A value of a variable."""
+        from ...analysis.design.search import AMOUNT
+        from ...analysis.inputs import declared
+
+        if name == AMOUNT and self.fluid is not None:
+            return concentration_of(float(value), self.fluid.by)
+        if not isinstance(value, (int, float)):
+            return value if isinstance(value, str) else str(value.name)
+        return value_of(value, declared(self.contact, name.split("+")[0])["unit"], 3)
+
+    def about(self, of: str) -> tuple[str, str]:
+        """Unit and meaning of a number of the states."""
+        if of in self.best.states:
+            told = self.best.states[of].attrs
+            return told["units"], told["long_name"]
+        return "1", of
+
+    def objective(self, label: str) -> str:
+        each = self.own[label]
+        how = " ".join(label.split(":")[1:])
+        return f"{self.about(each.of)[1]} {each.of}" + (f" ({how})" if how else "")
+
+    def metric(self, label: str, value: float) -> str:
+        each = self.own[label]
+        unit = "1" if each.aim == "window" else self.about(each.of)[0]
+        return value_of(value, unit)
+
+    def limits(self, text: str) -> str:
+        """Limits in words, in the order in which they stand."""
+        for limit in self.asked:
+            unit, meaning = self.about(limit.of)
+            said = [
+                f"{word} {value_of(bound, unit)}"
+                for word, bound in (("at least", limit.least), ("at most", limit.most))
+                if bound is not None
+            ]
+            text = text.replace(str(limit), f"{meaning} {' and '.join(said)}")
+        return text.replace("A_t <", "real contact area over the nominal area <")
+
+
+def _against_load(out: Any, best: Best, said: _Words) -> None:
+    """Numbers against the loads."""
     (load,) = best.states.dims
-    names = [str(name) for name in best.states.data_vars]
-    table = table_of((str(load), *names), right=True)
+    units = {str(name): best.states[name].attrs["units"] for name in best.states.data_vars}
+    legend = {
+        name: said.about(name)[1] + (", no unit" if unit == "1" else "")
+        for name, unit in units.items()
+    }
+    head, unit = ("pressure", "Pa") if load == "pressure" else ("F*", "1")
+    legend[head] = "nominal pressure p" if load == "pressure" else "load F/(A_n E_ss), no unit"
+    table = Table((head, *units), right=True, legend=legend, wrap=True)
     count = best.states.sizes[load]
-    for i in sorted({0, count // 2, count - 1}):
+    for i in some(count):
         one = best.states.isel({load: i})
-        table.add_row(number(float(one[load])), *(_shown(one[name].item()) for name in names))
+        cells = (value_of(one[name].item(), units[name]) for name in units)
+        table.add_row(value_of(float(one[load]), unit), *cells)
     out.print(table)
-
-
-def _shown(value: Any) -> str:
-    return value if isinstance(value, str) else number(float(value))
+    if count > MOST_ROWS:
+        out.print(f"{MOST_ROWS} of {count} loads shown; --json tells all\n")

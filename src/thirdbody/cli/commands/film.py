@@ -10,13 +10,23 @@ from typing import Annotated, Any
 import typer
 
 from ...quantities.say import number, value_of
+from ...quantities.tables import Table
 from ..options import AsJson, Settings, read_study
-from ..show import table_of, terminal
+from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import figure_format, warn, write_csv, write_figure
 
 __all__ = ["columns_of", "command"]
 
-MOST_ROWS = 20
+MEANS = {
+    "speed": "mean speed at which the surfaces drag the oil in",
+    "film h_T": "mean gap",
+    "lambda": "that over the RMS roughness, no unit",
+    "on film": "its part of the load",
+    "friction": "coefficient mu, no unit",
+}
+"""What the heads of the curve mean."""
+DROP = ("lambda", "on film")
+"""Columns in the order in which they go where the width is small."""
 
 
 def command(
@@ -89,7 +99,8 @@ def _show(result: dict[str, Any]) -> None:
     )
     total = len(states["speed"])
     if total == 1:
-        table = table_of((f"at {value_of(states['speed'][0], 'm/s')}", ""))
+        head = f"at {value_of(states['speed'][0], 'm/s')}"
+        table = Table((head, "value"), words=[head])
         for name, value in point(result, 0).items():
             table.add_row(name, value)
         console.print(table)
@@ -110,14 +121,11 @@ def _curve(result: dict[str, Any]) -> Any:
     if result["passing"]:
         shares["sa_share"] = "on particles"
     known = any(value is not None for value in states["mu"])
-    heads = ["speed [m/s]", "film h_T", "lambda", *shares.values()]
-    table = table_of([*heads, *["friction"] * known, "regime"], right=True)
-    total = len(states["speed"])
-    rows = min(total, MOST_ROWS)
-    for row in range(rows):
-        i = round(row * (total - 1) / max(rows - 1, 1))
+    heads = ["speed", "film h_T", "lambda", *shares.values(), *["friction"] * known, "regime"]
+    table = Table(heads, right=True, drop=DROP, more=ALL, legend=MEANS)
+    for i in some(len(states["speed"])):
         table.add_row(
-            number(states["speed"][i]),
+            value_of(states["speed"][i], "m/s"),
             value_of(states["h_T"][i], "m"),
             number(states["lambda_ratio"][i]),
             *(share(states[name][i]) for name in shares),

@@ -8,10 +8,13 @@ from typing import Annotated, Any
 
 import typer
 
+from ...quantities.tables import Table
 from ..options import AsJson
-from ..show import table_of, terminal
+from ..show import terminal
 
 __all__ = ["command"]
+
+JSON = "--json tells all"
 
 
 def command(
@@ -41,7 +44,8 @@ def command(
         return
     console = terminal()
     for kind, entries in found.items():
-        table = table_of(("name", "law", "valid range", "citation"))
+        heads = ("name", "law", "valid range", "citation")
+        table = Table(heads, words=heads[1:], drop=["citation", "valid range"], more=JSON)
         for entry in entries:
             doi = f", doi:{entry['doi']}" if entry["doi"] else ""
             table.add_row(
@@ -53,7 +57,8 @@ def command(
         console.print(f"[{kind}_law]")
         console.print(table)
         for entry in filter(lambda entry: entry["options"], entries):
-            table = table_of((f"options of {entry['name']}", "default", "allowed", "meaning"))
+            heads = (f"options of {entry['name']}", "default", "allowed", "meaning")
+            table = Table(heads, words=[*heads[:1], *heads[2:]], drop=["allowed"], more=JSON)
             for option in entry["options"]:
                 default = "-" if option["default"] is None else say(option["default"])
                 table.add_row(option["key"], default, option["allowed"], option["meaning"])

@@ -10,8 +10,9 @@ import typer
 
 from ...errors import InvalidValue
 from ...quantities.say import number
+from ...quantities.tables import Table
 from ..options import AsJson
-from ..show import table_of, terminal
+from ..show import terminal
 
 __all__ = ["command"]
 
@@ -51,7 +52,10 @@ def command(
     if as_table:
         print(_materials_in_markdown(entries))
         return
-    table = table_of(("name", "what", "E", "nu", "H", "standing", "source"))
+    heads = ("name", "what", "E", "nu", "H", "standing", "source")
+    drop = ("source", "standing", "what")
+    legend = {"E": "Young's modulus", "nu": "Poisson ratio, no unit", "H": "hardness"}
+    table = Table(heads, words=heads[1:], drop=drop, more="--json tells all", legend=legend)
     for name, entry in entries.items():
         doi = f", doi:{entry['doi']}" if entry.get("doi") else ""
         table.add_row(
@@ -85,6 +89,7 @@ def _materials_in_markdown(entries: dict[str, dict[str, Any]]) -> str:
         "thermal_conductivity": ("κ [W/(m K)]", 1.0),
         "specific_heat": ("c_p [J/(kg K)]", 1.0),
         "resistivity": ("ρ_e [nΩ m]", 1e-9),
+        "K_c": ("K_c [MPa √m]", 1e6),
     }
     lines = [
         "| name | what | " + " | ".join(title for title, _ in numbers.values()) + " |",

@@ -7,10 +7,13 @@ from typing import Annotated
 
 import typer
 
+from ...quantities.tables import Table
 from ..options import AsJson
-from ..show import table_of, terminal
+from ..show import terminal
 
 __all__ = ["command"]
+
+JSON = "--json tells all"
 
 
 def command(
@@ -34,13 +37,13 @@ def command(
     for entry in entries():
         console.print(f"[outputs.{entry['name']}]  {entry['title']} ({entry['provenance']})")
         if entry["options"]:
-            table = table_of(("key", "unit", "default", "meaning"))
+            table = Table(("key", "unit", "default", "meaning"), words=["meaning"], more=JSON)
             for option in entry["options"]:
                 default = "required" if option["required"] else option["default"]
                 shown = "-" if default is None else str(default)
                 table.add_row(option["key"], option["unit"], shown, option["meaning"])
             console.print(table)
-        table = table_of(("column", "unit", "meaning"))
+        table = Table(("column", "unit", "meaning"), words=["meaning"], more=JSON)
         for name, column in entry["columns"].items():
             table.add_row(name, column["unit"], column["meaning"])
         console.print(table)

@@ -22,13 +22,28 @@ from ...equilibrium.words import (
 )
 from ...errors import NoEquilibrium
 from ...quantities.say import number, percent, unit_of, value_of
+from ...quantities.tables import Table
 from ..options import AsJson, Settings, StudyFile, read_study
-from ..show import table_of, terminal
+from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import warn, write_csv
 
 __all__ = ["command", "summary"]
 
-MOST_ROWS, MOST_LOADS = 20, 3
+MEANS = {
+    "F*": "load F/(A_n E_ss), no unit",
+    "pressure": "nominal pressure p",
+    "d": "separation from the mean asperity height",
+    "d/sigma": "the same over the RMS roughness, no unit",
+    "A_t": "real contact area over the nominal area, no unit",
+    "A_ss": "of it on asperities",
+    "A_sa": "of it on particles",
+    "particles' load": "their part of the load",
+    "particles' area": "their part of the real area",
+    "mode": "p-s on particles, hybrid on both, s-s on asperities",
+}
+"""What the heads of the states mean."""
+DROP = ("A_ss", "A_sa", "d/sigma", "particles' area", "F*")
+"""Columns in the order in which they go where the width is small."""
 
 Columns = dict[str, Callable[[int], str]]
 """Heads of columns, and the cell of a state."""
@@ -121,12 +136,10 @@ def _show(result: dict[str, Any]) -> None:
     console.print(summary(result))
 
 
-def _some_states(columns: Columns, total: int) -> Any:
+def _some_states(columns: Columns, total: int) -> Table:
     """A row a state; of many states some, evenly spread."""
-    table = table_of(columns, right=True)
-    rows = min(total, MOST_ROWS)
-    for row in range(rows):
-        i = round(row * (total - 1) / max(rows - 1, 1))
+    table = Table(list(columns), right=True, drop=DROP, more=ALL, legend=MEANS)
+    for i in some(total):
         table.add_row(*(cell(i) for cell in columns.values()))
     return table
 
@@ -144,28 +157,36 @@ def _population_columns(populations: list[dict[str, Any]]) -> Columns:
     return out
 
 
-def _output_table(states: dict[str, Any]) -> Any:
-    """A row for each number of an output, at a few of the loads."""
+def _output_table(states: dict[str, Any]) -> Table:
+    """The numbers of the outputs: a row each at one load, a column each at several."""
     from ...equilibrium.columns import COLUMNS, about
 
+    outputs = {name: about(name) for name in states if name not in COLUMNS}
     total = len(states["status"])
-    count = min(total, MOST_LOADS)
-    which = [round(k * (total - 1) / max(count - 1, 1)) for k in range(count)]
-    table = table_of(
-        ("", *(value_of(states["pressure"][i], "Pa") for i in which), "unit", "meaning")
-    )
-    for name in states:
-        if name not in COLUMNS:
-            told = about(name)
-            cells = (number(states[name][i]) for i in which)
-            table.add_row(name, *cells, unit_of(told["unit"]), told["meaning"])
+    loads = [value_of(value, "Pa") for value in states["pressure"]]
+    if total == 1:
+        table = Table(("", loads[0], "unit", "meaning"), words=["meaning"], more=ALL)
+        for name, told in outputs.items():
+            cell = number(states[name][0])
+            table.add_row(name, cell, unit_of(told["unit"]) or "none", told["meaning"])
+        return table
+    heads = {
+        f"{name} [{unit}]" if (unit := unit_of(told["unit"])) else name: (
+            told["meaning"] + ("" if unit else ", no unit")
+        )
+        for name, told in outputs.items()
+    }
+    table = Table(["pressure", *heads], right=True, wrap=True, legend=heads)
+    for i in some(total):
+        table.add_row(loads[i], *(number(states[name][i]) for name in outputs))
     return table
 
 
 def _transition_table(critical: dict[str, Any], E_ss: float) -> Any:
     entries = {"F_cr1": critical["F_cr1"], "F_cr2": critical["F_cr2"]}
     entries |= {f"F_tpca {which}": entry for which, entry in critical["F_tpca"].items()}
-    table = table_of(("critical load", "F*", "pressure", "status"))
+    heads = ("critical load", "F*", "pressure", "status")
+    table = Table(heads, words=heads[:1], drop=["F*"], more=ALL)
     for name, entry in entries.items():
         value, status = entry["value"], entry["status"]
         loads = (critical_load(value, status), critical_load(value, status, E_ss))

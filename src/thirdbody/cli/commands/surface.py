@@ -11,11 +11,23 @@ import typer
 
 from ...errors import InvalidValue
 from ...quantities.say import number, signed, value_of
+from ...quantities.tables import Table
 from ..options import AsJson, not_a_folder
-from ..show import finite, table_of, terminal
+from ..show import ALL, finite, terminal
 from ..streams import warn, write_csv
 
 __all__ = ["command"]
+
+MEANS = {
+    "sigma": "RMS height",
+    "R": "mean asperity radius",
+    "eta": "asperities per area",
+    "eta R sigma": "their product, no unit",
+    "alpha": "Nayak bandwidth, no unit",
+    "sigma_s": "RMS of asperity heights",
+    "y_s": "their mean above the mean plane",
+}
+"""Results of a cut-off, and what they mean."""
 
 
 def command(
@@ -131,16 +143,17 @@ def _show_surface(found: Any, result: dict[str, Any]) -> None:
     console.print(f"recommended cut-off: {value_of(used['recommended'], 'm')}: {used['reason']}")
     console.print()
     at = "as sampled" if used["used"] == 0 else f"at {value_of(used['used'], 'm')}"
-    columns = ("sigma", "R", "eta [1/m^2]", "eta R sigma", "alpha", "sigma_s", "y_s")
-    answer = table_of((at, *columns), right=True)
-    answer.columns[0].justify = "left"
+    drop = ("eta R sigma", "y_s", "alpha")
+    answer = Table(
+        (at, *MEANS), right=True, words=[at], drop=drop, more="--json tells all", legend=MEANS
+    )
     spectral = found.moments_at(method="spectrum")
     for label, one in (("differences", found.moments), ("spectrum", spectral)):
         answer.add_row(
             label,
             value_of(one.sigma, "m"),
             value_of(one.R, "m"),
-            number(one.eta),
+            value_of(one.eta, "1/m^2"),
             number(one.eta * one.R * one.sigma),
             number(one.alpha),
             value_of(one.sigma_s, "m"),
@@ -152,7 +165,7 @@ def _show_surface(found: Any, result: dict[str, Any]) -> None:
             f"{counted.count} summits",
             value_of(found.moments.sigma, "m"),
             value_of(counted.R, "m"),
-            number(counted.density),
+            value_of(counted.density, "1/m^2"),
             number(counted.density * counted.R * found.moments.sigma),
             "-",
             value_of(counted.sigma_s, "m"),
@@ -160,8 +173,15 @@ def _show_surface(found: Any, result: dict[str, Any]) -> None:
         )
     console.print(answer)
     curve = finite(result["curve"])
-    heads = ("cut-off", "sigma", "gradient", "alpha", "R", "R counted", "eta", "eta counted")
-    course = table_of((*heads, "R per octave"), right=True)
+    heads = ["cut-off", "sigma", "gradient", "alpha", "R", "R counted", "eta", "eta counted"]
+    heads.append("R per octave")
+    gone = ("eta counted", "R counted", "alpha", "gradient")
+    told = {
+        "gradient": "RMS of the slope, no unit",
+        "eta counted": "as R counted, of the summits found one by one",
+        "R per octave": "change of R for twice the cut-off",
+    }
+    course = Table(heads, right=True, drop=gone, more=ALL, legend=told)
     change = found.curve().per_octave("R")
     for i, cut in enumerate(curve["cutoff"]):
         course.add_row(
@@ -171,8 +191,8 @@ def _show_surface(found: Any, result: dict[str, Any]) -> None:
             number(curve["alpha"][i]),
             value_of(curve["R"][i], "m"),
             value_of(curve["R_counted"][i], "m"),
-            number(curve["eta"][i]),
-            number(curve["eta_counted"][i]),
+            value_of(curve["eta"][i], "1/m^2"),
+            value_of(curve["eta_counted"][i], "1/m^2"),
             signed(100 * change[i], 0, "%"),
         )
     console.print(course)

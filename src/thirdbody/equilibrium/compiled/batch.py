@@ -330,6 +330,8 @@ class Interfaces(_Batch):
             if isinstance(average, SeatAverage):
                 kind, functions, plane = k.ROUGH, [average.table], average.average
                 width, least, reach = average.width, average.table.edges[0], average.high
+            elif part.breaks:
+                raise NotCompiled("particles that break, on a plane seat")
             else:
                 # without small gaps the second function is not asked for
                 kind, functions = k.PLANE, [average.upper, average.lower or average.upper]
@@ -371,10 +373,16 @@ class States(_Batch):
         particles = None if bare(contact, arrays) else contact.particles
         if isinstance(particles, tuple) or (particles is not None and particles.law is not None):
             raise NotCompiled("several populations")
+        if particles is not None and particles.strength is not None:
+            raise NotCompiled("particles that break")
         super().__init__(count, 0 if particles is None else len(particles.diameter.components))
         datum = 0.0 if particles is None else contact.particle_law.centre
         self.covered: Array | None = None
         """Projected particle area per nominal area (N,)."""
+        self.most = np.zeros(count)
+        """Most of the nominal area that particles can shadow; more than all of it if squashed."""
+        self.spreads = False
+        """Particles are squashed, so that their area may grow faster than their load."""
         self.steepest = np.zeros(count)
         """Most that it changes with d on a plane seat [1/m]."""
         self._add_asperities(contact, varied, datum)
@@ -432,8 +440,11 @@ class States(_Batch):
             return np.ones(len(target), bool)
         rough = varied.roughness
         if law.seat == "rough":
+            c = self.most
             steepest = c / (math.sqrt(2 * math.pi) * law.zeta_std * rough.sigma)
             return np.broadcast_to(steepest * rough.sigma_s <= 0.3 * (1 - c), target.shape)
+        if self.spreads:
+            return np.zeros(len(target), bool)
         if law.shadow == "projected":
             return self.steepest * rough.sigma_s <= 0.3 * (1 - c)
         body = varied.particles.material  # type: ignore[union-attr]
@@ -499,6 +510,8 @@ class States(_Batch):
             raise NotCompiled("particles that are not Series")
         if any(name.startswith("particle_law.law") for name in arrays):
             raise NotCompiled("the law of the particles varies")
+        if "particle_law.friction_factor" in arrays:
+            raise NotCompiled("the friction of squashed particles varies")
         self.kinds[:, k.SHADOW] = COLUMNS.index(law.shadow) if law.shadow in COLUMNS else -1
         own = law.seat == "rough" and own_particles(contact, arrays)
         parts = self._squeezed if own else self._averaged
@@ -513,6 +526,7 @@ class States(_Batch):
         if np.any(coverage >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
         self.covered = 2 * law.tip_radius * coverage
+        self.most = np.maximum(self.most, self.covered)
         if law.shadow == "covered":
             self.values[:, k.COVERAGE] = self.covered
 
@@ -542,6 +556,9 @@ class States(_Batch):
             width = law.zeta_std * varied.roughness.sigma / size if rough else 0.0 * size
             if not rough:
                 self.steepest += 0.5 * math.pi * law.tip_radius * factor / size * _densest(shape)
+            if getattr(one, "spreads", False):
+                self.spreads = True
+                self.most = self.most + factor * average.floor[-2:].max()
             kinds = np.full((len(self.kinds), k.PART_KINDS), k.ABSENT)
             kinds[:, 0] = k.ROUGH_NODES if rough else k.PLANE
             kinds[:, k.PART_GUESS] = self._panels.add_inverse(average)
@@ -585,6 +602,8 @@ class States(_Batch):
             return np.broadcast_to(values, count)[:, None]
 
         body = changed.material
+        if squashed(contact, arrays, count).any():
+            raise NotCompiled("squashed particles whose material or shape of sizes varies")
         sides = [
             (column(reduced_modulus(surface, body)), column(softer_hardness(surface, body)))
             for surface in (varied.surfaces.first, varied.surfaces.second)
@@ -674,6 +693,20 @@ def own_particles(contact: Contact, arrays: Mapping[str, Array]) -> bool:
         return True
     particles = contact.particles
     return isinstance(particles, Particles) and size_factor(particles.diameter, arrays) is None
+
+
+def squashed(contact: Contact, arrays: Mapping[str, Array], count: int) -> NDArray[np.bool_]:
+    """States whose particles are softer than a surface, and squashed there."""
+    law, out = contact.particle_law, np.zeros(count, bool)
+    if not isinstance(law, ParticleSeries) or law.soft != "squashed" or bare(contact, arrays):
+        return out
+    if law.onset == "hermite" and not law.law.breakpoints:
+        return out  # it never yields
+    varied = contact.with_arrays({k: v for k, v in arrays.items() if k.startswith(MATERIALS)})
+    if isinstance(varied.particles, Particles):
+        for surface in (varied.surfaces.first, varied.surfaces.second):
+            out |= varied.particles.material.H < surface.H
+    return out
 
 
 def fineness(arrays: Mapping[str, Array]) -> Array:

@@ -604,8 +604,10 @@ def _contact(state, h, every, few, row):
     if every:
         for k in range(5):
             row[4 + k] = max(total[k], 0.0)  # rounding of the other regimes
-        row[9] = state.values[COVERAGE] if shadow < 0 else max(total[shadow], 0.0)
+        row[9] = state.values[COVERAGE] if shadow < 0 else min(max(total[shadow], 0.0), 1.0)
         return f, f1, f2
+    if total[3] >= 1:  # squashed particles that leave nothing to asperities
+        total[3], total[4], total[5] = 1.0, 0.0, 0.0
     bare, s1, s2 = 1 - total[3], sigma_s * total[4], sigma_s * sigma_s * total[5]
     return (
         bare * f + total[0],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...quantities.value import quantity
+from ...quantities.value import choice, quantity
 from .series import Series
 
 __all__ = ["Flakes"]
@@ -27,9 +27,10 @@ class Flakes(Series):
     Parameters
     ----------
     aspect : float, optional
-        D/τ [1], at least 1; the default 1 is a sphere and gives exactly `Series`.
+        D/τ [1], at least 1; the default 1 is a sphere and gives exactly
+        ``Series(soft="sphere")``.
     law, seat, h_0, zeta_mean, zeta_std, shadow
-        As in `Series`.
+        As in `Series`. Flakes softer than a surface are not squashed: ``soft`` is "sphere".
 
     Notes
     -----
@@ -66,7 +67,9 @@ class Flakes(Series):
     doi = ""
     provenance = "derived"
     valid_range = "a ≪ τ, D/2 ≪ R, A_t < 0.2; no bending or tilt"
+    breakable = False
 
+    soft: str = choice("flakes softer than a surface", "sphere", default="sphere")
     aspect: float = quantity("D/τ", "1", "diameter over thickness", default=1.0, ge=1)
 
     @property

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -24,7 +24,16 @@ if TYPE_CHECKING:
     Index = NDArray[np.intp]
     Body = tuple[float, float, float]
 
-__all__ = ["SqueezedParticle", "contact_sides"]
+__all__ = ["Side", "SideForm", "SqueezedParticle", "contact_sides"]
+
+
+class SideForm(Protocol):
+    """What a side of a particle is if not a sphere's; a frozen value, so that equal ones share."""
+
+    def side(
+        self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, R: float
+    ) -> Side | None:
+        """The contact of this side, or None for a sphere's."""
 
 
 class Side:
@@ -40,7 +49,11 @@ class Side:
     ----------
     kinks : array (..., k)
         Increasing reduced indentations where the formula changes; constant beyond the last.
+    spreads : bool
+        The contact may become wider than the particle was.
     """
+
+    spreads = False
 
     def __init__(
         self, law: AbstractAsperityLaw, E_star: Number, H: Number, nu: float, R: float = 0.5
@@ -174,14 +187,25 @@ class SqueezedParticle(OneParticle):
         From ε on side 0 or 1 is past the indentation δ at which its load jumps down.
     """
 
-    def __init__(self, law: AbstractAsperityLaw, first: Body, second: Body, R: float = 0.5):
-        self.key = (law, first, second, R)
-        self.sides = (Side(law, *first, R), Side(law, *second, R))
+    def __init__(
+        self,
+        law: AbstractAsperityLaw,
+        first: Body,
+        second: Body,
+        R: float = 0.5,
+        forms: tuple[SideForm | None, SideForm | None] = (None, None),
+    ):
+        self.key = (law, first, second, R, forms)
+        self.sides = (
+            (forms[0] and forms[0].side(law, *first, R)) or Side(law, *first, R),
+            (forms[1] and forms[1].side(law, *second, R)) or Side(law, *second, R),
+        )
         self.tip_radius, self.breadth = R, 2 * R
         self.yields = (float(self.sides[0].delta_1), float(self.sides[1].delta_1))
         self.hardness = (float(self.sides[0].H), float(self.sides[1].H))
         self.great_circle = R * math.pi / 2
-        self.equal = first == second
+        self.spreads = any(side.spreads for side in self.sides)
+        self.equal = first == second and forms[0] == forms[1]
         one, two = self.sides
         kinks = set()
         self.held: list[tuple[float, float, int, float]] = []
@@ -250,7 +274,9 @@ class SqueezedParticle(OneParticle):
 
     def _tabulate_split(self) -> PiecewiseChebyshev:
         v = np.log(self.kinks)
-        v = np.append(v[0] - 1, v)  # elastic up to the first: one share
+        # elastic up to the first: one share, or nearly, where friction on the faces tells
+        v = np.append(v[0] - (30 if self.spreads else 1), v)
+        self._lowest = math.exp(v[0] + 0.1) if self.spreads else 0.5 * self.kinks[0]
         return PiecewiseChebyshev(lambda x: self._solve_split(np.exp(x))[:, None], v)
 
     def _area_crossings(self) -> list[float]:
@@ -258,13 +284,19 @@ class SqueezedParticle(OneParticle):
         from scipy.optimize import brentq
 
         grid = np.geomspace(self.kinks[0], self.kinks[-1], 400)
-        smallest = 1e-13 * self.great_circle
+        smallest: Number = 1e-13 * self.great_circle
+
+        def areas(eps: ArrayLike) -> tuple[Array, Array]:
+            one, two = self.indentations(np.atleast_1d(np.asarray(eps, dtype=float)))
+            return self.sides[0].area(one), self.sides[1].area(two)
 
         def difference(eps: ArrayLike) -> Array:
-            one, two = self.indentations(np.atleast_1d(np.asarray(eps, dtype=float)))
-            return self.sides[0].area(one) - self.sides[1].area(two)
+            return np.subtract(*areas(eps))
 
         values = difference(grid)
+        if self.spreads:  # the area of a pancake magnifies what rounding leaves of its height
+            wide = np.maximum(*areas(grid)) / self.great_circle
+            smallest = 1e-12 * self.great_circle * np.maximum(wide, 1.0) ** 2
         sign = np.where(np.abs(values) > smallest, np.sign(values), 0.0)
         return [
             brentq(lambda e: float(difference(e)[0]), grid[i], grid[i + 1], xtol=1e-16)
@@ -275,7 +307,7 @@ class SqueezedParticle(OneParticle):
         """δ_1 and δ_2 over x."""
         if self._split_table is None:
             return 0.5 * eps, 0.5 * eps
-        low, high = 0.5 * self.kinks[0], self.kinks[-1]
+        low, high = self._lowest, self.kinks[-1]
         share = self._split_table(np.log(np.clip(eps, low, high)))[:, 0]
         one = share * eps
         # beyond the last kink the softer side takes the rest; two equal limits share it
@@ -316,16 +348,26 @@ class SqueezedParticle(OneParticle):
             areas=(first.area(one), second.area(two)),
         )
 
+    def __call__(self, eps: Array) -> Array:
+        out = OneParticle.__call__(self, eps)
+        if self.spreads:
+            out[:, 6] = np.maximum(out[:, 6], out[:, 5])
+        return out
+
     def regime(self, side: int, depth: Array) -> Index:
         return self.sides[side].regime(depth)
 
 
 @lru_cache(maxsize=512)
 def squeezed_particle(
-    law: AbstractAsperityLaw, first: Body, second: Body, R: float = 0.5
+    law: AbstractAsperityLaw,
+    first: Body,
+    second: Body,
+    R: float = 0.5,
+    forms: tuple[SideForm | None, SideForm | None] = (None, None),
 ) -> SqueezedParticle:
-    """The cached response of one particle; sides are (E*, H, ν)."""
-    return SqueezedParticle(law, first, second, R)
+    """The cached response of one particle; sides are (E*, H, ν), and what is no sphere there."""
+    return SqueezedParticle(law, first, second, R, forms)
 
 
 def contact_sides(surfaces: MaterialPair, particle: Material) -> tuple[Body, Body]:

@@ -1,0 +1,126 @@
+"""From a key on a slider to the frame that shows the new picture, in a real browser.
+
+python benchmarks/page.py
+python benchmarks/page.py --against OTHER/CHECKOUT
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import signal
+import statistics
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "app"))
+from browser import chromium
+
+ROOT = Path(__file__).parent.parent
+MOVES, WARM = 20, 5
+CASES = (("Interface", "load"), ("Curves", "load"), ("Curves", "roughness.sigma"))
+WATCHED = {
+    ("Interface", "load"): '[data-figure="section"]',
+    ("Curves", "load"): ".figures .layer-above .shapelayer, .figures .here",
+    ("Curves", "roughness.sigma"): ".figures .scatterlayer",
+}
+"""What is another one once the picture is drawn, of every figure in sight."""
+WATCH = """selector => {
+  const paths = e => e.tagName === "g" ? [...e.querySelectorAll("path")]
+    .map(p => p.getAttribute("d")).join() : e.innerHTML + e.getAttribute("style");
+  const look_at = () => { const out = new Map();
+    for (const e of document.querySelectorAll(selector)) {
+      const whole = e.closest("[data-figure]"), box = whole.getBoundingClientRect();
+      if (box.height && box.top < innerHeight - box.height / 2)
+        out.set(whole, (out.get(whole) ?? "") + paths(e));
+    }
+    return out; };
+  const was = look_at();
+  window.key = undefined;
+  window.shown = new Promise(done => {
+    addEventListener("keydown", e => { window.key = e.timeStamp; }, { capture: true, once: true });
+    const look = () => {
+      const now = look_at();
+      if (window.key !== undefined && [...was].every(([e, old]) => now.get(e) !== old))
+        requestAnimationFrame(() => setTimeout(() => done(performance.now() - window.key)));
+      else requestAnimationFrame(look);
+    };
+    look();
+  });
+  return was.size;
+}"""
+
+
+def served(source: Path) -> tuple[subprocess.Popen[str], str]:
+    """A page made by this checkout, and its address."""
+    command = [sys.executable, "-m", "thirdbody", "app", "--no-browser", "--port", "0"]
+    around = os.environ | {"PYTHONPATH": str(source / "src")}
+    server = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=around, cwd=source)
+    assert server.stderr is not None
+    found = re.search(r"http://[\d.]+:\d+", server.stderr.readline())
+    assert found, "the server did not say where it is"
+    while True:
+        try:
+            urllib.request.urlopen(found[0], timeout=5)
+        except (urllib.error.URLError, ConnectionError, TimeoutError):
+            time.sleep(0.1)
+        else:
+            return server, found[0]
+
+
+def measured(browser: Any, address: str, name: str, slider: str) -> list[float]:
+    """Milliseconds of every move, to and fro through the middle of the slider."""
+    page = browser.new_page(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
+    page.goto(address)
+    page.wait_for_selector('[data-figure="section"] svg')
+    page.get_by_role("tab", name=name, exact=True).click()
+    if name == "Curves":
+        page.wait_for_selector('[data-figure="critical"]')
+    page.locator(f'[data-slider="{slider}"] .q-slider__track-container').focus()
+    page.wait_for_timeout(1000)
+    times = []
+    for move in range(WARM + MOVES):
+        assert page.evaluate(WATCH, WATCHED[name, slider])
+        page.keyboard.press("ArrowRight" if (move // 50) % 2 else "ArrowLeft")
+        times.append(page.evaluate("window.shown"))
+        page.wait_for_timeout(60)
+    page.close()
+    return times[WARM:]
+
+
+def main() -> None:
+    """One line a case, for each checkout in turn."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--against", type=Path, help="another checkout, measured in the same run")
+    other = parser.parse_args().against
+    from playwright.sync_api import sync_playwright
+
+    sources = {"this": ROOT} | ({"other": other.resolve()} if other else {})
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=chromium(playwright), args=["--no-sandbox"]
+        )
+        print("| checkout | tab | slider | median ms | 9 of 10 below ms |\n|---|---|---|---|---|")
+        servers = {name: served(source) for name, source in sources.items()}
+        try:
+            for name, slider in CASES:
+                for which, (_, address) in servers.items():
+                    times = measured(browser, address, name, slider)
+                    row = [which, name, slider, f"{statistics.median(times):.0f}"]
+                    row.append(f"{statistics.quantiles(times, n=10)[-1]:.0f}")
+                    print(f"| {' | '.join(row)} |", flush=True)
+        finally:
+            for server, _ in servers.values():
+                server.send_signal(signal.SIGINT)
+                server.wait(10)
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,330 @@
+"""From a contact and a surface to what is pressed: heights, caps, particles, and doubts."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.contact import Contact
+from ..errors import InvalidValue
+from ..laws.base import AbstractParticleLaw
+from ..populations.materials import Material, MaterialPair
+from ..populations.measured.topography import Topography
+from ..quantities.say import number, percent, plural, value_of
+from .bodies import NONE, Bodies, LawTable, covered
+from .press import HARDEST
+from .seats import (
+    AbstractSeats,
+    GivenSeats,
+    Seated,
+    SeatHeights,
+    height_at,
+    placed_apart,
+    seat_heights,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Index = NDArray[np.int64]
+
+__all__ = ["Interface", "Map", "interface_of", "map_of"]
+
+ARRAYS = 15
+"""Arrays of doubles of the size of the map that a solution takes."""
+SHARE_OF_MEMORY = 0.6
+FEW_POINTS = 8
+"""Points to the shortest wave below which pressures are those of the grid."""
+LARGEST = 0.1
+"""Diameter over the side above which a particle meets its own images."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Map:
+    """Heights to press: (n, m), x along the first axis [m], of zero mean."""
+
+    z: Array
+    spacing: float
+    periodic: bool
+    source: str
+
+    @property
+    def sigma(self) -> float:
+        """RMS height [m]."""
+        return float(np.std(self.z))
+
+    @property
+    def area(self) -> float:
+        """Nominal area [m²]."""
+        return self.z.size * self.spacing**2
+
+    def shortest_wave(self) -> float:
+        """Wavelength above which 99 % of the mean square slope lies [m]."""
+        n, m = self.z.shape
+        q = np.hypot(np.fft.fftfreq(n)[:, None], np.fft.rfftfreq(m)) / self.spacing
+        power = (q * np.abs(np.fft.rfft2(self.z))) ** 2
+        order = np.argsort(q, axis=None)
+        total = np.cumsum(power.ravel()[order])
+        if not total[-1] > 0:
+            return math.inf
+        found = q.ravel()[order][np.searchsorted(total, 0.99 * total[-1])]
+        return float(1 / found)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Interface:
+    """What is pressed."""
+
+    contact: Contact
+    map: Map
+    cap: float | None
+    """Pressure at which an asperity yields [Pa]; None for never."""
+    c: Array
+    bodies: Bodies
+    seats: SeatHeights
+    zeta: Array
+    """Height of each seat [m]."""
+    warnings: tuple[str, ...]
+
+    def bare(self) -> Interface:
+        """The same without its particles."""
+        c = np.full_like(self.c, HARDEST if self.cap is None else self.cap)
+        return Interface(
+            contact=self.contact, map=self.map, cap=self.cap, c=c, bodies=NONE,
+            seats=seat_heights(np.empty(0)), zeta=np.empty(0), warnings=(),
+        )  # fmt: skip
+
+
+def map_of(surface: object, spacing: float | None) -> Map:
+    """The heights of a measured or synthetic surface, or of an array, ready to be pressed.
+
+    A `Topography` without the waves below its cut-off; an array as it is, less its mean.
+    """
+    if isinstance(surface, Topography):
+        return _of_topography(surface, spacing)
+    try:
+        z = np.array(surface, dtype=float)
+    except (TypeError, ValueError):
+        raise InvalidValue(
+            f"surface = {surface!r:.80} must be a Topography or an array of heights [m]"
+        ) from None
+    problems = []
+    if z.ndim != 2 or min(z.shape) < 8:
+        problems.append(f"surface: heights of shape {z.shape} must be a map of at least 8 x 8")
+    elif not np.all(np.isfinite(z)):
+        problems.append(
+            f"surface: {percent(float(np.mean(~np.isfinite(z))))} of the heights are missing; "
+            "a map without gaps is needed (cut out a part that was measured)"
+        )
+    if not (isinstance(spacing, (int, float)) and 0 < spacing < math.inf):
+        problems.append(f"spacing = {spacing!r} must be the distance of neighbouring points [m]")
+    if problems:
+        raise InvalidValue(*problems)
+    assert spacing is not None
+    return Map(z=z - z.mean(), spacing=float(spacing), periodic=True, source="the heights")
+
+
+def _of_topography(surface: Topography, spacing: float | None) -> Map:
+    problems = []
+    if spacing is not None:
+        problems.append(f"spacing = {spacing!r}: the topography tells it; leave it out")
+    if surface.dim != 2:
+        problems.append(f"{surface.source} is a profile; a map of heights is needed")
+    elif not math.isclose(*surface.spacing, rel_tol=1e-6):
+        problems.append(
+            f"{surface.source} has pixels of {value_of(surface.spacing[0], 'm')} x "
+            f"{value_of(surface.spacing[1], 'm')}; square ones are needed, resample it"
+        )
+    if surface.missing > 0:
+        problems.append(
+            f"{surface.source}: {percent(surface.missing)} of the points have no datum; a map "
+            "without gaps is needed (cut out a part that was measured)"
+        )
+    if problems:
+        raise InvalidValue(*problems)
+    z = np.array(surface.filtered(), dtype=float)
+    return Map(
+        z=z - z.mean(), spacing=surface.spacing[0], periodic=surface.periodic, source=surface.source
+    )
+
+
+@lru_cache(maxsize=64)
+def _table(law: AbstractParticleLaw, surfaces: MaterialPair, material: Material) -> LawTable:
+    return LawTable(law.one(surfaces=surfaces, particle=material))
+
+
+def law_tables(contact: Contact) -> tuple[LawTable, ...]:
+    """What one particle of each population does."""
+    return tuple(
+        _table(contact.law_of(each), contact.surfaces, each.material)
+        for each in contact.populations
+    )
+
+
+def interface_of(
+    contact: Contact,
+    surface: Map,
+    *,
+    seats: AbstractSeats,
+    cap: str | float | None,
+    rng: np.random.Generator,
+    particles: Mapping[str, Any] | None = None,
+) -> Interface:
+    """A contact on a map, its particles drawn and seated."""
+    _fits(surface.z.shape)
+    yields = _cap(cap, contact)
+    warnings = _doubts(contact, surface)
+    c = np.full_like(surface.z, HARDEST if yields is None else yields)
+    bodies, overlaps = _drawn(contact, surface, seats, rng, particles)
+    zeta = np.empty(0)
+    if len(bodies):
+        zeta = height_at(surface.z, surface.spacing, bodies.x, bodies.y) + bodies.lift
+        hidden = covered(surface.z, surface.spacing, bodies, zeta)
+        if yields is None:
+            c[hidden >= 0.5] = 0.0
+        else:
+            c *= 1 - hidden
+        side = min(surface.z.shape) * surface.spacing
+        if float(np.max(bodies.diameter)) > LARGEST * side:
+            warnings.append(
+                f"the largest particle, {value_of(float(np.max(bodies.diameter)), 'm')}, is more "
+                f"than a tenth of the side of the map, {value_of(side, 'm')}: it meets its own "
+                "images; take a larger map"
+            )
+    if overlaps:
+        warnings.append(
+            f"{plural(overlaps, 'pair')} of particles overlap; each carries as if alone"
+        )
+    scale = surface.sigma or 1.0
+    return Interface(
+        contact=contact, map=surface, cap=yields, c=c, bodies=bodies,
+        seats=seat_heights(zeta / scale), zeta=zeta, warnings=tuple(warnings),
+    )  # fmt: skip
+
+
+def _cap(cap: str | float | None, contact: Contact) -> float | None:
+    if cap == "hardness":
+        return contact.surfaces.H
+    if cap is None or cap == "none":
+        return None
+    if isinstance(cap, (int, float)) and not isinstance(cap, bool) and 0 < cap < HARDEST:
+        return float(cap)
+    raise InvalidValue(
+        f"cap = {cap!r} must be 'hardness' (of the softer body), 'none' for purely elastic "
+        "asperities, or a pressure [Pa]"
+    )
+
+
+def _drawn(
+    contact: Contact,
+    surface: Map,
+    seats: AbstractSeats,
+    rng: np.random.Generator,
+    given: Mapping[str, Any] | None,
+) -> tuple[Bodies, int]:
+    populations = contact.populations
+    if given is not None:
+        return _told(contact, surface, given, rng)
+    if not populations:
+        if isinstance(seats, GivenSeats):
+            raise InvalidValue("seats: positions are given, but the contact has no particles")
+        return NONE, 0
+    densities = np.array([each.areal_density for each in populations])
+    if isinstance(seats, GivenSeats):
+        shares = densities / densities.sum()
+        kind = rng.choice(len(populations), size=len(seats.positions), p=shares)
+    else:
+        counts = rng.poisson(densities * surface.area)
+        kind = np.repeat(np.arange(len(populations)), counts)
+        rng.shuffle(kind)
+    size = np.empty(len(kind))
+    for i, each in enumerate(populations):
+        here = kind == i
+        size[here] = each.diameter.sample(rng, int(np.sum(here)))
+    places, overlaps = placed_apart(seats, surface.z, surface.spacing, size, rng)
+    return _bodies(contact, places, size, kind), overlaps
+
+
+def _told(
+    contact: Contact, surface: Map, given: Mapping[str, Any], rng: np.random.Generator
+) -> tuple[Bodies, int]:
+    """Particles of which every one is told: x, y, diameter, population."""
+    problems, told = [], {}
+    for name in ("x", "y", "diameter"):
+        try:
+            told[name] = np.atleast_1d(np.asarray(given[name], dtype=float))
+            if told[name].ndim != 1 or not np.all(np.isfinite(told[name])):
+                raise ValueError
+        except KeyError:
+            problems.append(f"particles has no {name!r}; it takes x, y, diameter [m], population")
+        except (TypeError, ValueError):
+            problems.append(f"particles[{name!r}] must be a list of finite lengths [m]")
+    if not problems and len({len(values) for values in told.values()}) > 1:
+        problems.append("particles: x, y and diameter must be of one length")
+    if not problems and not np.all(told["diameter"] > 0):
+        problems.append("particles['diameter'] must be > 0 [m]")
+    if not contact.populations:
+        problems.append("particles are given, but the contact has none that say their material")
+    if problems:
+        raise InvalidValue(*problems)
+    count = len(told["x"])
+    kind = np.asarray(given["population"] if "population" in given else np.zeros(count, int))
+    most = len(contact.populations)
+    if kind.shape != (count,) or kind.dtype.kind not in "iu" or not np.all(
+        (kind >= 0) & (kind < most)
+    ):  # fmt: skip
+        raise InvalidValue(f"particles['population'] must be whole numbers from 0 to {most - 1}")
+    seats = GivenSeats(positions=tuple(zip(told["x"].tolist(), told["y"].tolist(), strict=True)))
+    places, overlaps = placed_apart(seats, surface.z, surface.spacing, told["diameter"], rng)
+    return _bodies(contact, places, told["diameter"], kind), overlaps
+
+
+def _bodies(contact: Contact, places: Seated, size: Array, kind: Index) -> Bodies:
+    return Bodies(
+        x=places.x, y=places.y, lift=places.lift, diameter=size,
+        kind=kind.astype(np.int64), laws=law_tables(contact),
+    )  # fmt: skip
+
+
+def _doubts(contact: Contact, surface: Map) -> list[str]:
+    out = []
+    if not surface.periodic:
+        out.append(
+            f"{surface.source} does not repeat itself, the half-space does: contacts at the rim "
+            "feel those across it"
+        )
+    wave = surface.shortest_wave() / surface.spacing
+    if wave < FEW_POINTS:
+        out.append(
+            f"the shortest waves of {surface.source} have {number(wave, 2)} points; pressures and "
+            f"areas are those of the grid below {FEW_POINTS} (a longer cut-off, or a finer map)"
+        )
+    own = contact.roughness.sigma
+    if surface.sigma > 0 and not 0.9 < own / surface.sigma < 1.1:
+        out.append(
+            f"the map has sigma = {value_of(surface.sigma, 'm')} and the roughness of the contact "
+            f"{value_of(own, 'm')}: the statistical model is one of another surface"
+        )
+    return out
+
+
+def _fits(shape: tuple[int, int]) -> None:
+    """Refuse maps that do not fit into memory."""
+    try:
+        free = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, ValueError, OSError):
+        return
+    need = ARRAYS * 8.0 * shape[0] * shape[1]
+    if need > SHARE_OF_MEMORY * free:
+        side = 2 ** math.floor(math.log2(math.sqrt(SHARE_OF_MEMORY * free / (ARRAYS * 8))))
+        raise InvalidValue(
+            f"a map of {shape[0]} x {shape[1]} points takes {need / 1e9:.2g} GB and "
+            f"{free / 1e9:.2g} GB are free; {side} x {side} would fit"
+        )

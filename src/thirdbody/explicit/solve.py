@@ -1,0 +1,412 @@
+"""`solve`: one surface, every particle at its place, one load or a curve of them."""
+
+from __future__ import annotations
+
+import math
+import time
+import warnings
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.contact import Contact
+from ..equilibrium.columns import EPS_1, EPS_2, _mode
+from ..errors import InvalidValue, RangeWarning
+from ..laws.base import REGIMES
+from ..quantities.say import number, percent, plural
+from .interface import Interface, interface_of, map_of
+from .press import Pressed, capacity, press
+from .seats import seats_named
+from .state import CONTACTS, ExplicitState
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import ArrayLike, NDArray
+
+    from ..populations.measured.topography import Topography
+
+    Array = NDArray[np.float64]
+
+__all__ = ["solve"]
+
+TOL, ITERATIONS = 1e-6, 300
+FEW = 20
+"""Points below which an answer is theirs."""
+DENSE = 0.5
+"""Real contact area above which the half-space is no longer one of separate contacts."""
+LEAST_SINGLE = 1e-7
+PERIMETER = (math.pi - 1 + math.log(2)) / 24
+"""Area that a pixel edge at the rim of a contact counts too much, over Δ²."""
+
+
+def solve(
+    contact: Contact,
+    surface: Topography | ArrayLike,
+    *,
+    pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
+    h: ArrayLike | None = None,
+    spacing: float | None = None,
+    seats: Any = "random",
+    particles: Mapping[str, Any] | None = None,
+    seed: int = 0,
+    cap: str | float | None = "hardness",
+    tol: float = TOL,
+    max_iterations: int = ITERATIONS,
+    precision: str = "double",
+    maps: str = "last",
+    workers: int = 1,
+) -> ExplicitState:
+    r"""Press a height map, with every particle at its place, against a flat.
+
+    Pressures :math:`0 \le p \le c` on pixels and forces of particles that follow their law raise
+    the flat of a periodic elastic half-space:
+
+    .. math:: u = K(p + D\varphi), \qquad \hat K(q) = \frac{2}{E^*|q|}, \qquad
+              \text{gap} = h + u - z
+
+    No asperity is a paraboloid here, no height Gaussian, no contact alone. What is left of the
+    statistical model is the law of one particle.
+
+    Parameters
+    ----------
+    contact : Contact
+        Materials, particles and their laws, as of the statistical model; its asperity law and
+        the seat of its particle law are not used.
+    surface : Topography or array (n, m)
+        Composite heights [m], x along the first axis: a `Topography` without the waves below
+        its cut-off, or an array with ``spacing``, less its mean.
+    pressure, F_star, h : float or array
+        Nominal pressure [Pa], load F/(A_n E*) [1], or separation of the mean planes [m]: one of
+        the three. Several are solved as one continuation.
+    spacing : float, optional
+        Distance of the points of an array [m].
+    seats : str, seats or array (N, 2), optional
+        Where particles lie: ``random``, ``settled``, ``downhill``, ``valleys``, ``highest``,
+        ``summits``, ``sphere``, a rule of `thirdbody.explicit` with its numbers, or positions [m].
+    particles : mapping, optional
+        ``x``, ``y``, ``diameter`` [m] and ``population`` of every particle, instead of drawing
+        them; the ``particles`` of a state will do.
+    seed : int, optional
+        Of the draw: numbers are Poisson, sizes as distributed.
+    cap : {"hardness", "none"} or float, optional
+        Highest pressure of asperities: the softer body's hardness, none, or one [Pa]. A perfectly
+        plastic cap has no pile-up, no hardening and no history: it is meant for loading.
+    tol : float, optional
+        Certificate at which to stop: 1e-6 gives shares to 2e-5 and pressures to 1e-4.
+    max_iterations : int, optional
+    precision : {"double", "single"}, optional
+        Of the FFTs.
+    maps : {"last", "all"}, optional
+        Which maps to keep of several loads.
+    workers : int, optional
+        Threads of the FFTs.
+
+    Returns
+    -------
+    ExplicitState
+
+    Raises
+    ------
+    InvalidValue
+        A surface, load or option that has no meaning, or a load above what all can carry.
+
+    Warns
+    -----
+    RangeWarning
+        Where the answer is doubtful: `ExplicitState.warnings` has the sentences too.
+
+    Notes
+    -----
+    The answer is unique and comes with a certificate ε: the elastic energy of its error is below
+    ε σF. That is the only rule by which iterations stop.
+
+    References
+    ----------
+    Polonsky and Keer 1999, Wear 231, 206, doi:10.1016/S0043-1648(99)00113-1, for conjugate
+    gradients on a contact; Jaggi 2013 for the certificate.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> rough = tb.synthetic.self_affine(
+    ...     sigma=100e-9, hurst=0.8, shortest=8e-7, longest=6e-6, spacing=1e-7, points=128)
+    >>> contact = tb.Contact(
+    ...     surfaces=tb.MaterialPair(steel, steel), roughness=rough.roughness(),
+    ...     particles=tb.Particles(material=tb.materials["SiO2"], areal_density=1e12,
+    ...                            diameter=tb.Monodisperse(mean=2e-7)))
+    >>> state = tb.explicit.solve(contact, rough, F_star=1e-3)
+    >>> state.converged, 0 < state.particle_load_share < 1
+    (True, True)
+    >>> state.maps.pressure.dims, state.particles.sizes["particle"] > 100
+    (('y', 'x'), True)
+    """
+    if not isinstance(contact, Contact):
+        raise InvalidValue(f"contact = {contact!r:.80} must be a Contact")
+    name, values, one = _asked(pressure, F_star, h)
+    rule = seats_named(seats)
+    _options(tol, max_iterations, precision, maps, seed, workers)
+    surface_map = map_of(surface, spacing)
+    rng = np.random.default_rng(seed)
+    inside = interface_of(
+        contact, surface_map, seats=rule, cap=cap, rng=rng, particles=particles
+    )  # fmt: skip
+    if name != "h":
+        values = values * surface_map.area * (contact.E_ss if name == "F_star" else 1.0)
+    found, seconds = curve(
+        inside, "h" if name == "h" else "load", values, tol=tol, max_iterations=max_iterations,
+        single=precision == "single", workers=workers,
+    )  # fmt: skip
+    columns = [numbers_of(inside, each) for each in found]
+    told = (*inside.warnings, *_doubts(columns, found, tol))
+    for sentence in told:
+        warnings.warn(sentence, RangeWarning, stacklevel=2)
+
+    def of(name: str) -> Any:
+        every = [each[name] for each in columns]
+        return every[0] if one else np.array(every)
+
+    several = maps == "all" and not one
+    keep = range(len(found)) if several else [len(found) - 1]
+    shown = [_maps(inside, found[i]) for i in keep]
+    bodies = [_particles(inside, found[i]) for i in keep]
+    import xarray
+
+    return ExplicitState(
+        contact=contact,
+        **{name: of(name) for name in columns[0]},
+        seconds=seconds[0] if one else np.array(seconds),
+        sigma=surface_map.sigma,
+        seats=inside.seats,
+        maps=xarray.concat(shown, "state") if several else shown[0],
+        particles=xarray.concat(bodies, "state") if several else bodies[0],
+        warnings=told,
+    )
+
+
+def curve(
+    inside: Interface,
+    given: str,
+    values: Array,
+    *,
+    tol: float = TOL,
+    max_iterations: int = ITERATIONS,
+    single: bool = False,
+    workers: int = 1,
+) -> tuple[list[Pressed], list[float]]:
+    """States under loads [N] or at separations h [m], each from its neighbour, far to near."""
+    z, spacing = inside.map.z, inside.map.spacing
+    E_star = inside.contact.E_ss
+    if given == "load":
+        most = capacity(inside.c, inside.bodies, spacing)
+        problems = [
+            f"a load of F* = {number(each / (E_star * inside.map.area))} is above "
+            f"{number(most / (E_star * inside.map.area))}, which is all that the pixels and "
+            "particles can carry"
+            for each in values[values >= most][:5]
+        ]
+        if problems:
+            raise InvalidValue(*problems)
+    order = np.argsort(values, kind="stable")
+    if given == "h":
+        order = order[::-1]
+    found: dict[int, Pressed] = {}
+    seconds: dict[int, float] = {}
+    start = None
+    for i in order.tolist():
+        begin = time.perf_counter()
+        state = press(
+            z, spacing, E_star, c=inside.c, bodies=inside.bodies, tol=tol,
+            max_iterations=max_iterations, start=start, single=single, workers=workers,
+            **{given: float(values[i])},
+        )  # fmt: skip
+        found[i], seconds[i] = state, time.perf_counter() - begin
+        start = (state.p, state.f) if np.any(state.p) or np.any(state.f) else None
+    every = range(len(values))
+    return [found[i] for i in every], [seconds[i] for i in every]
+
+
+def numbers_of(inside: Interface, state: Pressed) -> dict[str, Any]:
+    """The columns of a state."""
+    contact, spacing, area = inside.contact, inside.map.spacing, inside.map.area
+    touching = state.p > 0
+    edges = sum(int(np.sum(touching != np.roll(touching, 1, axis))) for axis in (0, 1))
+    counted = float(np.mean(touching))
+    A_ss = max(counted - PERIMETER * edges * spacing**2 / area, 0.0)
+    first, second = (float(np.sum(each)) / area for each in _squeezed(inside, state)["areas"])
+    on_pixels = float(np.sum(state.p)) * spacing**2 / area
+    on_particles = float(np.sum(state.f)) / area
+    load, A_t = on_pixels + on_particles, A_ss + first
+    area_share = first / A_t if A_t > 0 else math.nan
+    return {
+        "h": state.h,
+        "F_star": load / contact.E_ss,
+        "pressure": load,
+        "F_ss_star": on_pixels / contact.E_ss,
+        "F_sa_star": on_particles / contact.E_ss,
+        "A_t": A_t,
+        "A_ss": A_ss,
+        "A_ss_counted": counted,
+        "A_sa": first,
+        "A_sa2": second,
+        "particle_load_share": on_particles / load if load > 0 else math.nan,
+        "particle_area_share": area_share,
+        "mode": _mode(area_share, EPS_1, EPS_2),
+        "carrying_pixels": int(np.sum(touching)),
+        "carrying_particles": int(np.sum(state.f > 0)),
+        "converged": state.converged,
+        "certificate": state.certificate,
+        "iterations": state.iterations,
+    }
+
+
+def _squeezed(inside: Interface, state: Pressed) -> dict[str, Any]:
+    """Dents [m], areas [m²] and regime of every particle."""
+    bodies = inside.bodies
+    dents, areas = np.zeros((2, len(bodies))), np.zeros((2, len(bodies)))
+    regime = np.full(len(bodies), -1)
+    embedded = state.f >= bodies.limit * (1 - 1e-9)
+    squeeze = np.where(embedded, state.squeeze, bodies.squeeze(state.f))
+    for i, law in enumerate(bodies.laws):
+        here = (bodies.kind == i) & (state.f > 0)
+        if np.any(here):
+            x = bodies.diameter[here]
+            unit = law.one.at(squeeze[here] / x)
+            for side in (0, 1):
+                dents[side, here] = x * unit.depths[side]
+                areas[side, here] = x**2 * unit.areas[side]
+            regime[here] = law.one.regime(0, unit.depths[0])
+    return {"dents": dents, "areas": areas, "regime": np.array([*REGIMES, "none"])[regime]}
+
+
+# -------------------------------------------------------------------------- what is asked
+def _asked(
+    pressure: ArrayLike | None, F_star: ArrayLike | None, h: ArrayLike | None
+) -> tuple[str, Array, bool]:
+    """Which quantity is given, its values, and whether it was one number."""
+    given = {
+        name: value
+        for name, value in (("pressure", pressure), ("F_star", F_star), ("h", h))
+        if value is not None
+    }
+    if len(given) != 1:
+        names = ", ".join(given) or "none"
+        raise InvalidValue(f"give exactly one of pressure, F_star, h; got {names}")
+    ((name, value),) = given.items()
+    try:
+        if np.asarray(value).dtype.kind in "USOb":
+            raise TypeError
+        values = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        raise InvalidValue(f"{name} = {value!r} must be a number or a list of numbers") from None
+    flat = np.atleast_1d(values)
+    if flat.ndim > 1 or not flat.size:
+        raise InvalidValue(f"{name}: give a number or a list of numbers")
+    good = np.isfinite(flat) & ((name == "h") | (flat > 0))
+    allowed = "be finite [m]" if name == "h" else "be finite and > 0"
+    if not np.all(good):
+        raise InvalidValue(*(f"{name} = {v:g} must {allowed}" for v in flat[~good][:5]))
+    return name, flat, values.ndim == 0
+
+
+def _options(
+    tol: float, max_iterations: int, precision: str, maps: str, seed: int, workers: int
+) -> None:
+    """Refuse options that have no meaning."""
+    out = []
+    if not (isinstance(tol, (int, float)) and 1e-13 <= tol <= 1e-2):
+        out.append(f"tol = {tol!r} must be from 1e-13 to 1e-2")
+    elif precision == "single" and tol < LEAST_SINGLE:
+        out.append(f"tol = {tol:g} needs precision = 'double'; single goes down to 1e-7")
+    for name, value, words in (
+        ("precision", precision, ("double", "single")),
+        ("maps", maps, ("last", "all")),
+    ):
+        if value not in words:
+            out.append(f"{name} = {value!r} must be one of {', '.join(map(repr, words))}")
+    whole = {"max_iterations": (max_iterations, 1), "seed": (seed, 0), "workers": (workers, 1)}
+    for name, (count, least) in whole.items():
+        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < least:
+            out.append(f"{name} = {count!r} must be a whole number, at least {least}")
+    if out:
+        raise InvalidValue(*out)
+
+
+# -------------------------------------------------------------------------- what is told
+def _doubts(columns: list[dict[str, Any]], found: list[Pressed], tol: float) -> list[str]:
+    out = []
+    unsure = [each for each in found if not each.converged]
+    if unsure:
+        worst = max(each.certificate for each in unsure)
+        known = "to a few per cent" if worst < 1e-3 else "in outline only"
+        out.append(
+            f"{plural(len(unsure), 'state')} of {len(found)} did not converge: certificate "
+            f"{worst:.1e}, asked for {tol:g}; pressures are known {known} (raise max_iterations)"
+        )
+    few = min(each["carrying_pixels"] + each["carrying_particles"] for each in columns)
+    if few < FEW:
+        out.append(
+            f"{plural(few, 'pixel')} and particles carry the smallest load: the answer is that of "
+            "a few points; more surfaces"
+        )
+    most = max(each["A_t"] for each in columns)
+    if most > DENSE:
+        out.append(
+            f"real contact area {percent(most)}: the half-space is one of small contacts, and the "
+            "law of particles knows no neighbours"
+        )
+    return out
+
+
+def _maps(inside: Interface, state: Pressed) -> xarray.Dataset:
+    import xarray
+
+    z, spacing = inside.map.z, inside.map.spacing
+    touching = state.p > 0
+    contact = np.where(touching, np.where(state.p >= inside.c, 2, 1), 0)
+    contact[inside.c <= 0] = 3
+    fields: dict[str, tuple[Any, str, str]] = {
+        "pressure": (state.p, "Pa", "contact pressure"),
+        "gap": (state.h + state.u - z, "m", "gap; negative where the cap let the flat sink in"),
+        "height": (z, "m", "height of the composite surface"),
+        "displacement": (state.u, "m", "displacement of the half-space, of zero mean"),
+        "contact": (contact.astype(np.int8), "", ", ".join(
+            f"{i} {word}" for i, word in enumerate(CONTACTS))),
+    }  # fmt: skip
+    data = {
+        name: (("y", "x"), np.ascontiguousarray(values.T), {"units": unit, "long_name": meaning})
+        for name, (values, unit, meaning) in fields.items()
+    }
+    axes = {
+        name: (name, np.arange(count) * spacing, {"units": "m"})
+        for name, count in zip("xy", z.shape, strict=True)
+    }
+    about = {"h": state.h, "sigma": inside.map.sigma, "spacing": spacing, "Conventions": "CF-1.8"}
+    return xarray.Dataset(data, coords=axes, attrs=about)
+
+
+def _particles(inside: Interface, state: Pressed) -> xarray.Dataset:
+    import xarray
+
+    bodies, found = inside.bodies, _squeezed(inside, state)
+    names = [each.name or each.material.name for each in inside.contact.populations]
+    fields = {
+        "x": (bodies.x, "m", "position"),
+        "y": (bodies.y, "m", "position"),
+        "diameter": (bodies.diameter, "m", "diameter"),
+        "population": (bodies.kind, "", ", ".join(f"{i} {name}" for i, name in enumerate(names))),
+        "zeta": (inside.zeta / (inside.map.sigma or 1.0), "1", "height of the seat over sigma"),
+        "squeeze": (np.maximum(state.squeeze, 0.0), "m", "how much the gap is less than x"),
+        "force": (state.f, "N", "force"),
+        "dent_1": (found["dents"][0], "m", "indentation of surface 1"),
+        "dent_2": (found["dents"][1], "m", "indentation of surface 2"),
+        "regime": (found["regime"].astype("U13"), "", "regime on surface 1"),
+    }
+    return xarray.Dataset(
+        {
+            name: ("particle", values, {"units": unit, "long_name": meaning})
+            for name, (values, unit, meaning) in fields.items()
+        }
+    )

@@ -1,0 +1,131 @@
+"""What an explicit state is: numbers named as in `Equilibrium`, maps, and every particle."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.contact import Contact
+from ..equilibrium.columns import COLUMNS as OF_EQUILIBRIUM
+from ..quantities import notebook
+from ..quantities.files import whole
+from .seats import SeatHeights
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Number = float | Array
+
+__all__ = ["COLUMNS", "CONTACTS", "ExplicitState"]
+
+CONTACTS = ("none", "asperity", "capped asperity", "covered")
+"""What the numbers of the map ``contact`` mean, from 0."""
+
+
+def _own(symbol: str, unit: str, meaning: str) -> Any:
+    return field(metadata={"symbol": symbol, "unit": unit, "meaning": meaning})
+
+
+def _as_equilibrium(name: str) -> Any:
+    return field(metadata=OF_EQUILIBRIUM[name])
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class ExplicitState:
+    """A height map pressed with every particle at its place: floats for one load, else arrays.
+
+    Columns have the names and the meaning that they have in `thirdbody.Equilibrium`. Made by
+    `solve`.
+
+    Attributes
+    ----------
+    maps : xarray.Dataset
+        On (y, x): ``pressure`` [Pa], ``gap`` [m] (negative where the cap has let the flat sink
+        in), ``height`` [m], ``displacement`` [m], ``contact`` (0 none, 1 asperity, 2 capped
+        asperity, 3 covered by a particle). Of the last load, or of all along ``state``.
+    particles : xarray.Dataset
+        On ``particle``: ``x``, ``y``, ``diameter`` [m], ``population``, ``zeta`` (height of the
+        seat over σ), ``squeeze`` [m], ``force`` [N], ``dent_1``, ``dent_2`` [m], ``regime``.
+    """
+
+    contact: Contact = field(repr=False)
+    h: Number = _as_equilibrium("h")
+    F_star: Number = _as_equilibrium("F_star")
+    pressure: Number = _as_equilibrium("pressure")
+    F_ss_star: Number = _as_equilibrium("F_ss_star")
+    F_sa_star: Number = _as_equilibrium("F_sa_star")
+    A_t: Number = _as_equilibrium("A_t")
+    A_ss: Number = _as_equilibrium("A_ss")
+    A_ss_counted: Number = _own("A_c*", "1", "area of pixels in contact, without the correction")
+    A_sa: Number = _as_equilibrium("A_sa")
+    A_sa2: Number = _as_equilibrium("A_sa2")
+    particle_load_share: Number = _as_equilibrium("particle_load_share")
+    particle_area_share: Number = _as_equilibrium("particle_area_share")
+    mode: str | NDArray[np.str_] = _as_equilibrium("mode")
+    carrying_pixels: int | NDArray[np.int_] = _own("n_p", "", "pixels under pressure")
+    carrying_particles: int | NDArray[np.int_] = _own("n_a", "", "particles that carry")
+    converged: bool | NDArray[np.bool_] = _own("", "", "whether the certificate is below tol")
+    certificate: Number = _own("ε", "1", "bound of the elastic energy of the error over σF")
+    iterations: int | NDArray[np.int_] = _own("n", "", "convolutions on the full grid")
+    seconds: Number = field(repr=False)
+    """Wall time [s]."""
+    sigma: float = field(repr=False)
+    """RMS height of the map [m]."""
+    seats: SeatHeights
+    """Heights of the places of these particles over σ."""
+    maps: xarray.Dataset = field(repr=False)
+    particles: xarray.Dataset = field(repr=False)
+    warnings: tuple[str, ...] = ()
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Every column as a 1-D array."""
+        return {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
+
+    def plot(self) -> Figure:
+        """Pressure, gap, a section and the shares of the particles; see `thirdbody.plot.explicit`.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        from importlib import import_module
+
+        # figures stand above the physics, which never needs them: found only when asked for
+        return import_module("thirdbody.views.plot").explicit(self)
+
+    def to_netcdf(self, path: str | os.PathLike[str]) -> None:
+        """Maps and particles in one NetCDF file.
+
+        Parameters
+        ----------
+        path : path-like
+            The file to write.
+        """
+        of_particles = self.particles.rename(
+            {name: f"particle_{name}" for name in self.particles.data_vars}
+        )
+        with whole(path) as draft:
+            self.maps.merge(of_particles, combine_attrs="override").to_netcdf(draft)
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: a row for each column."""
+        rows = [
+            notebook.Row(
+                told["symbol"] or name,
+                [notebook.words_of(value, told["unit"]) for value in values[:6].tolist()],
+                told["meaning"],
+            )
+            for name, told in COLUMNS.items()
+            for values in (np.atleast_1d(getattr(self, name)),)
+        ]
+        return notebook.card("ExplicitState", rows, self.warnings)
+
+
+COLUMNS = {item.name: dict(item.metadata) for item in fields(ExplicitState) if item.metadata}
+"""Symbol, unit and meaning of every column."""

@@ -1,0 +1,150 @@
+"""Tables of the command line: whole numbers at every width, units, and what is left out."""
+
+import re
+
+import numpy as np
+import pytest
+from rich.console import Console
+from typer.testing import CliRunner
+
+from thirdbody import cli
+from thirdbody.quantities.tables import Table
+
+from .test_cli import DUSTY, EXAMPLES
+
+ASSESS, ADDITIVE, FILM, CLEAN, DEBRIS = (
+    next(path for path in EXAMPLES if path.stem == stem)
+    for stem in ("assess", "additive", "oil_film", "two_body_reference", "dust_and_debris")
+)
+NUMBER = re.compile(r"[−+(<]?\d\S*")
+
+
+def run(width, *arguments):
+    env = {"COLUMNS": None if width is None else str(width)}
+    done = CliRunner().invoke(cli.app, [str(each) for each in arguments], env=env)
+    assert done.exit_code == 0, done.output
+    return done.stdout
+
+
+def numbers(text):
+    """What begins like a number, however far it goes."""
+    return {word for word in text.split() if NUMBER.fullmatch(word)}
+
+
+def assert_whole(width, *arguments):
+    """Every number at this width is one that a screen without end shows, and no line is longer."""
+    text = run(width, *arguments)
+    assert max(map(len, text.splitlines())) <= width
+    assert numbers(text) <= numbers(run(1000, *arguments))
+    return text
+
+
+# ---------------------------------------------------------------------------- widths
+@pytest.mark.parametrize("width", [60, 80])
+@pytest.mark.parametrize("seed", range(4))
+def test_no_number_of_a_study_drawn_at_random_is_broken(width, seed):
+    rng = np.random.default_rng(seed)
+    low, high = np.sort(10 ** rng.uniform(3, 9, 2))
+    settings = [
+        f"load.pressure={{ from = {low:.6g}, to = {high:.6g}, points = 7, spacing = 'log' }}",
+        f"roughness.sigma={10 ** rng.uniform(-8, -6):.6g}",
+    ]
+    study = [DUSTY, CLEAN, DEBRIS, ADDITIVE][seed]
+    more = [word for setting in settings for word in ("--set", setting)]
+    assert_whole(width, "solve", study, *more)
+
+
+@pytest.mark.parametrize("width", [60, 80])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("film", FILM),
+        ("film", FILM, "--set", "film.speed=0.5 m/s"),
+        ("assess", ASSESS, "--set", "uncertainty.samples=64"),
+        ("assess", ADDITIVE),
+        ("compare", DUSTY),
+        ("surface", "example"),
+        ("materials",),
+        ("laws",),
+        ("outputs",),
+    ],
+    ids=lambda arguments: "-".join(str(each).rpartition("/")[2] for each in arguments),
+)
+def test_no_number_of_any_command_is_broken(width, arguments):
+    assert_whole(width, *arguments)
+
+
+def test_a_pipe_heeds_columns_and_without_them_is_wide():
+    assert max(map(len, run(72, "solve", DUSTY).splitlines())) <= 72
+    for none in (None, "", "0", "wide"):
+        assert 100 < max(map(len, run(none, "solve", DUSTY).splitlines())) <= 120
+
+
+def test_columns_go_in_their_order_and_are_named():
+    kept = []
+    for width in (110, 80, 60):
+        text = " ".join(run(width, "solve", DUSTY).split())
+        gone = re.search(r"Not shown for want of width: (.*?); --json or --csv FILE", text)
+        kept.append(set() if gone is None else set(re.split(", | and ", gone[1])))
+    assert kept[0] < kept[1] < kept[2]
+    assert kept[1] == {"A_ss", "A_sa", "d/sigma"}
+    assert "Not shown" not in run(130, "solve", DUSTY)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_every_cell_shown_stands_whole(seed):
+    rng = np.random.default_rng(seed)
+    columns, rows, width = rng.integers(1, 12), rng.integers(1, 6), int(rng.integers(40, 121))
+    heads = [f"head {i}" for i in range(columns)]
+    words = [head for head in heads if rng.random() < 0.2]
+    drop = [str(head) for head in rng.permutation(heads)[: rng.integers(0, columns + 1)]]
+    wrap = bool(rng.random() < 0.3)
+    table = Table(heads, right=True, words=words, drop=drop, wrap=wrap)
+    cells = [
+        [f"{'1' * int(rng.integers(1, 16))}.{i}{j}" for i in range(columns)] for j in range(rows)
+    ]
+    for row in cells:
+        table.add_row(*row)
+    console = Console(width=width, record=True, file=open("/dev/null", "w"))  # noqa: SIM115
+    console.print(table)
+    text = console.export_text()
+    assert max(map(len, text.splitlines())) <= width
+    shown = set(text.split())
+    told = re.search(r"Not shown for want of width: (.*);", " ".join(text.split()))
+    gone = set() if told is None else set(re.split(", | and ", told[1]))
+    for i, head in enumerate(heads):
+        assert all((row[i] in shown) == (head not in gone) for row in cells)
+    assert not (wrap and gone)
+    # nothing stays that was to go before what went
+    order = [*drop, *(head for head in reversed(heads[1:]) if head not in drop)]
+    assert gone == set(order[: len(gone)])
+
+
+# ---------------------------------------------------------------------------- words and units
+def test_every_head_of_the_states_is_told():
+    text = " ".join(run(120, "solve", DUSTY).split())
+    for told in ("d: separation from the mean asperity height", "F*: load F/(A_n E_ss), no unit"):
+        assert told in text
+
+
+def test_outputs_at_every_load():
+    loads = ["10 kPa", "100 kPa", "1 MPa", "3 MPa", "5 MPa"]
+    text = run(80, "solve", ADDITIVE, "--set", f"load.pressure={loads}")
+    part = text.partition(" mu ")[2].partition("critical load")[0]
+    for load in loads:
+        assert len(re.findall(rf"^ *{load} ", part, re.MULTILINE)) == part.count(" pressure ") + 1
+
+
+def test_design_speaks_the_units_of_its_file():
+    done = CliRunner().invoke(cli.app, ["design", str(ADDITIVE)], env={"COLUMNS": "80"})
+    text = " ".join(done.stdout.split())
+    assert re.search(r"88\d nm", text)
+    assert "0.7 wt %" in text
+    assert "concentration of the particles" in text
+    assert "plastic part of the real area at most 0.2" in text
+    for code in ("particles.", "×10⁻⁷ ", "<="):
+        assert code not in text
+    for load in ("1 MPa", "2 MPa", "5 MPa", "10 MPa"):  # all that are asked for
+        assert re.search(rf"^ *{load} +0\.\d+ ", done.stdout, re.MULTILINE), load
+    assert re.search(r"from 8\d\d nm to 88\d nm, equal within 0.1 %", text)
+    assert "particles." not in done.stderr
