@@ -26,6 +26,7 @@ DRAWN = "as in NumPy: the generator, and how many"
 WHICH = "a word says which curve, the number is where: one number, by place"
 HOOK = "called by the library alone, alike for every law, output or seat"
 GAP = "a particle and the gap it lies in are one thing, and both are arrays of one shape"
+PRESSED = "a contact and the height map that is pressed: neither is taken for the other"
 EXCEPTIONS = {
     r".*\.partial_moment": INTEGRAL,
     r".*\.sample": DRAWN,
@@ -35,6 +36,7 @@ EXCEPTIONS = {
     r"outputs\.\w+\.of_asperities": HOOK,
     r"films\.\w+\.warnings": HOOK,
     r"explicit\.\w+\.draw": HOOK,
+    r"explicit\.solve": PRESSED,
     r"Objective\.cost": HOOK,
     r"particle\.AbstractParticleLaw\.single": GAP,
 }
