@@ -24,8 +24,9 @@ NUMBER = re.compile(r"\b(float|int|ArrayLike|Array|Number|Any)\b")
 INTEGRAL = "an integral as it is written, n from a to b; called in inner loops"
 DRAWN = "as in NumPy: the generator, and how many"
 WHICH = "a word says which curve, the number is where: one number, by place"
-HOOK = "called by the library alone, for every law or output alike"
+HOOK = "called by the library alone, alike for every law, output or seat"
 GAP = "a particle and the gap it lies in are one thing, and both are arrays of one shape"
+PRESSED = "a contact and the height map that is pressed: neither is taken for the other"
 EXCEPTIONS = {
     r".*\.partial_moment": INTEGRAL,
     r".*\.sample": DRAWN,
@@ -34,6 +35,8 @@ EXCEPTIONS = {
     r"particle\.OneParticle\.(regime|spots)": HOOK,
     r"outputs\.\w+\.of_asperities": HOOK,
     r"films\.\w+\.warnings": HOOK,
+    r"explicit\.\w+\.draw": HOOK,
+    r"explicit\.solve": PRESSED,
     r"Objective\.cost": HOOK,
     r"particle\.AbstractParticleLaw\.single": GAP,
 }

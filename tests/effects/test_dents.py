@@ -139,7 +139,7 @@ def test_ductile_particles_are_as_wide_as_they_are_squashed():
                      particle_law=Series(seat="plane"), outputs=Dents(debris="ductile"))  # fmt: skip
     gaps = np.array([0.9, 0.6, 0.3]) * x
     wide = tb.solve(one, d=gaps).outputs["dent_width_1"]
-    assert wide[1:] == pytest.approx(one_dent.flattened_diameter(x, gaps[1:]), rel=1e-9)
+    assert wide[1:] == pytest.approx(one_dent.flattened_diameter(x, gap=gaps[1:]), rel=1e-9)
     area = Series().single(x, gaps, surfaces=pair, particle=debris)["area_1"]
     assert wide == pytest.approx(2 * np.sqrt(area / math.pi), rel=1e-9)
     assert wide[0] < x
