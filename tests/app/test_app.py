@@ -33,6 +33,7 @@ from thirdbody.app.python_text import to_python
 from thirdbody.app.sizing import size_of, with_size
 from thirdbody.app.sliders import at_position, position_of
 from thirdbody.app.state import State
+from thirdbody.app.tabs.error_bars import _ranges
 from thirdbody.app.tabs.interface import headline
 from thirdbody.app.uploads import harmless
 from thirdbody.equilibrium.words import two_bodies
@@ -263,6 +264,16 @@ def test_figures_are_written_and_deterministic(state):
     assert b"<svg" in one
 
 
+def test_regimes_are_hatched_alike_on_the_page_and_on_paper(state):
+    from thirdbody.app.tabs.curves import figures
+
+    page = figures(state.answer, "F_star", critical=False)["regimes"]["data"]
+    paper = tb.plot.regimes(state.answer.curves).collections
+    hatches = [2 * trace["fillpattern"]["shape"] for trace in page]
+    assert hatches == [part.get_hatch() or "" for part in paper]
+    assert len(set(hatches)) == 3
+
+
 def test_curves_of_200_loads_follow_a_slider_by_one_solution(state, monkeypatch):
     """What makes them quick; benchmarks/waiting.py measures it."""
     from thirdbody.app.tabs.curves import figures
@@ -362,6 +373,37 @@ def test_particles_of_the_section_are_loaded_as_often_as_in_the_model(state):
     drawn = np.mean([grain.loaded for grain in grains])
     # 80 profiles hold some 3 independent seats each
     assert drawn == pytest.approx(share, abs=3 * np.sqrt(share * (1 - share) / 240))
+
+
+def test_an_output_with_mistakes_blocks_itself_alone(state):
+    state.set("outputs", {"counts": {}, "friction": {"m_ss": 0.2, "m_sa": 0.3}})
+    state.set("outputs", "wear", {})
+    assert state.current
+    assert [output.name for output in state.answer.contact.outputs] == ["counts", "friction"]
+    assert [about_of(problem) for problem in state.problems] == ["outputs.wear.K_ss"]
+    state.set("outputs", "friction", "m_ss", "5 GPa")
+    assert [output.name for output in state.answer.contact.outputs] == ["counts"]
+    before = state.answer
+    state.set("roughness", "sigma", "1 GPa")
+    assert not state.current
+    assert state.answer is before
+    state.set("roughness", "sigma", "99 nm")
+    state.set("outputs", {"nothing": {}})
+    assert state.current
+    assert not state.answer.contact.outputs
+    assert state.answer.contact.roughness.sigma == 99e-9
+
+
+def test_the_ranges_of_the_library_are_those_that_count(tmp_path):
+    steel = example() | {"surfaces": {"first": "100Cr6", "second": "100Cr6"}}
+    offered = _ranges(State(steel, tmp_path))
+    assert offered["surfaces.first.E+surfaces.second.E"] == {"low": 190e9, "high": 210e9}
+    asked = dict(load="F_star", loads=[1e-5], at=1e-5, of="A_t", samples=128)
+    result, _ = run("error bars", study=steel, folder=str(tmp_path), **asked)
+    taken = steel | {"uncertainty": {"inputs": offered}}
+    assert not State(taken, tmp_path).problems
+    same, _ = run("error bars", study=taken, folder=str(tmp_path), **asked)
+    assert same["bands"] == result["bands"]
 
 
 @pytest.mark.parametrize("name", EXAMPLES)

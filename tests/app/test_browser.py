@@ -291,12 +291,18 @@ def test_the_map_can_be_cancelled_and_a_click_goes_there(visit):
     page = visit()
     before = fact(page, "load")
     tab(page, "Map")
+    stale = page.locator('[data-stale="map"]')
+    stale.get_by_text("A preview").wait_for()  # without a click
+    assert len(drawn(page, "map")[0]["x"]) == 20
+    moved(page, "roughness.sigma", 3)
+    stale.get_by_text("as it was before").wait_for()
     page.locator('[data-work="map"]').click()
     # sent at once: a click as a user's waits until the button rests, and the map may be done by then
     page.locator('[data-cancel="map"]').dispatch_event("click")
     page.get_by_text("cancelled", exact=True).wait_for()
     page.locator('[data-work="map"]').click()
-    drawn(page, "map")
+    when(page, "document.querySelector('[data-figure=map]').data[0].x.length === 60")
+    stale.wait_for(state="hidden")
     looked_at(page, "map")
     box = page.locator('[data-figure="map"] .nsewdrag').first.bounding_box()
     page.mouse.click(box["x"] + 0.7 * box["width"], box["y"] + 0.3 * box["height"])
@@ -326,6 +332,17 @@ def test_a_measured_surface_goes_into_the_study(visit, tmp_path):
     assert fact(page, "surface σ") == say.value_of(own.moments.sigma, "m")
     drawn(page, "surface-R")
     looked_at(page, "surface")
+    upload.set_input_files(bad)
+    page.locator('[data-said="surface"]').filter(has_text="bad.x3p").wait_for()
+    assert not page.locator('[data-fact="surface R"]').is_visible()
+    assert not page.locator('[data-take="surface"]').is_visible()
+    upload.set_input_files(file)
+    page.wait_for_selector('[data-fact="surface R"]')
+    stale = page.locator('[data-stale="surface"]')
+    page.locator('[data-path="surface.cutoff"]').fill("9 um")
+    stale.get_by_text("as it was before").wait_for()
+    page.locator('[data-path="surface.cutoff"]').fill("8 um")
+    stale.wait_for(state="hidden")
     page.locator('[data-take="surface"]').click()
     tab(page, "Take away")
     text = page.locator('textarea[data-path="toml"]')
@@ -333,6 +350,13 @@ def test_a_measured_surface_goes_into_the_study(visit, tmp_path):
 
 
 def laws_are_compared(page):
+    point = state_of(STUDY)
+    at = f"{say.value_of(point.pressure, 'Pa')} (F* = {say.number(point.F_star)})"
+    assert fact(page, "compared at") == f"At the operating load, {at}"
+    rows = page.locator('[data-figure="laws"] tbody tr')
+    own = rows.filter(has=page.get_by_role("cell", name="zmc", exact=True))
+    assert own.locator("td").nth(1).inner_text() == say.number(point.A_t)
+    page.locator('[data-stale="compare"]', has_text="A preview").wait_for()
     page.locator('[data-work="compare"]').click()
     names = {trace["name"] for trace in drawn(page, "compare")}
     assert {"gw", "ceb", "zmc", "ke", "jg"} <= names <= set(tb.asperity.REGISTRY)
@@ -340,10 +364,28 @@ def laws_are_compared(page):
 
 def sizes_are_drawn(page):
     drawn(page, "sizes")
+    assert page.locator('[data-path="particles.mean"]').count() == 1  # the form at the side
+    page.locator('[data-path="dust.iso4406"]').fill("18/x")
+    page.locator('[data-said="dust"]', has_text="18/x").wait_for()
+    page.locator('[data-path="dust.iso4406"]').fill("18/16/13")
+    when(page, "document.querySelector('[data-path=\"particles.iso4406\"]')?.value === '18/16/13'")
+    when(page, "document.querySelector('[data-said=dust]').innerText === ''")
+    page.locator('[data-path="undo"]').click()
+    page.locator('[data-path="undo"]').click()
+    page.locator('.q-drawer [data-path="particles.mean"]').wait_for()
 
 
 def outputs_are_drawn(page):
     drawn(page, "output friction [1]")
+    page.locator('[data-path="outputs.wear"]').click()
+    page.locator('[data-said="page"]', has_text="left out").wait_for()
+    before = drawn(page, "output friction [1]")
+    moved(page, "roughness.sigma", 4)
+    drawn(page, "output friction [1]", before)
+    page.locator('[data-path="undo"]').click()
+    page.locator('[data-path="undo"]').click()
+    when(page, "document.querySelector('[data-said=page]').innerText === ''")
+    page.locator('[data-path="outputs.wear"][aria-checked="false"]').wait_for()
 
 
 def a_design_is_found(page):
@@ -352,12 +394,15 @@ def a_design_is_found(page):
 
 
 def critical_loads_have_error_bars(page):
+    page.locator('[data-stale="error bars"]', has_text="A preview").wait_for()
+    drawn(page, "tornado")
     page.locator('[data-path="error bars.of"]').click()
     options = page.locator(".q-menu .q-item").all_inner_texts()
     for wanted in ("F_cr1:", "F_cr2:", "F_tpca.B:", "mu:"):
         assert any(text.startswith(wanted) for text in options), wanted
     page.locator(".q-menu .q-item", has_text="F_cr2:").click()
     page.locator('[data-work="error bars"]').click()
+    when(page, "document.querySelector('[data-figure=bands]').data[0].y[1] === 'F_cr2'")
     assert [trace["y"][1] for trace in drawn(page, "bands")] == ["F_cr2"] * 4
 
 
@@ -594,6 +639,7 @@ def test_a_mistake_is_told_beside_its_field(visit):
     study = STUDY | {"particles": STUDY["particles"] | {"mean": "500 nm"}}
     assert fact(page, "separation h") == say.value_of(state_of(study).h, "m")
     assert not page.locator('[data-said="page"]').inner_text()
+    page.locator(".q-drawer").get_by_text("More tables, as text").click()
     page.locator(".q-drawer").get_by_text("[sweep] as text").click()
     entry = page.locator('.q-drawer textarea[data-path="sweep"]')
     field = page.locator(".q-drawer .q-field", has=page.locator('[data-path="sweep"]'))
@@ -616,6 +662,11 @@ def test_a_mistake_is_told_beside_its_field(visit):
 
 def test_the_keyboard_reaches_everything(visit):
     page = visit()
+    assert page.get_by_role("heading", level=1).all_inner_texts() == ["thirdbody"]
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    assert page.evaluate("document.activeElement.id") == "answer"
+    assert "#" not in page.url
     page.locator('[role="tab"]').first.focus()
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Enter")

@@ -85,13 +85,13 @@ def figure(
             | {
                 "title": {"text": x, "font": {"size": 13}},
                 "type": "log" if xlog else "linear",
-                "exponentformat": "power" if xlog else "e",
+                "exponentformat": "power",
             },
             "yaxis": axis
             | {
                 "title": {"text": y, "font": {"size": 13}, "standoff": 10},
                 "type": "log" if ylog else "linear",
-                "exponentformat": "power" if ylog else "e",
+                "exponentformat": "power",
             },
             "margin": {"l": 60, "r": 16, "t": 44, "b": 84},
             "height": height,

@@ -34,6 +34,7 @@ LOOK = """
 .body--dark { --hint: #a9b0bb; --problem: #ff8a80; }
 body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .hint { color: var(--hint); font-size: 0.83rem; line-height: 1.3; }
+.stale { font-size: 0.85rem; border-left: 3px solid #E69F00; padding-left: 0.6rem; }
 .problem { color: var(--problem); font-size: 0.85rem; font-weight: 600; }
 .subhead { font-weight: 600; margin-top: 0.4rem; }
 .facts { gap: 0.5rem 1.6rem; }
@@ -47,7 +48,18 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .here { position: absolute; border-left: 2px solid var(--hint); pointer-events: none; }
 .here[hidden] { display: none; }
 .sliders { gap: 0.4rem 1.6rem; align-items: flex-end; }
-.slider { flex: 1 1 150px; min-width: 140px; padding: 0 8px; }
+.slider { flex: 1 1 130px; min-width: 130px; padding: 0 8px; }
+.knobs { flex: 6 1 0; gap: 0.4rem 1.6rem; align-items: flex-end; }
+@media (max-width: 699px) {
+  .sliders { display: contents; }
+  .load { position: sticky; top: 72px; z-index: 3; width: 100%; flex: none; background: #fff; }
+  .body--dark .load { background: #121212; }
+  .knobs { flex: none; width: 100%; gap: 0.4rem 1rem; }
+}
+.skip { position: absolute; left: -9999px; }
+.skip:focus { left: 8px; top: 8px; z-index: 9999; padding: 8px 12px; }
+.skip:focus { background: #fff; color: #00518a; }
+h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-spacing: 0; }
 .scroll-x { overflow-x: auto; }
 .section { display: block; width: 100%; min-width: 640px; height: auto; }
 .q-uploader { width: 260px; }
@@ -119,6 +131,13 @@ new MutationObserver(() => document.querySelectorAll("[data-at] .js-plotly-plot"
 """
 """Figures follow the width of their place; one that is out of sight has none. The operating load,
 which moves most, is a line over them: `data-at` around them says where."""
+
+
+MORE = "More tables, as text"
+SKIP = """event => {
+  event.preventDefault();
+  document.getElementById("answer").focus();
+}"""
 
 
 class Start:
@@ -232,10 +251,15 @@ def page(state: State, told: str, start: Start) -> None:
     def folded(name: str, is_open: bool) -> None:
         (opened_sections.add if is_open else opened_sections.discard)(name)
 
+    skip = ui.element("a").classes("skip").props('href="#answer"')
+    with skip:
+        ui.label("Skip to the answer")
+    skip.on("click", js_handler=SKIP)
+
     with ui.header(elevated=False).classes("items-center q-py-xs gap-2 no-wrap"):
         menu = ui.button(icon="tune", on_click=lambda: drawer.toggle())
         menu.props('flat dense color=white aria-label="inputs"')
-        ui.label("thirdbody").classes("text-lg font-bold")
+        ui.html("thirdbody", sanitize=False, tag="h1").classes("name")
         ui.space()
         undo = ui.button(icon="undo", on_click=lambda: undone())
         undo.props('flat dense color=white aria-label="undo" data-path="undo"')
@@ -249,6 +273,12 @@ def page(state: State, told: str, start: Start) -> None:
     with ui.left_drawer(value=None, bordered=True).props(
         "width=340 breakpoint=900 aria-label=inputs"
     ) as drawer:
+
+        def section(name: str, build: Callable[[], Any]) -> None:
+            fold = ui.expansion(name, value=name in opened_sections).classes("w-full")
+            fold.on_value_change(lambda e: folded(name, e.value))
+            with fold, ui.column().classes("w-full gap-2"):
+                build()
 
         @ui.refreshable
         def panel() -> None:
@@ -264,14 +294,19 @@ def page(state: State, told: str, start: Start) -> None:
                     "Surfaces": inputs.surfaces,
                     "Asperity law": inputs.asperity_law,
                 }
-                for table in TABLES:
-                    if table.name not in FORMED:
-                        sections[f"[{table.name}] as text"] = partial(inputs.as_text, table.name)
+                more = {
+                    f"[{table.name}] as text": partial(inputs.as_text, table.name)
+                    for table in TABLES
+                    if table.name not in FORMED
+                }
                 for name, build in sections.items():
-                    fold = ui.expansion(name, value=name in opened_sections).classes("w-full")
-                    fold.on_value_change(lambda e, n=name: folded(n, e.value))
-                    with fold, ui.column().classes("w-full gap-2"):
-                        build()
+                    section(name, build)
+
+                def tables() -> None:
+                    for name, build in more.items():
+                        section(name, build)
+
+                section(MORE, tables)
                 ui.label(
                     "Outputs have a tab of their own; the whole study file stands under Take away."
                 ).classes("hint")
@@ -279,7 +314,11 @@ def page(state: State, told: str, start: Start) -> None:
 
         panel()
 
-    with ui.column().classes("w-full max-w-[1500px] mx-auto gap-2"):
+    with (
+        ui.column()
+        .classes("w-full max-w-[1500px] mx-auto gap-2")
+        .props('id=answer tabindex=-1 role=main aria-label="the answer"')
+    ):
         banner = ui.label(told).classes("problem").props('role=alert data-said="page"')
         sliders = Sliders(state)
         with (
@@ -312,10 +351,13 @@ def page(state: State, told: str, start: Start) -> None:
         remark = address.tell()
         wrong = ""
         if state.problems and state.answer is not None:
-            wrong = (
-                f"The study has {len(state.problems)} mistake(s), told beside the fields; "
-                "shown is the last study without one."
-            )
+            if state.current:
+                wrong = "Outputs with mistakes, told beside their fields, are left out."
+            else:
+                wrong = (
+                    f"The study has {len(state.problems)} mistake(s), told beside the fields; "
+                    "shown is the last study without one."
+                )
         if state.answer is None:
             banner.set_text(with_micro("; ".join(state.problems)))
             return
@@ -357,6 +399,8 @@ def page(state: State, told: str, start: Start) -> None:
         study, at, state.tab, wrong = read
         if wrong:
             ui.notify(wrong)
+        if (study, at, state.tab) == (state.study, state.wanted, tabs.value):
+            return
         state.travel(study, at)
         address.travelled()
         tabs.set_value(state.tab)

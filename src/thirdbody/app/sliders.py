@@ -72,12 +72,13 @@ class Sliders:
         self.moving = False
         """While a slider sets the study, no slider is set."""
         with ui.row().classes("sliders w-full"):
-            with ui.column().classes("slider gap-0"):
+            with ui.column().classes("slider load gap-0"):
                 self.load_label = ui.label("load").classes("hint")
                 self.load = ui.slider(min=0, max=STEPS, step=1, value=STEPS // 2)
                 self.load.props('aria-label="load" data-slider="load"')
                 self.load.on_value_change(self._load_moved)
-            self.knobs = [self._knob(knob) for knob in self._all()]
+            with ui.row().classes("knobs"):
+                self.knobs = [self._knob(knob) for knob in self._all()]
 
     def _all(self) -> list[Knob]:
         state = self.state

@@ -126,10 +126,11 @@ def look(study: dict[str, Any], folder: Path, surface: dict[str, Any] | None = N
         if surface is not None:
             problems += surface.get("problems", [])
             given["roughness"] = surface.get("roughness", {"sigma": 1e-7, "R": 1e-6})
-        found = check(given, folder=folder)
+        found, left_out = _checked(given, folder)
+        problems += left_out
         if surface is not None:
             found = dataclasses.replace(found, notes=(*surface.get("notes", []), *found.notes))
-        answer = None if problems else Answer(found)
+        answer = None if len(problems) > len(left_out) else Answer(found)
     except InvalidValue as error:
         problems += error.problems
     except (ThirdBodyError, OSError) as error:
@@ -138,6 +139,24 @@ def look(study: dict[str, Any], folder: Path, surface: dict[str, Any] | None = N
     if (more := len(problems) - MOST_TOLD) > 0:
         problems[MOST_TOLD:] = [f"and {more} more mistakes"]
     return answer, problems, library
+
+
+def _checked(study: dict[str, Any], folder: Path) -> tuple[Study, list[str]]:
+    """The study without the outputs that have mistakes, and those; other mistakes are raised."""
+    try:
+        return check(study, folder=folder), []
+    except InvalidValue as error:
+        outputs = study.get("outputs")
+        places = [text.split(" ", 1)[0].rstrip(":,").split(".") for text in error.problems]
+        if not isinstance(outputs, dict) or any(place[0] != "outputs" for place in places):
+            raise
+        wrong = {name for place in places for name in place[1:2]}
+        kept = {name: table for name, table in outputs.items() if name not in wrong}
+        if len(kept) == len(outputs):
+            raise
+        rest = {key: value for key, value in study.items() if key != "outputs"}
+        found, more = _checked(rest | ({"outputs": kept} if kept else {}), folder)
+        return found, [*error.problems, *more]
 
 
 def measured(study: dict[str, Any], folder: Path) -> str:
@@ -194,6 +213,8 @@ class State:
         self.reading: Job | None = None
         self.problems: list[str] = []
         self.answer: Answer | None = None
+        self.current = True
+        """Whether the answer is that of the study, not of a former one."""
         self.wanted = at
         self.tab = ""
         """The tab in sight."""
@@ -307,6 +328,7 @@ class State:
         answer, self.problems, library = found
         self.library = tb.materials if library is None else library
         self.answer = self.answer if answer is None else answer
+        self.current = answer is not None
         self.read = study
 
     async def ask(self, call: Callable[..., Any], *args: Any) -> Any:

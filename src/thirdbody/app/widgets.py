@@ -91,4 +91,6 @@ def table(name: str, heads: dict[str, str], rows: list[dict[str, Any]], **more: 
         {"name": key, "label": label, "field": key, "align": "left"} for key, label in heads.items()
     ]
     made = ui.table(columns=columns, rows=rows, **more).classes("w-full")
-    put(made.props("dense flat wrap-cells"), {"data-figure": name})
+    # narrow windows have a card for each row
+    made.props('dense flat wrap-cells :grid="Quasar.Screen.lt.sm"')
+    put(made, {"data-figure": name})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import operator
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -10,13 +11,17 @@ from nicegui import background_tasks, ui
 
 from ..errors import InvalidValue
 from .jobs import MOST, RUNNING, Job, Stopped
+from .solver import apart
+from .state import State, measured
 from .text import with_micro
 from .widgets import put
+from .worker import in_little
 
 __all__ = ["Work", "when_left"]
 
 LEFT = 3.0
 """Seconds after which a page that is not seen any more counts as closed."""
+STALE = "What is shown belongs to the study as it was before the last changes: do it again."
 
 
 def when_left(call: Callable[[], None]) -> None:
@@ -45,6 +50,12 @@ class Work:
         Gives what the task is to be told, or None where it cannot start.
     show : callable
         Shows the result.
+    key : callable, optional
+        What a result belongs to: once that is another, the result is marked stale.
+    same : callable, optional
+        Whether two such are the same.
+    little : callable, optional
+        What the task is told for a preview, in the place of all.
     """
 
     def __init__(
@@ -54,8 +65,17 @@ class Work:
         ask: Callable[[], dict[str, Any] | Awaitable[dict[str, Any] | None] | None],
         show: Callable[[dict[str, Any]], Awaitable[None] | None],
         seconds: float = 300.0,
+        *,
+        key: Callable[[], Any] = lambda: None,
+        same: Callable[[Any, Any], bool] = operator.eq,
+        little: Callable[[dict[str, Any]], dict[str, Any]] | None = None,
     ) -> None:
         self.task, self.ask, self.show, self.seconds = task, ask, show, seconds
+        self.key, self.same, self.little = key, same, little
+        self.done: tuple[Any] | None = None
+        """What the result that is shown belongs to."""
+        self.preview = False
+        """Whether it is a preview."""
         self.job: Job | None = None
         with ui.row().classes("w-full items-center gap-3"):
             self.start = ui.button(label, icon="play_arrow", on_click=self.run)
@@ -65,8 +85,42 @@ class Work:
             self.stop = ui.button("Cancel", icon="stop", on_click=self.cancel).props("flat no-caps")
             put(self.stop, {"data-cancel": task})
         self.said = put(ui.label().classes("problem"), {"role": "alert", "data-said": task})
+        self.stale = put(ui.label().classes("stale"), {"role": "status", "data-stale": task})
         self._idle()
         when_left(self.cancel)
+
+    async def tell(self, state: State) -> None:
+        """Begin with a preview, and say when what is shown does not fit the study any more."""
+        measures = bool(measured(state.study, state.folder))
+        if self.little and self.done is None and not state.problems and not measures:
+            await self._in_little()
+        text = ""
+        if self.done is not None and not self.same(self.done[0], self.key()):
+            text = STALE
+        elif self.preview:
+            text = f"A preview: “{self.start.text}” does it in full."
+        self.stale.set_text(text)
+        self.stale.set_visibility(bool(text))
+
+    async def _in_little(self) -> None:
+        self.done = (key := self.key(),)
+        try:
+            asked = self.ask()
+            if isinstance(asked, Awaitable):
+                asked = await asked
+            if asked is None or self.little is None:
+                return
+            result = await apart(in_little, self.task, self.little(asked))
+        except InvalidValue as error:
+            self.said.set_text(with_micro("; ".join(error.problems)))
+            return
+        self.preview, self.done = True, (key,)
+        await self._shown(result)
+
+    async def _shown(self, result: dict[str, Any]) -> None:
+        shown = self.show(result)
+        if shown is not None:
+            await shown
 
     def _idle(self) -> None:
         self.bar.set_visibility(False)
@@ -92,15 +146,18 @@ class Work:
                 asked = await asked
             if asked is None:
                 return
+            key = self.key()
             result = await job.run(**asked)
         except Stopped:
             self.said.set_text("cancelled")
         except InvalidValue as error:
             self.said.set_text(with_micro("; ".join(error.problems)))
         else:
-            shown = self.show(result)
-            if shown is not None:
-                await shown
+            self.preview, self.done = False, (key,)
+            current = self.same(key, self.key())
+            self.stale.set_text("" if current else STALE)
+            self.stale.set_visibility(not current)
+            await self._shown(result)
         finally:
             self.job = None
             self._idle()

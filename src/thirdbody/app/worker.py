@@ -18,7 +18,17 @@ from typing import Any
 
 import numpy as np
 
-__all__ = ["TASKS", "compare", "design", "error_bars", "mode_map", "roughness", "surface"]
+__all__ = [
+    "TASKS",
+    "compare",
+    "compared",
+    "design",
+    "error_bars",
+    "in_little",
+    "mode_map",
+    "roughness",
+    "surface",
+]
 
 Report = Callable[[float], None]
 SECONDS = 300
@@ -78,6 +88,11 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+def in_little(task: str, asked: dict[str, Any]) -> dict[str, Any]:
+    """A task that is short, without progress."""
+    return _finite(TASKS[task](**asked, report=lambda part: None))
+
+
 def _study(study: dict[str, Any], folder: str) -> Any:
     from ..study import check
 
@@ -123,22 +138,30 @@ def compare(
     *, study: dict[str, Any], folder: str, load: str, loads: list[float], report: Report
 ) -> dict[str, Any]:
     """The same interface under every asperity law."""
+    contact = _study(study, folder).contact
+    report(0.05)
+    return compared(contact, load, loads)
+
+
+def compared(contact: Any, load: str, loads: list[float]) -> dict[str, Any]:
+    """Every asperity law under these loads."""
     import thirdbody as tb
 
-    contact = _bare(_study(study, folder).contact)
-    report(0.05)
+    contact = _bare(contact)
     table = tb.compare(contact, **{load: np.array(loads)})
     columns = {str(name): table[name].values for name in table.data_vars}
     for name in ("F_star", "pressure", "note", "status"):
         if name in table.coords:
             columns[name] = table[name].values
-    return {
-        "laws": [str(law) for law in table.law.values],
-        "load": load,
-        "loads": loads,
-        "columns": columns,
-        "own": table.attrs["own_law"],
-    }
+    return _finite(
+        {
+            "laws": [str(law) for law in table.law.values],
+            "load": load,
+            "loads": loads,
+            "columns": columns,
+            "own": table.attrs["own_law"],
+        }
+    )
 
 
 def error_bars(

@@ -8,16 +8,21 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
+from ...equilibrium.words import load_of
 from ...quantities.say import number, percent, signed, value_of
 from ..figures import AXES, SCALES, empty, figure, line
 from ..state import Answer, State, loads_as
+from ..widgets import put
 from ..widgets import table as shown_table
 from ..work import Work
+from ..worker import compared
 
 __all__ = ["TITLE", "build", "law_figure"]
 
 TITLE = "Compare"
 LOADS = 40
+LITTLE = 5
+"""A preview has every fifth of them."""
 SHOWN = {
     "A_t": ("real contact area A<sub>t</sub>", True, 1.0),
     "A_t_difference": ("difference of A<sub>t</sub> [%]", False, 1.0),
@@ -69,11 +74,12 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
 
     async def show(result: dict[str, Any]) -> None:
         found["result"] = result
-        found["answer"] = state.answer
         await draw()
 
-    work = Work("compare", "Compare all laws", ask, show)
-    stale = ui.label().classes("hint")
+    def little(asked: dict[str, Any]) -> dict[str, Any]:
+        return asked | {"loads": [*asked["loads"][::LITTLE], asked["loads"][-1]]}
+
+    work = Work("compare", "Compare all laws", ask, show, key=lambda: state.answer, little=little)
     what = ui.select(
         {name: _plain(text[0]) for name, text in SHOWN.items()}, value="A_t_difference"
     )
@@ -89,31 +95,32 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         plot.set_visibility(True)
         result = found["result"]
         plot.update_figure(law_figure(result, str(what.value)))
-        changed = found["answer"] is not state.answer
-        stale.set_text("The study has changed since: compare again." if changed else "")
-        here = await state.ask(_here, state.at, result["load"])
-        at = int(np.argmin(np.abs(np.log(np.array(result["loads"]) / here))))
-        _table(result, at, table)
+        _table(await state.ask(_here, state.at), table)
+
+    async def tell() -> None:
+        await work.tell(state)
+        await draw()
 
     what.on_value_change(lambda: draw())
-    return draw
+    return tell
 
 
-def _here(answer: Answer, at: float, load: str) -> float:
-    return float(getattr(answer.solve(at), load))
+def _here(answer: Answer, at: float) -> dict[str, Any]:
+    """Every law under the operating load."""
+    return compared(answer.contact, "F_star", [float(answer.solve(at).F_star)])
 
 
 def _plain(label: str) -> str:
     return label.replace("<sub>", "").replace("</sub>", "")
 
 
-def _table(found: dict[str, Any], at: int, place: Any) -> None:
+def _table(found: dict[str, Any], place: Any) -> None:
     columns = found["columns"]
     rows = []
     for row, law in enumerate(found["laws"]):
 
         def cell(name: str, row: int = row) -> float | None:
-            return columns[name][row][at] if name in columns else None
+            return columns[name][row][0] if name in columns else None
 
         difference = cell("A_t_difference")
         pressure = cell("mean_pressure")
@@ -139,6 +146,9 @@ def _table(found: dict[str, Any], at: int, place: Any) -> None:
     }
     place.clear()
     with place:
-        said = value_of(columns["pressure"][at], "Pa") if "pressure" in columns else ""
-        ui.label(f"At {said}" if said else "").classes("hint")
+        said = load_of(columns["pressure"][0], columns["F_star"][0])
+        put(
+            ui.label(f"At the operating load, {said}").classes("subhead"),
+            {"data-fact": "compared at"},
+        )
         shown_table("laws", heads, rows)

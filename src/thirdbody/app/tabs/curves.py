@@ -9,11 +9,24 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...equilibrium.words import BANDS, critical_load, happens
-from ..figures import AXES, REGIME_FILLS, SCALES, figure, line, log_title, mark, mode_bands, plain
+from ...equilibrium.words import critical_load, happens
+from ...views.plot.style import HATCHES
+from ..figures import (
+    AXES,
+    MODE_FILLS,
+    REGIME_FILLS,
+    SCALES,
+    figure,
+    line,
+    log_title,
+    mark,
+    mode_bands,
+    plain,
+)
 from ..state import Answer, State
 from ..widgets import Plot, put
 from ..widgets import table as shown_table
+from .interface import abouts, swatch
 
 __all__ = ["TITLE", "build", "figures"]
 
@@ -98,7 +111,7 @@ def figures(answer: Answer, against: str, *, critical: bool = True) -> dict[str,
                 "stackgroup": "one",
                 "fillcolor": colour,
                 "line": {"color": colour, "width": 0.5},
-                "fillpattern": {"shape": {"A_e": "", "A_ep": "/", "A_p": "x"}[name], "size": 7},
+                "fillpattern": {"shape": HATCHES[name], "size": 7},
             }
         )
     lined = more | {"shapes": [s for s in shapes if s["type"] == "line"]}
@@ -124,7 +137,9 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     with ui.row().classes("w-full items-center gap-4"):
         against = ui.toggle({"pressure": "pressure", "F_star": "F*"}, value="pressure")
         against.props('dense no-caps aria-label="horizontal axis" data-path="curves.against"')
-        modes = ui.label().classes("hint")
+        with ui.row().classes("items-center gap-4").props('data-figure="bands key"') as key:
+            for mode, colour in MODE_FILLS.items():
+                swatch("opacity:0.5;background:" + colour, f"{mode}: {abouts()[mode]}")
     grid = ui.element("div").classes("figures w-full")
     with grid:
         plots = {name: Plot(name) for name in ("area", "shares", "regimes", "separation")}
@@ -142,7 +157,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             return  # it moved on meanwhile
         now["shown"] = asked
         plots["shares"].widget.set_visibility(not answer.contact.two_body)
-        modes.set_text("" if answer.contact.two_body else BANDS)
+        key.set_visibility(not answer.contact.two_body)
         for number, (name, made) in enumerate(found.items()):
             if number == 2:
                 await asyncio.sleep(SIGHT)

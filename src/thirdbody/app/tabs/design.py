@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
@@ -102,7 +102,7 @@ def design_figure(found: dict[str, Any], variable: str, objective: str) -> dict[
     return made
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """What may change, what is wanted, what must hold; then the search."""
     ui.label(
         "The search runs over the loads of the study. Limits hold at every load; besides, "
@@ -194,13 +194,14 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             words.append(f"Limits that hold it there: {', '.join(result['active'])}.")
         said.set_text(with_micro(" ".join(words)))
 
-    Work("design", "Search", ask, show)
+    work = Work("design", "Search", ask, show, key=lambda: state.answer)
     said = ui.label().props('data-fact="design"')
     plot = ui.plotly(empty(420)).classes("w-full")
     plot.props('data-figure="design"')
     plot.set_visibility(False)
 
-    def draw() -> None:
+    async def draw() -> None:
+        await work.tell(state)
         names = _names(state)
         if names != which.options:
             which.set_options(names, value=which.value if which.value in names else names[0])

@@ -11,11 +11,14 @@ from nicegui import events, ui
 import thirdbody as tb
 
 from ...errors import InvalidValue
+from ...populations.measured.cleanliness import DUSTS
 from ...quantities.say import percent, value_of
 from ..bounds import LARGEST_TABLE
+from ..fields import shown
 from ..figures import empty, figure, line, plain
-from ..inputs import Inputs
+from ..inputs import Inputs, about_of
 from ..state import Answer, State
+from ..text import with_micro
 from ..uploads import keep
 from ..widgets import facts
 
@@ -59,26 +62,41 @@ def size_figure(contact: tb.Contact) -> dict[str, Any]:
     return figure(traces, x="diameter [µm]", y="density per ln x, over its largest", title="Sizes")
 
 
+STARTS = {
+    "iso4406": {"iso4406": "18/16/13", "gap": "1 um"},
+    "test_dust": {"test_dust": "A2", "areal_density": "1e9 / m^2"},
+}
+"""How a population begins that is given by a code, or by a test dust."""
+KEPT = ("material", "name", "law")
+
+
+def begun(table: dict[str, Any], key: str, value: str) -> dict[str, Any]:
+    """A population given by another code or test dust; what goes with it is kept.
+
+    >>> begun({"material": "SiO2", "mean": "1 um", "areal_density": 1e9}, "iso4406", "16/14/11")
+    {'material': 'SiO2', 'iso4406': '16/14/11', 'gap': '1 um'}
+    """
+    if key in table:
+        return table | {key: value}
+    kept = {name: table[name] for name in KEPT if name in table}
+    start = STARTS[key]
+    return kept | {name: table.get(name, own) for name, own in start.items()} | {key: value}
+
+
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
-    """Entries for the particles alone, and what they amount to."""
-    ui.label(
-        "Give the sizes and numbers of the particles as a cleanliness code (ISO 4406, NAS 1638, "
-        "AS4059), a test dust (ISO 12103-1), a file of the particle counter, or a distribution "
-        'with a concentration such as "0.1 wt%" and the gap that traps it.'
-    ).classes("hint")
+    """A code, a test dust or a counted file, and what the particles amount to."""
 
-    def renewed() -> None:
-        entries.refresh()
-        again()
+    def place() -> tuple[str | int, ...]:
+        return Inputs.first_population(state)
 
-    inputs = Inputs(state, renewed)
+    def table_of() -> dict[str, Any]:
+        given = state.get(*place())
+        return given if isinstance(given, dict) else {"material": "SiO2"}
 
-    @ui.refreshable
-    def entries() -> None:
-        inputs.shown.clear()
-        with ui.column().classes("w-full gap-2 narrow"):
-            inputs.particles()
-            inputs.rest = ui.column().classes("w-full")
+    def use(key: str, value: str) -> None:
+        if value and table_of().get(key) != value:
+            state.set(*place(), begun(table_of(), key, value), whole=True)
+            again()
 
     async def uploaded(event: events.UploadEventArguments) -> None:
         upload.reset()
@@ -87,19 +105,25 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         except InvalidValue as error:
             ui.notify("; ".join(error.problems))
             return
-        places = inputs.populations()
-        if not places:
-            ui.notify("Add particles first.")
-            return
-        place = places[0]
-        table = dict(state.get(*place) or {})
-        kept = {k: table[k] for k in ("material", "name", "law", "areal_density") if k in table}
+        kept = {k: v for k, v in table_of().items() if k in (*KEPT, "areal_density")}
         kept.setdefault("areal_density", "1e9 / m^2")
-        inputs.change(*place, kept | {"sizes": name})
+        state.set(*place(), kept | {"sizes": name}, whole=True)
+        again()
 
     with ui.element("div").classes("figures w-full"):
-        with ui.column().classes("w-full"):
-            entries()
+        with ui.column().classes("w-full narrow"):
+            ui.label(
+                "The first population as a cleanliness code of the oil, as a test dust, or as a "
+                "particle counter found it. Everything else of it, other codes, distributions and "
+                "concentrations stand at the side under Particles."
+            ).classes("hint")
+            code = ui.input("cleanliness code ISO 4406", placeholder="18/16/13")
+            code.props('debounce=500 data-path="dust.iso4406"').classes("w-full")
+            code.on_value_change(lambda e: use("iso4406", str(e.value or "").strip()))
+            test = ui.select(list(DUSTS), label="test dust ISO 12103-1", clearable=False)
+            test.props('data-path="dust.test_dust"').classes("w-full")
+            test.on_value_change(lambda e: use("test_dust", str(e.value or "")))
+            wrong = ui.label().classes("problem").props('role=alert data-said="dust"')
             upload = ui.upload(
                 label="Sizes from a particle counter",
                 auto_upload=True,
@@ -113,15 +137,13 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             plot.props('data-figure="sizes"')
             table = ui.column().classes("w-full")
 
-    seen: dict[str, Any] = {"particles": state.get("particles")}
-
     async def draw() -> None:
-        now = state.get("particles")
-        if _shape(now) != _shape(seen["particles"]):
-            seen["particles"] = now
-            entries.refresh()
-        seen["particles"] = now
-        inputs.tell()
+        given = table_of()
+        code.set_value(shown(given.get("iso4406")))
+        known = given.get("test_dust")
+        test.set_value(known if known in DUSTS else None)
+        mine = [text for text in state.problems if about_of(text).startswith("particles")]
+        wrong.set_text(with_micro(" ".join(mine)))
         answer = state.answer
         assert answer is not None
         plot.set_visibility(not answer.contact.two_body)
@@ -145,12 +167,3 @@ def _found(answer: Answer) -> tuple[dict[str, Any], list[tuple[str, list[tuple[s
     contact = answer.contact
     told = [(dust.name or dust.material.name, dust_facts(dust)) for dust in contact.populations]
     return size_figure(contact), told
-
-
-def _shape(particles: Any) -> Any:
-    """Which entries there are: the keys and the words, without the numbers."""
-    if isinstance(particles, list):
-        return [_shape(each) for each in particles]
-    if not isinstance(particles, dict):
-        return particles is None
-    return sorted(particles), particles.get("distribution"), type(particles.get("material"))

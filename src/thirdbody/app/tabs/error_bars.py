@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
 from nicegui import ui
 
+from ...analysis.uncertainty.inputs import KINDS, stated_ranges
 from ...analysis.uncertainty.propagation import about_result
 from ...equilibrium.critical_loads import CRITICAL
-from ...quantities.say import number, percent
+from ...quantities.say import number, percent, value_of
+from ...study.inputs import inputs_of
 from ...views.plot.style import OKABE_ITO
 from ..figures import AXES, GREY, INKS, SCALES, empty, figure, line, listed, mark, plain
 from ..inputs import Inputs
@@ -173,12 +175,13 @@ def tornado_figure(found: dict[str, Any]) -> dict[str, Any]:
     return made
 
 
-def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """What is uncertain, a button, two figures."""
     ui.label(
         "Say what is known of the inputs. Without any entry the ranges of the materials library "
         "count, where it states some."
     ).classes("hint")
+    seen: dict[str, Any] = {"inputs": (state.get("uncertainty", "inputs"), _ranges(state))}
 
     def renewed() -> None:
         entries.refresh()
@@ -190,6 +193,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         inputs.shown.clear()
         with ui.column().classes("w-full gap-2"):
             inputs.uncertain()
+            _offer(inputs, state)
             inputs.rest = ui.column().classes("w-full")
             inputs.tell()
 
@@ -234,8 +238,16 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             else f"{result['of']} is not known at every end of the inputs."
         )
         box.set_visibility(True)
+        said.set_visibility(True)
 
-    Work("error bars", "Draw error bars", ask, show)
+    def key() -> Any:
+        return state.answer, state.get("uncertainty"), str(of.value), state.at
+
+    def little(asked: dict[str, Any]) -> dict[str, Any]:
+        return asked | {"loads": asked["loads"][::4], "samples": 128}
+
+    work = Work("error bars", "Draw error bars", ask, show, key=key, little=little)
+    of.on_value_change(lambda: work.tell(state))
     said = ui.label().props('data-fact="error bars"')
     box = ui.element("div").classes("figures w-full")
     plots: dict[str, Any] = {}
@@ -245,10 +257,50 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             put(plots[name], {"data-figure": name})
     box.set_visibility(False)
 
-    def draw() -> None:
+    async def draw() -> None:
+        if (now := state.get("uncertainty", "inputs"), _ranges(state)) != seen["inputs"]:
+            seen["inputs"] = now, _ranges(state)
+            entries.refresh()
         inputs.tell()
         options = results_of(state)
         if options != of.options:
             of.set_options(options, value=of.value if of.value in options else PLAIN[0])
+        await work.tell(state)
 
     return draw
+
+
+def _ranges(state: State) -> dict[str, dict[str, Any]]:
+    """Ranges of the materials library, as a study file writes them."""
+    if state.answer is None:
+        return {}
+    found = stated_ranges(state.answer.contact)
+    return {
+        name: dict(zip(KINDS[u.kind], (u.first, u.second), strict=True))
+        for name, u in found.items()
+    }
+
+
+def _offer(inputs: Inputs, state: State) -> None:
+    """The ranges of the library: what they are, and a button that writes them into the study."""
+    ranges, own = _ranges(state), state.get("uncertainty", "inputs")
+    if not ranges:
+        said = "The materials library states no range for the materials of this study."
+        ui.label(said).classes("hint")
+        return
+    units = {e.name: e.quantity["unit"] for e in inputs_of(state.study) if e.quantity}
+    counts = "is not used, as the study has entries of its own" if own else "counts"
+    ui.label(f"What the materials library states {counts}:").classes("hint")
+    for name, ends in ranges.items():
+        unit = units.get(name.split("+")[0], "Pa")
+        low, high = (value_of(end, unit) for end in ends.values())
+        ui.label(f"{name} between {low} and {high}").classes("hint")
+    known = own if isinstance(own, dict) else {}
+    put(
+        ui.button(
+            "Take these ranges into the study",
+            icon="input",
+            on_click=lambda: inputs.change("uncertainty", "inputs", known | ranges),
+        ).props("flat dense no-caps"),
+        {"data-take": "ranges"},
+    )

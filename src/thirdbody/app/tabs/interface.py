@@ -16,7 +16,7 @@ from ..cross_section import section, to_svg
 from ..state import Answer, State
 from ..widgets import Facts
 
-__all__ = ["TITLE", "abouts", "build", "headline", "told"]
+__all__ = ["TITLE", "abouts", "build", "headline", "swatch", "told"]
 
 TITLE = "Interface"
 LETTERS = {"h": "h", "d": "d", "F*": "F_star"}
@@ -156,14 +156,15 @@ def _legend(names: tuple[str, ...]) -> None:
     from ..cross_section import COLOURS
 
     for i, name in enumerate(names):
-        _swatch(f"background:{COLOURS[i % len(COLOURS)]}", name)
+        swatch(f"background:{COLOURS[i % len(COLOURS)]}", name)
     if names:
-        _swatch(f"border:3px solid {OKABE_ITO['vermilion']}", "loaded")
-        _swatch("border:1px dashed currentColor", "free")
-    _swatch(f"background:{OKABE_ITO['vermilion']};height:5px", "asperity contact")
+        swatch(f"border:3px solid {OKABE_ITO['vermilion']}", "loaded")
+        swatch("border:1px dashed currentColor", "free")
+    swatch(f"background:{OKABE_ITO['vermilion']};height:5px", "asperity contact")
 
 
-def _swatch(style: str, name: str) -> None:
+def swatch(style: str, name: str) -> None:
+    """A word of a key."""
     with ui.row().classes("items-center gap-2 no-wrap"):
         ui.element("div").style(f"width:18px;height:14px;border-radius:4px;{style}")
         ui.label(name).classes("hint")

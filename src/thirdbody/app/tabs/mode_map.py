@@ -19,6 +19,8 @@ __all__ = ["TITLE", "build", "map_figure"]
 TITLE = "Map"
 RATIOS = np.geomspace(0.1, 10, 60)
 LOADS = np.geomspace(1e-7, 1e-3, 60)
+LITTLE = 3
+"""A preview has every third of both."""
 
 
 def map_figure(found: dict[str, Any], here: tuple[float, float] | None) -> dict[str, Any]:
@@ -102,7 +104,6 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         if answer is None or len(answer.contact.populations) != 1:
             work.said.set_text("the map needs exactly one population of particles")
             return None
-        found["contact"] = answer.contact
         return {
             "study": state.study,
             "folder": str(state.folder),
@@ -114,11 +115,20 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         found["map"] = result
         await draw()
 
-    work = Work("map", "Draw the map", ask, show)
-    stale = ui.label().classes("hint")
+    def contact() -> Any:
+        return None if state.answer is None else state.answer.contact
+
+    def little(asked: dict[str, Any]) -> dict[str, Any]:
+        return asked | {name: asked[name][::LITTLE] for name in ("sizes", "loads")}
+
+    work = Work("map", "Draw the map", ask, show, key=contact, same=_same_map, little=little)
     plot = ui.plotly(empty(520)).classes("w-full")
     plot.props('data-figure="map"')
     plot.set_visibility(False)
+
+    async def tell() -> None:
+        await work.tell(state)
+        await draw()
 
     async def draw() -> None:
         if "map" not in found or state.answer is None:
@@ -130,8 +140,6 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             ratio = size_of(contact) / contact.roughness.sigma
             here = (ratio, await state.ask(_load, state.at))
         plot.update_figure(map_figure(found["map"], here))
-        other = not _same_map(found["contact"], contact)
-        stale.set_text("The study has changed since: draw the map again." if other else "")
 
     def clicked(event: Any) -> None:
         points = (event.args or {}).get("points") or []
@@ -144,7 +152,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         state.replace(with_size(state.study, size), at=at)
 
     plot.on("plotly_click", clicked)
-    return draw
+    return tell
 
 
 def _load(answer: Answer, at: float) -> float:
@@ -153,7 +161,7 @@ def _load(answer: Answer, at: float) -> float:
 
 def _same_map(one: Any, other: Any) -> bool:
     """Whether two contacts have one map: sizes are scaled in it."""
-    if len(other.populations) != 1:
+    if one is None or other is None or {len(c.populations) for c in (one, other)} != {1}:
         return False
     (a,), (b,) = one.populations, other.populations
     scaled = b.diameter.scaled(a.diameter.mean_diameter / b.diameter.mean_diameter)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -10,7 +11,7 @@ from nicegui import ui
 
 from ...equilibrium.columns import about
 from ...quantities.say import number
-from ..figures import AXES, SCALES, figure, line, mark
+from ..figures import AXES, SCALES, figure, line, mark, plain
 from ..inputs import Inputs
 from ..state import Answer, State
 from ..widgets import put
@@ -19,6 +20,8 @@ from ..widgets import table as shown_table
 __all__ = ["TITLE", "build", "output_figures"]
 
 TITLE = "Outputs"
+FEW = 3
+"""Columns of a figure that its title names."""
 
 
 def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
@@ -33,12 +36,13 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
         for column, told in output.columns.items():
             units.setdefault(told.unit, []).append(column)
         for unit, columns in units.items():
+            names = ", ".join(columns) if len(columns) <= FEW else ""
             traces = []
             values = []
             for i, column in enumerate(columns):
                 y = np.asarray(state.outputs[column], dtype=float)
                 values.append(y)
-                traces.append(line(x, y, column, i) | {"meta": about(column)["meaning"]})
+                traces.append(line(x, y, plain(column), i))
             every = np.concatenate(values)
             every = every[np.isfinite(every) & (every != 0)]
             wide = len(every) > 0 and every.min() > 0 and every.max() > 30 * every.min()
@@ -46,8 +50,8 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
             out[f"{output.name} [{unit}]"] = figure(
                 traces,
                 x=AXES[load],
-                y=f"[{unit}]",
-                title=f"{getattr(output, 'title', output.name)} [{unit}]",
+                y=_quantity(columns, str(output.title), unit),
+                title=plain(f"{output.title}: {names}" if names else str(output.title)),
                 xlog=load != "d",
                 ylog=bool(wide),
                 height=380,
@@ -56,10 +60,27 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
     return out
 
 
+def _quantity(columns: list[str], title: str, unit: str) -> str:
+    """What an axis shows: the one column on it, the names of a few, or what many are of."""
+    few = ", ".join(columns) if len(columns) <= FEW else title
+    words = about(columns[0])["meaning"] if len(columns) == 1 else few
+    whole = words + ("" if unit in ("", "1") else f" [{unit}]")
+    return "<br>".join(map(plain, textwrap.wrap(whole, 40)))
+
+
+def asked(state: State) -> list[str]:
+    """Names of the outputs that the study asks for."""
+    given = state.get("outputs")
+    return list(given) if isinstance(given, dict) else []
+
+
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Switches with their numbers, figures, and the values at the operating load."""
 
+    seen = {"asked": asked(state)}
+
     def renewed() -> None:
+        seen["asked"] = asked(state)
         entries.refresh()
 
     inputs = Inputs(state, renewed)
@@ -79,6 +100,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     plots: dict[str, Any] = {}
 
     async def draw() -> None:
+        if asked(state) != seen["asked"]:  # undone, or another study
+            renewed()
         inputs.tell()
         made, rows = await state.ask(_found, state.at)
         for name in set(plots) - set(made):

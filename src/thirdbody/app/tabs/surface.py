@@ -80,6 +80,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
             work.said.set_text("; ".join(error.problems))
             return
         now["file"] = str(state.folder / name)
+        box.set_visibility(False)
         source.set_text(f"file: {name}")
         upload.reset()
         await work.run()
@@ -111,12 +112,17 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         texts["detrend"] = ui.select(forms, value="", label="form removed")
         texts["detrend"].props("dense").classes("w-36")
 
+    def written() -> dict[str, str]:
+        return {name: str(w.value or "") for name, w in texts.items()}
+
     def ask() -> dict[str, Any] | None:
         try:
-            options = options_from({name: str(w.value or "") for name, w in texts.items()})
+            options = options_from(written())
         except InvalidValue as error:
             work.said.set_text("; ".join(error.problems))
             return None
+        box.set_visibility(False)
+        now["asked"] = written()
         return {"file": now["file"], "options": options}
 
     def show(result: dict[str, Any]) -> None:
@@ -144,7 +150,11 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
                 ui.label(with_micro(text)).classes("hint")
         box.set_visibility(True)
 
-    work = Work("surface", "Read it", ask, show, seconds=SECONDS)
+    work = Work(
+        "surface", "Read it", ask, show, seconds=SECONDS, key=lambda: (now["file"], written())
+    )
+    for entry in texts.values():
+        entry.on_value_change(lambda: work.tell(state))
     box = ui.column().classes("w-full")
     with box:
         table = ui.row().classes("facts w-full")
@@ -163,7 +173,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     def take(what: str) -> None:
         used = now["result"]["used"]
         if what == "file":
-            asked = {name: value_from(str(w.value or "")) for name, w in texts.items()}
+            # as it was read, not as it may be written by now
+            asked = {name: value_from(text) for name, text in now["asked"].items()}
             asked.pop("resolution")
             rough = {"topography": Path(now["file"]).name} | {k: v for k, v in asked.items() if v}
         else:

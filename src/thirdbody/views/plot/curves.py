@@ -36,6 +36,7 @@ from ...errors import InvalidValue
 from ...quantities.say import number
 from .style import (
     AXIS_LABELS,
+    HATCHES,
     MODE_COLOURS,
     REGIMES,
     Curve,
@@ -262,7 +263,7 @@ def regimes(
     x, total = _column(curve, against), _column(curve, "A_t")
     with np.errstate(divide="ignore", invalid="ignore"):
         parts = [_column(curve, name) / total for name in REGIMES]
-    ax.stackplot(
+    stacked = ax.stackplot(
         x,
         parts,
         labels=[name for name, _ in REGIMES.values()],
@@ -270,6 +271,8 @@ def regimes(
         edgecolor="white",
         linewidth=0.8,
     )
+    for part, hatch in zip(stacked, HATCHES.values(), strict=True):
+        part.set_hatch(2 * hatch)
     _dress(ax, against, "A_t", xlog=against in ("F_star", "pressure"))
     ax.set_ylabel(r"Part of the real area $A_e,\,A_{ep},\,A_p\,/A_t$ [%]")
     ax.set_ylim(0, 1)

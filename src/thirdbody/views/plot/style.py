@@ -57,6 +57,9 @@ REGIMES = {
     "A_p": ("plastic", OKABE_ITO["vermilion"]),
 }
 
+HATCHES = {"A_e": "", "A_ep": "/", "A_p": "x"}
+"""Of the regimes, in the letters that matplotlib and Plotly share."""
+
 AXIS_LABELS = {
     "F_star": r"Load $F^* = F/(A_n E_{ss})$ [1]",
     "pressure": r"Nominal pressure $F/A_n$ [Pa]",
