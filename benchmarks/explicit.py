@@ -114,7 +114,7 @@ def others(points: int) -> list[str]:
     model.E, model.nu = E_STAR, 0.0
     out = []
     for name, load in LOADS.items():
-        solver = tamaas.PolonskyKeerRey(model, z, 1e-10)
+        solver = tamaas.PolonskyKeerRey(model, z, 1e-6)
         start = time.process_time()
         solver.solve(load * E_STAR)
         seconds = time.process_time() - start

@@ -138,7 +138,7 @@ def test_a_soft_body_carries_its_hardness_on_its_bearing_area():
     assert np.all(loads < 1 + 1e-12)
     assert areas[-1] == pytest.approx(1, abs=1e-3)
     assert loads[-1] == pytest.approx(1, abs=1e-3)
-    assert loads[0] < 0.8
+    assert loads[0] < 0.95
 
 
 def test_the_answer_is_that_of_a_general_programme():

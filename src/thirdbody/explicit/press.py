@@ -33,6 +33,8 @@ NESTED_FROM = 512
 """Points of the shorter side from which coarser grids give the start."""
 ROUGH = 1e-3
 """Certificate that is enough on a coarser grid."""
+LONGEST = 10.0
+"""Times a trial step; what hardly bends the half-space would go far on rounding alone."""
 AFRESH = 20
 """Iterations after which u is computed anew."""
 
@@ -229,7 +231,7 @@ def _press(
                 break
             step, sHs = step / 2, 0.0
             continue
-        theta = min(rs / sHs, _room(X, new - X, cap))
+        theta = min(rs / sHs, LONGEST, _room(X, new - X, cap))
         moving = s_k != 0
         if np.any(moving):  # the law of a particle is no line: Φ must not rise
             for _ in range(40):
@@ -366,7 +368,8 @@ def _rescaled(p: Array, phi: Array, c: Array, most: Array, total: float) -> tupl
         rest = float(np.sum(now[free]))
         if rest <= 0:
             break
-        factor *= (total - sum_now + rest) / rest
+        above = sum_now > total  # where much is at its limit, the rest alone cannot give way
+        factor *= total / sum_now if above else (total - sum_now + rest) / rest
     lack = total - float(np.sum(now))
     if abs(lack) > 1e-12 * total:  # what is left goes where there is room
         room = np.minimum(cap - now, total)
