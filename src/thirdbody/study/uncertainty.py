@@ -67,6 +67,7 @@ def named(
     known = {
         each.name: (each.field, each.quantity) for each in inputs if each.quantity and not each.idle
     }
+    listed = list(known)  # as files call them, which Python may call otherwise
     known |= {field: (field, about) for field, about in known.values()}
     if name in known:
         return known[name]
@@ -77,7 +78,7 @@ def named(
     meant = near(name, known)
     raise InvalidValue(
         f"{where}: {name} is not a number of this study"
-        + (f"; did you mean {meant}?" if meant else f"; it has {', '.join(known)}")
+        + (f"; did you mean {meant}?" if meant else f"; it has {', '.join(listed)}")
     )
 
 
