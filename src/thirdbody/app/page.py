@@ -136,7 +136,7 @@ which moves most, is a line over them: `data-at` around them says where."""
 MORE = "More tables, as text"
 SKIP = """event => {
   event.preventDefault();
-  document.getElementById("answer").focus();
+  document.querySelector("[role=main]").focus();
 }"""
 
 
@@ -251,12 +251,11 @@ def page(state: State, told: str, start: Start) -> None:
     def folded(name: str, is_open: bool) -> None:
         (opened_sections.add if is_open else opened_sections.discard)(name)
 
-    skip = ui.element("a").classes("skip").props('href="#answer"')
-    with skip:
-        ui.label("Skip to the answer")
-    skip.on("click", js_handler=SKIP)
-
     with ui.header(elevated=False).classes("items-center q-py-xs gap-2 no-wrap"):
+        skip = ui.element("a").classes("skip").props('href="#answer"')
+        with skip:
+            ui.label("Skip to the answer")
+        skip.on("click", js_handler=SKIP)
         menu = ui.button(icon="tune", on_click=lambda: drawer.toggle())
         menu.props('flat dense color=white aria-label="inputs"')
         ui.html("thirdbody", sanitize=False, tag="h1").classes("name")
@@ -317,7 +316,7 @@ def page(state: State, told: str, start: Start) -> None:
     with (
         ui.column()
         .classes("w-full max-w-[1500px] mx-auto gap-2")
-        .props('id=answer tabindex=-1 role=main aria-label="the answer"')
+        .props('tabindex=-1 role=main aria-label="the answer"')
     ):
         banner = ui.label(told).classes("problem").props('role=alert data-said="page"')
         sliders = Sliders(state)
