@@ -517,6 +517,7 @@ ALSO = {
     "film": "another word for gap",
     "separation": "one load excludes the others, which the menu offers",
     "pressure": "as separation",
+    "force": "goes with the table [body], which is edited as text",
 }
 """Keys that need no entry of their own."""
 

@@ -35,7 +35,7 @@ def process(*arguments, **more):
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "abrupt.py").write_text(code("add-a-law.md"), "utf-8")
-    (tmp_path / "crushing.py").write_text(code("add-an-output.md"), "utf-8")
+    (tmp_path / "overload.py").write_text(code("add-an-output.md"), "utf-8")
     return tmp_path
 
 
@@ -58,9 +58,9 @@ def test_a_law_of_ones_own_is_solved():
 def test_tables_list_what_is_imported():
     found = process("laws", "--import", "abrupt.py", "--json")
     assert "abrupt" in [each["name"] for each in json.loads(found.stdout)["asperity"]]
-    both = process("outputs", "--import", "abrupt.py", "--import", "crushing.py")
+    both = process("outputs", "--import", "abrupt.py", "--import", "overload.py")
     assert both.returncode == 0, both.stderr
-    assert "crushing" in both.stdout
+    assert "overload" in both.stdout
 
 
 @pytest.mark.parametrize("command", [each.name for each in cli.app.registered_commands])

@@ -32,7 +32,7 @@ material = "SiO2"
 distribution = "monodisperse"
 mean = "300 nm"
 areal_density = "1e11 / m^2"
-[outputs.crushing]
+[outputs.overload]
 strength = "2 GPa"
 [load]
 F_star = 1e-5
@@ -82,16 +82,16 @@ def _shipped(kind: type[Law]) -> bool:
 
 # ---------------------------------------------------------------- a new output
 @pytest.fixture
-def crushing(tmp_path, monkeypatch):
+def overload(tmp_path, monkeypatch):
     """The output of the guide: its block in one file, its import line in another."""
     output, line, *_ = re.findall(r"^```python\n(.*?)^```$", GUIDE.read_text("utf-8"), re.S | re.M)
     folder = tmp_path / "extra_outputs"
     folder.mkdir()
-    (folder / "crushing.py").write_text(output, "utf-8")
+    (folder / "overload.py").write_text(output, "utf-8")
     (folder / "__init__.py").write_text(line, "utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
     before = dict(tb.outputs.REGISTRY)
-    yield importlib.import_module("extra_outputs").Crushing
+    yield importlib.import_module("extra_outputs").Overload
     for name in set(tb.outputs.REGISTRY) - set(before):
         del tb.outputs.REGISTRY[name]
     for name in [name for name in sys.modules if name.startswith("extra_outputs")]:
@@ -121,9 +121,9 @@ def load_of(eps):
     return float(state.F_sa_star) * one.E_ss / 1e11 / x**2
 
 
-def test_the_output_of_the_guide_counts_right(crushing):
+def test_the_output_of_the_guide_counts_right(overload):
     """On a plane every particle larger than d/(1 − ε_c) is crushed, counted by the sizes."""
-    case = contact(crushing(strength=STRENGTH), seat="plane")
+    case = contact(overload(strength=STRENGTH), seat="plane")
     critical = brentq(lambda eps: load_of(eps) - STRENGTH, 0.01, 0.6, xtol=1e-14)
     d = np.array([150e-9, 200e-9, 240e-9, 400e-9])
     with pytest.warns(tb.RangeWarning, match="carry it no more"):
@@ -136,10 +136,10 @@ def test_the_output_of_the_guide_counts_right(crushing):
 
 
 @pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
-def test_the_output_of_the_guide_works_everywhere(crushing, tmp_path):
-    assert tb.outputs.REGISTRY["crushing"] is crushing
-    output = crushing(strength=STRENGTH)
-    assert crushing.from_dict(output.to_dict()) == output
+def test_the_output_of_the_guide_works_everywhere(overload, tmp_path):
+    assert tb.outputs.REGISTRY["overload"] is overload
+    output = overload(strength=STRENGTH)
+    assert overload.from_dict(output.to_dict()) == output
     case = contact(output)
     F = np.geomspace(1e-6, 1e-4, 3)
     counted = tb.solve(case, F_star=F).outputs["n_crushed"]
@@ -153,23 +153,23 @@ def test_the_output_of_the_guide_works_everywhere(crushing, tmp_path):
     file = tmp_path / "crush.toml"
     file.write_text(STUDY, "utf-8")
     (asked,) = load_study(file).contact.outputs
-    assert asked == crushing(strength=2e9)
-    assert "## `crushing`: Crushed particles" in catalogue.page()
+    assert asked == overload(strength=2e9)
+    assert "## `overload`: Crushed particles" in catalogue.page()
 
 
 @pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
-def test_the_output_of_the_guide_knows_its_limits(crushing):
+def test_the_output_of_the_guide_knows_its_limits(overload):
     with pytest.raises(tb.InvalidValue, match="strength"):
-        crushing(strength=0)
+        overload(strength=0)
     with pytest.raises(tb.InvalidValue, match="needs particles"):
-        contact(crushing(strength=1e8), particles=False)
-    strong = contact(crushing(strength=1e15))
+        contact(overload(strength=1e8), particles=False)
+    strong = contact(overload(strength=1e15))
     assert tb.solve(strong, F_star=1e-5).outputs["n_crushed"] == 0
     soft = STEEL.replace(H=2.5e9)
     ways = [
-        tb.solve(contact(crushing(strength=1e9), second=soft), F_star=1e-5),
+        tb.solve(contact(overload(strength=1e9), second=soft), F_star=1e-5),
         tb.solve(
-            contact(crushing(strength=1e9)).replace(surfaces=tb.MaterialPair(soft, STEEL)),
+            contact(overload(strength=1e9)).replace(surfaces=tb.MaterialPair(soft, STEEL)),
             F_star=1e-5,
         ),
     ]

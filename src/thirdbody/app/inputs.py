@@ -403,6 +403,9 @@ class Inputs:
                 self.field(place, each)
         self.amount(place, kind)
         self.field(place, Field(name="name", kind="string", label="name", about="in the results"))
+        if not isinstance(table.get("strength"), dict):  # a table stands in the file alone
+            about = "material: that of the library; empty: never break"
+            self.field(place, Field(name="strength", kind="string", label="strength", about=about))
         self.variant(
             (*place, "law"), VARIANTS["particle"], "", "law of these particles", blank="as below"
         )
@@ -425,7 +428,8 @@ class Inputs:
     def _sized(self, place: Place, word: str) -> None:
         """Another way to give the sizes: what does not go with it goes."""
         table = self.table(*place)
-        kept = {key: table[key] for key in ("material", "name", "law") if key in table}
+        own = ("material", "name", "law", "strength")
+        kept = {key: table[key] for key in own if key in table}
         amounts = {key: table[key] for key in ("areal_density", *AMOUNTS) if key in table}
         starts: dict[str, dict[str, Any]] = {
             "iso4406": {"iso4406": "18/16/13", "gap": table.get("gap", "1 um")},

@@ -89,8 +89,8 @@ class TableFiles(NamedTuple):
     def asked(self) -> list[Path]:
         return [path for path in self if path is not None]
 
-    def need(self) -> None:
-        """Refuse a missing folder or library before long work is done."""
+    def need(self, *others: Path | None) -> None:
+        """Refuse a missing folder or library, of other files too, before long work is done."""
         from ..quantities.files import need_folders
 
         problems = []
@@ -103,7 +103,7 @@ class TableFiles(NamedTuple):
                 )
         if problems:
             raise InvalidValue(*problems)
-        need_folders(*self)
+        need_folders(*self, *others)
 
     def write(self, columns: Mapping[str, list[Any]], units: Mapping[str, str]) -> None:
         """A column each, its unit in its name, a row a state; the same bytes every time."""

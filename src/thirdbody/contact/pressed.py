@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import InvalidValue
 from ..laws.particle.tension import tension
+from ..numerics.roots import bracketed_root
 from ..populations.strength import WeibullStrength
 from ..quantities.say import percent
 from .interface import interface
@@ -86,13 +87,13 @@ def _radius_squeeze(
     law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
 ) -> tuple[float, ...]:
     """Squeeze over diameter at which a particle sits as deep as its radius."""
-    from scipy.optimize import brentq
 
-    def beyond(eps: float) -> float:
-        one = law.probe(np.array([eps]), surfaces=surfaces, particle=particle)
-        return float((np.maximum(*one.depths) - one.radius)[0, 0])
+    def beyond(eps: Array) -> Array:
+        one = law.probe(eps, surfaces=surfaces, particle=particle)
+        return np.ravel(np.maximum(*one.depths) - one.radius)
 
-    return (brentq(beyond, 1e-6, 4.0, xtol=1e-12),) if beyond(1e-6) < 0 < beyond(4.0) else ()
+    found = bracketed_root(beyond, np.array([1e-6]), np.array([4.0]), xrtol=1e-12)
+    return tuple(found[np.isfinite(found)].tolist())
 
 
 def _strength(particles: Particles) -> WeibullStrength | None:

@@ -38,13 +38,11 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The best size, concentration or roughness over a range of loads, under limits."""
-    from ...quantities.files import need_folders
     from ...study.analyses import design_study
 
     asked = read_study(study, settings)
     files = TableFiles(csv_file, xlsx_file, parquet_file)
-    files.need()
-    need_folders(figure)
+    files.need(figure)
     if figure is not None:
         figure_format(figure)  # refused before long work
     best = design_study(asked, progress=True)
