@@ -134,7 +134,9 @@ def test_error_bars_carry_the_ranges():
     moved = contact.replace(**{"roughness.R": 5e-6})
     assert "roughness.R" not in stated_ranges(moved)
     plain = tb.assess(contact, pressure=5e7, samples=64)
-    assert any("finishing process, from memory: roughness.R" in note for note in plain.notes)
+    assert any(
+        "finishing process, from memory: mean asperity radius" in note for note in plain.notes
+    )
 
 
 def test_other_roughness_says_nothing_new():

@@ -62,7 +62,7 @@ class AbstractOutput(Law):
     --------
     >>> import thirdbody as tb
     >>> sorted(tb.outputs.REGISTRY)[:3]
-    ['counts', 'dents', 'electrical_conductance']
+    ['counts', 'crushing', 'dents']
     """
 
     __slots__ = ()

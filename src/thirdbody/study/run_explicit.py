@@ -100,7 +100,7 @@ def run_explicit(
                 )
             spacing = spacing_for(contact) if spacing is None else spacing
             found = ensemble(
-                contact, count, F_star=loads, size=size, spacing=spacing,
+                contact, surfaces=count, F_star=loads, size=size, spacing=spacing,
                 folder=folder, progress=progress, **asked,
             )  # fmt: skip
             first = surface_of(contact, size=size, spacing=spacing, seed=asked.get("seed", 0))

@@ -124,7 +124,7 @@ def _show(data: dict[str, Any]) -> None:
     if three_body and seats["mean"] is not None and seats["mean"] == seats["mean"]:
         console.print(
             "The statistical model has these seats:  [particle_law] "
-            f"zeta_mean = {seats['mean']:.3f}, zeta_std = {seats['std']:.3f}"
+            f"zeta_mean = {number(seats['mean'], 3)}, zeta_std = {number(seats['std'], 3)}"
         )
         console.print(
             f"Seats above 2.5 sigma, which carry small loads: {percent(seats['high'])}; "
