@@ -62,7 +62,7 @@ PAGE = (ROOT / "docs" / "add-a-law.md").read_text("utf-8")
 FILE, IMPORT, USE, PEGS, PEGS_IMPORT, PEGS_USE = re.findall(
     r"^```python\n(.*?)^```$", PAGE, re.S | re.M
 )
-TABLE, PEGS_TABLE = re.findall(r"^```toml\n(.*?)^```$", PAGE, re.S | re.M)
+TABLE, _ENTRY_POINTS, PEGS_TABLE = re.findall(r"^```toml\n(.*?)^```$", PAGE, re.S | re.M)
 
 
 @pytest.fixture
