@@ -19,6 +19,7 @@ COMMANDS = [
     ("solve", SWEEP, "--set", "load.pressure=[1e6, 1e16]"),
     ("film", FILM, "--set", "film.speed.points=3"),
     ("surface", "example"),
+    ("compare", SWEEP, "--laws", "all", "--set", "load.pressure=[1e6, 5e8]"),
 ]
 
 
