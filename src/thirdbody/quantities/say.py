@@ -46,6 +46,8 @@ UNITS = {
     "W/m^2/K": "W/(m² K)",
     "J/kg/K": "J/(kg K)",
     "J/m^2": "J/m²",
+    "m^2*K/W": "m² K/W",
+    "S/m^2": "S/m²",
     "ohm*m": "Ω m",
     "ohm*m^2": "Ω m²",
 }
