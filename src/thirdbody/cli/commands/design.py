@@ -49,7 +49,7 @@ def command(
     for sentence in best.warnings:
         warn(sentence)
     columns = {str(name): best.points[name].values.tolist() for name in best.points}
-    files.write(columns, dict.fromkeys(columns, ""))
+    files.write(columns, {name: best.points[name].attrs.get("units", "") for name in columns})
     for path in files.asked:
         print(f"written: {path}", file=sys.stderr)
     if figure is not None:
