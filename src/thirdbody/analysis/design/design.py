@@ -272,7 +272,8 @@ def design(
         suspension=suspension,
     )
     local = len(objectives) == 1 and bool(task.variables)
-    with reporting("design", _expected(task, points, local), 0, progress) as task.report:
+    expected = _expected(task, points, local)
+    with reporting("design", expected, 0, progress, "points") as task.report:
         for materials in task.choices():
             task.explore(materials, points)
             if local:

@@ -45,7 +45,7 @@ def command(
     files.need(figure)
     if figure is not None:
         figure_format(figure)  # refused before long work
-    best = design_study(asked, progress=True)
+    best = design_study(asked, progress=sys.stderr.isatty())
     for sentence in best.warnings:
         warn(sentence)
     columns = {str(name): best.points[name].values.tolist() for name in best.points}
