@@ -3,6 +3,7 @@
 import ast
 import json
 import re
+import shlex
 import subprocess
 import sys
 import tomllib
@@ -159,7 +160,7 @@ def test_readme_python_runs_and_prints_what_it_says(tmp_path, capsys, monkeypatc
 
 
 def test_readme_study_file_solves(tmp_path):
-    (study,) = blocks(ROOT / "README.md", "toml")
+    study, _ = blocks(ROOT / "README.md", "toml")
     file = tmp_path / "dust.toml"
     file.write_text(study, "utf-8")
     command = [sys.executable, "-m", "thirdbody", "solve", str(file), "--json"]
@@ -169,6 +170,24 @@ def test_readme_study_file_solves(tmp_path):
     assert result["title"] == "Dust in a ball-screw nut"
     assert len(result["states"]["A_t"]) == 60
     assert set(result["states"]["status"]) == {"ok"}
+
+
+def test_readme_study_from_a_drawing(tmp_path, monkeypatch):
+    """The file solves, and so do the commands beside it, with a law of one's own."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "200")
+    readme = (ROOT / "README.md").read_text("utf-8")
+    part = readme.split("## From a drawing\n")[1].split("\n## ")[0]
+    (_, study), (_, commands) = re.findall(r"^```(\w*)\n(.*?)^```$", part, re.S | re.M)
+    (tmp_path / "drawing.toml").write_text(study, "utf-8")
+    law = blocks(ROOT / "docs" / "add-a-law.md", "python")[0]
+    (tmp_path / "my_law.py").write_text(law, "utf-8")
+    for line in ["thirdbody solve drawing.toml", *commands.splitlines()]:
+        command = [sys.executable, "-m", *shlex.split(line)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, f"{line}\n{done.stderr}"
+    left = {path.name for path in tmp_path.iterdir() if path.suffix in (".toml", ".csv")}
+    assert left == {"drawing.toml", "ball-screw.toml", "laws.csv"}
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -316,6 +317,33 @@ def run(*arguments):
 
 def rows_of(text):
     return [line.split()[0] for line in text.splitlines() if re.match(r" [a-z]+ ", line)]
+
+
+def test_command_needs_no_labelled_arrays(tmp_path):
+    """A table of plain columns takes neither xarray nor what that looks for."""
+    code = (
+        "import runpy, sys\n"
+        f"sys.argv = ['thirdbody', 'compare', {str(CLEAN)!r}, '--csv', {str(tmp_path / 'c.csv')!r}]\n"
+        "try:\n    runpy.run_module('thirdbody', run_name='__main__')\n"
+        "except SystemExit as end:\n    assert not end.code, end.code\n"
+        "print(*sys.modules, file=sys.stderr)\n"
+    )
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    loaded = done.stderr.splitlines()[-1].split()
+    assert "thirdbody.analysis.compare" in loaded
+    assert not {"xarray", "pandas", "dask", "pint", "matplotlib", "scipy.optimize"} & set(loaded)
+
+
+def test_command_writes_every_number(tmp_path):
+    """--csv is the table of --out, whichever load the study gives."""
+    for load in ('load={pressure="3 MPa"}', "load={F_star=[1e-6, 1e-5]}"):
+        folder, file = tmp_path / load[6:10], tmp_path / f"{load[6:10]}.csv"
+        result = run(CLEAN, "--laws", "all", "--set", load, "--out", folder, "--csv", file)
+        assert result.exit_code == 0, result.output
+        assert f"written: {file}" in result.stderr
+        assert file.read_bytes() == (folder / "compare.csv").read_bytes()
+    assert run(CLEAN, "--csv", tmp_path / "none" / "c.csv").exit_code == 2
 
 
 def test_command_prints_one_table(tmp_path):

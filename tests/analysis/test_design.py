@@ -12,6 +12,7 @@ from thirdbody.analysis.design.front import front, hypervolume
 from thirdbody.analysis.design.problem import Limit, Objective, Suspension
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.numerics.sampling import Span
+from thirdbody.views.plot.design import tried
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 SIZE = "particles.diameter.mean+particles.diameter.std"
@@ -357,3 +358,40 @@ def test_the_function_keeps_its_name():
 
     importlib.import_module("thirdbody.analysis.design.design")
     assert tb.design is design
+
+
+def test_points_tell_units_and_the_figure_words():
+    """Of sizes, concentrations, windows and several objectives; a figure shows them in its units."""
+    suspension = Suspension(gap=1e-6, by="mass per volume", particle_density=2200.0)
+    vary = {SIZE: (5e-8, 5e-7), "particles.concentration": (0.01, 0.1)}
+    aims = {
+        "one": Objective(of="particle_load_share", aim="window"),
+        "two": [Objective(of="A_t"), Objective(of="d", aim="largest", over_loads="worst")],
+    }
+    made = {
+        name: design(
+            contact(), vary=vary, objective=aim, suspension=suspension, F_star=[1e-5], points=16
+        )
+        for name, aim in aims.items()
+    }
+    points = made["one"].points
+    told = {str(name): points[name].attrs.get("units") for name in points}
+    assert told[SIZE] == "m"
+    assert told["particles.concentration"] == "kg/m^3"
+    assert told["particle_load_share:window"] == "1"
+    assert told["feasible"] is None
+    ax, bar = tried(made["one"]).axes
+    assert " ".join(ax.get_xlabel().split()) == (
+        "mean diameter and standard deviation of the diameter of the particles [nm]"
+    )
+    assert " ".join(ax.get_ylabel().split()) == (
+        "concentration of the particles by mass per volume [kg/m³]"
+    )
+    assert bar.get_ylabel().endswith("(window) [1]")
+    (best,) = (line for line in ax.lines if line.get_label() == "best")
+    assert best.get_xdata()[0] == pytest.approx(1e9 * made["one"].values[SIZE])
+    (ax,) = tried(made["two"]).axes
+    assert "[1]" in ax.get_xlabel()
+    assert "(worst) [nm]" in " ".join(ax.get_ylabel().split())
+    (line,) = (line for line in ax.lines if line.get_label() == "front")
+    assert len(line.get_xdata()) == made["two"].points["front"].values.sum()

@@ -19,6 +19,7 @@ COMMANDS = [
     ("solve", SWEEP, "--set", "load.pressure=[1e6, 1e16]"),
     ("film", FILM, "--set", "film.speed.points=3"),
     ("surface", "example"),
+    ("compare", SWEEP, "--laws", "all", "--set", "load.pressure=[1e6, 5e8]"),
 ]
 
 
@@ -106,3 +107,18 @@ def test_json_and_a_file_of_states_exclude_each_other(tmp_path):
     done = run("solve", SWEEP, "--json", "--parquet", tmp_path / "t.parquet")
     assert done.exit_code == 2
     assert "exclude each other" in done.stderr
+
+
+def test_points_of_a_design_have_units(tmp_path):
+    file = tmp_path / "points.csv"
+    done = run("design", ADDITIVE, "--set", "design.points=8", "--csv", file)
+    assert done.exit_code == 0, done.output
+    head, *_ = csv.reader(file.open(encoding="utf-8"))
+    assert head == [
+        "particles.diameter.mean+particles.diameter.std [m]",
+        "particles.concentration [1]",
+        "mu [1]",
+        "feasible",
+        "front",
+        "reason",
+    ]

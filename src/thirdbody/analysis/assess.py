@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -42,6 +42,7 @@ def assess(
     samples: int = 2**14,
     seed: int = 0,
     title: str = "",
+    progress: Callable[[str], None] = lambda part: None,
 ) -> Assessment:
     r"""Mode at the operating load with its probability, margins, and what decides them.
 
@@ -59,6 +60,8 @@ def assess(
         As in `propagate`.
     title : str, optional
         Over the page.
+    progress : callable, optional
+        Gets the name of each part of the work, as it begins.
 
     Returns
     -------
@@ -114,6 +117,7 @@ def assess(
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, **{load: given[load]})  # type: ignore[arg-type]
     notes += [f"Warning: {text}." for text in dict.fromkeys(str(item.message) for item in heard)]
+    progress(PARTS[0])
     if none:
         found = certain(contact, load, float(given[load] or 0.0))
     else:
@@ -128,10 +132,13 @@ def assess(
                 f"{words_of(contact, label)} lies outside what "
                 "its range says; nominal results and bands do not belong together."
             )
+    progress(PARTS[1])
     decisive = _decisive(found)
     others = [name for name in SHOWN[:4] if name in found.bands and name != decisive]
     tornado = found.tornado([decisive, *others]) if found.inputs else {decisive: {}}
     moved = {name.strip() for label in found.inputs for name in label.split("+")}
+    elasticity = _elasticities(found, decisive)
+    progress(PARTS[2])
     return Assessment(
         title=title,
         propagation=found,
@@ -139,13 +146,15 @@ def assess(
         decisive=decisive,
         matter=_parts(tornado[decisive], logarithm=decisive in CRITICAL),
         tornado=tornado,
-        elasticity=_elasticities(found, decisive),
+        elasticity=elasticity,
         changes=_changes(found, str(state.mode)),
         exact=tuple(name for name in all_inputs(contact) if name not in moved),
         notes=tuple(notes),
     )
 
 
+PARTS = ("error bars", "what decides", "what would change the mode")
+"""What an assessment does one after the other."""
 TINY = 1e-3
 """Probability beyond which a nominal value no longer belongs to its distribution."""
 

@@ -112,8 +112,64 @@ def compare(
     >>> table.A_t_difference.sel(law="ceb").values.round(0).tolist()
     [29.0, 35.0]
     """
-    import xarray as xr
+    return compared(contact, pressure=pressure, F_star=F_star, laws=laws).dataset()
 
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Comparison:
+    """What `compare` finds, in plain columns: loading xarray takes longer than comparing."""
+
+    load: str
+    """Which load is given, ``F_star`` [1] or ``pressure`` [Pa]."""
+    loads: dict[str, Array]
+    """Both loads (N,), the given one first."""
+    laws: dict[str, str]
+    """Full titles by label, the contact's own law first."""
+    options: list[str]
+    """What each law is, as JSON."""
+    notes: list[str]
+    """What is to be said of each law."""
+    columns: dict[str, Array]
+    """Numbers and words (laws, N)."""
+    attrs: dict[str, Any]
+    """Own law, hardness, inputs, version, citations, warnings."""
+
+    def flat(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+        """Columns with a row for each law and load, and their units; None where there is none."""
+        shape = len(self.laws), len(self.loads[self.load])
+        both = {name: np.broadcast_to(values, shape) for name, values in self.loads.items()}
+        columns = both | self.columns
+        units = {name: _about(name)["units"] for name in columns}
+        return flat(list(self.laws), columns, self.notes), {"law": "", **units, "note": ""}
+
+    def dataset(self) -> xarray.Dataset:
+        """The same, labelled."""
+        import xarray as xr
+
+        load = self.load
+        coords: dict[str, Any] = {
+            "law": ("law", list(self.laws), {"long_name": "asperity law"}),
+            load: (load, self.loads[load], _about(load)),
+            "title": ("law", list(self.laws.values())),
+            "options": ("law", self.options),
+            "note": ("law", self.notes),
+        }
+        coords |= {name: (load, values, _about(name)) for name, values in self.loads.items()}
+        return xr.Dataset(
+            {name: (("law", load), column, _about(name)) for name, column in self.columns.items()},
+            coords=coords,
+            attrs=self.attrs,
+        )
+
+
+def compared(
+    contact: Contact,
+    *,
+    pressure: ArrayLike | None = None,
+    F_star: ArrayLike | None = None,
+    laws: Iterable[str | AbstractAsperityLaw] | str | AbstractAsperityLaw | None = None,
+) -> Comparison:
+    """As `compare`, in plain columns."""
     from ..version import __version__
 
     load, values, _ = given_load(contact, pressure, F_star, None)
@@ -150,21 +206,17 @@ def compare(
             data.pop(name)
     for name in ("mode", "status"):
         data[name] = data[name].astype(str)
-    coords: dict[str, Any] = {
-        "law": ("law", names, {"long_name": "asperity law"}),
-        load: (load, given, _about(load)),
-        "title": ("law", [_title(law) for law in rows.values()]),
-        "options": ("law", [_options(law) for law in rows.values()]),
-        "note": ("law", ["; ".join(note) for note in notes]),
-    }
     other = "pressure" if load == "F_star" else "F_star"
     scale = 1.0 if other == "pressure" else contact.E_ss
-    coords[other] = (load, values / scale, _about(other))
     used = [_under(contact, law) for law in rows.values() if not isinstance(law, type)]
     cited = "\n".join(cite(each) for each in used)
-    return xr.Dataset(
-        {name: (("law", load), column, _about(name)) for name, column in data.items()},
-        coords=coords,
+    return Comparison(
+        load=load,
+        loads={load: given, other: values / scale},
+        laws={name: _title(law) for name, law in rows.items()},
+        options=[_options(law) for law in rows.values()],
+        notes=["; ".join(note) for note in notes],
+        columns=data,
         attrs={
             "own_law": names[0],
             "hardness": contact.surfaces.H,
@@ -354,21 +406,27 @@ def csv_text(table: xarray.Dataset) -> str:
     str
         Header with units; NaN is an empty cell.
     """
+    load = table.A_t.dims[1]
+    columns = {
+        name: table[name].broadcast_like(table.A_t).transpose("law", load).values
+        for name in (load, "pressure" if load == "F_star" else "F_star", *map(str, table.data_vars))
+    }
+    plain = flat(table.law.values.tolist(), columns, table.note.values.tolist())
+    units = {name: table[name].attrs["units"] for name in columns}
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    load = table.A_t.dims[1]
-    columns = [*(("F_star", "pressure") if load == "F_star" else ("pressure", "F_star"))]
-    columns += [str(name) for name in table.data_vars]
-    units = [table[name].attrs["units"] for name in columns]
-    heads = [
-        f"{name} [{unit}]" if unit else name for name, unit in zip(columns, units, strict=True)
-    ]
-    writer.writerow(["law", *heads, "note"])
-    for i, law in enumerate(table.law.values):
-        row = table.isel(law=i)
-        note = str(row.note.item())
-        for j in range(table.sizes[load]):
-            cells = [row[name].values[j] for name in columns]
-            plain = [item.item() for item in cells]
-            writer.writerow([law, *("" if v != v else v for v in plain), note])
+    writer.writerow(f"{name} [{units[name]}]" if units.get(name) else name for name in plain)
+    writer.writerows(zip(*plain.values(), strict=True))
     return text.getvalue()
+
+
+def flat(laws: list[str], columns: dict[str, Any], notes: list[str]) -> dict[str, list[Any]]:
+    """Columns (laws, N) with a row for each law and load; None where nothing is to be told."""
+    each = len(columns["A_t"][0])
+    rows = {"law": [law for law in laws for _ in range(each)]}
+    rows |= {name: np.asarray(values).ravel().tolist() for name, values in columns.items()}
+    rows["note"] = [note for note in notes for _ in range(each)]
+    return {
+        name: [None if value == "" or value != value else value for value in column]
+        for name, column in rows.items()
+    }

@@ -7,14 +7,19 @@ import os
 import sys
 from typing import TYPE_CHECKING, Any
 
+from ..quantities.say import value_of
+from ..quantities.units import say
+
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["ALL", "MOST_ROWS", "finite", "some", "terminal"]
+__all__ = ["ALL", "MOST_ROWS", "finite", "some", "terminal", "usual"]
 
 MOST_ROWS = 20
 """Rows of a table that a terminal shows."""
 ALL = "--json or --csv FILE tells all"
+WHOLE = 12
+"""Digits of a default, which is a short number."""
 PIPE, LEAST = 120, 40
 """Width of a pipe that is told none, and the least that a table is fitted to."""
 
@@ -33,6 +38,15 @@ def some(total: int) -> list[int]:
     """The rows shown of so many: all, or some evenly spread."""
     rows = min(total, MOST_ROWS)
     return [round(row * (total - 1) / max(rows - 1, 1)) for row in range(rows)]
+
+
+def usual(value: Any, unit: str) -> str:
+    """A default as a study file may hold it: numbers whole and with their unit."""
+    if value is None:
+        return "-"
+    if isinstance(value, float):
+        return value_of(value, unit or "1", WHOLE)
+    return say(value)
 
 
 def finite(value: Any) -> Any:

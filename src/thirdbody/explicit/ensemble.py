@@ -267,7 +267,7 @@ def ensemble(
     records: list[dict[str, Any]] = []
     kept = None if folder is None else Path(folder)
     done = [i for i in range(total) if kept is not None and _read(kept, i, key) is not None]
-    with reporting("surfaces", total, len(done), progress) as report:
+    with reporting("explicit", total, len(done), progress, "surfaces") as report:
         for i in range(total):
             record = None if kept is None else _read(kept, i, key)
             if record is None:

@@ -18,6 +18,7 @@ __all__ = [
     "percent",
     "plural",
     "powers",
+    "prefixed",
     "signed",
     "span",
     "times",
@@ -46,6 +47,8 @@ UNITS = {
     "W/m^2/K": "W/(m² K)",
     "J/kg/K": "J/(kg K)",
     "J/m^2": "J/m²",
+    "m^2*K/W": "m² K/W",
+    "S/m^2": "S/m²",
     "ohm*m": "Ω m",
     "ohm*m^2": "Ω m²",
 }
@@ -98,12 +101,21 @@ def value_of(value: float | None, unit: str, digits: int = 4) -> str:
     """
     if value is None or not math.isfinite(value):
         return NOT_KNOWN
-    size, name = 1.0, unit_of(unit)
-    if unit in PREFIXED and (value == 0 or SMALLEST < abs(value) < LARGEST):
-        rounded = abs(float(f"{value:.{digits}g}")) * (1 + 1e-9)
-        fitting = (pair for pair in PREFIXED[unit] if rounded >= pair[0])
-        size, name = next(fitting, PREFIXED[unit][-1])
+    size, name = prefixed(value, unit, digits)
     return f"{number(value / size, digits)} {name}".rstrip()
+
+
+def prefixed(value: float, unit: str, digits: int = 4) -> tuple[float, str]:
+    """Size and name of the unit in which people read a number.
+
+    >>> prefixed(3e-7, "m"), prefixed(1e11, "1/m^2"), prefixed(0.3, "1")
+    ((1e-09, 'nm'), (1.0, 'm⁻²'), (1.0, ''))
+    """
+    if unit not in PREFIXED or not (value == 0 or SMALLEST < abs(value) < LARGEST):
+        return 1.0, unit_of(unit)
+    rounded = abs(float(f"{value:.{digits}g}")) * (1 + 1e-9)
+    fitting = (pair for pair in PREFIXED[unit] if rounded >= pair[0])
+    return next(fitting, PREFIXED[unit][-1])
 
 
 def concentration_of(value: float | None, by: str) -> str:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from ..analysis.assess import assess
+from ..analysis.assess import PARTS, assess
 from ..analysis.assessment import Assessment
 from ..errors import InvalidValue
 from ..numerics.sampling import Span
+from ..quantities.progress import stages
 from ..quantities.say import value_of
 from ..systems.bodies import press
 from .amounts import is_span
@@ -20,24 +21,27 @@ if TYPE_CHECKING:
 __all__ = ["assess_study", "design_study"]
 
 
-def assess_study(study: Study) -> Assessment:
-    """The page of a study file: its load, and its table [uncertainty]; raises as `assess`."""
+def assess_study(study: Study, *, progress: bool = False) -> Assessment:
+    """The page of a study file: its load, and its table [uncertainty]; raises as `assess`.
+
+    With ``progress`` a terminal shows how far it is, on standard error.
+    """
     if study.load == "separation":
         raise InvalidValue(
             "load.separation: an assessment needs the operating load; give load.pressure or "
             "load.F_star instead"
         )
     if study.body is not None:
-        return _assess_body(study)
+        return _assess_body(study, progress)
     if len(study.values) != 1:
         raise InvalidValue(
             f"load.{study.load} has {len(study.values)} values, and an assessment is of one "
             'operating load; choose it, e.g. --set load.pressure="5 MPa"'
         )
-    return _assess(study, float(study.values[0]))
+    return _assess(study, float(study.values[0]), progress)
 
 
-def _assess_body(study: Study) -> Assessment:
+def _assess_body(study: Study, progress: bool) -> Assessment:
     """At the mean pressure of the one force, with what the largest and the integral are."""
     assert study.body is not None
     assert study.forces is not None
@@ -47,7 +51,7 @@ def _assess_body(study: Study) -> Assessment:
             'load; choose it, e.g. --set load.force="50 N"'
         )
     found = press(study.contact, study.body, float(study.forces[0]))
-    page = _assess(study, found.mean)
+    page = _assess(study, found.mean, progress)
     notes = [found.sentence(), *(f"Warning: {text}." for text in found.warnings)]
     if found.kind != "flat":
         largest = value_of(found.maximum, "Pa")
@@ -57,19 +61,13 @@ def _assess_body(study: Study) -> Assessment:
     return replace(page, notes=(*notes, *page.notes))
 
 
-def _assess(study: Study, load: float) -> Assessment:
+def _assess(study: Study, load: float, progress: bool) -> Assessment:
     asked = study.uncertainty
     value: dict[str, Any] = {study.load: load}
-    if asked is None:
-        return assess(study.contact, title=study.title, **value)
-    return assess(
-        study.contact,
-        vary=asked.inputs,
-        samples=asked.samples,
-        seed=asked.seed,
-        title=study.title,
-        **value,
-    )
+    if asked is not None:
+        value |= {"vary": asked.inputs, "samples": asked.samples, "seed": asked.seed}
+    with stages("assess", len(PARTS), progress) as report:
+        return assess(study.contact, **value, title=study.title, progress=report)
 
 
 # -------------------------------------------------------------------------- the answer

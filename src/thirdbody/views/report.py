@@ -6,7 +6,7 @@ import dataclasses
 import math
 import re
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -853,7 +853,13 @@ def laws_of(contact: Contact) -> list[tuple[str, Law, bool]]:
 
 
 # -------------------------------------------------------------------------- making it
-def report(study: Study, *, file: str = "") -> Report:
+PARTS = ("states", "error bars", "which inputs matter", "figures")
+"""What is done one after the other until there is a page."""
+
+
+def report(
+    study: Study, *, file: str = "", progress: Callable[[str], None] = lambda part: None
+) -> Report:
     """Everything that the page of a study tells.
 
     Parameters
@@ -862,6 +868,8 @@ def report(study: Study, *, file: str = "") -> Report:
         From `load_study`.
     file : str, optional
         The study file, to be printed at the end.
+    progress : callable, optional
+        Gets the name of each part of the work, as it begins.
 
     Returns
     -------
@@ -898,6 +906,7 @@ def report(study: Study, *, file: str = "") -> Report:
     >>> print(report(load_study(file)).sentences()[0])
     At 5 MPa (F* = 4.468×10⁻⁵) asperities carry the whole load, because there are no particles.
     """
+    progress(PARTS[0])
     result = run_study(study)
     states = result["states"]
     known = [i for i, status in enumerate(states["status"]) if status == "ok"]
@@ -914,11 +923,15 @@ def report(study: Study, *, file: str = "") -> Report:
     bare = study.contact.replace(outputs=())
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
+        curve = _curve(bare, result, loaded)
+        progress(PARTS[1])
+        assessment = _assessed(study, bare, given) if loaded else None
+        progress(PARTS[2])
         return Report(
             study=study,
             result=result,
-            curve=_curve(bare, result, loaded),
-            assessment=_assessed(study, bare, given) if loaded else None,
+            curve=curve,
+            assessment=assessment,
             slopes=_slopes(bare, given) if loaded else None,
             at=at,
             file=file,

@@ -25,8 +25,8 @@ from ...errors import InvalidValue, ThirdBodyError
 from ...numerics.sampling import Span, latin
 from ...populations.materials import Material
 from ...quantities.progress import reporting
+from ..inputs import declared, words_of
 from ..inputs import input_of as moved_input
-from ..inputs import words_of
 from ..sensitivity import sensitivity
 from ..uncertainty.inputs import drawn_inputs
 from .front import front, hypervolume
@@ -272,7 +272,8 @@ def design(
         suspension=suspension,
     )
     local = len(objectives) == 1 and bool(task.variables)
-    with reporting("design", _expected(task, points, local), 0, progress) as task.report:
+    expected = _expected(task, points, local)
+    with reporting("design", expected, 0, progress, "points") as task.report:
         for materials in task.choices():
             task.explore(materials, points)
             if local:
@@ -305,13 +306,14 @@ def _answer(task: Task) -> Best:
         volume = hypervolume(costs[ok], costs[ok].max(axis=0))
     signs = {each.label: each.sign for each in task.objectives}
     columns: dict[str, Any] = {
-        name: ("point", [point.numbers[name] for point in rows]) for name in task.variables
+        name: ("point", [point.numbers[name] for point in rows], _about_variable(task, name))
+        for name in task.variables
     }
     columns |= {
         name: ("point", [point.materials[name].name for point in rows]) for name in task.materials
     }
     columns |= {
-        each.label: ("point", each.sign * costs[:, i], {"long_name": each.aim})
+        each.label: ("point", each.sign * costs[:, i], _about_objective(each))
         for i, each in enumerate(task.objectives)
     }
     columns |= {
@@ -345,6 +347,24 @@ def _answer(task: Task) -> Best:
     )
 
 
+def _about_variable(task: Task, name: str) -> dict[str, str]:
+    """Unit and words of what is searched."""
+    words = words_of(task.contact, name)
+    if name == AMOUNT and task.suspension is not None:
+        by = task.suspension.by
+        return {"units": CONCENTRATIONS[by], "long_name": f"{words} by {by}"}
+    return {"units": declared(task.contact, name.split("+")[0])["unit"], "long_name": words}
+
+
+def _about_objective(each: Objective) -> dict[str, str]:
+    """Unit and words of what is to be good."""
+    told = METRICS.get(each.of) or about(each.of)
+    how = ", ".join(each.label.split(":")[1:])
+    words = told["meaning"] + (f" ({how})" if how else "")
+    unit = "1" if each.aim == "window" else told["unit"]
+    return {"units": unit, "long_name": words, "aim": each.aim}
+
+
 def _states(task: Task, best: Point) -> xarray.Dataset:
     """Metrics against the load, nominal."""
     import xarray
@@ -359,6 +379,8 @@ def _states(task: Task, best: Point) -> xarray.Dataset:
     return xarray.Dataset(columns, coords={task.load: task.loads})
 
 
+CONCENTRATIONS = {"mass": "1", "volume": "1", "number": "1/m^3", "mass per volume": "kg/m^3"}
+"""Units of how much of a fluid is particles."""
 Bands = dict[str, tuple[float, float]]
 
 

@@ -36,7 +36,7 @@ def command(
 
     asked = read_study(study, settings)
     need_folders(html_file)
-    answer = assess_study(asked)
+    answer = assess_study(asked, progress=True)
     if html_file is not None:
         write_text(html_file, page(answer))
         print(f"written: {html_file}", file=sys.stderr)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,9 +12,12 @@ from ...equilibrium.words import load_of
 from ...errors import InvalidValue, NoEquilibrium
 from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table
-from ..options import Settings, StudyFile, not_a_folder, read_study
+from ..options import ParquetFile, Settings, StudyFile, XlsxFile, not_a_folder, read_study
 from ..show import terminal
-from ..streams import warn
+from ..streams import TableFiles, warn
+
+if TYPE_CHECKING:
+    from ...analysis.compare import Comparison
 
 __all__ = ["command"]
 
@@ -50,12 +53,17 @@ def command(
         Path | None,
         typer.Option("--out", metavar="DIR", help="Folder for compare.csv, .png and .svg."),
     ] = None,
+    csv_file: Annotated[
+        Path | None,
+        typer.Option("--csv", metavar="FILE", help="Write a row for each law and load."),
+    ] = None,
+    xlsx_file: XlsxFile = None,
+    parquet_file: ParquetFile = None,
     settings: Settings = None,
 ) -> None:
     """The interface of a study under every asperity law, against the law the study names."""
-    from ...analysis.compare import compare as compare_laws
+    from ...analysis.compare import compared
     from ...laws import asperity
-    from ...views.comparison import save
 
     problems = []
     if at not in PLACES:
@@ -63,6 +71,8 @@ def command(
     problems += not_a_folder(out)
     if problems:
         raise InvalidValue(*problems)
+    files = TableFiles(csv_file, xlsx_file, parquet_file)
+    files.need()
     asked = read_study(study, settings)
     words: list[str] | None = None
     if names is not None:
@@ -75,17 +85,23 @@ def command(
             f"laws are compared at equal loads: those of {asked.contact.asperity_law.name} at the "
             "separations of the study"
         )
-    table = compare_laws(asked.contact, **load, laws=words)
-    for sentence in filter(None, table.attrs["warnings"].splitlines()):
+    found = compared(asked.contact, **load, laws=words)
+    for sentence in filter(None, found.attrs["warnings"].splitlines()):
         warn(sentence)
-    reasons = table.status.values
+    reasons = found.columns["status"]
     if not (reasons == "ok").any():
         raise NoEquilibrium(f"{reasons[0, 0]} (and so under every law)")
-    order = table.F_star.values.argsort()
+    order = found.loads["F_star"].argsort()
     index = int(order[{"start": 0, "middle": len(order) // 2, "end": -1}[at]])
     # the files first: a table on the screen says that all is done
-    written = save(table, out, at=index) if out is not None else []
-    _show_comparison(asked.title, table, index)
+    written: list[Path] = []
+    if out is not None:
+        from ...views.comparison import save
+
+        written = save(found.dataset(), out, at=index)
+    files.write(*found.flat())
+    written += files.asked
+    _show_comparison(asked.title, found, index)
     for path in written:
         print(f"written: {path}", file=sys.stderr)
 
@@ -101,22 +117,20 @@ def _loads_at(asked: Any) -> Any:
     return loads
 
 
-def _show_comparison(title: str, table: Any, index: int) -> None:
+def _show_comparison(title: str, found: Comparison, index: int) -> None:
     """One row a law, at one load; what is to be said of a law stands below, numbered."""
     console = terminal()
-    one = table.isel({table.A_t.dims[1]: index})
-    particles = "particle_load_share" in one
-    own = table.attrs["own_law"]
-    load = load_of(float(one.pressure), float(one.F_star))
+    particles = "particle_load_share" in found.columns
+    own = found.attrs["own_law"]
+    load = load_of(*(float(found.loads[name][index]) for name in ("pressure", "F_star")))
     console.print(f"{title or 'Study'}: every law at {load}, differences against {own}")
 
-    def cells(row: Any, note: str) -> list[str]:
-        if row.status.item() != "ok":
-            return [row.law.item(), *["-"] * (9 if particles else 8), note]
-        value = {str(name): row[name].values.item() for name in row.data_vars}
-        first = row.law.item() == own
+    def cells(law: str, value: dict[str, Any], note: str) -> list[str]:
+        if value["status"] != "ok":
+            return [law, *["-"] * (9 if particles else 8), note]
+        first = law == own
         out = [
-            row.law.item(),
+            law,
             number(value["A_t"]),
             "" if first else signed(value["A_t_difference"], 1, "%"),
             value_of(value["mean_pressure"], "Pa"),
@@ -130,14 +144,14 @@ def _show_comparison(title: str, table: Any, index: int) -> None:
     heads = ["law", "A_t", "diff. of A_t", "F/A_t", "d/sigma", "diff. of d/sigma"]
     heads += ["elastic", "el.-plastic"]
     heads += ["plastic", "particles' load"] if particles else ["plastic"]
-    more = "--out DIR writes all"
+    more = "--csv FILE tells all"
     shown = Table([*heads, "note"], right=True, words=["law"], drop=DROP, more=more, legend=MEANS)
     notes: list[str] = []
-    for i in range(one.sizes["law"]):
-        row = one.isel(law=i)
-        if text := row.note.item():
-            notes.append(f"{len(notes) + 1} {row.law.item()}: {text}")
-        shown.add_row(*cells(row, str(len(notes)) if text else ""))
+    for i, (law, text) in enumerate(zip(found.laws, found.notes, strict=True)):
+        if text:
+            notes.append(f"{len(notes) + 1} {law}: {text}")
+        values = {name: column[i, index].item() for name, column in found.columns.items()}
+        shown.add_row(*cells(law, values, str(len(notes)) if text else ""))
     console.print(shown)
     for note in notes:
         console.print(note)

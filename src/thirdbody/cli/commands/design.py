@@ -45,11 +45,11 @@ def command(
     files.need(figure)
     if figure is not None:
         figure_format(figure)  # refused before long work
-    best = design_study(asked, progress=True)
+    best = design_study(asked, progress=sys.stderr.isatty())
     for sentence in best.warnings:
         warn(sentence)
     columns = {str(name): best.points[name].values.tolist() for name in best.points}
-    files.write(columns, dict.fromkeys(columns, ""))
+    files.write(columns, {name: best.points[name].attrs.get("units", "") for name in columns})
     for path in files.asked:
         print(f"written: {path}", file=sys.stderr)
     if figure is not None:

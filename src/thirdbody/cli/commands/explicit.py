@@ -62,7 +62,7 @@ def command(
     if out is not None:
         out.mkdir(parents=True, exist_ok=True)
     kept = None if out is None else out / "surfaces"
-    result = run_explicit(asked, folder=kept, maps=maps, progress=True)
+    result = run_explicit(asked, folder=kept, maps=maps, progress=sys.stderr.isatty())
     for sentence in result.data["warnings"][len(asked.notes) :]:
         warn(sentence)
     if out is not None:

@@ -10,7 +10,7 @@ import typer
 
 from ...quantities.tables import Table
 from ..options import AsJson
-from ..show import terminal
+from ..show import terminal, usual
 
 __all__ = ["command"]
 
@@ -25,7 +25,6 @@ def command(
 ) -> None:
     """The laws of asperities and particles, with citation and range."""
     from ...laws import asperity, particle
-    from ...quantities.units import say
 
     if as_json and as_page:
         raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")
@@ -60,7 +59,7 @@ def command(
             heads = (f"options of {entry['name']}", "default", "allowed", "meaning")
             table = Table(heads, words=[*heads[:1], *heads[2:]], drop=["allowed"], more=JSON)
             for option in entry["options"]:
-                default = "-" if option["default"] is None else say(option["default"])
+                default = usual(option["default"], option["unit"])
                 table.add_row(option["key"], default, option["allowed"], option["meaning"])
             console.print(table)
 

@@ -7,9 +7,10 @@ from typing import Annotated
 
 import typer
 
+from ...quantities.say import unit_of
 from ...quantities.tables import Table
 from ..options import AsJson
-from ..show import terminal
+from ..show import terminal, usual
 
 __all__ = ["command"]
 
@@ -39,11 +40,11 @@ def command(
         if entry["options"]:
             table = Table(("key", "unit", "default", "meaning"), words=["meaning"], more=JSON)
             for option in entry["options"]:
-                default = "required" if option["required"] else option["default"]
-                shown = "-" if default is None else str(default)
-                table.add_row(option["key"], option["unit"], shown, option["meaning"])
+                default = usual(option["default"], option["unit"])
+                cells = ("required" if option["required"] else default, option["meaning"])
+                table.add_row(option["key"], unit_of(option["unit"]), *cells)
             console.print(table)
         table = Table(("column", "unit", "meaning"), words=["meaning"], more=JSON)
         for name, column in entry["columns"].items():
-            table.add_row(name, column["unit"], column["meaning"])
+            table.add_row(name, unit_of(column["unit"]), column["meaning"])
         console.print(table)

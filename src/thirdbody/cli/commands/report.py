@@ -23,14 +23,19 @@ def command(
 ) -> None:
     """A report to hand on: answer, figures, tables, error bars and sources, in one file."""
     from ...quantities.files import need_folders, write_text
-    from ...views.report import report
+    from ...quantities.progress import stages
+    from ...views.report import PARTS, report
 
     asked = read_study(study, settings)
     need_folders(out)
     text = study.read_text(encoding="utf-8-sig")
     given = "".join(f"# --set {setting}\n" for setting in settings or ())
-    found = report(asked, file=f"{text.rstrip()}\n\n{given}".rstrip() + "\n")
+    with stages("report", len(PARTS)) as progress:
+        file = f"{text.rstrip()}\n\n{given}".rstrip() + "\n"
+        found = report(asked, file=file, progress=progress)
+        progress(PARTS[-1])
+        page = found.html()
     for sentence in found.result["warnings"][len(asked.notes) :]:
         warn(sentence)
-    write_text(out, found.html())
+    write_text(out, page)
     print(f"written: {out}", file=sys.stderr)

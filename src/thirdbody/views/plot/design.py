@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
+from ...quantities.say import prefixed
+
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ...analysis.design.design import Best
 
 __all__ = ["tried"]
+
+WIDTH = 48
+"""Letters along an axis."""
 
 
 def tried(best: Best) -> Figure:
@@ -34,25 +43,34 @@ def tried(best: Best) -> Figure:
         x, y = numbers[:2]
     else:
         x, y = (numbers or labels)[0], labels[0]
-    ok = points["feasible"].values
+    at: dict[str, NDArray[np.float64]] = {}
+    sizes: dict[str, float] = {}
+    said: dict[str, str] = {}
+    place: dict[str, Any] = {**best.values, **best.objectives}
+    for name in (x, y, labels[0]):
+        about = points[name].attrs
+        sizes[name], unit = prefixed(place[name], about["units"])
+        at[name] = points[name].values / sizes[name]
+        said[name] = fill(f"{about['long_name']} [{unit or 1}]", WIDTH)
+    ok, front = points["feasible"].values, points["front"].values
     figure = Figure(figsize=(5.2, 3.8), dpi=150, layout="constrained")
     ax = figure.add_subplot()
-    ax.plot(points[x][~ok], points[y][~ok], ".", color="0.8", ms=4, label="breaks a limit")
+    ax.plot(at[x][~ok], at[y][~ok], ".", color="0.8", ms=4, label="breaks a limit")
     coloured = y not in labels
-    colours: dict[str, Any] = {"c": points[labels[0]].values[ok]} if coloured else {"color": "C0"}
-    drawn = ax.scatter(points[x][ok], points[y][ok], s=9, label="obeys the limits", **colours)
+    colours: dict[str, Any] = {"c": at[labels[0]][ok]} if coloured else {"color": "C0"}
+    drawn = ax.scatter(at[x][ok], at[y][ok], s=9, label="obeys the limits", **colours)
     if coloured and ok.any():
-        figure.colorbar(drawn, label=labels[0])
+        figure.colorbar(drawn, label=said[labels[0]])
     if len(labels) > 1:
-        front = points.isel(point=points["front"].values).sortby(x)
-        ax.plot(front[x], front[y], "k-", lw=0.8, label="front")
+        order = np.flatnonzero(front)[np.argsort(at[x][front])]
+        ax.plot(at[x][order], at[y][order], "k-", lw=0.8, label="front")
     else:
-        place = {**best.values, **best.objectives}
-        ax.plot(place[x], place[y], "k+", ms=12, mew=1.5, label="best")
+        ends = (place[name] / sizes[name] for name in (x, y))
+        ax.plot(*ends, "k+", ms=12, mew=1.5, label="best")
     for name, side in ((x, "x"), (y, "y")):
-        values = points[name].values
+        values = at[name]
         if name in numbers and values.min() > 0 and values.max() > 5 * values.min():
             ax.set(**{f"{side}scale": "log"})
-    ax.set(xlabel=x, ylabel=y)
+    ax.set(xlabel=said[x], ylabel=said[y])
     ax.legend(frameon=False, fontsize="small")
     return figure

@@ -1,0 +1,52 @@
+"""How far long commands are: on a terminal, and nowhere else."""
+
+import pytest
+
+from thirdbody.quantities import progress
+
+from .test_cli import EXAMPLES, run
+
+BY_NAME = {path.stem: path for path in EXAMPLES}
+LONG = {
+    "assess": ("assess", "--set", "uncertainty.samples=64"),
+    "report": ("dusty_ball_screw", "--set", "load.F_star.points=2"),
+    "design": ("additive", "--set", "design.points=8"),
+    "explicit": ("explicit", "--surfaces", "1", "--size", "128", "--set", "load.F_star=1e-5"),
+}
+
+
+@pytest.mark.parametrize("name", LONG)
+def test_a_pipe_is_told_nothing(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    stem, *options = LONG[name]
+    done = run(name, BY_NAME[stem], *options)
+    assert done.exit_code in (0, 3), done.output
+    left = [line for line in done.stderr.splitlines() if not line.startswith("warning: ")]
+    assert left in ([], ["written: report.html"])
+
+
+@pytest.mark.parametrize("name", ["assess", "report"])
+def test_a_terminal_sees_every_part(name, tmp_path, monkeypatch, capfd):
+    """In the order of the work; the answer on standard output stays what it is."""
+    from rich.progress import Progress
+
+    told = []
+    update = Progress.update
+
+    def heard(self, task, **what):
+        told.append((what["completed"], what["description"]))
+        update(self, task, **what)
+
+    monkeypatch.chdir(tmp_path)
+    stem, *options = LONG[name]
+    quiet = run(name, BY_NAME[stem], *options)
+    monkeypatch.setattr(Progress, "update", heard)
+    monkeypatch.setattr(progress, "_terminal", lambda: True)
+    seen = run(name, BY_NAME[stem], *options)
+    assert seen.exit_code == 0, seen.output
+    assert seen.stdout == quiet.stdout
+    parts = {
+        "assess": ["error bars", "what decides", "what would change the mode"],
+        "report": ["states", "error bars", "which inputs matter", "figures"],
+    }
+    assert told == [(i, f"{name}: {part}") for i, part in enumerate(parts[name])]
