@@ -478,16 +478,70 @@ def addressed(page, **wanted):
 
 
 def after(page, presses):
-    """Moves the slider of the load up; the operating load then."""
-    slider = page.locator('[data-slider="load"]')
-    there = int(slider.get_attribute("aria-valuenow")) + presses
-    for value in range(there - presses + 1, there + 1):  # each before the next
-        moved(page, "load", 1)
-        when(page, "v => +document.querySelector('[data-slider=load]').ariaValueNow === v", value)
-        wanted = at_position(check(STUDY).values, value / STEPS)
-        said = f"load {say.value_of(wanted * check(STUDY).contact.E_ss, 'Pa')}"
-        page.get_by_text(said, exact=True).wait_for()
+    """Moves the slider of the load up, as fast as keys come; the operating load then."""
+    there = int(page.locator('[data-slider="load"]').get_attribute("aria-valuenow")) + presses
+    moved(page, "load", presses)
+    load_stands(page, there)
     return at_position(check(STUDY).values, there / STEPS)
+
+
+def load_at(there):
+    """What the slider of the load says there."""
+    at = at_position(check(STUDY).values, there / STEPS)
+    return f"load {say.value_of(at * check(STUDY).contact.E_ss, 'Pa')}"
+
+
+def load_stands(page, there):
+    """The slider of the load is there, and the page shows that load."""
+    page.get_by_text(load_at(there), exact=True).wait_for()
+    assert page.locator('[data-slider="load"]').get_attribute("aria-valuenow") == str(there)
+
+
+def test_a_late_answer_moves_no_slider_back(browser, address):
+    context = browser.new_context(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
+    page = context.new_page()
+    page.set_default_timeout(PATIENCE)
+    held = []
+    holds = False
+
+    def between(socket):
+        server = socket.connect_to_server()
+        socket.on_message(server.send)
+        server.on_message(lambda m: held.append((socket, m)) if holds else socket.send(m))
+
+    def value():
+        page.evaluate("new Promise(done => requestAnimationFrame(() => setTimeout(done)))")
+        return int(slider.get_attribute("aria-valuenow"))
+
+    def patiently(condition):
+        deadline = time.monotonic() + PATIENCE / 1000
+        while not condition():
+            assert time.monotonic() < deadline
+            page.wait_for_timeout(10)
+
+    try:
+        page.route_web_socket("**", between)
+        page.goto(f"{address}/?{to_link(STUDY, AT)}")
+        page.wait_for_selector('[data-figure="section"] svg')
+        slider = page.locator('[data-slider="load"]')
+        start = value()
+        holds = True
+        moved(page, "load", 1)
+        patiently(lambda: any("headline" in str(m) for _, m in held))  # all of the first answer
+        moved(page, "load", 2)
+        first, held[:] = held[:], []
+        for socket, message in first:
+            socket.send(message)
+        page.get_by_text(load_at(start + 1), exact=True).wait_for()
+        assert value() == start + 3
+        moved(page, "load", 2)
+        assert value() == start + 5
+        holds = False
+        for socket, message in held:
+            socket.send(message)
+        load_stands(page, start + 5)
+    finally:
+        context.close()
 
 
 def test_the_address_keeps_the_work_and_back_undoes_it(visit):
@@ -665,12 +719,50 @@ def test_a_mistake_is_told_beside_its_field(visit):
     )
 
 
+NAMELESS = """() => {
+  const text = e => e?.innerText?.trim() ?? "";
+  const named = e => e.ariaLabel?.trim()
+    || (e.getAttribute("aria-labelledby") ?? "").split(" ").some(i => text(document.getElementById(i)))
+    || [...(e.labels ?? [])].some(text);
+  const bad = [...document.querySelectorAll("input, select, textarea, [role=slider], "
+    + "[role=combobox], [role=progressbar]")].filter(e => !named(e));
+  const words = e => [...e.querySelectorAll("*")].some(x => !x.classList.contains("q-icon")
+    && [...x.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()));
+  bad.push(...[...document.querySelectorAll("button, a, [role=button], [role=tab], "
+    + "[role=switch], [role=checkbox]")]
+    .filter(e => !named(e) && !words(e)));
+  bad.push(...[...document.querySelectorAll("[role=button] input, button input, main main")]);
+  return bad.filter(e => e.getClientRects().length).map(e => e.outerHTML.slice(0, 160));
+}"""
+"""What is in sight and has no name, or stands inside what a reader of the screen takes whole."""
+
+
+def test_everything_has_a_name(visit):
+    study = STUDY | {"film": tomllib.loads(FILM.read_text(encoding="utf-8"))["film"]}
+    page = visit(study)
+    for _ in range(2):  # what was folded in what was folded
+        page.evaluate(
+            "document.querySelectorAll('.q-drawer .q-item[aria-expanded=false]')"
+            ".forEach(e => e.click())"
+        )
+        folded = "document.querySelector('.q-drawer .q-item[aria-expanded=false]')"
+        when(page, f"!{folded}?.offsetParent")
+    for name in page.get_by_role("tab").all_inner_texts():
+        tab(page, name.strip())
+        when(page, "document.querySelector('.q-tab-panel').innerText.trim()")
+        assert page.evaluate(NAMELESS) == [], name
+        assert page.get_by_role("heading", level=1).count() == 1
+        assert page.get_by_role("main").count() == 1
+        skip = page.locator("a.skip").get_attribute("href")
+        assert page.locator(skip).is_visible()
+
+
 def test_the_keyboard_reaches_everything(visit):
     page = visit()
     assert page.get_by_role("heading", level=1).all_inner_texts() == ["thirdbody"]
     page.keyboard.press("Tab")
     page.keyboard.press("Enter")
-    assert page.evaluate("document.activeElement.role") == "main"
+    assert page.evaluate("document.activeElement.ariaLabel") == "the answer"
     assert "#" not in page.url
     page.locator('[role="tab"]').first.focus()
     page.keyboard.press("ArrowRight")

@@ -33,7 +33,7 @@ from .fields import (
 from .state import State
 from .text import from_toml, to_toml, with_micro
 from .uploads import keep
-from .widgets import put
+from .widgets import put, upload
 
 __all__ = ["FORMED", "Inputs"]
 
@@ -312,14 +312,14 @@ class Inputs:
 
         about = "a file, dropped below"
         self.field((), Field(name="materials", kind="string", label="own materials", about=about))
-        upload = ui.upload(
-            label="Own materials",
-            auto_upload=True,
+        made = upload(
+            "materials",
+            "Own materials",
             max_file_size=LARGEST_TABLE,
             on_upload=uploaded,
             on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
         )
-        upload.props('flat bordered data-upload="materials" accept=".toml,text/plain"')
+        made.props('accept=".toml,text/plain"')
 
     def asperity_law(self) -> None:
         """What one asperity does."""
