@@ -15,7 +15,7 @@ import tomllib
 import urllib.error
 import urllib.request
 from pathlib import Path
-from urllib.parse import parse_qsl, urlsplit
+from urllib.parse import parse_qsl, urlencode, urlsplit
 
 import numpy as np
 import pytest
@@ -584,6 +584,23 @@ def test_the_address_keeps_the_work_and_back_undoes_it(visit):
     assert fact(page, "separation h") == say.value_of(state_of(wider).h, "m")
 
 
+def test_a_study_too_long_for_an_address_is_told(visit):
+    page = visit()
+    too_long = page.get_by_text("The study is too long for an address")
+    assert not too_long.count()
+    tab(page, "Take away")
+    editor = page.locator('textarea[data-path="toml"]')
+    words = np.random.default_rng(1).integers(0, 10**15, 1500)
+    text = to_toml(STUDY | {"load": {"F_star": sorted(float(f"{w}e-20") for w in words)}})
+    editor.fill(text)
+    page.locator('[data-take="toml"]').click()
+    too_long.wait_for()
+    when(page, "location.search === '?tab=take_away'")
+    page.locator('[data-path="undo"]').click()
+    too_long.wait_for(state="hidden")
+    addressed(page, study=parse_qsl(to_link(STUDY, AT))[0][1])
+
+
 def test_undo_takes_back_one_step_after_another(visit):
     page = visit()
     undo = page.locator('[data-path="undo"]')
@@ -646,11 +663,40 @@ def test_texts_of_a_link_are_shown_as_text(visit):
 
 def test_mistakes_of_a_link_are_told_as_text(visit, address):
     page = visit()
-    for number, payload in enumerate(PAYLOADS):
-        _, study = list(wrong(payload))[number * 2]
+    for number in range(len(list(wrong("")))):
+        where, study = list(wrong(PAYLOADS[number % len(PAYLOADS)]))[number]
         page.goto(f"{address}/?{to_link(study)}")
-        page.locator('[data-said="page"]', has_text="__hit").wait_for()
-        assert not page.evaluate(HARM)
+        page.locator(".problem", has_text="__hit").first.wait_for()
+        assert not page.evaluate(HARM), where
+
+
+def test_an_address_made_to_do_harm_is_told_as_text(visit):
+    page = visit()
+    for payload in PAYLOADS:
+        for name in ("study", "tab", "at", "tab"):  # each shows another tab than the last
+            query = parse_qsl(to_link(STUDY, AT)) + [("tab", "curves")]
+            page.evaluate(
+                "q => { history.pushState(null, '', q); history.pushState(null, '', '?'); }",
+                f"?{urlencode(dict(query) | {name: payload})}",
+            )
+            page.go_back()
+            when(
+                page,
+                "name => document.querySelector('.q-tab--active').innerText.trim() === name",
+                arg="Interface" if name == "tab" else "Curves",
+            )
+            assert not page.evaluate(HARM), (name, payload)
+
+
+def test_codes_made_to_do_harm_are_told_as_text(visit):
+    page = visit()
+    tab(page, "Dust")
+    drawn(page, "sizes")
+    for payload in PAYLOADS:
+        page.locator('[data-path="dust.iso4406"]').fill(payload)
+        word = re.search(r"\S*__hit\S*", payload)[0]
+        page.locator('[data-said="dust"]', has_text=word).wait_for()
+        assert not page.evaluate(HARM), payload
 
 
 def test_the_policy_runs_no_script_of_a_text(visit, shared):

@@ -96,6 +96,8 @@ class Inputs:
         """Called when other entries are needed than before."""
         self.shown: dict[str, Entry] = {}
         self.rest: Any = None
+        self.left: tuple[Any, list[str]] = (None, [])
+        """Where mistakes without a field stand, and which."""
 
     # ------------------------------------------------------------------ mistakes
     def tell(self) -> None:
@@ -116,7 +118,8 @@ class Inputs:
             fitting = with_micro(" ".join(mine)) or None
             if widget.error != fitting:
                 widget.error = fitting
-        if self.rest is not None:
+        if self.rest is not None and self.left != (self.rest, left):
+            self.left = (self.rest, left)
             self.rest.clear()
             with self.rest:
                 for text in left:

@@ -141,7 +141,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         given = table_of()
         code.set_value(shown(given.get("iso4406")))
         known = given.get("test_dust")
-        test.set_value(known if known in DUSTS else None)
+        test.set_value(known if isinstance(known, str) and known in DUSTS else None)
         mine = [text for text in state.problems if about_of(text).startswith("particles")]
         wrong.set_text(with_micro(" ".join(mine)))
         answer = state.answer
