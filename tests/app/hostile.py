@@ -42,6 +42,10 @@ def wrong(payload):
         ("roughness", "topography"), ("roughness", "heights"), ("roughness", "sigma"),
         ("load", "F_star"), ("outputs", payload), ("uncertainty", "inputs", payload),
         ("sweep",), ("design",), ("film",), ("film", "load"),
+        ("particles", 0, "as4059"), ("particles", 0, "nas1638"), ("particles", 0, "test_dust"),
+        ("particles", 0, "level"), ("particles", 0, "strength"), ("body",), ("body", payload),
+        ("explicit",), ("explicit", payload), ("roughness", "Ra"), ("roughness", "process"),
+        ("roughness", payload),
     ):  # fmt: skip
         study = copy.deepcopy(base)
         table = study

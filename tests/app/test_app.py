@@ -34,7 +34,7 @@ from thirdbody.app.sizing import size_of, with_size
 from thirdbody.app.sliders import at_position, position_of
 from thirdbody.app.state import State
 from thirdbody.app.tabs.error_bars import _ranges
-from thirdbody.app.tabs.interface import headline
+from thirdbody.app.tabs.interface import _drawn, headline, told
 from thirdbody.app.uploads import harmless
 from thirdbody.equilibrium.words import two_bodies
 from thirdbody.quantities import say
@@ -432,6 +432,22 @@ def test_a_population_that_carries_has_a_loaded_particle(name, tmp_path):
             assert carrying <= loaded, (load, seed, shares)
             met.append(drawn.met)
     assert any(met) == (name in list(EXAMPLES)[:2])  # in oil those that carry are many
+
+
+def test_a_load_of_the_interface_is_solved_once(state, monkeypatch):
+    solve, asked = tb.solve, []
+
+    def counting(*args, **options):
+        asked.append(options)
+        return solve(*args, **options)
+
+    answer = state.answer
+    at = answer.default_at()
+    monkeypatch.setattr(tb, "solve", counting)
+    _, found = _drawn(answer, at, 0)
+    assert len(asked) == 1
+    assert found[3] == told(answer.solve(at))
+    assert any(name == "particles loaded" for name, _ in found[3])
 
 
 def test_the_headline_says_what_the_command_line_says(state, tmp_path):

@@ -15,7 +15,7 @@ import tomllib
 import urllib.error
 import urllib.request
 from pathlib import Path
-from urllib.parse import parse_qsl, urlsplit
+from urllib.parse import parse_qsl, urlencode, urlsplit
 
 import numpy as np
 import pytest
@@ -478,16 +478,70 @@ def addressed(page, **wanted):
 
 
 def after(page, presses):
-    """Moves the slider of the load up; the operating load then."""
-    slider = page.locator('[data-slider="load"]')
-    there = int(slider.get_attribute("aria-valuenow")) + presses
-    for value in range(there - presses + 1, there + 1):  # each before the next
-        moved(page, "load", 1)
-        when(page, "v => +document.querySelector('[data-slider=load]').ariaValueNow === v", value)
-        wanted = at_position(check(STUDY).values, value / STEPS)
-        said = f"load {say.value_of(wanted * check(STUDY).contact.E_ss, 'Pa')}"
-        page.get_by_text(said, exact=True).wait_for()
+    """Moves the slider of the load up, as fast as keys come; the operating load then."""
+    there = int(page.locator('[data-slider="load"]').get_attribute("aria-valuenow")) + presses
+    moved(page, "load", presses)
+    load_stands(page, there)
     return at_position(check(STUDY).values, there / STEPS)
+
+
+def load_at(there):
+    """What the slider of the load says there."""
+    at = at_position(check(STUDY).values, there / STEPS)
+    return f"load {say.value_of(at * check(STUDY).contact.E_ss, 'Pa')}"
+
+
+def load_stands(page, there):
+    """The slider of the load is there, and the page shows that load."""
+    page.get_by_text(load_at(there), exact=True).wait_for()
+    assert page.locator('[data-slider="load"]').get_attribute("aria-valuenow") == str(there)
+
+
+def test_a_late_answer_moves_no_slider_back(browser, address):
+    context = browser.new_context(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
+    page = context.new_page()
+    page.set_default_timeout(PATIENCE)
+    held = []
+    holds = False
+
+    def between(socket):
+        server = socket.connect_to_server()
+        socket.on_message(server.send)
+        server.on_message(lambda m: held.append((socket, m)) if holds else socket.send(m))
+
+    def value():
+        page.evaluate("new Promise(done => requestAnimationFrame(() => setTimeout(done)))")
+        return int(slider.get_attribute("aria-valuenow"))
+
+    def patiently(condition):
+        deadline = time.monotonic() + PATIENCE / 1000
+        while not condition():
+            assert time.monotonic() < deadline
+            page.wait_for_timeout(10)
+
+    try:
+        page.route_web_socket("**", between)
+        page.goto(f"{address}/?{to_link(STUDY, AT)}")
+        page.wait_for_selector('[data-figure="section"] svg')
+        slider = page.locator('[data-slider="load"]')
+        start = value()
+        holds = True
+        moved(page, "load", 1)
+        patiently(lambda: any("headline" in str(m) for _, m in held))  # all of the first answer
+        moved(page, "load", 2)
+        first, held[:] = held[:], []
+        for socket, message in first:
+            socket.send(message)
+        page.get_by_text(load_at(start + 1), exact=True).wait_for()
+        assert value() == start + 3
+        moved(page, "load", 2)
+        assert value() == start + 5
+        holds = False
+        for socket, message in held:
+            socket.send(message)
+        load_stands(page, start + 5)
+    finally:
+        context.close()
 
 
 def test_the_address_keeps_the_work_and_back_undoes_it(visit):
@@ -528,6 +582,23 @@ def test_the_address_keeps_the_work_and_back_undoes_it(visit):
     page.go_forward()
     until(page, "separation h", say.value_of(state_of(STUDY).h, "m"))
     assert fact(page, "separation h") == say.value_of(state_of(wider).h, "m")
+
+
+def test_a_study_too_long_for_an_address_is_told(visit):
+    page = visit()
+    too_long = page.get_by_text("The study is too long for an address")
+    assert not too_long.count()
+    tab(page, "Take away")
+    editor = page.locator('textarea[data-path="toml"]')
+    words = np.random.default_rng(1).integers(0, 10**15, 1500)
+    text = to_toml(STUDY | {"load": {"F_star": sorted(float(f"{w}e-20") for w in words)}})
+    editor.fill(text)
+    page.locator('[data-take="toml"]').click()
+    too_long.wait_for()
+    when(page, "location.search === '?tab=take_away'")
+    page.locator('[data-path="undo"]').click()
+    too_long.wait_for(state="hidden")
+    addressed(page, study=parse_qsl(to_link(STUDY, AT))[0][1])
 
 
 def test_undo_takes_back_one_step_after_another(visit):
@@ -592,11 +663,40 @@ def test_texts_of_a_link_are_shown_as_text(visit):
 
 def test_mistakes_of_a_link_are_told_as_text(visit, address):
     page = visit()
-    for number, payload in enumerate(PAYLOADS):
-        _, study = list(wrong(payload))[number * 2]
+    for number in range(len(list(wrong("")))):
+        where, study = list(wrong(PAYLOADS[number % len(PAYLOADS)]))[number]
         page.goto(f"{address}/?{to_link(study)}")
-        page.locator('[data-said="page"]', has_text="__hit").wait_for()
-        assert not page.evaluate(HARM)
+        page.locator(".problem", has_text="__hit").first.wait_for()
+        assert not page.evaluate(HARM), where
+
+
+def test_an_address_made_to_do_harm_is_told_as_text(visit):
+    page = visit()
+    for payload in PAYLOADS:
+        for name in ("study", "tab", "at", "tab"):  # each shows another tab than the last
+            query = parse_qsl(to_link(STUDY, AT)) + [("tab", "curves")]
+            page.evaluate(
+                "q => { history.pushState(null, '', q); history.pushState(null, '', '?'); }",
+                f"?{urlencode(dict(query) | {name: payload})}",
+            )
+            page.go_back()
+            when(
+                page,
+                "name => document.querySelector('.q-tab--active').innerText.trim() === name",
+                arg="Interface" if name == "tab" else "Curves",
+            )
+            assert not page.evaluate(HARM), (name, payload)
+
+
+def test_codes_made_to_do_harm_are_told_as_text(visit):
+    page = visit()
+    tab(page, "Dust")
+    drawn(page, "sizes")
+    for payload in PAYLOADS:
+        page.locator('[data-path="dust.iso4406"]').fill(payload)
+        word = re.search(r"\S*__hit\S*", payload)[0]
+        page.locator('[data-said="dust"]', has_text=word).wait_for()
+        assert not page.evaluate(HARM), payload
 
 
 def test_the_policy_runs_no_script_of_a_text(visit, shared):
@@ -665,12 +765,50 @@ def test_a_mistake_is_told_beside_its_field(visit):
     )
 
 
+NAMELESS = """() => {
+  const text = e => e?.innerText?.trim() ?? "";
+  const named = e => e.ariaLabel?.trim()
+    || (e.getAttribute("aria-labelledby") ?? "").split(" ").some(i => text(document.getElementById(i)))
+    || [...(e.labels ?? [])].some(text);
+  const bad = [...document.querySelectorAll("input, select, textarea, [role=slider], "
+    + "[role=combobox], [role=progressbar]")].filter(e => !named(e));
+  const words = e => [...e.querySelectorAll("*")].some(x => !x.classList.contains("q-icon")
+    && [...x.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()));
+  bad.push(...[...document.querySelectorAll("button, a, [role=button], [role=tab], "
+    + "[role=switch], [role=checkbox]")]
+    .filter(e => !named(e) && !words(e)));
+  bad.push(...[...document.querySelectorAll("[role=button] input, button input, main main")]);
+  return bad.filter(e => e.getClientRects().length).map(e => e.outerHTML.slice(0, 160));
+}"""
+"""What is in sight and has no name, or stands inside what a reader of the screen takes whole."""
+
+
+def test_everything_has_a_name(visit):
+    study = STUDY | {"film": tomllib.loads(FILM.read_text(encoding="utf-8"))["film"]}
+    page = visit(study)
+    for _ in range(2):  # what was folded in what was folded
+        page.evaluate(
+            "document.querySelectorAll('.q-drawer .q-item[aria-expanded=false]')"
+            ".forEach(e => e.click())"
+        )
+        folded = "document.querySelector('.q-drawer .q-item[aria-expanded=false]')"
+        when(page, f"!{folded}?.offsetParent")
+    for name in page.get_by_role("tab").all_inner_texts():
+        tab(page, name.strip())
+        when(page, "document.querySelector('.q-tab-panel').innerText.trim()")
+        assert page.evaluate(NAMELESS) == [], name
+        assert page.get_by_role("heading", level=1).count() == 1
+        assert page.get_by_role("main").count() == 1
+        skip = page.locator("a.skip").get_attribute("href")
+        assert page.locator(skip).is_visible()
+
+
 def test_the_keyboard_reaches_everything(visit):
     page = visit()
     assert page.get_by_role("heading", level=1).all_inner_texts() == ["thirdbody"]
     page.keyboard.press("Tab")
     page.keyboard.press("Enter")
-    assert page.evaluate("document.activeElement.role") == "main"
+    assert page.evaluate("document.activeElement.ariaLabel") == "the answer"
     assert "#" not in page.url
     page.locator('[role="tab"]').first.focus()
     page.keyboard.press("ArrowRight")

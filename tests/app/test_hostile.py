@@ -30,7 +30,7 @@ from thirdbody.app import bounds, exports, text, work
 from thirdbody.app.examples import example
 from thirdbody.app.figures import plain
 from thirdbody.app.folders import Folders, remove_left
-from thirdbody.app.inputs import Inputs
+from thirdbody.app.inputs import FORMED, Inputs
 from thirdbody.app.jobs import RUNNING, Job
 from thirdbody.app.page import Start
 from thirdbody.app.solver import Solver
@@ -39,6 +39,7 @@ from thirdbody.app.uploads import keep
 from thirdbody.app.widgets import facts
 from thirdbody.errors import InvalidValue
 from thirdbody.study import check, run_study
+from thirdbody.study.tables import TABLES
 
 pytestmark = pytest.mark.check
 
@@ -78,6 +79,8 @@ def test_fields_take_any_text_as_text(payload, tmp_path):
             for part in ("surfaces", "roughness", "asperity_law", "particles", "load"):
                 getattr(inputs, part)()
             inputs.uncertain()
+            for part in [each.name for each in TABLES if each.name not in FORMED]:
+                inputs.as_text(part)
             inputs.tell()
             for element in client.elements.values():
                 holds = {k for k, v in element.props.items() if "__hit" in json.dumps(v)}

@@ -147,6 +147,11 @@ def test_modes_bands_and_critical_loads():
     for load, mode in zip(loads[1:-1], state.mode[1:-1], strict=True):
         colours = [colour for start, end, colour in bands if start < load < end]
         assert colours == [pytest.approx(plot.MODE_COLOURS[mode])]
+    key = ax.get_legend()
+    words = [text.get_text() for text in key.get_texts()]
+    assert words[2:] == ["p-s", "hybrid", "s-s"]
+    filled = {patch.get_label(): patch.get_facecolor()[:3] for patch in key.get_patches()}
+    assert filled == {name: pytest.approx(plot.MODE_COLOURS[name]) for name in words[2:]}
     # the two shares that are drawn
     np.testing.assert_allclose(ax.lines[0].get_ydata() + ax.lines[1].get_ydata(), 1)
 

@@ -33,7 +33,7 @@ from .fields import (
 from .state import State
 from .text import from_toml, to_toml, with_micro
 from .uploads import keep
-from .widgets import put
+from .widgets import put, upload
 
 __all__ = ["FORMED", "Inputs"]
 
@@ -96,6 +96,8 @@ class Inputs:
         """Called when other entries are needed than before."""
         self.shown: dict[str, Entry] = {}
         self.rest: Any = None
+        self.left: tuple[Any, list[str]] = (None, [])
+        """Where mistakes without a field stand, and which."""
 
     # ------------------------------------------------------------------ mistakes
     def tell(self) -> None:
@@ -116,7 +118,8 @@ class Inputs:
             fitting = with_micro(" ".join(mine)) or None
             if widget.error != fitting:
                 widget.error = fitting
-        if self.rest is not None:
+        if self.rest is not None and self.left != (self.rest, left):
+            self.left = (self.rest, left)
             self.rest.clear()
             with self.rest:
                 for text in left:
@@ -312,14 +315,14 @@ class Inputs:
 
         about = "a file, dropped below"
         self.field((), Field(name="materials", kind="string", label="own materials", about=about))
-        upload = ui.upload(
-            label="Own materials",
-            auto_upload=True,
+        made = upload(
+            "materials",
+            "Own materials",
             max_file_size=LARGEST_TABLE,
             on_upload=uploaded,
             on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
         )
-        upload.props('flat bordered data-upload="materials" accept=".toml,text/plain"')
+        made.props('accept=".toml,text/plain"')
 
     def asperity_law(self) -> None:
         """What one asperity does."""

@@ -25,6 +25,7 @@ from .sliders import Sliders
 from .state import State, files_of
 from .tabs import TABS
 from .text import from_link, with_micro, without_paths
+from .widgets import put
 from .work import when_left
 
 __all__ = ["Start", "page"]
@@ -63,7 +64,11 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 .scroll-x { overflow-x: auto; }
 .section { display: block; width: 100%; min-width: 640px; height: auto; }
 .q-uploader { width: 260px; }
-.q-uploader__list, .q-uploader__subtitle { display: none; }
+/* under the pointer a button gets darker, so that its words stay readable */
+.q-btn.bg-primary > .q-focus-helper { color: #000; }
+.q-btn.bg-primary > .q-focus-helper::after { display: none; }
+.q-uploader__list { display: none; }
+#q-loading-bar { display: none; }
 .scroll-x .q-table { min-width: 620px; }
 .narrow { max-width: 34rem; }
 .code textarea { font-family: ui-monospace, monospace; font-size: 0.8rem; line-height: 1.35; }
@@ -136,7 +141,7 @@ which moves most, is a line over them: `data-at` around them says where."""
 MORE = "More tables, as text"
 SKIP = """event => {
   event.preventDefault();
-  document.querySelector("[role=main]").focus();
+  document.querySelector(event.currentTarget.getAttribute("href")).focus();
 }"""
 
 
@@ -252,7 +257,7 @@ def page(state: State, told: str, start: Start) -> None:
         (opened_sections.add if is_open else opened_sections.discard)(name)
 
     with ui.header(elevated=False).classes("items-center q-py-xs gap-2 no-wrap"):
-        skip = ui.element("a").classes("skip").props('href="#answer"')
+        skip = ui.element("a").classes("skip")
         with skip:
             ui.label("Skip to the answer")
         skip.on("click", js_handler=SKIP)
@@ -313,11 +318,9 @@ def page(state: State, told: str, start: Start) -> None:
 
         panel()
 
-    with (
-        ui.column()
-        .classes("w-full max-w-[1500px] mx-auto gap-2")
-        .props('tabindex=-1 role=main aria-label="the answer"')
-    ):
+    whole = ui.column().classes("w-full max-w-[1500px] mx-auto gap-2")
+    put(skip, {"href": f"#{whole.html_id}"})
+    with whole.props('tabindex=-1 role=region aria-label="the answer"'):
         banner = ui.label(told).classes("problem").props('role=alert data-said="page"')
         sliders = Sliders(state)
         with (

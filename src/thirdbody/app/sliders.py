@@ -19,7 +19,7 @@ from .sizing import size_of, with_size
 from .state import Answer, State
 from .widgets import put
 
-__all__ = ["Sliders", "at_position", "position_of"]
+__all__ = ["Slider", "Sliders", "at_position", "position_of"]
 
 STEPS = 400
 REACH = 10.0
@@ -53,6 +53,12 @@ def _said(answer: Answer, at: float) -> str:
     return f"load {value_of(pressure, 'Pa')}"
 
 
+class Slider(ui.slider):
+    """A slider whose value is the user's: no answer of the server to a former place moves it."""
+
+    LOOPBACK = False
+
+
 @dataclass
 class Knob:
     """One number of the study under a slider."""
@@ -74,7 +80,7 @@ class Sliders:
         with ui.row().classes("sliders w-full"):
             with ui.column().classes("slider load gap-0"):
                 self.load_label = ui.label("load").classes("hint")
-                self.load = ui.slider(min=0, max=STEPS, step=1, value=STEPS // 2)
+                self.load = Slider(min=0, max=STEPS, step=1, value=STEPS // 2)
                 self.load.props('aria-label="load" data-slider="load"')
                 self.load.on_value_change(self._load_moved)
             with ui.row().classes("knobs"):
@@ -144,7 +150,7 @@ class Sliders:
         made: dict[str, Any] = {"knob": knob, "middle": None}
         with ui.column().classes("slider gap-0") as box:
             made["label"] = ui.label(knob.label).classes("hint")
-            made["slider"] = ui.slider(min=-STEPS // 2, max=STEPS // 2, step=1, value=0)
+            made["slider"] = Slider(min=-STEPS // 2, max=STEPS // 2, step=1, value=0)
             put(made["slider"], {"aria-label": knob.label, "data-slider": knob.place})
         made["box"] = box
 

@@ -68,11 +68,15 @@ class Answer:
             return np.linspace(middle - width, middle + width, POINTS)
         return np.geomspace(middle / 100, middle * 100, POINTS)
 
-    def solve(self, values: Any) -> tb.Equilibrium:
-        """States under these loads; warnings become notes."""
+    def solve(self, values: Any, *more: Any) -> tb.Equilibrium:
+        """States under these loads, with more outputs; warnings become notes."""
+        contact = self.contact
+        known = {type(each) for each in contact.outputs}
+        if new := [each for each in more if type(each) not in known]:
+            contact = contact.replace(outputs=(*contact.outputs, *new))
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always", RangeWarning)
-            state = tb.solve(self.contact, **{self.load: values})
+            state = tb.solve(contact, **{self.load: values})
         self.notes += [str(item.message) for item in heard]
         self.notes = list(dict.fromkeys(self.notes))
         return state

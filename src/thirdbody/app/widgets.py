@@ -10,7 +10,7 @@ from nicegui import ui
 
 from .figures import empty
 
-__all__ = ["Facts", "Plot", "facts", "put", "table"]
+__all__ = ["Facts", "Plot", "facts", "put", "table", "upload"]
 
 
 def put(element: Any, props: Mapping[str, Any]) -> Any:
@@ -83,6 +83,22 @@ class Plot:
         with self.widget.props.suspend_updates():
             self.widget.props["options"] = made
         self.widget.run_plot_method("relayout", marks)
+
+
+PICK = "e => e.currentTarget.closest('.q-uploader').querySelector('input[type=file]').click()"
+
+
+def upload(name: str, label: str, **more: Any) -> Any:
+    """A place where a file is dropped or chosen, and sent at once."""
+    made = put(ui.upload(auto_upload=True, **more).props("flat bordered"), {"data-upload": name})
+    with made.add_slot("header"), ui.row().classes("w-full items-center no-wrap q-pa-sm"):
+        ui.label(label).classes("grow text-weight-bold")
+        button = ui.button(icon="add").on("click", js_handler=PICK)
+        put(button.props("flat dense color=white"), {"aria-label": f"{label}: choose a file"})
+        # the framework's own button, without a name, has the entry inside
+        with ui.element("div").classes("hidden"):
+            ui.element("q-uploader-add-trigger")
+    return made
 
 
 def table(name: str, heads: dict[str, str], rows: list[dict[str, Any]], **more: Any) -> None:

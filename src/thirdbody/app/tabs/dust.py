@@ -20,7 +20,7 @@ from ..inputs import Inputs, about_of
 from ..state import Answer, State
 from ..text import with_micro
 from ..uploads import keep
-from ..widgets import facts
+from ..widgets import facts, upload
 
 __all__ = ["TITLE", "build", "dust_facts", "size_figure"]
 
@@ -99,7 +99,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             again()
 
     async def uploaded(event: events.UploadEventArguments) -> None:
-        upload.reset()
+        chooser.reset()
         try:
             name = await keep(state.folder, event)
         except InvalidValue as error:
@@ -124,14 +124,14 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             test.props('data-path="dust.test_dust"').classes("w-full")
             test.on_value_change(lambda e: use("test_dust", str(e.value or "")))
             wrong = ui.label().classes("problem").props('role=alert data-said="dust"')
-            upload = ui.upload(
-                label="Sizes from a particle counter",
-                auto_upload=True,
+            chooser = upload(
+                "sizes",
+                "Sizes from a particle counter",
                 max_file_size=LARGEST_TABLE,
                 max_files=1,
                 on_upload=uploaded,
                 on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
-            ).props('flat bordered data-upload="sizes"')
+            )
         with ui.column().classes("w-full"):
             plot = ui.plotly(empty(360)).classes("w-full")
             plot.props('data-figure="sizes"')
@@ -141,7 +141,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         given = table_of()
         code.set_value(shown(given.get("iso4406")))
         known = given.get("test_dust")
-        test.set_value(known if known in DUSTS else None)
+        test.set_value(known if isinstance(known, str) and known in DUSTS else None)
         mine = [text for text in state.problems if about_of(text).startswith("particles")]
         wrong.set_text(with_micro(" ".join(mine)))
         answer = state.answer

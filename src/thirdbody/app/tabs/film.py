@@ -19,6 +19,7 @@ from ...views.plot.film import OF_PARTICLES, bands_of
 from ..fields import Field, engineering, fields_of, number_field
 from ..figures import GREY, empty, figure, line, log_title, mark
 from ..inputs import Inputs
+from ..sliders import Slider
 from ..state import Answer, State
 from ..text import with_micro
 from ..widgets import facts as named_values
@@ -162,7 +163,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             entries()
         with ui.column().classes("w-full gap-1") as beside:
             said = ui.label().classes("hint").props('data-fact="film speed"')
-            slider = ui.slider(min=0, max=MOST, step=1, value=0)
+            slider = Slider(min=0, max=MOST, step=1, value=0)
             slider.props('aria-label="speed" data-slider="film.speed"').classes("q-px-sm")
             facts = ui.row().classes("facts w-full")
             words = ui.column().classes("w-full gap-0")

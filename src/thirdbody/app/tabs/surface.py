@@ -18,7 +18,7 @@ from ..guard import LARGEST_UPLOAD
 from ..state import State
 from ..text import with_micro
 from ..uploads import keep
-from ..widgets import facts, put
+from ..widgets import facts, put, upload
 from ..work import Work
 
 __all__ = ["TITLE", "build", "options_from"]
@@ -63,7 +63,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     texts: dict[str, Any] = {}
     work: Work
     source: Any
-    upload: Any
+    chooser: Any
     table: Any
     notes: Any
     box: Any
@@ -82,13 +82,13 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
         now["file"] = str(state.folder / name)
         box.set_visibility(False)
         source.set_text(f"file: {name}")
-        upload.reset()
+        chooser.reset()
         await work.run()
 
     with ui.row().classes("w-full items-center gap-4"):
-        upload = ui.upload(
-            label="Drop a file",
-            auto_upload=True,
+        chooser = upload(
+            "surface",
+            "Drop a file",
             max_file_size=LARGEST_UPLOAD,
             max_files=1,
             on_upload=uploaded,
@@ -96,7 +96,6 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
                 f"the file is larger than {LARGEST_UPLOAD // 2**20} MB, or not one file"
             ),
         )
-        upload.props('flat bordered data-upload="surface"')
         source = ui.label("file: the example of the library").classes("hint")
     with ui.row().classes("w-full gap-3"):
         for name, hint in (

@@ -12,7 +12,7 @@ from ..exports import FIGURES, figure_of, to_csv, to_json
 from ..python_text import to_python
 from ..state import Answer, State
 from ..text import LONGEST_STUDY, from_toml, to_link, to_toml
-from ..widgets import put
+from ..widgets import put, upload
 
 __all__ = ["TITLE", "build"]
 
@@ -28,7 +28,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
 
     async def uploaded(event: events.UploadEventArguments) -> None:
         said.set_text("")
-        upload.reset()
+        chooser.reset()
         try:
             if event.file.size() > LONGEST_STUDY:
                 raise InvalidValue("the file is too large for a study")
@@ -103,18 +103,19 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
                 ui.button("Use this text", icon="input", on_click=edited).props(
                     'no-caps data-take="toml"'
                 )
-                upload = ui.upload(
-                    label="Open a study file",
-                    auto_upload=True,
+                chooser = upload(
+                    "study",
+                    "Open a study file",
                     max_file_size=LONGEST_STUDY,
                     max_files=1,
                     on_upload=uploaded,
                     on_rejected=lambda: said.set_text("the file is too large for a study"),
-                ).props('flat bordered data-upload="study" accept=".toml,text/plain"')
+                ).props('accept=".toml,text/plain"')
             problems = ui.column().classes("w-full")
         with ui.column().classes("w-full"):
             ui.label("The same numbers in Python").classes("subhead")
-            script = ui.label().classes("w-full listing").props('data-path="python"')
+            script = ui.label().classes("w-full listing")
+            script.props('data-path="python" tabindex=0 role=group aria-label="Python"')
             ui.label("On the command line: thirdbody solve study.toml").classes("hint")
 
     def draw() -> None:

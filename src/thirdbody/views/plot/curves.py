@@ -399,10 +399,21 @@ def modes(
     ax.set_ylabel("Part of the real area [%]")
     _share_axis(ax)
     ax.set_xlim(x.min(), x.max())
+    drawn = [name for name in MODES if name in {mode for _, _, mode in runs}]
     ax.legend(
-        fontsize="small", frameon=False, ncols=2, loc="lower center", bbox_to_anchor=(0.5, 1.08)
+        handles=[*ax.get_legend_handles_labels()[0], *_mode_key(drawn)],
+        fontsize="small",
+        frameon=False,
+        ncols=1 + (len(drawn) + 1) // 2,
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.08),
     )
     return ax
+
+
+def _mode_key(names: Sequence[str]) -> list[Patch]:
+    """What the colours of these bands mean."""
+    return [Patch(facecolor=MODE_COLOURS[name], edgecolor="0.3", label=name) for name in names]
 
 
 def _mode_chart(curves: Sequence[Curve], ax: Axes, against: str) -> Axes:
@@ -426,9 +437,8 @@ def _mode_chart(curves: Sequence[Curve], ax: Axes, against: str) -> Axes:
     ax.tick_params(axis="y", length=0)
     every = np.concatenate([_column(curve, against) for curve in curves])
     ax.set_xlim(np.nanmin(every), np.nanmax(every))
-    handles = [Patch(facecolor=MODE_COLOURS[name], edgecolor="0.3", label=name) for name in MODES]
     ax.legend(
-        handles=handles,
+        handles=_mode_key(MODES),
         ncols=3,
         fontsize="small",
         frameon=False,
