@@ -390,7 +390,10 @@ def closing(rng, sizes, gaps, strength):
     return loads
 
 
-@pytest.mark.parametrize("fragments", FRAGMENTS)
+@pytest.mark.parametrize(
+    "fragments",
+    [pytest.param(each, marks=pytest.mark.slow if each == "all" else ()) for each in FRAGMENTS],
+)
 def test_explicit_grains_break_one_by_one(fragments):
     rng = np.random.default_rng(7)
     sizes = tb.TruncatedGaussian(mean=14e-6, std=5e-6, n=2)

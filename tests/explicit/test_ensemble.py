@@ -32,7 +32,7 @@ HOW = dict(F_star=[3e-4, 2e-3], size=128, spacing=2e-7, seed=3)
 def many(count=4, contact=CONTACT, **changes):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", tb.RangeWarning)
-        return function(contact, count, **(HOW | changes))
+        return function(contact, **(HOW | {"surfaces": count} | changes))
 
 
 @pytest.fixture(scope="module")

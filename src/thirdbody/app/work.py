@@ -93,7 +93,11 @@ class Work:
         """Begin with a preview, and say when what is shown does not fit the study any more."""
         measures = bool(measured(state.study, state.folder))
         if self.little and self.done is None and not state.problems and not measures:
-            await self._in_little()
+            self.done = (self.key(),)
+            background_tasks.create(self._in_little())  # the page does not wait for it
+        self._fit()
+
+    def _fit(self) -> None:
         text = ""
         if self.done is not None and not self.same(self.done[0], self.key()):
             text = STALE
@@ -103,7 +107,7 @@ class Work:
         self.stale.set_visibility(bool(text))
 
     async def _in_little(self) -> None:
-        self.done = (key := self.key(),)
+        asked_for, client = self.done, self.said.client
         try:
             asked = self.ask()
             if isinstance(asked, Awaitable):
@@ -114,8 +118,12 @@ class Work:
         except InvalidValue as error:
             self.said.set_text(with_micro("; ".join(error.problems)))
             return
-        self.preview, self.done = True, (key,)
-        await self._shown(result)
+        if self.done is not asked_for or client._deleted:
+            return  # done in full meanwhile, or nobody looks
+        self.preview = True
+        with client:
+            await self._shown(result)
+            self._fit()
 
     async def _shown(self, result: dict[str, Any]) -> None:
         shown = self.show(result)

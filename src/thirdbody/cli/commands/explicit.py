@@ -122,9 +122,11 @@ def _show(data: dict[str, Any]) -> None:
     console.print(grid)
     seats = data["seats"]
     if three_body and seats["mean"] is not None and seats["mean"] == seats["mean"]:
+        # to be put into a study file: digits and a minus as TOML has them
+        mean, std = round(seats["mean"], 3), round(seats["std"], 3)
         console.print(
             "The statistical model has these seats:  [particle_law] "
-            f"zeta_mean = {number(seats['mean'], 3)}, zeta_std = {number(seats['std'], 3)}"
+            f"zeta_mean = {mean}, zeta_std = {std}"
         )
         console.print(
             f"Seats above 2.5 sigma, which carry small loads: {percent(seats['high'])}; "
