@@ -108,20 +108,20 @@ class Work:
 
     async def _in_little(self) -> None:
         asked_for, client = self.done, self.said.client
-        try:
-            asked = self.ask()
-            if isinstance(asked, Awaitable):
-                asked = await asked
-            if asked is None or self.little is None:
-                return
-            result = await apart(in_little, self.task, self.little(asked))
-        except InvalidValue as error:
-            self.said.set_text(with_micro("; ".join(error.problems)))
-            return
-        if self.done is not asked_for or client._deleted:
-            return  # done in full meanwhile, or nobody looks
-        self.preview = True
         with client:
+            try:
+                asked = self.ask()
+                if isinstance(asked, Awaitable):
+                    asked = await asked
+                if asked is None or self.little is None:
+                    return
+                result = await apart(in_little, self.task, self.little(asked))
+            except InvalidValue as error:
+                self.said.set_text(with_micro("; ".join(error.problems)))
+                return
+            if self.done is not asked_for or client._deleted:
+                return  # done in full meanwhile, or nobody looks
+            self.preview = True
             await self._shown(result)
             self._fit()
 
