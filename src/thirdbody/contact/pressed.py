@@ -43,6 +43,8 @@ def _shares(contact: Contact, d: Array) -> tuple[Array, Array]:
     """Shares of the particles' load on buried ones, and on brittle ones beyond their strength."""
     total, deep, broken = (np.zeros(len(d)) for _ in range(3))
     for each, response in zip(contact.populations, interface(contact).populations, strict=True):
+        if each.strength is not None:
+            continue  # what becomes of these is the output `Crushing`
         try:
             split = _radius_squeeze(contact.law_of(each), contact.surfaces, each.material)
             groups = response.spots(d, split)

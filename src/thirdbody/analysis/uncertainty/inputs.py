@@ -193,19 +193,14 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
         bodies |= {f"particles.{i}.material": each.material for i, each in enumerate(given)}
     elif given is not None:
         bodies["particles.material"] = given.material
-    breaking = {
-        label
-        for each, label in zip(contact.populations, list(bodies)[2:], strict=True)
-        if each.strength is not None
-    }
     alike = contact.surfaces.first == contact.surfaces.second
     out = {}
     for name, body in bodies.items():
         for key, (low, high) in entries.get(body.name, {}).get("range", {}).items():
             if not low < high or f"{name}.{key}" not in known:
                 continue
-            if key == "K_c" and name not in breaking:
-                continue  # nothing asks for it
+            if key == "K_c":  # of the size below which nothing breaks: vary x_c or B for that
+                continue
             label = f"{name}.{key}"
             if alike and name.startswith("surfaces"):
                 label = f"surfaces.first.{key}+surfaces.second.{key}"
