@@ -529,6 +529,23 @@ def test_every_key_of_a_study_file_has_an_entry(tmp_path):
                     assert table.name in inputs.shown
 
 
+def test_the_first_figure_may_come_after_the_empty_one_was_drawn():
+    """A busy browser tells of the empty figure before the first curves are solved."""
+    from nicegui import Client
+    from nicegui.page import page as place
+
+    from thirdbody.app.figures import figure, line
+    from thirdbody.app.widgets import Plot
+
+    with Client(place("/test"), request=None):
+        plot = Plot("area")
+        plot._drawn()
+        made = figure([line([1.0, 2.0], [1.0, 2.0], "area", 0)], x="load", y="area", title="Area")
+        plot.show(made)
+        assert plot.widget.figure == made
+        assert not plot.drawn  # the browser has not told of this one yet
+
+
 ALSO = {
     "film": "another word for gap",
     "separation": "one load excludes the others, which the menu offers",

@@ -67,7 +67,7 @@ class Plot:
         self.widget.on("plotly_afterplot", self._drawn, args=[], throttle=1.0)
 
     def _drawn(self) -> None:
-        self.drawn = True
+        self.drawn = bool(self.made)  # and not the empty figure of the beginning
 
     def show(self, made: dict[str, Any]) -> None:
         """This figure, as `figures.figure` gives it."""

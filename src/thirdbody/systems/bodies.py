@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -53,7 +54,7 @@ def _diameter(meaning: str, **options: Any) -> Any:
     return quantity("D", "m", meaning, gt=0, usual=10.0, **options)
 
 
-class Body(Value):
+class Body(Value, ABC):
     """One of the pairs of bodies that a study can name under [body]; `BODIES` lists them."""
 
     __slots__ = ()
@@ -61,9 +62,9 @@ class Body(Value):
     """Contacts among which the force is divided equally [1]."""
 
     @property
+    @abstractmethod
     def conjunction(self) -> Point | Line | None:
         """The shape between the bodies; None for flat ones."""
-        raise NotImplementedError
 
     def hertz(self, force: Any, E_star: float) -> Hertz:
         """Area and pressures of one smooth dry contact under the force on all [N]."""
