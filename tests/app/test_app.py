@@ -22,11 +22,11 @@ pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
 from thirdbody.app import exports, text
 from thirdbody.app.cross_section import CARRIES, profile, section, to_svg
+from thirdbody.app.entries import about_of
 from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.fields import engineering, fields_of, number_of, shown, value_from
 from thirdbody.app.folders import Folders
 from thirdbody.app.guard import LARGEST_UPLOAD, Guard, Headers, allowed_hosts
-from thirdbody.app.inputs import about_of
 from thirdbody.app.jobs import Job, Stopped
 from thirdbody.app.page import Start
 from thirdbody.app.python_text import to_python

@@ -14,9 +14,10 @@ from ...errors import InvalidValue
 from ...populations.measured.cleanliness import DUSTS
 from ...quantities.say import percent, value_of
 from ..bounds import LARGEST_TABLE
+from ..entries import about_of
 from ..fields import shown
 from ..figures import empty, figure, line, plain
-from ..inputs import Inputs, about_of
+from ..inputs import Inputs
 from ..state import Answer, State
 from ..text import with_micro
 from ..uploads import keep
