@@ -499,7 +499,7 @@ def test_every_key_of_a_study_file_has_an_entry(tmp_path):
     from nicegui.page import page as place
 
     from thirdbody.app.fields import known_keys
-    from thirdbody.app.inputs import FORMED, Inputs
+    from thirdbody.app.inputs import BODIES_BEGUN, FORMED, ROUGHNESS_BEGUN, Inputs
     from thirdbody.study.tables import TABLES
 
     dust = {"material": "SiO2", "distribution": "monodisperse", "mean": "300 nm",
@@ -511,11 +511,24 @@ def test_every_key_of_a_study_file_has_an_entry(tmp_path):
         "ellipticity": {"first": 4, "second": 2, "angle": "30 deg"},
     }
     measured = study | {"roughness": {"topography": "example"}}
+    pressed = [
+        study | {"roughness": rough, "load": {"force": "5 N"}, "body": body}
+        for rough, body in zip(
+            itertools.cycle(ROUGHNESS_BEGUN.values()), BODIES_BEGUN.values(), strict=False
+        )
+    ]
     with Client(place("/test"), request=None):
-        for given in (study, measured):
-            inputs = Inputs(State(given, tmp_path), lambda: None)
-            for name in ("surfaces", "roughness", "asperity_law", "particles", "outputs", "load"):
-                getattr(inputs, name)()
+        for given in (study, measured, *pressed):
+            state = State(given, tmp_path)
+            begun = ("roughness", "load", "body")
+            assert given in (study, measured) or not any(
+                problem.startswith(begun) for problem in state.problems
+            )
+            inputs = Inputs(state, lambda: None)
+            names = ["surfaces", "roughness", "asperity_law", "particles", "outputs", "load"]
+            for name in [*names, "body"] if "body" in given else names:
+                if name != "body":  # is under its force
+                    getattr(inputs, name)()
                 for path, keys in known_keys(given, name).items():
                     offered = set(inputs.shown)
                     for key, about in keys.items():
@@ -819,3 +832,18 @@ def test_json_of_the_worker_is_strict():
 
     made = _finite({"a": np.array([1.0, np.nan]), "b": (np.float64("inf"), np.int64(2))})
     assert json.dumps(made, allow_nan=False) == '{"a": [1.0, null], "b": [null, 2]}'
+
+
+def test_a_force_opens_at_its_mean_pressure_and_reaches_the_largest(tmp_path):
+    from thirdbody.app.tabs.interface import under_force
+
+    study = example() | {
+        "load": {"force": "2 N"},
+        "body": {"kind": "ball-on-flat", "diameter": "40 mm"},
+    }
+    state = State(study, tmp_path)
+    mean, largest = check(study).values
+    assert (state.at, state.answer.loads[-1]) == (mean, largest)
+    assert len(state.answer.loads) == 200
+    assert under_force(state.answer).startswith("2 N on the body ball-on-flat: Hertz contact of ")
+    assert under_force(State(example(), tmp_path).answer) == ""

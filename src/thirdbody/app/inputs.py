@@ -10,9 +10,13 @@ import thirdbody as tb
 
 from ..analysis.uncertainty.inputs import KINDS
 from ..errors import InvalidValue
+from ..populations.finish import STATED, processes
 from ..quantities.units import say
 from ..study import LOADS
+from ..study.body import FORCE
+from ..study.drawing import is_drawn
 from ..study.inputs import inputs_of
+from ..systems.bodies import BODIES
 from .bounds import LARGEST_TABLE
 from .entries import Place, dotted
 from .fields import VARIANTS, Field, fields_of, number_field, value_from
@@ -25,9 +29,47 @@ __all__ = ["FORMED", "Inputs"]
 
 FORMED = (
     "title", "materials", "surfaces", "roughness", "asperity_law", "particles", "particle_law",
-    "outputs", "load",
+    "outputs", "load", "body",
 )  # fmt: skip
 """Tables of a study file that have forms; every other can be written as text."""
+HEIGHTS_GIVEN = {
+    "sigma": "σ and R of the surface",
+    "pair": "Ra, Rq or Rz of the drawing",
+    "faces": "Ra, Rq or Rz of each face",
+}
+ROUGHNESS_BEGUN: dict[str, dict[str, Any]] = {
+    "sigma": {"sigma": "100 nm", "R": "2.8 um"},
+    "pair": {"Ra": "0.1 um", "process": "lapped"},
+    "faces": {
+        "first": {"Ra": "0.2 um", "process": "ground"},
+        "second": {"Ra": "0.1 um", "process": "lapped"},
+    },
+}
+LOAD_WORDS = {
+    "F_star": "F_star: load F/(A_n E*)",
+    "pressure": "pressure: nominal",
+    "separation": "separation d",
+    "force": "force: on a ball, a roller or a face",
+}
+LOADS_BEGUN: dict[str, Any] = {
+    "F_star": {"from": 5e-7, "to": 2.4e-4, "points": 200, "spacing": "log"},
+    "pressure": {"from": "50 kPa", "to": "20 MPa", "points": 200, "spacing": "log"},
+    "separation": {"from": "100 nm", "to": "500 nm", "points": 200, "spacing": "linear"},
+    "force": "5 N",
+}
+BODIES_BEGUN: dict[str, dict[str, Any]] = {
+    "ball-on-flat": {"kind": "ball-on-flat", "diameter": "6 mm"},
+    "ball-in-groove": {"kind": "ball-in-groove", "diameter": "6 mm", "conformity": 0.52},
+    "roller": {"kind": "roller", "diameter": "10 mm", "length": "12 mm"},
+    "cylinders": {
+        "kind": "cylinders",
+        "first_diameter": "10 mm",
+        "second_diameter": "20 mm",
+        "length": "10 mm",
+    },
+    "flat": {"kind": "flat", "area": "1 cm^2"},
+}
+"""How a table begins that is chosen in a menu."""
 
 
 class Inputs(ParticleInputs):
@@ -66,10 +108,41 @@ class Inputs(ParticleInputs):
             self.known("roughness")
             ui.button("Numbers instead", on_click=self._numbers).props("flat dense")
             return
+        given = self.table("roughness")
+        stated = "faces" if {"first", "second"} & given.keys() else "pair"
+        self.select(
+            None,
+            HEIGHTS_GIVEN,
+            stated if is_drawn(given) else "sigma",
+            "heights given as",
+            lambda word: self.change("roughness", ROUGHNESS_BEGUN[word]),
+        )
+        if is_drawn(given):
+            self._drawn(stated == "faces")
         for each in fields_of(tb.Roughness):
-            self.field(("roughness",), each)
+            if not is_drawn(given):
+                self.field(("roughness",), each)
+            elif each.quantity is not None and each.name != "sigma":
+                better = number_field(each.name, each.quantity, each.default, needed=False)
+                self.field(("roughness",), better)
         self.variant(("roughness", "heights"), VARIANTS["heights"], "gaussian", "heights")
         self.ellipticity()
+
+    def _drawn(self, faces: bool) -> None:
+        """What a drawing states, of the pair or of each face."""
+        process = Field(
+            name="process",
+            kind="word",
+            label="process",
+            about="how the face is finished",
+            options=tuple(processes()),
+        )
+        for place in (("first",), ("second",)) if faces else ((),):
+            for face in place:
+                ui.label(f"{face} face").classes("subhead")
+            for name, about in STATED.items():
+                self.field(("roughness", *place), number_field(name, about, needed=False))
+            self.field(("roughness", *place), process)
 
     def ellipticity(self) -> None:
         """Round tips, classes of elliptic ones, or two faces at an angle."""
@@ -97,30 +170,34 @@ class Inputs(ParticleInputs):
             self.change("roughness", new)
 
     def load(self) -> None:
-        """Which load, and its values."""
+        """Which load, and its values; under a force the bodies that it presses."""
         table = self.table("load")
-        kind = next((name for name in VARIANTS["load"] if name in table), "pressure")
-        starts = {
-            "F_star": {"from": 5e-7, "to": 2.4e-4, "points": 200, "spacing": "log"},
-            "pressure": {"from": "50 kPa", "to": "20 MPa", "points": 200, "spacing": "log"},
-            "separation": {"from": "100 nm", "to": "500 nm", "points": 200, "spacing": "linear"},
-        }
-        words = {
-            "F_star": "F_star: load F/(A_n E*)",
-            "pressure": "pressure: nominal",
-            "separation": "separation d",
-        }
-        self.select(
-            None, words, kind, "load", lambda word: self.change("load", {word: starts[word]})
+        kind = next((name for name in LOADS_BEGUN if name in table), "pressure")
+        self.select(None, LOAD_WORDS, kind, "load", self._loaded)
+        self._values(kind)
+        if kind == "force":
+            self.body()
+
+    def _loaded(self, kind: str) -> None:
+        """Another kind of load; bodies come and go with the force."""
+        study = {key: value for key, value in self.state.study.items() if key != "body"}
+        body = {"body": self.state.get("body") or BODIES_BEGUN["ball-on-flat"]}
+        self.state.replace(
+            study | {"load": {kind: LOADS_BEGUN[kind]}} | (body if kind == "force" else {})
         )
+        self.again()
+
+    def _values(self, kind: str) -> None:
+        """One value of the load, several, or a range."""
         place: Place = ("load", kind)
-        about = VARIANTS["load"][kind]
+        about = FORCE if kind == "force" else VARIANTS["load"][kind]
         if not isinstance(self.state.get(*place), dict):
             said = "one value, or several with commas between"
             self.field(("load",), Field(name=kind, kind="text", label=kind, about=said))
-            ui.button("A range", on_click=lambda: self.change("load", {kind: starts[kind]})).props(
-                "flat dense"
-            )
+            start = LOADS_BEGUN[kind]
+            if isinstance(start, dict):
+                wide = ui.button("A range", on_click=lambda: self.change("load", {kind: start}))
+                wide.props("flat dense")
             return
         for end in ("from", "to"):
             self.field(place, number_field(end, about))
@@ -137,8 +214,26 @@ class Inputs(ParticleInputs):
                 options=("log", "linear"),
             ),
         )
-        at = self.state.at if self.state.answer is not None else 1e-5
-        ui.button("One value", on_click=lambda: self.change("load", {kind: at})).props("flat dense")
+        if kind == "force":
+            one: Any = LOADS_BEGUN[kind]
+        else:
+            one = self.state.at if self.state.answer is not None else 1e-5
+        single = ui.button("One value", on_click=lambda: self.change("load", {kind: one}))
+        single.props("flat dense")
+
+    def body(self) -> None:
+        """What the force presses together."""
+        kind = self.state.get("body", "kind")
+        kind = kind if isinstance(kind, str) else ""
+        self.select(
+            ("body", "kind"),
+            {name: name for name in BODIES},
+            kind,
+            "bodies",
+            lambda word: self.change("body", BODIES_BEGUN[word]),
+        )
+        for each in fields_of(BODIES[kind]) if kind in BODIES else ():
+            self.field(("body",), each)
 
     def outputs(self) -> None:
         """Every output of the library: a switch, then its numbers."""

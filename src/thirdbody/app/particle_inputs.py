@@ -8,16 +8,30 @@ from nicegui import ui
 
 import thirdbody as tb
 
+from ..quantities.say import value_of
 from ..study.concentration import AMOUNT
 from ..study.counted import COUNTED
 from .entries import Entries, Place
-from .fields import COUNTED_FIELDS, VARIANTS, Field, fields_of, number_field, options_of
+from .fields import COUNTED_FIELDS, VARIANTS, Field, fields_of, number_field, options_of, shown
 from .state import State
 
 __all__ = ["ParticleInputs"]
 
 SIZES = (*VARIANTS["distribution"], *COUNTED)
 AMOUNTS = ("gap", "particle_density", "oil_density")
+
+
+def bins_in_words(given: dict[str, Any]) -> str:
+    """What a counter found, in a few words.
+
+    >>> bins_in_words({"edges": [1e-6, 2e-6, 4e-6], "counts": [5, 1]})
+    '2 bins from 1 µm to 4 µm'
+    """
+    edges = given.get("edges")
+    if not isinstance(edges, list) or len(edges) < 2:
+        return "bins in the study file"
+    ends = [value_of(each, "m") if isinstance(each, float) else shown(each) for each in edges]
+    return f"{len(edges) - 1} bins from {ends[0]} to {ends[-1]}"
 
 
 class ParticleInputs(Entries):
@@ -52,13 +66,7 @@ class ParticleInputs(Entries):
             (*place, "distribution"), labels, kind or "", "sizes", lambda w: self._sized(place, w)
         )
         if kind in COUNTED:
-            example = {"iso4406": "18/16/13", "test_dust": "A2", "sizes": "sizes.csv"}.get(
-                kind, "6"
-            )
-            about = f"as written, e.g. {example}"
-            self.field(place, Field(name=kind, kind="string", label=kind, about=about))
-            for each in COUNTED_FIELDS[kind]:
-                self.field(place, each)
+            self._counted(place, kind, table[kind])
         elif kind in VARIANTS["distribution"]:
             for each in fields_of(VARIANTS["distribution"][kind]):
                 self.field(place, each)
@@ -70,6 +78,19 @@ class ParticleInputs(Entries):
         self.variant(
             (*place, "law"), VARIANTS["particle"], "", "law of these particles", blank="as below"
         )
+
+    def _counted(self, place: Place, kind: str, given: Any) -> None:
+        """A code, or what a counter found, and their options."""
+        if isinstance(given, dict):  # dropped on the page
+            ui.label(f"{kind}: {bins_in_words(given)}").classes("hint")
+        else:
+            example = {"iso4406": "18/16/13", "test_dust": "A2", "sizes": "sizes.csv"}.get(
+                kind, "6"
+            )
+            about = f"as written, e.g. {example}"
+            self.field(place, Field(name=kind, kind="string", label=kind, about=about))
+        for each in COUNTED_FIELDS[kind]:
+            self.field(place, each)
 
     def amount(self, place: Place, kind: Any) -> None:
         """Per area, or a concentration and the gap."""
