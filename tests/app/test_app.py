@@ -499,7 +499,7 @@ def test_every_key_of_a_study_file_has_an_entry(tmp_path):
     from nicegui.page import page as place
 
     from thirdbody.app.fields import known_keys
-    from thirdbody.app.inputs import BODIES_BEGUN, FORMED, ROUGHNESS_BEGUN, Inputs
+    from thirdbody.app.inputs import FORMED, Inputs
     from thirdbody.study.tables import TABLES
 
     dust = {"material": "SiO2", "distribution": "monodisperse", "mean": "300 nm",
@@ -511,24 +511,11 @@ def test_every_key_of_a_study_file_has_an_entry(tmp_path):
         "ellipticity": {"first": 4, "second": 2, "angle": "30 deg"},
     }
     measured = study | {"roughness": {"topography": "example"}}
-    pressed = [
-        study | {"roughness": rough, "load": {"force": "5 N"}, "body": body}
-        for rough, body in zip(
-            itertools.cycle(ROUGHNESS_BEGUN.values()), BODIES_BEGUN.values(), strict=False
-        )
-    ]
     with Client(place("/test"), request=None):
-        for given in (study, measured, *pressed):
-            state = State(given, tmp_path)
-            begun = ("roughness", "load", "body")
-            assert given in (study, measured) or not any(
-                problem.startswith(begun) for problem in state.problems
-            )
-            inputs = Inputs(state, lambda: None)
-            names = ["surfaces", "roughness", "asperity_law", "particles", "outputs", "load"]
-            for name in [*names, "body"] if "body" in given else names:
-                if name != "body":  # is under its force
-                    getattr(inputs, name)()
+        for given in (study, measured):
+            inputs = Inputs(State(given, tmp_path), lambda: None)
+            for name in ("surfaces", "roughness", "asperity_law", "particles", "outputs", "load"):
+                getattr(inputs, name)()
                 for path, keys in known_keys(given, name).items():
                     offered = set(inputs.shown)
                     for key, about in keys.items():
@@ -540,6 +527,33 @@ def test_every_key_of_a_study_file_has_an_entry(tmp_path):
                 if table.name not in FORMED:
                     inputs.as_text(table.name)
                     assert table.name in inputs.shown
+
+
+def test_what_a_menu_begins_has_no_mistake_and_an_entry_for_every_key(tmp_path):
+    """Roughness as on a drawing, and every kind of body under a force."""
+    from nicegui import Client
+    from nicegui.page import page as place
+
+    from thirdbody.app.fields import known_keys
+    from thirdbody.app.inputs import BODIES_BEGUN, ROUGHNESS_BEGUN, Inputs
+    from thirdbody.systems.bodies import BODIES
+
+    assert list(BODIES_BEGUN) == list(BODIES)
+    offered, known = set(), set()
+    with Client(place("/test"), request=None):
+        for rough, body in itertools.product(ROUGHNESS_BEGUN.values(), BODIES_BEGUN.values()):
+            study = example() | {"roughness": rough, "load": {"force": "5 N"}, "body": body}
+            state = State(study, tmp_path)
+            assert state.problems == []
+            inputs = Inputs(state, lambda: None)
+            inputs.roughness()
+            inputs.load()
+            offered |= set(inputs.shown)
+            for name in ("roughness", "body"):
+                for path, keys in known_keys(study, name).items():
+                    known |= {f"{path}.{key}" for key, about in keys.items() if about}
+    missing = [name for name in sorted(known) if not any(s.startswith(name) for s in offered)]
+    assert missing == []
 
 
 def test_the_first_figure_may_come_after_the_empty_one_was_drawn():
@@ -563,7 +577,8 @@ ALSO = {
     "film": "another word for gap",
     "separation": "one load excludes the others, which the menu offers",
     "pressure": "as separation",
-    "force": "goes with the table [body], which is edited as text",
+    "force": "as separation",
+    "F_star": "as separation",
 }
 """Keys that need no entry of their own."""
 

@@ -101,7 +101,7 @@ def told(page, known):
     when(
         page,
         f"wanted => {{ const told = ({FACTS})();"
-        " return Object.entries(wanted).every(([name, text]) => told[name] === text); }}",
+        " return Object.entries(wanted).every(([name, text]) => told[name] === text); }",
         arg=known,
     )
     return page.evaluate(FACTS)
