@@ -21,6 +21,7 @@ from .examples import EXAMPLES, example
 from .fields import Field
 from .folders import Folders
 from .inputs import FORMED, Inputs
+from .look import LOOK, RESIZE
 from .sliders import Sliders
 from .state import State, files_of
 from .tabs import TABS
@@ -30,119 +31,15 @@ from .work import when_left
 
 __all__ = ["Start", "page"]
 
-LOOK = """
-:root { --hint: #5f6672; --problem: #b3261e; }
-.body--dark { --hint: #a9b0bb; --problem: #ff8a80; }
-body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
-.hint { color: var(--hint); font-size: 0.83rem; line-height: 1.3; }
-.stale { font-size: 0.85rem; border-left: 3px solid #E69F00; padding-left: 0.6rem; }
-.problem { color: var(--problem); font-size: 0.85rem; font-weight: 600; }
-.subhead { font-weight: 600; margin-top: 0.4rem; }
-.facts { gap: 0.5rem 1.6rem; }
-.headline { font-size: 1.25rem; font-weight: 600; line-height: 1.35; text-wrap: balance; }
-.words { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1rem; }
-.fact .value { font-size: 1.05rem; font-weight: 600; }
-.figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
-@media (min-width: 1100px) { .figures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
-.figures > * { min-width: 0; }
-.js-plotly-plot { position: relative; }
-.here { position: absolute; border-left: 2px solid var(--hint); pointer-events: none; }
-.here[hidden] { display: none; }
-.sliders { gap: 0.4rem 1.6rem; align-items: flex-end; }
-.slider { flex: 1 1 130px; min-width: 130px; padding: 0 8px; }
-.knobs { flex: 6 1 0; gap: 0.4rem 1.6rem; align-items: flex-end; }
-@media (max-width: 699px) {
-  .sliders { display: contents; }
-  .load { position: sticky; top: 72px; z-index: 3; width: 100%; flex: none; background: #fff; }
-  .body--dark .load { background: #121212; }
-  .knobs { flex: none; width: 100%; gap: 0.4rem 1rem; }
-}
-.skip { position: absolute; left: -9999px; }
-.skip:focus { left: 8px; top: 8px; z-index: 9999; padding: 8px 12px; }
-.skip:focus { background: #fff; color: #00518a; }
-h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-spacing: 0; }
-.scroll-x { overflow-x: auto; }
-.section { display: block; width: 100%; min-width: 640px; height: auto; }
-.q-uploader { width: 260px; }
-/* under the pointer a button gets darker, so that its words stay readable */
-.q-btn.bg-primary > .q-focus-helper { color: #000; }
-.q-btn.bg-primary > .q-focus-helper::after { display: none; }
-.q-uploader__list { display: none; }
-#q-loading-bar { display: none; }
-.scroll-x .q-table { min-width: 620px; }
-.narrow { max-width: 34rem; }
-.code textarea { font-family: ui-monospace, monospace; font-size: 0.8rem; line-height: 1.35; }
-.listing {
-  font-family: ui-monospace, monospace; font-size: 0.8rem; white-space: pre; overflow-x: auto;
-}
-.js-plotly-plot .main-svg text { fill: currentColor !important; }
-.js-plotly-plot .main-svg { background: transparent !important; }
-.js-plotly-plot .hoverlayer text { fill: #222 !important; }
-.body--dark .scatterlayer .lines, .body--dark .legendlines { filter: brightness(1.4); }
-.body--dark .layer-below .shapelayer { opacity: 0.5; }
-.q-tab { padding: 0 11px; }
-.q-field__messages { line-height: 1.2; }
-.q-field--with-bottom { padding-bottom: 0; }
-.q-field--with-bottom .q-field__bottom { position: static; transform: none; padding: 3px 0 6px; }
-.q-header .q-field__label { color: #ffffff; }
-@media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
-/* what is important in the framework yields only to an earlier layer */
-@layer overrides {
-  :root { --focus: #0072B2; }
-  .body--dark { --focus: #56B4E9; }
-  .q-header { --focus: #ffffff; }
-  :focus-visible { outline: 2px solid var(--focus) !important; outline-offset: 2px; }
-  .body--dark .text-primary,
-  .body--dark .q-field--highlighted .q-field__label { color: #56B4E9 !important; }
-}
-"""
-
-
-RESIZE = """
-<script type="module">
-const here = (plot) => {
-  const around = plot.closest("[data-at]"), { xaxis } = plot._fullLayout ?? {};
-  if (!around || !xaxis) return;
-  let line = plot.querySelector(":scope > .here");
-  if (!line) {
-    line = Object.assign(document.createElement("div"), { className: "here" });
-    plot.append(line);
-  }
-  const { _offset: left, _length: width } = xaxis, { t, h } = plot._fullLayout._size;
-  const x = xaxis.d2p(Number(around.dataset.at));
-  line.hidden = !(x >= 0 && x <= width);
-  Object.assign(line.style, { left: `${left + x}px`, top: `${t}px`, height: `${h}px` });
-};
-const sized = new ResizeObserver(async (entries) => {
-  const { Plotly } = await import("nicegui-plotly");
-  for (const { target } of entries)
-    if (target.offsetParent && target._fullLayout) Plotly.Plots.resize(target).catch(() => {});
-});
-new MutationObserver(() => {
-  for (const plot of document.querySelectorAll(".js-plotly-plot:not([data-sized])")) {
-    plot.dataset.sized = "";
-    sized.observe(plot);
-  }
-  for (const plot of document.querySelectorAll("[data-at] .js-plotly-plot:not([data-here])"))
-    if (plot.on) {
-      plot.dataset.here = "";
-      plot.on("plotly_afterplot", () => here(plot));
-      here(plot);
-    }
-}).observe(document.body, { childList: true, subtree: true });
-new MutationObserver(() => document.querySelectorAll("[data-at] .js-plotly-plot").forEach(here))
-  .observe(document.body, { subtree: true, attributeFilter: ["data-at"] });
-</script>
-"""
-"""Figures follow the width of their place; one that is out of sight has none. The operating load,
-which moves most, is a line over them: `data-at` around them says where."""
-
-
 MORE = "More tables, as text"
 SKIP = """event => {
   event.preventDefault();
   document.querySelector(event.currentTarget.getAttribute("href")).focus();
 }"""
+
+
+TURN = '() => setDark(!document.body.classList.contains("body--dark"))'
+"""The framework's element for it would set the colours anew at every change of the page."""
 
 
 class Start:
@@ -243,7 +140,6 @@ def page(state: State, told: str, start: Start) -> None:
     ui.add_css(LOOK)
     ui.add_body_html(RESIZE + FOLLOW)
     ui.colors(primary="#0072B2", accent="#D55E00", positive="#009E73", negative="#b3261e")
-    dark = ui.dark_mode(value=None)
 
     def again() -> None:
         panel.refresh()
@@ -271,7 +167,7 @@ def page(state: State, told: str, start: Start) -> None:
             list(EXAMPLES), label="open an example", on_change=lambda e: opened(e.value)
         )
         names.props('dense dark options-dense standout data-path="example"').classes("w-56")
-        shade = ui.button(icon="contrast", on_click=lambda: turn())
+        shade = ui.button(icon="contrast").on("click", js_handler=TURN)
         shade.props('flat dense color=white aria-label="light or dark"')
 
     with ui.left_drawer(value=None, bordered=True).props(
@@ -318,7 +214,7 @@ def page(state: State, told: str, start: Start) -> None:
 
         panel()
 
-    whole = ui.column().classes("w-full max-w-[1500px] mx-auto gap-2")
+    whole = ui.column().classes("whole gap-2")
     put(skip, {"href": f"#{whole.html_id}"})
     with whole.props('tabindex=-1 role=region aria-label="the answer"'):
         banner = ui.label(told).classes("problem").props('role=alert data-said="page"')
@@ -407,9 +303,6 @@ def page(state: State, told: str, start: Start) -> None:
         address.travelled()
         tabs.set_value(state.tab)
         again()
-
-    def turn() -> None:
-        dark.value = not dark.value if dark.value is not None else True
 
     soon = Soon(refresh)
     state.changed.append(soon)

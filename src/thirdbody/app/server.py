@@ -82,6 +82,7 @@ def _run(host: str, port: int, browser: bool) -> None:
         show_welcome_message=False,
         language="en-US",
         dark=None,
+        tailwind=False,
         reconnect_timeout=60.0,
         storage_secret=None,
         on_air=None,
