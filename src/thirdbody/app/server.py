@@ -83,6 +83,7 @@ def _run(host: str, port: int, browser: bool) -> None:
         language="en-US",
         dark=None,
         tailwind=False,
+        ws_per_message_deflate=False,
         reconnect_timeout=60.0,
         storage_secret=None,
         on_air=None,

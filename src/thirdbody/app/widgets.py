@@ -97,8 +97,8 @@ class Plot:
             self.widget.update_figure(made)
             return None
         self.widget.figure = made
-        with self.widget.props.suspend_updates():
-            self.widget.props["options"] = made
+        # every number would be watched by the framework otherwise
+        dict.__setitem__(self.widget.props, "options", made)
         return ("relayout", marks) if same else ("react", made["data"], layout, CONFIG)
 
 
