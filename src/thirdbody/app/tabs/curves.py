@@ -33,6 +33,7 @@ from .interface import abouts, swatch
 __all__ = ["TITLE", "build", "figures"]
 
 TITLE = "Curves"
+FIGURES = ("area", "shares", "regimes", "separation")
 CRITICAL = {
     "F_cr1": "F<sub>cr1</sub>",
     "F_cr2": "F<sub>cr2</sub>",
@@ -153,71 +154,86 @@ def _separation(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Four figures and the critical loads."""
-    with ui.row().classes("w-full items-center gap-4"):
-        against = ui.toggle({"pressure": "pressure", "F_star": "F*"}, value="pressure")
-        against.props('dense no-caps aria-label="horizontal axis" data-path="curves.against"')
-        with ui.row().classes("items-center gap-4").props('data-figure="bands key"') as key:
-            for mode, colour in MODE_FILLS.items():
-                swatch("opacity:0.5;background:" + colour, f"{mode}: {abouts()[mode]}")
-    grid = ui.element("div").classes("figures w-full")
-    with grid:
-        plots = {name: Plot(name) for name in ("area", "shares", "regimes", "separation")}
-    table = ui.column().classes("w-full scroll-x")
-    now: dict[str, Any] = {"timer": None, "shown": None, "table": None}
+    return Curves(state).draw
 
-    async def show(critical: bool) -> None:
-        answer = state.answer
-        assert answer is not None
-        asked = (answer, str(against.value), critical)
-        if asked == now["shown"]:
-            return
-        found = await state.ask(_figures, *asked[1:])
-        if answer is not state.answer:
-            return  # it moved on meanwhile
-        now["shown"] = asked
-        plots["shares"].widget.set_visibility(not answer.contact.two_body)
-        key.set_visibility(not answer.contact.two_body)
-        above, below = list(found)[:2], list(found)[2:]
-        await asyncio.gather(*(plots[name].shown(found[name]) for name in above))
-        if state.study is not state.read:  # it moved on: the last move wins
-            now["shown"] = None
-            return
-        for name in below:
-            plots[name].show(found[name])
 
-    async def place() -> None:
-        answer, axis = state.answer, str(against.value)
+class Curves:
+    """Four figures over the load, and a table of the critical loads once the slider rests."""
+
+    def __init__(self, state: State) -> None:
+        self.state = state
+        with ui.row().classes("w-full items-center gap-4"):
+            self.against = ui.toggle({"pressure": "pressure", "F_star": "F*"}, value="pressure")
+            self.against.props('dense no-caps aria-label="horizontal axis"')
+            self.against.props('data-path="curves.against"')
+            self.key = ui.row().classes("items-center gap-4").props('data-figure="bands key"')
+            with self.key:
+                for mode, colour in MODE_FILLS.items():
+                    swatch("opacity:0.5;background:" + colour, f"{mode}: {abouts()[mode]}")
+        self.grid = ui.element("div").classes("figures w-full")
+        with self.grid:
+            self.plots = {name: Plot(name) for name in FIGURES}
+        self.table = ui.column().classes("w-full scroll-x")
+        self.later: Any = None
+        """The timer after which critical loads follow."""
+        self.shown: tuple[Any, ...] | None = None
+        """What the figures show."""
+        self.told: Answer | None = None
+        """Whose critical loads the table holds."""
+        self.against.on_value_change(self.draw)
+
+    async def draw(self) -> None:
+        answer = self.state.answer
         assert answer is not None
+        known = "critical" in answer.__dict__
+        await self._place(answer)
+        await self._show(answer, critical=known)
+        if known:
+            self._tell(answer)
+        elif self.later is None:
+            # critical loads are many states: they follow when the slider rests
+            with self.grid:
+                self.later = ui.timer(0.25, self._finish, once=True)
+
+    async def _place(self, answer: Answer) -> None:
+        """Where the line of the operating load is."""
+        state, axis = self.state, str(self.against.value)
         at = await state.ask(_solved, state.at) if answer.load == "d" else state.at
         F_star = at / answer.contact.E_ss if answer.load == "pressure" else at
         here = F_star * (1.0 if axis == "F_star" else answer.contact.E_ss * SCALES[axis])
-        put(grid, {"data-at": repr(here)})
+        put(self.grid, {"data-at": repr(here)})
 
-    async def finish() -> None:
-        now["timer"] = None
-        await show(critical=True)
-        _told(state.answer)
+    async def _show(self, answer: Answer, *, critical: bool) -> None:
+        asked = (answer, str(self.against.value), critical)
+        if asked == self.shown:
+            return
+        found = await self.state.ask(_figures, *asked[1:])
+        if answer is not self.state.answer:
+            return  # it moved on meanwhile
+        self.shown = asked
+        two_body = answer.contact.two_body
+        self.plots["shares"].widget.set_visibility(not two_body)
+        self.key.set_visibility(not two_body)
+        above, below = list(found)[:2], list(found)[2:]
+        await asyncio.gather(*(self.plots[name].shown(found[name]) for name in above))
+        if self.state.study is not self.state.read:  # it moved on: the last move wins
+            self.shown = None
+            return
+        for name in below:
+            self.plots[name].show(found[name])
 
-    def _told(answer: Answer | None) -> None:
-        if answer is not now["table"]:
-            now["table"] = answer
-            _table(state, table)
-
-    async def draw() -> None:
-        answer = state.answer
+    async def _finish(self) -> None:
+        self.later = None
+        answer = self.state.answer
         assert answer is not None
-        known = "critical" in answer.__dict__
-        await place()
-        await show(critical=known)
-        if known:
-            _told(answer)
-        elif now["timer"] is None:
-            # critical loads are many states: they follow when the slider rests
-            with grid:
-                now["timer"] = ui.timer(0.25, finish, once=True)
+        await self._show(answer, critical=True)
+        if answer is self.state.answer:
+            self._tell(answer)
 
-    against.on_value_change(lambda: draw())
-    return draw
+    def _tell(self, answer: Answer) -> None:
+        if answer is not self.told:
+            self.told = answer
+            _table(answer, self.table)
 
 
 def _figures(answer: Answer, against: str, critical: bool) -> dict[str, dict[str, Any]]:
@@ -230,10 +246,8 @@ def _solved(answer: Answer, d: float) -> float:
     return float(answer.solve(d).F_star)
 
 
-def _table(state: State, place: Any) -> None:
+def _table(answer: Answer, place: Any) -> None:
     """Critical loads, as the command line prints them."""
-    answer = state.answer
-    assert answer is not None
     place.clear()
     found = answer.__dict__.get("critical")
     if found is None or answer.contact.two_body:
