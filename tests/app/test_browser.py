@@ -27,7 +27,8 @@ from browser import chromium, ended, served  # noqa: E402
 from hostile import PAYLOADS, several, wrong  # noqa: E402
 
 from thirdbody.app.examples import example  # noqa: E402
-from thirdbody.app.sliders import STEPS, at_position  # noqa: E402
+from thirdbody.app.fields import engineering  # noqa: E402
+from thirdbody.app.sliders import REACH, STEPS, at_position  # noqa: E402
 from thirdbody.app.tabs.interface import abouts, headline  # noqa: E402
 from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
 from thirdbody.quantities import say  # noqa: E402
@@ -433,6 +434,31 @@ def test_a_film_is_added_changed_and_removed(visit):
     assert not page.locator('[data-said="page"]').inner_text()
     page.locator('[data-path="film.remove"]').click()
     page.locator('[data-path="film.add"]').wait_for()
+
+
+def test_figures_that_were_out_of_sight_are_those_of_the_study(visit):
+    """A tab that is left while its figures are on their way shows the study when it is back."""
+    page = visit()
+    tab(page, "Curves")
+    drawn(page, "separation")
+    steps = 0
+    for presses in (1, 2, 3):
+        moved(page, "roughness.sigma", presses)
+        steps += presses
+        page.get_by_role("tab", name="Interface", exact=True).click()
+        moved(page, "roughness.sigma", presses)
+        steps += presses
+        tab(page, "Curves")
+        sigma = engineering(100e-9 * REACH ** (2 * steps / STEPS), "m", 3)
+        study = STUDY | {"roughness": STUDY["roughness"] | {"sigma": sigma}}
+        state = check(study).solve()
+        for name, wanted in (("area", state.A_t), ("separation", 1e9 * state.h)):
+            when(
+                page,
+                "([name, wanted]) => JSON.stringify(wanted) === JSON.stringify("
+                "document.querySelector(`[data-figure='${name}']`).data[0].y)",
+                arg=[name, wanted.tolist()],
+            )
 
 
 # ---------------------------------------------------------------- the address
