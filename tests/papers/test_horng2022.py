@@ -315,7 +315,7 @@ def test_a_file_where_the_folder_should_be(tmp_path):
 
 @pytest.mark.parametrize("name", ["9a", "9b", "12b"])
 def test_panels_of_every_reading_can_be_drawn(name):
-    from thirdbody.papers.horng2022.figures import draw
+    from thirdbody.papers.horng2022.drawing import draw
 
     for reading in ("literal", "series-plane"):
         draw(PANELS[name](Curves(READINGS[reading]))).canvas.draw()
