@@ -708,6 +708,35 @@ def from_topography(
     >>> round(moments.sigma * 1e9, 4)
     7.0711
     """
+    scale, steps = _options(cutoff, detrend, unit, spacing, resolution)
+    with np.errstate(over="ignore", invalid="ignore"):
+        raw = read(source, scale, steps, channel)
+    heights: Array = np.ma.filled(np.ma.asarray(raw.heights, dtype=float), np.nan)
+    heights = np.where(np.isfinite(heights), heights, np.nan)
+    _check(heights, raw.name)
+    repeats = bool(raw.periodic) if periodic is None else periodic
+    detrend = detrend or ("none" if repeats else "tilt")
+    surface = Topography(
+        heights=_without_form(heights, detrend),
+        spacing=raw.spacing,
+        source=raw.name,
+        periodic=repeats,
+        limit=raw.limit,
+        limit_reason=raw.limit_reason or "not known: the file does not state it",
+        notes=raw.notes,
+    )
+    if resolution is not None:
+        surface = replace(surface, limit=float(resolution), limit_reason="the resolution given")
+    _check_size(surface, detrend)
+    if cutoff is not None:
+        surface = replace(surface, given_cutoff=surface._cutoff(cutoff))
+    return surface
+
+
+def _options(
+    cutoff: Any, detrend: Any, unit: str | None, spacing: Any, resolution: Any
+) -> tuple[float | None, tuple[float, ...] | None]:
+    """The unit [m] and the spacing [m] given, or None, when every option has a meaning."""
     problems = []
     if detrend is not None and detrend not in FORMS:
         problems.append(f"detrend = {detrend!r} must be one of {', '.join(FORMS)}")
@@ -732,38 +761,21 @@ def from_topography(
             problems += [f"unit: {sentence}" for sentence in error.problems]
     if problems:
         raise InvalidValue(*problems)
+    return scale, steps
 
-    with np.errstate(over="ignore", invalid="ignore"):
-        raw = read(source, scale, steps, channel)
-    heights: Array = np.ma.filled(np.ma.asarray(raw.heights, dtype=float), np.nan)
-    heights = np.where(np.isfinite(heights), heights, np.nan)
-    _check(heights, raw.name)
-    repeats = bool(raw.periodic) if periodic is None else periodic
-    detrend = detrend or ("none" if repeats else "tilt")
-    surface = Topography(
-        heights=_without_form(heights, detrend),
-        spacing=raw.spacing,
-        source=raw.name,
-        periodic=repeats,
-        limit=raw.limit,
-        limit_reason=raw.limit_reason or "not known: the file does not state it",
-        notes=raw.notes,
-    )
-    if resolution is not None:
-        surface = replace(surface, limit=float(resolution), limit_reason="the resolution given")
+
+def _check_size(surface: Topography, detrend: str) -> None:
+    """Refuse what is flat, or higher than wide."""
     if not surface.rms_height > 1e-15:
         raise InvalidValue(
-            f"{raw.name} is flat: without its form (detrend = {detrend!r}) nothing is left"
+            f"{surface.source} is flat: without its form (detrend = {detrend!r}) nothing is left"
         )
     if surface.rms_height > max(surface.size):
         raise InvalidValue(
-            f"{raw.name}: an RMS height of {value_of(surface.rms_height, 'm')} on a side of "
+            f"{surface.source}: an RMS height of {value_of(surface.rms_height, 'm')} on a side of "
             f"{value_of(max(surface.size), 'm')} is no surface; check the units of heights and "
             "sides"
         )
-    if cutoff is not None:
-        surface = replace(surface, given_cutoff=surface._cutoff(cutoff))
-    return surface
 
 
 def _check(heights: Array, name: str) -> None:
