@@ -10,7 +10,7 @@ import pytest
 from thirdbody import InvalidValue
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves, claims, reproduce, score, study
 from thirdbody.papers.horng2022.claims import study_data
-from thirdbody.papers.horng2022.ledger import (
+from thirdbody.papers.horng2022.measures import (
     MEASURES,
     critical_load_1,
     critical_load_2,

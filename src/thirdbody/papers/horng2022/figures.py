@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .ledger import critical_load_1, critical_load_2
+from .measures import critical_load_1, critical_load_2
 from .readings import RANGE, SILICA, STEEL, Curve, Curves
 
 __all__ = ["PANELS", "Line", "Mark", "Panel", "panels", "table"]
