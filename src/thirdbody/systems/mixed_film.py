@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Number = float | Array
 
-__all__ = ["Lubricated", "MixedFilm", "height_of", "lubricated", "mean_gap", "mixed_film"]
+__all__ = ["MixedFilm", "height_of", "mean_gap", "mixed_film"]
 
 BOUNDARY, MIXED, FULL = "boundary", "mixed", "full film"
 FEW, MOST = 0.01, 0.99
