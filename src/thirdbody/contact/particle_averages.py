@@ -162,6 +162,15 @@ class SizeAverage:
         values[gaps >= self.top] = 0.0
         return values
 
+    @property
+    def particles(self) -> SizeAverage:
+        """The average over sizes itself, of one over seats too."""
+        return self
+
+    def load_in_gaps(self, gaps: Array, narrow: float) -> Array:
+        """The load of P(g) where the gap is narrower than this, else 0: (N,)."""
+        return np.where(gaps < narrow, self(gaps)[:, 0], 0.0)
+
     def derivatives(self, gaps: Array, columns: tuple[int, ...]) -> Array:
         """P, P′ and P″ of some columns: (N, len(columns), 3)."""
         u = np.sqrt(np.maximum(self.top - gaps, 0.0))
@@ -346,6 +355,23 @@ class SeatAverage:
         out[gap > high] = 0.0
         out[gap < low] = self.floor
         return out
+
+    @property
+    def particles(self) -> SizeAverage:
+        """The average over sizes of which this is the average over seats."""
+        return self.average
+
+    def load_in_gaps(self, mean_gap: Array, narrow: float) -> Array:
+        """The load at mean gaps from those seats alone in which the gap is narrower: (N,)."""
+        gaps, weights = self.nodes
+        out = np.minimum(
+            special.ndtr((self.average.bottom - mean_gap) / self.width),
+            special.ndtr((narrow - mean_gap) / self.width),
+        )
+        out *= self.floor[0]
+        below = gaps < narrow
+        z = (mean_gap[:, None] - gaps[below]) / self.width
+        return out + np.exp(-0.5 * z * z) @ weights[below, 0]
 
     def spots(self, mean_gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         """Every squeezed particle at mean gaps (N,)."""

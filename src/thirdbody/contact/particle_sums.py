@@ -198,6 +198,11 @@ class Part:
     def columns(self, d: Array) -> Array:
         return self.factor * self.average((d + self.offset) / self.scale)
 
+    def load_in_gaps(self, d: Array, squeeze: float) -> Array:
+        """Pressure [Pa] at d on particles where the gap squeezes the largest one beyond ε: (N,)."""
+        narrow = (1 - squeeze) * self.average.particles.top
+        return self.factor * self.average.load_in_gaps((d + self.offset) / self.scale, narrow)
+
     def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         found = self.average.spots((d + self.offset) / self.scale, splits)
         return found.of_size(self.scale, self.density)
