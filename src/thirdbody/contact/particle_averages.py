@@ -162,6 +162,15 @@ class SizeAverage:
         values[gaps >= self.top] = 0.0
         return values
 
+    def direct(self, gaps: Array) -> Array:
+        """P(g) by quadrature, without tables: (N, 7)."""
+        out = np.zeros((len(gaps), len(COLUMNS)))
+        out[gaps < self.bottom] = self.floor
+        here = (gaps >= self.bottom) & (gaps < self.top)
+        if here.any():
+            out[here] = np.maximum(self.average(gaps[here], self.top - gaps[here]), 0.0)
+        return out
+
     @property
     def particles(self) -> SizeAverage:
         """The average over sizes itself, of one over seats too."""
@@ -355,6 +364,19 @@ class SeatAverage:
         out[gap > high] = 0.0
         out[gap < low] = self.floor
         return out
+
+    def direct(self, mean_gap: Array) -> Array:
+        """Every column by quadrature over sizes and seats, without tables: (N, 7)."""
+        average, reach = self.average, NORMAL_REACH * self.width
+        out = special.ndtr((average.bottom - mean_gap) / self.width)[:, None] * self.floor
+        gaps, rise, weights = average.gaps(self.width)
+        near = slice(*np.searchsorted(gaps, [mean_gap.min() - reach, mean_gap.max() + reach]))
+        gaps, rise, weights = gaps[near], rise[near], weights[near]
+        if not len(gaps):
+            return out
+        values = weights[:, None] * average.average(gaps, rise)
+        z = (mean_gap[:, None] - gaps) / self.width
+        return out + np.exp(-0.5 * z * z) @ values / (self.width * math.sqrt(2 * math.pi))
 
     @property
     def particles(self) -> SizeAverage:

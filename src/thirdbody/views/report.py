@@ -539,6 +539,11 @@ class Report:
         if found is None:
             if not self.result["states"]["F_star"][self.at] >= FAINT:
                 return ["<p>There are none: nothing presses the surfaces together.</p>"]
+            if self.study.uncertainty is None and stated_ranges(self.contact):
+                return [
+                    "<p>There are none: with particles that break every sample takes a second, so "
+                    "that bands are drawn only where a table [uncertainty] asks for them.</p>"
+                ]
             names = [body.name or label for label, body in alike(self._bodies())]
             return [
                 "<p>There are none: the study has no table [uncertainty] that says something of "
@@ -885,7 +890,8 @@ def report(
     -----
     Error bars and elasticities are those at the middle of the loads. Error bars take what the
     table [uncertainty] says, in at most 256 samples (`assess` takes all that it asks for);
-    without it, the ranges of the materials library, where it states some.
+    without it, the ranges of the materials library, where it states some, but for particles that
+    break, whose samples take a second each.
 
     Examples
     --------
@@ -953,7 +959,8 @@ def _curve(contact: Contact, result: dict[str, Any], loaded: Sequence[int]) -> E
 def _assessed(study: Study, contact: Contact, given: dict[str, float]) -> Assessment | None:
     asked = study.uncertainty
     if asked is None:
-        if not stated_ranges(contact):
+        breaks = any(each.strength is not None for each in contact.populations)
+        if breaks or not stated_ranges(contact):
             return None
         return assess(contact, **given, samples=MOST_SAMPLES)  # type: ignore[arg-type]
     loads = {"pressure", "F_star", "d"} - set(given)
@@ -970,6 +977,6 @@ def _slopes(contact: Contact, given: dict[str, float]) -> Sensitivity | None:
     if not contact.two_body:
         names.insert(0, "particle_load_share")
     try:
-        return sensitivity(contact, of=names, **given)  # type: ignore[arg-type]
+        return sensitivity(contact, of=names, **given, quick=True)  # type: ignore[arg-type]
     except ThirdBodyError:
         return None
