@@ -126,9 +126,7 @@ def other_cases():
             tb.Contact(surfaces=pair, roughness=ROUGH, particles=dust, particle_law=law),
         )
     seats, shadows = itertools.cycle(SEATS.items()), itertools.cycle(SHADOWS)
-    for (size, diameter), (seat, where), shadow in zip(
-        SIZES.items(), seats, shadows, strict=False
-    ):
+    for (size, diameter), (seat, where), shadow in zip(SIZES.items(), seats, shadows, strict=False):
         second, shape = (SOFT, BLUNT) if size == "gaussian" else (STEEL, SHARP)
         yield (
             f"angular {seat} {size} {shadow}",

@@ -22,7 +22,7 @@ OF_SIZES = "weibull_shape"
 
 
 def shape(reader: Reader, path: str, data: Any, own: dict[str, Key]) -> None:
-    """Adds the key ``shape`` of a population, which for Weibull sizes also is a number of theirs."""
+    """Adds the key ``shape`` of a population; a number there is that of Weibull sizes."""
     given = get(data, "shape")
     sizes = DISTRIBUTIONS.get(str(get(data, "distribution")))
     of_sizes = getattr(sizes, "__dataclass_fields__", {}).get("shape")
