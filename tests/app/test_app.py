@@ -503,7 +503,8 @@ def test_every_key_of_a_study_file_has_an_entry(tmp_path):
     from thirdbody.study.tables import TABLES
 
     dust = {"material": "SiO2", "distribution": "monodisperse", "mean": "300 nm",
-            "areal_density": "1e9 / m^2", "concentration": None, "law": {"name": "series", "law": {"name": "zmc"}}}  # fmt: skip
+            "areal_density": "1e9 / m^2", "concentration": None, "law": {"name": "series", "law": {"name": "zmc"}},
+            "shape": {"kind": "angular"}}  # fmt: skip
     study = example() | {"outputs": {name: {} for name in tb.outputs.REGISTRY}}
     study |= {"particles": [dust, dust | {"name": "b"}]}
     study["roughness"] = study["roughness"] | {
