@@ -39,12 +39,13 @@ if TYPE_CHECKING:
 
 __all__ = ["ContactProbability"]
 
-CELLS = 2048
-"""Steps of the load of one particle between 0 and the load on the solids."""
-NODES = 24
+CELLS, SHARED = 2048, 2.0
+"""Steps between 0 and a load on the solids; loads within this factor share them."""
+NODES = 12
 """Gauss nodes in each panel of the squeeze."""
 PANELS, FINE = 40, 20_000
 """Panels of the squeeze in sums over sizes, and steps where there is one size."""
+LARGE = 1e200
 SURE = 1e-12
 """A load that differs by less, relatively, is the same."""
 
@@ -53,7 +54,8 @@ SURE = 1e-12
 class ContactProbability(Value):
     r"""How often two solids touch through dust.
 
-    .. math:: P(W) = e^{-N}\sum_n \frac{N^n}{n!}\,G^{*n}(W), \qquad N = 2\pi R_s\eta_a\langle x\rangle
+    .. math:: P(W) = e^{-N}\sum_n \frac{N^n}{n!}\,G^{*n}(W), \qquad
+              N = 2\pi R_s\eta_a\langle x\rangle
 
     with the distribution G of the load of one particle in the way.
 
@@ -102,7 +104,9 @@ class ContactProbability(Value):
     '0.39 under 1 mN, 1.00 under 2 N'
     """
 
-    radius: float = quantity("R_s", "m", "radius of the sphere or crossed cylinders", gt=0, usual=10)
+    radius: float = quantity(
+        "R_s", "m", "radius of the sphere or crossed cylinders", gt=0, usual=10
+    )
     surfaces: MaterialPair
     particles: Particles
     law: AbstractParticleLaw = Series()
@@ -158,8 +162,14 @@ class ContactProbability(Value):
         loads = np.asarray(load, dtype=float)
         if not np.all(np.isfinite(loads) & (loads >= 0)):
             raise InvalidValue("load must be finite and not below 0 N")
-        both = np.array([self._bounds(float(W)) for W in loads.ravel()]).reshape(*loads.shape, 2)
-        return both[..., 0], both[..., 1]
+        out = np.full((2, loads.size), math.exp(-self.in_the_way))
+        left = loads.ravel().copy()
+        while np.any(left > 0):
+            top = left.max()
+            here = left > top / SHARED
+            out[:, here] = self._bounds(top, left[here])
+            left[here] = 0.0
+        return out[0].reshape(loads.shape), out[1].reshape(loads.shape)
 
     def of_one(self, load: ArrayLike) -> Array:
         """G: share of the particles in the way that carry no more than this [N]."""
@@ -193,29 +203,28 @@ class ContactProbability(Value):
         """Load over x² [Pa] at ε."""
         return np.asarray(self._one.at(eps).load)
 
-    def _bounds(self, W: float) -> tuple[float, float]:
-        N = self.in_the_way
-        if W == 0:
-            return math.exp(-N), math.exp(-N)
-        below = self.of_one(np.linspace(0, W, CELLS + 1))
-        mass = np.diff(below, prepend=0.0)
-        up = mass.copy()
+    def _bounds(self, top: float, loads: Array) -> Array:
+        """Both bounds at loads not above ``top``, in steps of which that has about `CELLS`."""
+        step = top / CELLS
+        if self.threshold < top:  # the jumps of one size lie on its multiples
+            step = self.threshold / math.ceil(self.threshold / step)
+        places = np.arange(math.floor(top / step * (1 + SURE)) + 1)
+        mass = np.diff(self.of_one(step * places), prepend=0.0)
         down = np.append(mass[1:], 0.0)
         down[0] += mass[0]
-        return _compound(N, up), _compound(N, down)
+        place = np.floor(loads / step * (1 + SURE)).astype(int)
+        return np.array([_compound(self.in_the_way, each)[place] for each in (mass, down)])
 
 
-def _compound(N: float, mass: Array) -> float:
-    """P(S ≤ last place) of a Poisson sum over places 0, 1, 2, … of these masses."""
+def _compound(N: float, mass: Array) -> Array:
+    """P(S ≤ j) of a Poisson sum S over places 0, 1, 2, … of these masses, at every place j."""
     weight = N * np.arange(len(mass)) * mass
-    g = np.zeros(len(mass))
+    g = np.zeros(len(mass))  # probability of each place, over exp(log_scale)
     g[0], log_scale = 1.0, -N * (1 - mass[0])
-    total = 1.0
     for j in range(1, len(mass)):
-        g[j] = weight[1 : j + 1] @ g[j - 1 :: -1] / j if j > 1 else weight[1] * g[0]
-        total += g[j]
-        if total > 1e200:
-            g /= total
-            log_scale += math.log(total)
-            total = 1.0
-    return min(1.0, math.exp(min(0.0, log_scale + math.log(total))))
+        g[j] = weight[1 : j + 1] @ g[:j][::-1] / j
+        if g[j] > LARGE:
+            g /= LARGE
+            log_scale += math.log(LARGE)
+    with np.errstate(divide="ignore"):
+        return np.minimum(np.exp(np.minimum(np.log(np.cumsum(g)) + log_scale, 0.0)), 1.0)
