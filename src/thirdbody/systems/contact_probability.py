@@ -41,9 +41,11 @@ __all__ = ["ContactProbability"]
 
 CELLS, SHARED = 2048, 2.0
 """Steps between 0 and a load on the solids; loads within this factor share them."""
-NODES = 12
+PER_PARTICLE, MOST_CELLS = 16, 40_000
+"""More steps where there are many particles, each of which is rounded."""
+NODES = 4
 """Gauss nodes in each panel of the squeeze."""
-PANELS, FINE = 40, 20_000
+PANELS, FINE = 32, 20_000
 """Panels of the squeeze in sums over sizes, and steps where there is one size."""
 LARGE = 1e200
 SURE = 1e-12
@@ -152,7 +154,7 @@ class ContactProbability(Value):
         Returns
         -------
         tuple of array
-            Lower and upper bound of P [1], some N/1000 apart.
+            Lower and upper bound of P [1]: some N/1000 apart up to N of 100, farther beyond.
 
         Raises
         ------
@@ -205,15 +207,14 @@ class ContactProbability(Value):
 
     def _bounds(self, top: float, loads: Array) -> Array:
         """Both bounds at loads not above ``top``, in steps of which that has about `CELLS`."""
-        step = top / CELLS
-        if self.threshold < top:  # the jumps of one size lie on its multiples
+        step = top / min(max(CELLS, PER_PARTICLE * self.in_the_way), MOST_CELLS)
+        if self.threshold < top + step:  # the jumps of one size lie on its multiples
             step = self.threshold / math.ceil(self.threshold / step)
         places = np.arange(math.floor(top / step * (1 + SURE)) + 1)
-        mass = np.diff(self.of_one(step * places), prepend=0.0)
-        down = np.append(mass[1:], 0.0)
-        down[0] += mass[0]
+        up = np.diff(self.of_one(step * places), prepend=0.0)
+        down = np.diff(self.of_one(step * (places + 1) * (1 - 2 * SURE)), prepend=0.0)
         place = np.floor(loads / step * (1 + SURE)).astype(int)
-        return np.array([_compound(self.in_the_way, each)[place] for each in (mass, down)])
+        return np.array([_compound(self.in_the_way, each)[place] for each in (up, down)])
 
 
 def _compound(N: float, mass: Array) -> Array:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 import thirdbody as tb
 
+from ..ledger import number
 from ..panels import Line, Panel
 from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
 
@@ -94,7 +95,7 @@ def _rolling() -> Band:
 def _panel() -> Panel:
     lines = [
         Line(
-            f"{pressure / 1e6:g} MPa, $f_{{ab}}$ = {given[0]:g}, $K_{{ss}}$ = {given[2]:g}",
+            f"{pressure / 1e6:g} MPa, $f_{{ab}}$ = {given[0]:g}, $K_{{ss}}$ = {number(given[2])}",
             DENSITIES,
             worn(pressure, given)["wear"],
             colour=i,
@@ -111,8 +112,7 @@ def _panel() -> Panel:
         ("areal_density", "wear"),
         tuple(lines),
         ylog=True,
-        note="SiC of 0.5 µm on surfaces with σ = 0.1 µm. Wear is largest where particles take the "
-        "whole load over: more of them press less deep each.",
+        note="SiC of 0.5 µm on σ = 0.1 µm; largest where particles take the whole load over.",
     )
 
 
