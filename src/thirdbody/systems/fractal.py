@@ -23,6 +23,7 @@ from ..numerics.quadrature import panel_rule
 from ..populations.distributions import Monodisperse
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
+from ..populations.shape import Sphere
 from ..quantities.value import Value, quantity
 from .sinusoids import Convergence, Sinusoid, Stack, jackson_streator
 
@@ -433,6 +434,11 @@ class GhaedniaMultiscale(Value):
             out.append(
                 "GhaedniaMultiscale.particles have a strength, and this model does not break "
                 "particles; remove it"
+            )
+        if not isinstance(self.particles.shape, Sphere):
+            out.append(
+                "GhaedniaMultiscale.particles are angular, and those of this model are spheres; "
+                "remove shape"
             )
         for name in ("E_star", "H"):
             own, given = getattr(self.surface, name), getattr(self.surfaces, name)
