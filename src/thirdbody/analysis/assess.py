@@ -276,8 +276,9 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int) -> Array:
         )
 
     good = [fits(float(value)) for value in values]
-    known = values[: good.index(False)] if False in good else values
-    return known[np.unique(np.append(np.arange(0, len(known), EACH), len(known) - 1))]
+    open_way = values[: good.index(False)] if False in good else values
+    last = len(open_way) - 1
+    return open_way[np.unique(np.append(np.arange(0, last, EACH), last))]
 
 
 def _departures(
