@@ -43,6 +43,8 @@ SEATS = {
     "rough": dict(),
     "valleys": dict(zeta_mean=-0.4, zeta_std=0.7),
 }
+SHARP = tb.Angular(roundness=0.25, angle="35 deg")
+BLUNT = tb.Angular(roundness=0.5, angle="12 deg", flatness=1.3)
 SHADOWS = ("footprint", "projected", "covered", "none")
 DUSTS = {"silica": SILICA, "soft": tb.Material(E=3e9, nu=0.4, H=4e8)}
 SECONDS = {"like": STEEL, "unlike": SOFT}
@@ -113,8 +115,8 @@ def particle_cases():
 
 
 def other_cases():
-    """Laws of one particle (without a jump of their load, where no share balances), two
-    populations, an ellipticity."""
+    """Laws of one particle (without a jump of their load, where no share balances), angular
+    particles, two populations, an ellipticity."""
     dust = tb.Particles(material=SILICA, areal_density=1e11, diameter=SIZES["one size"])
     pair = tb.MaterialPair(STEEL, SOFT)
     for name in ("gw", "zmc"):
@@ -122,6 +124,18 @@ def other_cases():
         yield (
             f"particles of {name}",
             tb.Contact(surfaces=pair, roughness=ROUGH, particles=dust, particle_law=law),
+        )
+    seats, shadows = itertools.cycle(SEATS.items()), itertools.cycle(SHADOWS)
+    for (size, diameter), (seat, where), shadow in zip(SIZES.items(), seats, shadows, strict=False):
+        second, shape = (SOFT, BLUNT) if size == "gaussian" else (STEEL, SHARP)
+        yield (
+            f"angular {seat} {size} {shadow}",
+            tb.Contact(
+                surfaces=tb.MaterialPair(STEEL, second),
+                roughness=ROUGH,
+                particle_law=tb.particle.Series(**where | dict(shadow=shadow)),
+                particles=dust.replace(diameter=diameter, shape=shape),
+            ),
         )
     debris = tb.Particles(material=SOFT, areal_density=3e11, diameter=SIZES["lognormal"])
     yield (

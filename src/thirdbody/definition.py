@@ -25,6 +25,7 @@ from .laws.asperity.jg import JG
 from .laws.base import REGIMES
 from .populations.distributions import Monodisperse
 from .populations.materials import reduced_modulus
+from .populations.shape import Sphere
 
 __all__ = ["Side", "Tip", "asperities", "particles", "separation", "squeezed", "state"]
 
@@ -102,7 +103,7 @@ def particles(contact: Any, some: Any, d: float) -> Any:
         raise InvalidValue("particles that break (strength) are not written out in the definition")
     law, rough = contact.law_of(some), contact.roughness
     one, two = [
-        half_of(law, reduced_modulus(body, some.material), body, some.material)
+        half_of(law, reduced_modulus(body, some.material), body, some.material, some.shape)
         for body in (contact.surfaces.first, contact.surfaces.second)
     ]
     eps = squeezes(one, two)
@@ -128,17 +129,17 @@ def particles(contact: Any, some: Any, d: float) -> Any:
             found = over_sizes(sizes, on_plane, splits=gap / (1 - eps[eps != 1]))
         total += share * some.areal_density * found
     footprint, projected = total[5:]
-    covered = 2 * law.tip_radius * some.coverage
+    covered = one.full / (np.pi / 4) * some.coverage
     shadows = dict(footprint=footprint, projected=projected, covered=covered, none=0.0)
     return np.array([*total[:5], shadows[law.shadow]])
 
 
 class Side(Tip):
-    """A particle of size 1 on one surface: its contact ends at its great circle."""
+    """A particle of size 1 on one surface: its contact ends at its great circle, or ``full``."""
 
-    def __init__(self, law: Any, R: float, E_star: float, H: float, nu: float):
+    def __init__(self, law: Any, R: float, E_star: float, H: float, nu: float, full: float = 0.0):
         super().__init__(law, R, E_star, H, nu)
-        self.full = 0.5 * np.pi * R
+        self.full = full or 0.5 * np.pi * R
         self.plastic = self.law.branches[-1].regime == "plastic"
         self.cap = brentq(lambda u: super(Side, self).__call__(u)[1:].sum() - self.full, 0, 10)
         self.kinks = np.sort([*self.kinks[1:], self.cap])
@@ -154,10 +155,46 @@ class Side(Tip):
         return out
 
 
-def half_of(law: Any, E_star: float, surface: Any, particle: Any) -> Side:
-    """What a particle does on one surface: squashed where it is the softer of the two."""
+class Faced(Side):
+    r"""A rounded tip of radius r up to the contact radius b = r tan β, then faces at one pressure.
+
+    .. math:: a = b + (\delta-\delta_j)\cot\beta/r_c, \qquad
+        r_c = 1 + (\pi/2-1)(\delta_j/\delta_t-1), \qquad \delta_t = \tfrac12 r\tan^2\beta
+    """
+
+    def __init__(self, law: Any, E_star: float, H: float, nu: float, shape: Any):
+        r, slope = 0.5 * shape.roundness, np.tan(shape.angle)
+        super().__init__(law, r, E_star, H, nu, np.pi / 4 * shape.flatness**2)
+        b = r * slope
+        self.tip = super().__call__
+        at = brentq(lambda u: self.tip(u)[1:].sum() - np.pi * b**2, 0, self.cap, xtol=1e-18)
+        self.joint = at
+        r_c = 1 + (np.pi / 2 - 1) * (self.joint / (0.5 * r * slope**2) - 1)
+        self.radius = lambda u: b + (u - self.joint) / (slope * r_c)
+        self.p = self.tip(self.joint)[0] / (np.pi * b**2)
+        self.cap = self.joint + (shape.flatness / 2 - b) * slope * r_c
+        points = [*(u for u in self.kinks if u < self.joint), self.joint, self.cap]
+        self.kinks = np.sort(points)
+
+    def __call__(self, delta: Any) -> Any:
+        delta = np.asarray(delta, dtype=float)
+        tip = self.tip(np.minimum(delta, self.joint))
+        area = np.pi * self.radius(np.minimum(delta, self.cap)) ** 2
+        faces = np.where(tip[1:] > 0, area, 0.0)
+        if self.plastic:
+            ended = np.stack([0 * area, 0 * area, area])
+            faces = np.where(delta >= self.cap, ended, faces)
+        return np.where(delta < self.joint, tip, np.stack([self.p * area, *faces]))
+
+
+def half_of(law: Any, E_star: float, surface: Any, particle: Any, shape: Any) -> Side:
+    """What a particle does on one surface: squashed where it is round and the softer of the two."""
     softer = min(surface, particle, key=lambda each: each.H)
     body = E_star, softer.H, softer.nu
+    if not isinstance(shape, Sphere):
+        if shape.faced:
+            return Faced(law.law, *body, shape)
+        return Side(law.law, shape.tip_radius, *body, np.pi / 4 * shape.flatness**2)
     sphere = Side(law.law, law.tip_radius, *body)
     if law.soft == "sphere" or not particle.H < surface.H:
         return sphere

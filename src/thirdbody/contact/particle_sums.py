@@ -53,7 +53,8 @@ def particle_sum(
 def _over_sizes_and_seats(
     law: SeatedLaw, surfaces: MaterialPair, roughness: Roughness, particles: Particles
 ) -> ParticleSum:
-    one = law.one(surfaces=surfaces, particle=particles.material)
+    of_shape = law.of_shape(particles.shape)
+    one = of_shape.one(surfaces=surfaces, particle=particles.material)
     if (coverage := one.breadth * particles.coverage) >= 1:
         raise InvalidValue(law.jammed(coverage))
     parts = []

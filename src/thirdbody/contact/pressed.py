@@ -68,7 +68,7 @@ def _shares(contact: Contact, d: Array, *, brittle: bool = True) -> tuple[Array,
         strength = _strength(each) if brittle else None
         for spots in groups:
             total += spots.total(spots.load)
-            deep += spots.total(spots.load * (np.maximum(*spots.depths) > spots.radius))
+            deep += spots.total(spots.load * (np.maximum(*spots.depths) > spots.half))
             if strength is not None:
                 one = contact.law_of(each).one(surfaces=contact.surfaces, particle=each.material)
                 beyond = _broken(spots, strength, one, each.material)
@@ -157,7 +157,7 @@ def _radius_squeeze(
 
     def beyond(eps: Array) -> Array:
         one = law.probe(eps, surfaces=surfaces, particle=particle)
-        return np.ravel(np.maximum(*one.depths) - one.radius)
+        return np.ravel(np.maximum(*one.depths) - one.half)
 
     found = bracketed_root(beyond, np.array([1e-6]), np.array([4.0]), xrtol=1e-12)
     return tuple(found[np.isfinite(found)].tolist())
@@ -177,7 +177,7 @@ def _broken(
     spots: ParticleSpots, strength: WeibullStrength, one: OneParticle, material: Material
 ) -> NDArray[np.bool_]:
     """Particles whose tension, now or on the way, is beyond the strength of 63 % of their size."""
-    most = strength.of_size(spots.x)
+    most = strength.of_size(np.maximum(spots.x, np.finfo(float).tiny))
     beyond = (spots.x > strength.least(material)) & (spots.load > most * spots.x**2)
     if np.any(beyond):  # the surfaces around a particle only lessen its tension
         squeeze = (spots.depths[0] + spots.depths[1]) / spots.x

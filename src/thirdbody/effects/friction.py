@@ -10,8 +10,9 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column
+from ..populations.shape import CUTS
 from ..quantities.value import choice, quantity
-from .single.ploughing import coefficient, rear_support
+from .single.ploughing import coefficient, coefficient_of_faces, rear_support
 from .single.severity import severity, threshold
 
 if TYPE_CHECKING:
@@ -313,17 +314,31 @@ class Friction(AbstractOutput):
         reached = self._law(kind, H)[2] * area
         return np.maximum(1.0, np.divide(load, reached, out=np.ones_like(load), where=reached > 0))
 
+    def _support(self, depth: Array, yielding: Any) -> Any:
+        """κ of a contact; ``yielding`` is its depth at first yield [m]."""
+        if self.rear == "recovery":
+            return rear_support(np.divide(depth, yielding, where=depth > 0, out=0.0 * depth))
+        return 0.0 if self.rear == "rigid" else self.rear
+
     def _plough(self, depth: Array, radius: Array | float, area: Array, yielding: Any) -> Array:
         """μ_p of a tip; ``yielding`` is its depth at first yield [m]."""
-        kappa: Any = self.rear
-        if kappa == "recovery":
-            kappa = rear_support(np.divide(depth, yielding, where=depth > 0, out=0.0 * depth))
-        elif kappa == "rigid":
-            kappa = 0.0
+        kappa = self._support(depth, yielding)
         if self.angle == "area":
             part = np.minimum(area / (np.pi * np.square(radius)), 1.0)
             depth = radius * part / (1 + np.sqrt(1 - part))
         return coefficient(depth, radius=radius, rear=kappa)
+
+    def _plough_by(self, spots: ParticleSpots, depth: Array, area: Array, yielding: Any) -> Array:
+        """μ_p of particles on one side."""
+        shape = spots.shape
+        if shape is None or shape.round:
+            return self._plough(depth, spots.radius, area, yielding)
+        return coefficient_of_faces(
+            np.sqrt(area / np.pi),
+            edge=shape.edge * spots.x,
+            angle=shape.angle,
+            rear=self._support(depth, yielding),
+        )
 
     def ratio(self, contact: Contact) -> float:
         """Hardness of the harder surface over that of the softer."""
@@ -368,8 +383,7 @@ class Friction(AbstractOutput):
         acting = self.indents(spots)
         sides = list(zip(spots.depths, spots.areas, spots.yields, spots.hardness, strict=True))
         deform = [
-            self._plough(depth, spots.radius, area, first * spots.x)
-            for depth, area, first, _ in sides
+            self._plough_by(spots, depth, area, first * spots.x) for depth, area, first, _ in sides
         ]
         one, two = (mu * acts for mu, acts in zip(deform, acting, strict=True))
         resistance = 0.5 * (deform[0] + deform[1])
@@ -446,13 +460,24 @@ class Friction(AbstractOutput):
                 "rolling_share": force["rolling"] / F_sa,
             }
 
+    def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
+        shapes = (spots.shape for spots in state.particles)
+        steep = [each.angle for each in shapes if each and each.faced and each.angle > CUTS]
+        if not steep:
+            return []
+        return [
+            f"outputs.friction: faces at {math.degrees(max(steep)):.3g}° cut rather than plough "
+            "(critical angles from 45° are quoted for copper): grooves and the ploughing force are "
+            "those of a plough that displaces"
+        ]
+
     def splits(self, probe: Probe) -> Sequence[float]:
         def kind(spots: ParticleSpots) -> NDArray[np.intp]:
             motion = self.motion(spots)
             out = np.where(motion.rolls, 2, motion.side)
             for depth, area, H in zip(spots.depths, spots.areas, spots.hardness, strict=True):
                 grown = self._growth("sa", area, spots.load, H) > 1.0
-                out = 4 * out + 2 * grown + (depth > spots.radius)
+                out = 4 * out + 2 * grown + (depth > spots.half)
             return out
 
         return changes(probe, kind)

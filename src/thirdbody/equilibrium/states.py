@@ -171,7 +171,10 @@ def _columns(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.floa
 DENSITY = "particles.areal_density"
 ABSENT = ("particles.diameter.mean", DENSITY)
 """Inputs that are zero where there are no particles."""
-DEMANDING = ("asperity_law.", "particle_law.law.", "particles.diameter.", *engine.MATERIALS)
+DEMANDING = (
+    *("asperity_law.", "particle_law.law.", "particles.diameter.", engine.SHAPES),
+    *engine.MATERIALS,
+)
 """Inputs that change the contact of one asperity or particle, which nodes may share."""
 FEWEST = 20
 """Different states for which nodes are quicker than tables of each."""

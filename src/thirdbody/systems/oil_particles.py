@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 import numpy as np
 
 from ..effects.single.dent import Dent, dent_of, dents_after, flattened_diameter
-from ..effects.single.ploughing import groove_area
+from ..effects.single.ploughing import groove_of
 from ..effects.single.severity import severity, threshold
 from ..errors import InvalidValue
 from ..laws.asperity.hermite import Hermite
@@ -332,7 +332,7 @@ class FilmParticles(Value):
         x, w = self._nodes()
         spots = self._spots(x[None, :], w[None, :])
         dent = dent_of(spots, side=side - 1, particle=self.material)
-        sunk = (dent.depth > 0) & (2 * spots.depths[side - 1] > spots.radius)
+        sunk = (dent.depth > 0) & (2 * spots.depths[side - 1] > spots.half)
         top = self.single(self._size(0.05 * count, lowest))
         deep = dent_of(top, side=side - 1, particle=self.material)
         return FilmDents(
@@ -410,7 +410,7 @@ class FilmParticles(Value):
             dent = dent_of(spots, side=side, particle=self.material)
             volumes.append(per_area * float(spots.total(dent.volume)[0]))
             share = np.where(even, 0.5, here < there) * (self.material.H > spots.hardness[side])
-            cut = share * groove_area(here, radius=spots.radius)
+            cut = share * groove_of(spots, side)
             removed = self.slip * (self.f_ab or 0.0)
             grooves.append(per_area * removed * float(spots.total(cut)[0]))
         softer, harder = sorted(spots.hardness)
