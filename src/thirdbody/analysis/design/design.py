@@ -52,6 +52,8 @@ LOSS, FLAT = 0.05, 1e-3
 """Of the objective, inside the tolerance band and on a plateau."""
 WIDE = 0.01
 """Part of a value that a plateau is wider than."""
+AHEAD = 20
+"""Points of a band that are tried together: as many as go by shared nodes."""
 AT_END = 1e-3
 """Part of a range that counts as its end."""
 
@@ -399,14 +401,27 @@ def _band(
     value, own = best.costs[label], best.numbers[name]
     among = task.variables[name].span.at(np.linspace(*places, GRID + 1))
     grid = np.unique(np.append(among, own))
-    rows = task.judged([{**best.numbers, name: float(x)} for x in grid], best.materials)
-    lost = np.array([point.costs[label] for point in rows]) - value
-    good = (lost <= part * abs(value)) & np.array([not point.reason for point in rows])
     place = int(np.searchsorted(grid, own))
-    bad = np.flatnonzero(~good)
-    first = bad[bad < place].max(initial=-1) + 1
-    last = bad[bad > place].min(initial=len(grid)) - 1
+
+    def good(some: NDArray[np.intp]) -> NDArray[np.bool_]:
+        rows = task.judged([{**best.numbers, name: float(grid[i])} for i in some], best.materials)
+        lost = np.array([point.costs[label] for point in rows]) - value
+        return (lost <= part * abs(value)) & np.array([not point.reason for point in rows])
+
+    first, last = (_last_good(good, place, way, len(grid)) for way in (-1, 1))
     return float(grid[first]), float(grid[last])
+
+
+def _last_good(
+    good: Callable[[NDArray[np.intp]], NDArray[np.bool_]], place: int, way: int, count: int
+) -> int:
+    """The last of a row of points, from a place to one side, before the first that is not good."""
+    side = np.arange(place + way, count if way > 0 else -1, way)
+    for start in range(0, len(side), AHEAD):
+        some = side[start : start + AHEAD]
+        if len(bad := np.flatnonzero(~good(some))):
+            return int(some[bad[0]]) - way
+    return int(side[-1]) if len(side) else place
 
 
 def _slopes(task: Task, best: Point, made: Contact) -> dict[str, dict[str, float]]:
