@@ -7,20 +7,13 @@ python benchmarks/page.py --against OTHER/CHECKOUT
 from __future__ import annotations
 
 import argparse
-import os
-import re
-import signal
 import statistics
-import subprocess
 import sys
-import time
-import urllib.error
-import urllib.request
 from pathlib import Path
 from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "app"))
-from browser import chromium
+from browser import chromium, ended, served
 
 ROOT = Path(__file__).parent.parent
 MOVES, WARM = 20, 5
@@ -57,23 +50,6 @@ WATCH = """selector => {
 }"""
 
 
-def served(source: Path) -> tuple[subprocess.Popen[str], str]:
-    """A page made by this checkout, and its address."""
-    command = [sys.executable, "-m", "thirdbody", "app", "--no-browser", "--port", "0"]
-    around = os.environ | {"PYTHONPATH": str(source / "src")}
-    server = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=around, cwd=source)
-    assert server.stderr is not None
-    found = re.search(r"http://[\d.]+:\d+", server.stderr.readline())
-    assert found, "the server did not say where it is"
-    while True:
-        try:
-            urllib.request.urlopen(found[0], timeout=5)
-        except (urllib.error.URLError, ConnectionError, TimeoutError):
-            time.sleep(0.1)
-        else:
-            return server, found[0]
-
-
 def measured(browser: Any, address: str, name: str, slider: str) -> list[float]:
     """Milliseconds of every move, to and fro through the middle of the slider."""
     page = browser.new_page(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
@@ -107,7 +83,7 @@ def main() -> None:
             executable_path=chromium(playwright), args=["--no-sandbox"]
         )
         print("| checkout | tab | slider | median ms | 9 of 10 below ms |\n|---|---|---|---|---|")
-        servers = {name: served(source) for name, source in sources.items()}
+        servers = {name: served(source=source) for name, source in sources.items()}
         try:
             for name, slider in CASES:
                 for which, (_, address) in servers.items():
@@ -117,8 +93,7 @@ def main() -> None:
                     print(f"| {' | '.join(row)} |", flush=True)
         finally:
             for server, _ in servers.values():
-                server.send_signal(signal.SIGINT)
-                server.wait(10)
+                ended(server)
         browser.close()
 
 

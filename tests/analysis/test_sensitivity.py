@@ -348,6 +348,49 @@ def test_several_loads_at_once():
     assert data["elasticity"]["d"]["F_star"][1] == got.elasticity["d"]["F_star"][1]
 
 
+SAND = tb.Particles(
+    material=tb.materials["quartz"],
+    areal_density=1e7,
+    diameter=tb.PowerLaw(edges=(5e-6, 40e-6), counts=(1,), slopes=(3,)),
+    strength=tb.WeibullStrength.of(tb.materials["quartz"]),
+)
+FEW_BREAK = ("particles.strength.m", "roughness.sigma", "surfaces.first.E+surfaces.second.E")
+
+
+@pytest.mark.parametrize(
+    ("contact", "loads", "to"),
+    [
+        (DUSTY, {"F_star": np.array([1e-7, 1e-5, 1e-3])}, None),
+        (PLANE, {"pressure": np.array([1e5, 1e7])}, None),
+        (TWO_BODY, {"F_star": np.array([1e-6])}, None),
+        (DUSTY.replace(particles=SAND), {"d": np.array([5e-6, 2e-5])}, FEW_BREAK),
+    ],
+    ids=["rough", "plane", "two-body", "breaking"],
+)
+def test_quick_ones_have_three_digits(contact, loads, to):
+    of = ["A_t", "h"] + ["particle_load_share"] * (not contact.two_body)
+    slow = tb.sensitivity(contact, of=of, to=to, **loads)
+    fast = tb.sensitivity(contact, of=of, to=to, **loads, quick=True)
+    assert fast.inputs.keys() == slow.inputs.keys()
+    for name in of:
+        for label in slow.inputs:
+            assert fast.elasticity[name][label] == pytest.approx(
+                slow.elasticity[name][label], rel=1e-3, abs=1e-6
+            ), (name, label)
+            assert set(fast.status[name][label]) == {"ok"}
+
+
+def test_quick_ones_make_no_tables(monkeypatch):
+    """The tables of particles that break take a second for every changed input."""
+    from thirdbody.contact.broken_averages import BrokenAverage
+
+    contact = DUSTY.replace(particles=SAND)
+    tb.solve(contact, d=5e-6)
+    monkeypatch.setattr(BrokenAverage, "_table", lambda *_: pytest.fail("a table is made"))
+    found = tb.sensitivity(contact, of="A_t", to=FEW_BREAK[0], d=5e-6, quick=True)
+    assert found.status["A_t"][FEW_BREAK[0]] == "ok"
+
+
 def test_loads_that_nothing_carries():
     got = tb.sensitivity(TWO_BODY, of="A_t", to=["roughness.sigma", "F_star"], F_star=[1e3, 1e4])
     assert np.all(np.isnan(got.derivative["A_t"]["F_star"]))

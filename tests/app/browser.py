@@ -1,14 +1,58 @@
-"""Which chromium drives the page; run as a script it fetches playwright's own where none is found.
+"""A server of the page and the chromium that drives it; run as a script it fetches playwright's own where none is found.
 
 It never fails and takes at most two minutes: without a browser the tests of the page skip.
 """
 
+import os
+import re
 import shutil
+import signal
 import subprocess
 import sys
+import time
+import urllib.error
+import urllib.request
 from pathlib import Path
 
 SECONDS = 120
+
+
+def served(port=0, source=None):
+    """A server of the page, of another checkout where one is given; and its address."""
+    around = {name: value for name, value in os.environ.items() if name != "PYTEST_CURRENT_TEST"}
+    if source is not None:
+        around["PYTHONPATH"] = str(source / "src")
+    command = [sys.executable, "-m", "thirdbody", "app", "--no-browser", "--port", str(port)]
+    server = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=around, cwd=source)
+    try:
+        found = re.search(r"http://[\d.]+:\d+", server.stderr.readline())
+        assert found, "the server did not say where it is"
+        deadline = time.monotonic() + 60
+        while not _answers(found[0]):
+            assert time.monotonic() < deadline, "the server does not answer"
+            time.sleep(0.1)
+    except BaseException:
+        ended(server)
+        raise
+    return server, found[0]
+
+
+def ended(server):
+    """Ends it as Ctrl-C does."""
+    server.send_signal(signal.SIGINT)
+    try:
+        server.wait(10)
+    except subprocess.TimeoutExpired:
+        server.kill()
+        server.wait()
+    server.stderr.close()
+
+
+def _answers(address):
+    try:
+        return urllib.request.urlopen(address, timeout=5).status == 200
+    except (urllib.error.URLError, ConnectionError, TimeoutError):
+        return False
 
 
 def chromium(playwright):

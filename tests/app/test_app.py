@@ -22,11 +22,11 @@ pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 
 from thirdbody.app import exports, text
 from thirdbody.app.cross_section import CARRIES, profile, section, to_svg
+from thirdbody.app.entries import about_of
 from thirdbody.app.examples import EXAMPLES, example
 from thirdbody.app.fields import engineering, fields_of, number_of, shown, value_from
 from thirdbody.app.folders import Folders
 from thirdbody.app.guard import LARGEST_UPLOAD, Guard, Headers, allowed_hosts
-from thirdbody.app.inputs import about_of
 from thirdbody.app.jobs import Job, Stopped
 from thirdbody.app.page import Start
 from thirdbody.app.python_text import to_python
@@ -530,6 +530,33 @@ def test_every_key_of_a_study_file_has_an_entry(tmp_path):
                     assert table.name in inputs.shown
 
 
+def test_what_a_menu_begins_has_no_mistake_and_an_entry_for_every_key(tmp_path):
+    """Roughness as on a drawing, and every kind of body under a force."""
+    from nicegui import Client
+    from nicegui.page import page as place
+
+    from thirdbody.app.fields import known_keys
+    from thirdbody.app.inputs import BODIES_BEGUN, ROUGHNESS_BEGUN, Inputs
+    from thirdbody.systems.bodies import BODIES
+
+    assert list(BODIES_BEGUN) == list(BODIES)
+    offered, known = set(), set()
+    with Client(place("/test"), request=None):
+        for rough, body in itertools.product(ROUGHNESS_BEGUN.values(), BODIES_BEGUN.values()):
+            study = example() | {"roughness": rough, "load": {"force": "5 N"}, "body": body}
+            state = State(study, tmp_path)
+            assert state.problems == []
+            inputs = Inputs(state, lambda: None)
+            inputs.roughness()
+            inputs.load()
+            offered |= set(inputs.shown)
+            for name in ("roughness", "body"):
+                for path, keys in known_keys(study, name).items():
+                    known |= {f"{path}.{key}" for key, about in keys.items() if about}
+    missing = [name for name in sorted(known) if not any(s.startswith(name) for s in offered)]
+    assert missing == []
+
+
 def test_the_first_figure_may_come_after_the_empty_one_was_drawn():
     """A busy browser tells of the empty figure before the first curves are solved."""
     from nicegui import Client
@@ -551,7 +578,8 @@ ALSO = {
     "film": "another word for gap",
     "separation": "one load excludes the others, which the menu offers",
     "pressure": "as separation",
-    "force": "goes with the table [body], which is edited as text",
+    "force": "as separation",
+    "F_star": "as separation",
 }
 """Keys that need no entry of their own."""
 
@@ -820,3 +848,18 @@ def test_json_of_the_worker_is_strict():
 
     made = _finite({"a": np.array([1.0, np.nan]), "b": (np.float64("inf"), np.int64(2))})
     assert json.dumps(made, allow_nan=False) == '{"a": [1.0, null], "b": [null, 2]}'
+
+
+def test_a_force_opens_at_its_mean_pressure_and_reaches_the_largest(tmp_path):
+    from thirdbody.app.tabs.interface import under_force
+
+    study = example() | {
+        "load": {"force": "2 N"},
+        "body": {"kind": "ball-on-flat", "diameter": "40 mm"},
+    }
+    state = State(study, tmp_path)
+    mean, largest = check(study).values
+    assert (state.at, state.answer.loads[-1]) == (mean, largest)
+    assert len(state.answer.loads) == 200
+    assert under_force(state.answer).startswith("2 N on the body ball-on-flat: Hertz contact of ")
+    assert under_force(State(example(), tmp_path).answer) == ""

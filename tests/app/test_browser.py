@@ -7,13 +7,9 @@ $THIRDBODY_SCREENSHOTS where it names a folder.
 
 import os
 import re
-import signal
-import subprocess
 import sys
 import time
 import tomllib
-import urllib.error
-import urllib.request
 from pathlib import Path
 from urllib.parse import parse_qsl, urlencode, urlsplit
 
@@ -27,7 +23,7 @@ pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
 sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
 
 sys.path.insert(0, str(Path(__file__).parent))
-from browser import chromium  # noqa: E402
+from browser import chromium, ended, served  # noqa: E402
 from hostile import PAYLOADS, several, wrong  # noqa: E402
 
 from thirdbody.app.examples import example  # noqa: E402
@@ -49,31 +45,9 @@ STUDY = example() | {
 @pytest.fixture(scope="module")
 def address():
     """A page of its own, on a free port."""
-    surroundings = {k: v for k, v in os.environ.items() if k != "PYTEST_CURRENT_TEST"}
-    command = [sys.executable, "-m", "thirdbody", "app", "--no-browser", "--port", "0"]
-    server = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=surroundings)
-    try:
-        found = re.search(r"http://[\d.]+:\d+", server.stderr.readline())
-        assert found, "the server did not say where it is"
-        deadline = time.monotonic() + 60
-        while not _answers(found[0]):
-            assert time.monotonic() < deadline, "the server does not answer"
-            time.sleep(0.1)
-        yield found[0]
-    finally:
-        server.send_signal(signal.SIGINT)
-        try:
-            server.wait(10)
-        except subprocess.TimeoutExpired:
-            server.kill()
-        server.stderr.close()
-
-
-def _answers(address):
-    try:
-        return urllib.request.urlopen(address, timeout=5).status == 200
-    except (urllib.error.URLError, ConnectionError, TimeoutError):
-        return False
+    server, found = served()
+    yield found
+    ended(server)
 
 
 @pytest.fixture(scope="module")

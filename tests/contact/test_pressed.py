@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.contact import pressed
 from thirdbody.contact.pressed import about_pressed
 
 STEEL = tb.materials["S45C"]
@@ -63,3 +64,27 @@ def test_what_does_not_break_is_not_told_of():
     # between soft surfaces a grain sinks whole
     soft = tb.MaterialPair(STEEL.replace(H=50e6), STEEL.replace(H=50e6))
     assert not brittle(contact(5e-6).replace(surfaces=soft), 0.5e-6)
+
+
+@pytest.mark.parametrize("seat", ["plane", "rough"])
+@pytest.mark.parametrize(("size", "spread"), [(300e-9, 0.05), (300e-9, 0.3), (8e-6, 0.2)])
+def test_bounds_of_the_shares_hold(seat, size, spread):
+    """What the tables say at most is never less than what every particle says."""
+    case = contact(size).replace(particle_law=tb.particle.Series(seat=seat))
+    sizes = tb.TruncatedGaussian(mean=size, std=spread * size)
+    case = case.replace(**{"particles.diameter": sizes})
+    quiet = 0
+    for d in np.linspace(0.2, 1.6, 15) * size:
+        shares = [float(share[0]) for share in pressed._shares(case, np.array([d]))]
+        bounds = pressed._at_most(case, np.array([d]))
+        for share, bound in zip(shares, bounds, strict=True):
+            assert bound >= share * (1 - 1e-7)
+        quiet += max(bounds) <= pressed.TOLD
+    assert quiet
+
+
+def test_single_particles_are_left_alone_where_the_tables_suffice(monkeypatch):
+    case = contact(300e-9).replace(particle_law=tb.particle.Series(seat="rough"))
+    tb.solve(case, pressure=1e5)
+    monkeypatch.setattr(pressed, "_shares", lambda *_: pytest.fail("single particles evaluated"))
+    assert not tb.solve(case, pressure=1e5).warnings

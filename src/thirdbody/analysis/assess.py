@@ -17,7 +17,7 @@ from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..quantities.say import value_of
 from ..quantities.value import problem_with
-from .assessment import COARSE, FAR, FINE, SHOWN, Assessment, Change, _nominal, _unit
+from .assessment import COARSE, EACH, FAR, FINER, SHOWN, Assessment, Change, _nominal, _unit
 from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
 from .sensitivity import sensitivity
@@ -216,10 +216,13 @@ def _changes(found: Propagation, mode: str) -> tuple[Change, ...]:
             for side in (-1, 1):
                 ways[label, side] = drawn, _path(found.contact, drawn, known, side)
     steps = _departures(found, ways, mode)
-    finer = {
-        way: (ways[way][0], np.linspace(low, high, FINE)) for way, (low, high, _) in steps.items()
-    }
-    for (label, side), (low, high, other) in _departures(found, finer, mode).items():
+    for count in FINER:
+        within = {
+            way: (ways[way][0], np.linspace(low, high, count))
+            for way, (low, high, _) in steps.items()
+        }
+        steps = _departures(found, within, mode)
+    for (label, side), (low, high, other) in steps.items():
         value, beyond = 0.5 * (low + high), math.nan
         if found.inputs:
             known = found.inputs[label]
@@ -273,7 +276,8 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int) -> Array:
         )
 
     good = [fits(float(value)) for value in values]
-    return values[: good.index(False)] if False in good else values
+    known = values[: good.index(False)] if False in good else values
+    return known[np.unique(np.append(np.arange(0, len(known), EACH), len(known) - 1))]
 
 
 def _departures(

@@ -21,7 +21,7 @@ import math
 import re
 import warnings
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -173,52 +173,26 @@ def compared(
     from ..version import __version__
 
     load, values, _ = given_load(contact, pressure, F_star, None)
-    given = values / contact.E_ss if load == "F_star" else values
     if load == "F_star":
         given = np.atleast_1d(np.asarray(F_star, dtype=float))
+        loads = {"F_star": given, "pressure": values}
+    else:
+        given = values
+        loads = {"pressure": values, "F_star": values / contact.E_ss}
     rows = _rows(contact, laws)
-    names = list(rows)
-    shape = (len(names), len(given))
-    data: dict[str, Array] = {}
-    notes: list[list[str]] = []
-    sentences: list[tuple[str, ...]] = []
-    for i, law in enumerate(rows.values()):
-        state, note, heard = _solved(contact, law, {load: given})
-        for name in KEPT:
-            words = name in ("mode", "status")
-            column = data.setdefault(
-                name, np.full(shape, "", dtype=object) if words else np.full(shape, np.nan)
-            )
-            if state is not None:
-                column[i] = getattr(state, name)
-            elif name == "status":
-                column[i] = note[0]
-        notes.append(note)
-        sentences.append(heard)
-    # what the own law is told already, with other numbers, is not told again of the others
-    common = sentences[0]
-    known = {_numberless(text) for text in common}
-    for note, heard in zip(notes, sentences, strict=True):
-        note += [text for text in heard if _numberless(text) not in known]
-    data |= _derived(data, values)
-    if contact.two_body:
-        for name in ("particle_load_share", "particle_load_share_difference"):
-            data.pop(name)
-    for name in ("mode", "status"):
-        data[name] = data[name].astype(str)
-    other = "pressure" if load == "F_star" else "F_star"
-    scale = 1.0 if other == "pressure" else contact.E_ss
+    solved = [_solved(contact, law, {load: given}) for law in rows.values()]
+    notes, common = _without_repeats(solved)
     used = [_under(contact, law) for law in rows.values() if not isinstance(law, type)]
     cited = "\n".join(cite(each) for each in used)
     return Comparison(
         load=load,
-        loads={load: given, other: values / scale},
+        loads=loads,
         laws={name: _title(law) for name, law in rows.items()},
         options=[_options(law) for law in rows.values()],
         notes=["; ".join(note) for note in notes],
-        columns=data,
+        columns=_columns(contact, solved, values),
         attrs={
-            "own_law": names[0],
+            "own_law": next(iter(rows)),
             "hardness": contact.surfaces.H,
             "inputs": json.dumps(contact.to_dict(), ensure_ascii=False),
             "version": __version__,
@@ -226,6 +200,50 @@ def compared(
             "warnings": "\n".join(common),
         },
     )
+
+
+class _Solved(NamedTuple):
+    """One law: its states, or None; what to say of the row; warnings of the states."""
+
+    state: Equilibrium | None
+    note: list[str]
+    heard: tuple[str, ...] = ()
+
+
+def _columns(contact: Contact, solved: list[_Solved], load: Array) -> dict[str, Array]:
+    """Numbers and words (laws, N) of the states; a law without states has NaN, and says why."""
+    shape = len(solved), len(load)
+    data: dict[str, Array] = {}
+    for name in KEPT:
+        words = name in ("mode", "status")
+        column = np.full(shape, "", dtype=object) if words else np.full(shape, np.nan)
+        for i, (state, note, _) in enumerate(solved):
+            if state is not None:
+                column[i] = getattr(state, name)
+            elif name == "status":
+                column[i] = note[0]
+        data[name] = column
+    data |= _derived(data, load)
+    if contact.two_body:
+        for name in ("particle_load_share", "particle_load_share_difference"):
+            data.pop(name)
+    for name in ("mode", "status"):
+        data[name] = data[name].astype(str)
+    return data
+
+
+def _without_repeats(solved: list[_Solved]) -> tuple[list[list[str]], tuple[str, ...]]:
+    """Notes of each law, and what the states of the own law, the first, are warned of.
+
+    What is told of the own law, with other numbers, is not told again of the others.
+    """
+    common = solved[0].heard
+    known = {_numberless(text) for text in common}
+    notes = [
+        note + [text for text in heard if _numberless(text) not in known]
+        for _, note, heard in solved
+    ]
+    return notes, common
 
 
 def _numberless(sentence: str) -> str:
@@ -302,12 +320,9 @@ def _under(contact: Contact, law: AbstractAsperityLaw) -> Contact:
     return contact.replace(roughness=rough, asperity_law=law)
 
 
-def _solved(
-    contact: Contact, law: AbstractAsperityLaw | type, load: dict[str, Any]
-) -> tuple[Equilibrium | None, list[str], tuple[str, ...]]:
-    """The states under one law, or None; what to say of the row; warnings of the states."""
+def _solved(contact: Contact, law: AbstractAsperityLaw | type, load: dict[str, Any]) -> _Solved:
     if isinstance(law, type):
-        return None, ["has options without a usual value: give the law itself"], ()
+        return _Solved(None, ["has options without a usual value: give the law itself"])
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore", RangeWarning)
@@ -316,7 +331,7 @@ def _solved(
             note = _outside(changed, state)
     except Exception as error:  # a law can be anybody's: whatever it does, the others stand
         why = str(error).strip().splitlines() or [type(error).__name__]
-        return None, [f"failed: {why[0]}"], ()
+        return _Solved(None, [f"failed: {why[0]}"])
     status = np.asarray(state.status)
     bad = status[status != "ok"]
     if len(bad):
@@ -324,7 +339,7 @@ def _solved(
         note.insert(0, f"{count} solved: {bad[0]}")
     # the note tells of the range already, in parts of the area
     heard = tuple(text for text in state.warnings if not (law.beyond and law.beyond in text))
-    return state, note, heard
+    return _Solved(state, note, heard)
 
 
 def _derived(data: dict[str, Array], load: Array) -> dict[str, Array]:

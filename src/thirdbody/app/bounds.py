@@ -12,6 +12,7 @@ from ..errors import InvalidValue
 __all__ = [
     "LARGEST_TABLE",
     "MOST_DRAWN",
+    "MOST_NUMBERS",
     "MOST_POINTS",
     "refuse_large",
     "refuse_large_files",
@@ -22,7 +23,8 @@ MOST_DRAWN = 400
 """Loads that a curve is drawn with."""
 MOST_POINTS = 2000
 """Values of one range."""
-MOST_ITEMS = {"numbers": 2000, "tables": 12, "keys": 100}
+MOST_NUMBERS = 2000
+MOST_ITEMS = {"numbers": MOST_NUMBERS, "tables": 12, "keys": 100}
 """Of one list, or of one table."""
 MOST_ENTRIES = 8000
 """In all."""

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Callable, Iterable
-from typing import Any, NamedTuple
+from typing import Any
 
 from nicegui import events, ui
 
@@ -12,295 +10,70 @@ import thirdbody as tb
 
 from ..analysis.uncertainty.inputs import KINDS
 from ..errors import InvalidValue
-from ..quantities.say import number, value_of
+from ..populations.finish import STATED, processes
 from ..quantities.units import say
 from ..study import LOADS
-from ..study.concentration import AMOUNT
-from ..study.counted import COUNTED
+from ..study.body import FORCE
+from ..study.drawing import is_drawn
 from ..study.inputs import inputs_of
+from ..systems.bodies import BODIES
 from .bounds import LARGEST_TABLE
-from .fields import (
-    COUNTED_FIELDS,
-    VARIANTS,
-    Field,
-    fields_of,
-    known_keys,
-    number_field,
-    options_of,
-    shown,
-    value_from,
-)
-from .state import State
-from .text import from_toml, to_toml, with_micro
+from .entries import Place, dotted
+from .fields import VARIANTS, Field, fields_of, number_field, value_from
+from .particle_inputs import ParticleInputs
+from .text import with_micro
 from .uploads import keep
 from .widgets import put, upload
 
 __all__ = ["FORMED", "Inputs"]
 
-Place = tuple[str | int, ...]
-OWN = "own values"
-SIZES = (*VARIANTS["distribution"], *COUNTED)
-AMOUNTS = ("gap", "particle_density", "oil_density")
 FORMED = (
     "title", "materials", "surfaces", "roughness", "asperity_law", "particles", "particle_law",
-    "outputs", "load",
+    "outputs", "load", "body",
 )  # fmt: skip
 """Tables of a study file that have forms; every other can be written as text."""
-BEGUN = {
-    "sweep": """[sweep]
-design = "sobol"
-samples = 256
-
-[sweep.vary.roughness]
-sigma = { from = "50 nm", to = "200 nm" }
-""",
-    "uncertainty": """[uncertainty]
-samples = 1024
-seed = 1
-
-[uncertainty.inputs]
-"roughness.sigma" = { low = "90 nm", high = "110 nm" }
-""",
-    "design": """[design]
-objective = { of = "particle_load_share", aim = "largest" }
-limits = [{ of = "A_t", most = 0.1 }]
-
-[design.vary]
-"roughness.sigma" = { low = "50 nm", high = "200 nm" }
-""",
+HEIGHTS_GIVEN = {
+    "sigma": "σ and R of the surface",
+    "pair": "Ra, Rq or Rz of the drawing",
+    "faces": "Ra, Rq or Rz of each face",
 }
-"""How a table may begin; shown while there is none."""
+ROUGHNESS_BEGUN: dict[str, dict[str, Any]] = {
+    "sigma": {"sigma": "100 nm", "R": "2.8 um"},
+    "pair": {"Ra": "0.1 um", "process": "lapped"},
+    "faces": {
+        "first": {"Ra": "0.2 um", "process": "ground"},
+        "second": {"Ra": "0.1 um", "process": "lapped"},
+    },
+}
+LOAD_WORDS = {
+    "F_star": "F_star: load F/(A_n E*)",
+    "pressure": "pressure: nominal",
+    "separation": "separation d",
+    "force": "force: on a ball, a roller or a face",
+}
+LOADS_BEGUN: dict[str, Any] = {
+    "F_star": {"from": 5e-7, "to": 2.4e-4, "points": 200, "spacing": "log"},
+    "pressure": {"from": "50 kPa", "to": "20 MPa", "points": 200, "spacing": "log"},
+    "separation": {"from": "100 nm", "to": "500 nm", "points": 200, "spacing": "linear"},
+    "force": "5 N",
+}
+BODIES_BEGUN: dict[str, dict[str, Any]] = {
+    "ball-on-flat": {"kind": "ball-on-flat", "diameter": "6 mm"},
+    "ball-in-groove": {"kind": "ball-in-groove", "diameter": "6 mm", "conformity": 0.52},
+    "roller": {"kind": "roller", "diameter": "10 mm", "length": "12 mm"},
+    "cylinders": {
+        "kind": "cylinders",
+        "first_diameter": "10 mm",
+        "second_diameter": "20 mm",
+        "length": "10 mm",
+    },
+    "flat": {"kind": "flat", "area": "1 cm^2"},
+}
+"""How a table begins that is chosen in a menu."""
 
 
-def dotted(path: Iterable[str | int]) -> str:
-    """A place in the study as messages name it."""
-    return ".".join(map(str, path))
-
-
-class Entry(NamedTuple):
-    """A widget of one entry; ``read`` gives what is meant by its text, None for a menu."""
-
-    widget: Any
-    read: Callable[[str], Any] | None = None
-    show: Callable[[Any], str] = shown
-    whole: bool = False
-    """Whether mistakes inside the table belong to it as well."""
-
-
-class Inputs:
+class Inputs(ParticleInputs):
     """Widgets bound to entries of the study; after every change each shows its own mistake."""
-
-    def __init__(self, state: State, again: Callable[[], None]) -> None:
-        self.state = state
-        self.again = again
-        """Called when other entries are needed than before."""
-        self.shown: dict[str, Entry] = {}
-        self.rest: Any = None
-        self.left: tuple[Any, list[str]] = (None, [])
-        """Where mistakes without a field stand, and which."""
-
-    # ------------------------------------------------------------------ mistakes
-    def tell(self) -> None:
-        """Put every mistake beside its field, and the others where they can be seen."""
-        left = list(self.state.problems)
-        for name, (widget, read, show, whole) in self.shown.items():
-            inner = f"{name}." if whole else name
-            mine = [t for t in left if about_of(t) == name or about_of(t).startswith(inner)]
-            left = [text for text in left if text not in mine]
-            path = tuple(int(step) if step.isdecimal() else step for step in name.split("."))
-            now = self.state.get(*path)
-            if read is not None:
-                try:
-                    if read(widget.value or "") != now and not mine:
-                        widget.value = show(now)
-                except InvalidValue as error:
-                    mine = list(error.problems)
-            fitting = with_micro(" ".join(mine)) or None
-            if widget.error != fitting:
-                widget.error = fitting
-        if self.rest is not None and self.left != (self.rest, left):
-            self.left = (self.rest, left)
-            self.rest.clear()
-            with self.rest:
-                for text in left:
-                    ui.label(with_micro(text)).classes("problem").props("role=alert")
-
-    # ------------------------------------------------------------------ one entry
-    def field(self, path: Place, field: Field) -> None:
-        """The widget of one entry."""
-        place = (*path, field.name)
-        now = self.state.get(*place)
-        if field.kind == "word":
-            blank = {"": f"{field.default} (when left out)" if field.default else "left out"}
-            options = blank | {word: word for word in field.options}
-            self.select(place, options, now or "", field.label, hint=field.about)
-        elif field.kind == "switch":
-            box = ui.checkbox(field.label, value=field.default if now is None else bool(now))
-            box.on_value_change(lambda e: self.state.set(*place, bool(e.value)))
-        else:
-            self.text(place, field)
-
-    def text(self, place: Place, field: Field, to: Callable[[Any], None] | None = None) -> Any:
-        """An entry that is written: the study changes when typing pauses."""
-        set_to = to or (lambda value: self.state.set(*place, value))
-        read, show = (
-            (lambda text: text.strip() or None, lambda value: str(value or ""))
-            if field.kind == "string"
-            else (value_from, shown)
-        )
-        entry = ui.input(field.label, value=show(self.state.get(*place))).classes("w-full")
-        name = dotted(place)
-        put(entry.props("dense debounce=350"), {"hint": with_micro(field.about)})
-        put(entry, {"aria-label": name, "data-path": name})
-        entry.on_value_change(lambda event: set_to(read(event.value or "")))
-        self.shown[name] = Entry(entry, read, show)
-        return entry
-
-    def known(self, *place: str) -> None:
-        """The entries of a table without a form of its own, as the reader knows them."""
-        for name, about in known_keys(self.state.study, place[0]).get(dotted(place), {}).items():
-            if about:
-                self.field(place, Field(name=name, kind="text", label=name, about=about))
-
-    def as_text(self, name: str) -> None:
-        """A table as it stands in the file, its mistakes below."""
-
-        def read(text: str) -> Any:
-            given = from_toml(text)
-            if other := [key for key in given if key != name]:
-                raise InvalidValue(f"here stands [{name}] alone, not {', '.join(other)}")
-            return given.get(name)
-
-        def changed(event: Any) -> None:
-            try:
-                self.state.set(name, read(event.value or ""))
-            except InvalidValue:
-                self.state.tell()  # which reads it again, to put the mistake beside it
-
-        def show(table: Any) -> str:
-            return "" if table is None else to_toml({name: table})
-
-        entry = ui.textarea(value=show(self.state.get(name)), placeholder=BEGUN.get(name, ""))
-        entry.props("outlined autogrow debounce=500")
-        put(entry, {"data-path": name, "aria-label": f"[{name}]"})
-        entry.classes("w-full code").on_value_change(changed)
-        keys = known_keys(self.state.study, name).get(name, {})
-        ui.label(f"Keys: {', '.join(keys)}.").classes("hint")
-        self.shown[name] = Entry(entry, read, show, whole=True)
-
-    def select(
-        self,
-        place: Place | None,
-        options: dict[str, str],
-        now: Any,
-        label: str,
-        then: Callable[[Any], None] | None = None,
-        hint: str = "",
-    ) -> Any:
-        """A menu; what follows from a choice is ``then``."""
-
-        def changed(event: Any) -> None:
-            if then is not None:
-                then(event.value)
-            elif place is not None:
-                self.state.set(*place, event.value or None)
-
-        if not isinstance(now, str):
-            now = shown(now)  # a mistake, which stands there as it is written
-        known = options if now in options else {now: now, **options}
-        menu = ui.select(known, value=now, label=label, on_change=changed)
-        put(menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)})
-        if place is not None:
-            put(menu, {"data-path": dotted(place)})
-            self.shown[dotted(place)] = Entry(menu)
-        return menu
-
-    def change(self, *path_and_value: Any) -> None:
-        """Set an entry on which depends which others there are."""
-        self.state.set(*path_and_value, whole=True)
-        self.again()
-
-    # ------------------------------------------------------------------ tables
-    def table(self, *place: str | int) -> dict[str, Any]:
-        """A table of the study; an empty one where something else stands."""
-        given = self.state.get(*place)
-        return given if isinstance(given, dict) else {}
-
-    def material(self, place: Place, label: str) -> None:
-        """A material of the library, or own values."""
-        now = self.state.get(*place)
-        own = isinstance(now, dict)
-        library = self.state.library
-        options = {OWN: OWN, **{name: name for name in library}}
-
-        def then(value: Any) -> None:
-            if value != OWN:
-                self.change(*place, value)
-                return
-            known = library[now] if isinstance(now, str) and now in library else None
-            given = {"E": known.E, "nu": known.nu, "H": known.H} if known else {}
-            self.change(*place, given or {"E": "205 GPa", "nu": 0.29, "H": "5 GPa"})
-
-        self.select(place, options, OWN if own else now, label, then)
-        if own:
-            for each in fields_of(tb.Material):
-                self.field(place, each)
-        elif isinstance(now, str) and now in library:
-            known = library[now]
-            ui.label(
-                f"E = {value_of(known.E, 'Pa')}, ν = {number(known.nu)}, "
-                f"H = {value_of(known.H, 'Pa')}"
-            ).classes("hint")
-
-    def variant(
-        self,
-        place: Place,
-        registry: Any,
-        default: str,
-        label: str,
-        tag: str = "name",
-        blank: str | None = None,
-    ) -> None:
-        """A word of a registry and the entries that go with it."""
-        now = self.state.get(*place)
-        word = now.get(tag) if isinstance(now, dict) else now
-        word = word if isinstance(word, str) else shown(word)
-        words = options_of(registry)
-        if blank is not None:
-            words = {"": blank, **words}
-
-        def then(value: Any) -> None:
-            self.change(*place, {tag: value} if value else None)
-
-        chosen = word or ("" if blank is not None else default)
-        self.select((*place, tag), words, chosen, label, then)
-        kind = registry.get(chosen)
-        if kind is None:
-            return
-        for each in fields_of(kind):
-            if not isinstance(now, dict):
-                # an entry needs a table to stand in
-                self._named(place, each, tag, chosen)
-            else:
-                self.field(place, each)
-        for item in dataclasses.fields(kind):
-            if item.type == "AbstractAsperityLaw" and isinstance(now, dict):
-                label = f"{item.name}: asperity law inside"
-                inner = (*place, item.name)
-                self.variant(inner, VARIANTS["asperity"], "", label, blank="left out")
-
-    def _named(self, place: Place, field: Field, tag: str, word: str) -> None:
-        """An entry of a table that is still a word, or left out."""
-
-        def to(value: Any) -> None:
-            table = self.state.get(*place)
-            if value is None and not isinstance(table, dict):
-                return
-            kept = table if isinstance(table, dict) else {tag: word}
-            new = {key: old for key, old in kept.items() if key != field.name}
-            self.state.set(*place, new if value is None else new | {field.name: value})
-
-        self.text((*place, field.name), field, to)
 
     def surfaces(self) -> None:
         """Both bodies."""
@@ -335,10 +108,41 @@ class Inputs:
             self.known("roughness")
             ui.button("Numbers instead", on_click=self._numbers).props("flat dense")
             return
+        given = self.table("roughness")
+        stated = "faces" if {"first", "second"} & given.keys() else "pair"
+        self.select(
+            None,
+            HEIGHTS_GIVEN,
+            stated if is_drawn(given) else "sigma",
+            "heights given as",
+            lambda word: self.change("roughness", ROUGHNESS_BEGUN[word]),
+        )
+        if is_drawn(given):
+            self._drawn(stated == "faces")
         for each in fields_of(tb.Roughness):
-            self.field(("roughness",), each)
+            if not is_drawn(given):
+                self.field(("roughness",), each)
+            elif each.quantity is not None and each.name != "sigma":
+                better = number_field(each.name, each.quantity, each.default, needed=False)
+                self.field(("roughness",), better)
         self.variant(("roughness", "heights"), VARIANTS["heights"], "gaussian", "heights")
         self.ellipticity()
+
+    def _drawn(self, faces: bool) -> None:
+        """What a drawing states, of the pair or of each face."""
+        process = Field(
+            name="process",
+            kind="word",
+            label="process",
+            about="how the face is finished",
+            options=tuple(processes()),
+        )
+        for place in (("first",), ("second",)) if faces else ((),):
+            for face in place:
+                ui.label(f"{face} face").classes("subhead")
+            for name, about in STATED.items():
+                self.field(("roughness", *place), number_field(name, about, needed=False))
+            self.field(("roughness", *place), process)
 
     def ellipticity(self) -> None:
         """Round tips, classes of elliptic ones, or two faces at an angle."""
@@ -365,176 +169,35 @@ class Inputs:
             new = {"sigma": rough.sigma, "R": rough.R, "alpha": rough.alpha, "eta": rough.density}
             self.change("roughness", new)
 
-    @staticmethod
-    def first_population(state: State) -> Place:
-        """Where the first population stands, or would."""
-        return ("particles", 0) if isinstance(state.get("particles"), list) else ("particles",)
-
-    def populations(self) -> list[Place]:
-        """Where each population of particles stands."""
-        given = self.state.get("particles")
-        if isinstance(given, list):
-            return [("particles", i) for i in range(len(given))]
-        return [("particles",)] if given is not None else []
-
-    def population(self, place: Place) -> None:
-        """One population: material, sizes, how many."""
-        table = self.table(*place)
-        self.material((*place, "material"), "material")
-        kind = next((key for key in COUNTED if key in table), table.get("distribution"))
-        kind = kind if isinstance(kind, str) else None
-        labels = options_of({name: None for name in SIZES}) | {
-            "iso4406": "iso4406: oil cleanliness code",
-            "as4059": "as4059: cleanliness class",
-            "nas1638": "nas1638: cleanliness class",
-            "test_dust": "test_dust: ISO 12103-1 A1 to A4",
-            "sizes": "sizes: a file of the particle counter",
-        }
-        self.select(
-            (*place, "distribution"), labels, kind or "", "sizes", lambda w: self._sized(place, w)
-        )
-        if kind in COUNTED:
-            example = {"iso4406": "18/16/13", "test_dust": "A2", "sizes": "sizes.csv"}.get(
-                kind, "6"
-            )
-            about = f"as written, e.g. {example}"
-            self.field(place, Field(name=kind, kind="string", label=kind, about=about))
-            for each in COUNTED_FIELDS[kind]:
-                self.field(place, each)
-        elif kind in VARIANTS["distribution"]:
-            for each in fields_of(VARIANTS["distribution"][kind]):
-                self.field(place, each)
-        self.amount(place, kind)
-        self.field(place, Field(name="name", kind="string", label="name", about="in the results"))
-        if not isinstance(table.get("strength"), dict):  # a table stands in the file alone
-            about = "material: that of the library; empty: never break"
-            self.field(place, Field(name="strength", kind="string", label="strength", about=about))
-        if kind != "weibull":  # whose own shape has the name
-            label = "shape of these particles"
-            self.variant((*place, "shape"), VARIANTS["shape"], "sphere", label, tag="kind")
-        self.variant(
-            (*place, "law"), VARIANTS["particle"], "", "law of these particles", blank="as below"
-        )
-
-    def amount(self, place: Place, kind: Any) -> None:
-        """Per area, or a concentration and the gap."""
-        coded = kind in ("iso4406", "as4059", "nas1638")
-        if not coded:
-            about = next(f for f in fields_of(tb.Particles) if f.name == "areal_density")
-            self.field(place, about)
-            said = "instead of areal_density, with a gap, e.g. 0.1 wt%"
-            self.field(
-                place, Field(name="concentration", kind="text", label="concentration", about=said)
-            )
-        for name in AMOUNTS[: 1 if coded else 3]:
-            if name == "particle_density" and kind == "test_dust":
-                continue
-            self.field(place, number_field(name, AMOUNT[name], needed=False))
-
-    def _sized(self, place: Place, word: str) -> None:
-        """Another way to give the sizes: what does not go with it goes."""
-        table = self.table(*place)
-        own = ("material", "name", "law", "strength")
-        kept = {key: table[key] for key in own if key in table}
-        if isinstance(shape := table.get("shape"), dict) and word != "weibull":
-            kept["shape"] = shape
-        amounts = {key: table[key] for key in ("areal_density", *AMOUNTS) if key in table}
-        starts: dict[str, dict[str, Any]] = {
-            "iso4406": {"iso4406": "18/16/13", "gap": table.get("gap", "1 um")},
-            "as4059": {"as4059": "6", "gap": table.get("gap", "1 um")},
-            "nas1638": {"nas1638": "6", "gap": table.get("gap", "1 um")},
-            "test_dust": {"test_dust": "A2"} | {"areal_density": "1e9 / m^2"} | amounts,
-            "sizes": {"sizes": table.get("sizes", "sizes.csv")} | amounts,
-            "truncated-gaussian": {"mean": "300 nm", "std": "24 nm"},
-            "log-normal": {"median": "300 nm", "gsd": 1.3},
-            "monodisperse": {"mean": "300 nm"},
-            "uniform": {"low": "200 nm", "high": "400 nm"},
-            "weibull": {"scale": "300 nm", "shape": 4},
-            "power-law": {
-                "edges": ["100 nm", "300 nm", "1 um"],
-                "counts": [10, 1],
-                "slopes": [3, 3.5],
-            },
-            "histogram": {"edges": ["200 nm", "300 nm", "400 nm"], "counts": [3, 1]},
-            "mixture": {
-                "parts": [
-                    {"distribution": "monodisperse", "mean": "200 nm"},
-                    {"distribution": "monodisperse", "mean": "400 nm"},
-                ],
-                "weights": [3, 1],
-            },
-        }
-        start = starts.get(word, {})
-        if word not in COUNTED:
-            start = {"distribution": word} | start | amounts
-            start.setdefault("areal_density", "1e11 / m^2")
-            start = {key: value for key, value in start.items() if key not in AMOUNTS}
-        self.change(*place, kept | start)
-
-    def particles(self) -> None:
-        """Every population, one more, one less."""
-        for i, place in enumerate(self.populations()):
-            with ui.row().classes("w-full items-center justify-between"):
-                ui.label(f"Population {i + 1}").classes("subhead")
-                remove = ui.button(icon="delete", on_click=lambda _, p=place: self._remove(p))
-                remove.props('flat dense aria-label="remove this population"')
-            self.population(place)
-        ui.button("Add particles", icon="add", on_click=self._add).props("flat dense")
-        if self.populations():
-            self.variant(("particle_law",), VARIANTS["particle"], "series", "law of particles")
-
-    def _add(self) -> None:
-        new = {
-            "material": "SiO2",
-            "distribution": "truncated-gaussian",
-            "mean": "300 nm",
-            "std": "24 nm",
-            "areal_density": "1e11 / m^2",
-        }
-        given = self.state.get("particles")
-        if given is None:
-            self.change("particles", new)
-            return
-        several = given if isinstance(given, list) else [given]
-        name = f"population {len(several) + 1}"
-        self.change("particles", [*several, new | {"name": name}])
-
-    def _remove(self, place: Place) -> None:
-        given = self.state.get("particles")
-        if not isinstance(given, list):
-            study = {k: v for k, v in self.state.study.items() if k not in ("particles",)}
-            study.pop("particle_law", None)
-            self.state.replace(study)
-            self.again()
-            return
-        left = [each for i, each in enumerate(given) if i != place[1]]
-        self.change("particles", left if len(left) > 1 else left[0])
-
     def load(self) -> None:
-        """Which load, and its values."""
+        """Which load, and its values; under a force the bodies that it presses."""
         table = self.table("load")
-        kind = next((name for name in VARIANTS["load"] if name in table), "pressure")
-        starts = {
-            "F_star": {"from": 5e-7, "to": 2.4e-4, "points": 200, "spacing": "log"},
-            "pressure": {"from": "50 kPa", "to": "20 MPa", "points": 200, "spacing": "log"},
-            "separation": {"from": "100 nm", "to": "500 nm", "points": 200, "spacing": "linear"},
-        }
-        words = {
-            "F_star": "F_star: load F/(A_n E*)",
-            "pressure": "pressure: nominal",
-            "separation": "separation d",
-        }
-        self.select(
-            None, words, kind, "load", lambda word: self.change("load", {word: starts[word]})
+        kind = next((name for name in LOADS_BEGUN if name in table), "pressure")
+        self.select(None, LOAD_WORDS, kind, "load", self._loaded)
+        self._values(kind)
+        if kind == "force":
+            self.body()
+
+    def _loaded(self, kind: str) -> None:
+        """Another kind of load; bodies come and go with the force."""
+        study = {key: value for key, value in self.state.study.items() if key != "body"}
+        body = {"body": self.state.get("body") or BODIES_BEGUN["ball-on-flat"]}
+        self.state.replace(
+            study | {"load": {kind: LOADS_BEGUN[kind]}} | (body if kind == "force" else {})
         )
+        self.again()
+
+    def _values(self, kind: str) -> None:
+        """One value of the load, several, or a range."""
         place: Place = ("load", kind)
-        about = VARIANTS["load"][kind]
+        about = FORCE if kind == "force" else VARIANTS["load"][kind]
         if not isinstance(self.state.get(*place), dict):
             said = "one value, or several with commas between"
             self.field(("load",), Field(name=kind, kind="text", label=kind, about=said))
-            ui.button("A range", on_click=lambda: self.change("load", {kind: starts[kind]})).props(
-                "flat dense"
-            )
+            start = LOADS_BEGUN[kind]
+            if isinstance(start, dict):
+                wide = ui.button("A range", on_click=lambda: self.change("load", {kind: start}))
+                wide.props("flat dense")
             return
         for end in ("from", "to"):
             self.field(place, number_field(end, about))
@@ -551,8 +214,26 @@ class Inputs:
                 options=("log", "linear"),
             ),
         )
-        at = self.state.at if self.state.answer is not None else 1e-5
-        ui.button("One value", on_click=lambda: self.change("load", {kind: at})).props("flat dense")
+        if kind == "force":
+            one: Any = LOADS_BEGUN[kind]
+        else:
+            one = self.state.at if self.state.answer is not None else 1e-5
+        single = ui.button("One value", on_click=lambda: self.change("load", {kind: one}))
+        single.props("flat dense")
+
+    def body(self) -> None:
+        """What the force presses together."""
+        kind = self.state.get("body", "kind")
+        kind = kind if isinstance(kind, str) else ""
+        self.select(
+            ("body", "kind"),
+            {name: name for name in BODIES},
+            kind,
+            "bodies",
+            lambda word: self.change("body", BODIES_BEGUN[word]),
+        )
+        for each in fields_of(BODIES[kind]) if kind in BODIES else ():
+            self.field(("body",), each)
 
     def outputs(self) -> None:
         """Every output of the library: a switch, then its numbers."""
@@ -643,9 +324,3 @@ def _flat(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
         else:
             out[where] = value
     return out
-
-
-def about_of(problem: str) -> str:
-    """The entry that a sentence is about: it begins with its place."""
-    first = problem.split(" ", 1)[0].rstrip(":,")
-    return first.split("[", 1)[0]

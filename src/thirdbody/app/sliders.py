@@ -12,6 +12,7 @@ from nicegui import ui
 
 import thirdbody as tb
 
+from ..populations.finish import STATED
 from ..quantities.say import value_of
 from .fields import engineering, number_of
 from .inputs import Inputs
@@ -89,8 +90,8 @@ class Sliders:
     def _all(self) -> list[Knob]:
         state = self.state
 
-        def rough(name: str) -> Callable[[], float | None]:
-            about = tb.Roughness.__dataclass_fields__[name].metadata["quantity"]
+        def rough(name: str, about: Any = None) -> Callable[[], float | None]:
+            about = about or tb.Roughness.__dataclass_fields__[name].metadata["quantity"]
 
             def read() -> float | None:
                 value = number_of(state.get("roughness", name), about)
@@ -123,6 +124,13 @@ class Sliders:
                 "roughness.sigma",
                 rough("sigma"),
                 put("roughness", "sigma", unit="m"),
+                length,
+            ),
+            Knob(
+                "Ra",
+                "roughness.Ra",
+                rough("Ra", STATED["Ra"]),
+                put("roughness", "Ra", unit="m"),
                 length,
             ),
             Knob("R", "roughness.R", rough("R"), put("roughness", "R", unit="m"), length),

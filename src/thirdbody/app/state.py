@@ -53,6 +53,11 @@ class Answer:
         """The load as `tb.solve` calls it."""
         return "d" if self.study.load == "separation" else self.study.load
 
+    @property
+    def forced(self) -> bool:
+        """Whether one force presses bodies: the loads are its mean and largest pressure."""
+        return self.study.forces is not None and len(self.study.forces) == 1
+
     @cached_property
     def loads(self) -> np.ndarray:
         """Loads of the curves: those of the study, or two decades about its only one."""
@@ -60,9 +65,11 @@ class Answer:
         if len(values) > MOST_DRAWN:
             every = np.linspace(0, len(values) - 1, MOST_DRAWN).round().astype(int)
             values = values[np.unique(every)]
-        if len(values) > 1:
+        if len(values) > 1 and not self.forced:
             return values
         middle = float(values[0])
+        if self.forced:  # from little up to the largest pressure
+            return np.geomspace(middle / 100, float(self.study.values.max()), POINTS)
         if self.load == "d":
             width = 2 * self.contact.roughness.sigma
             return np.linspace(middle - width, middle + width, POINTS)
@@ -97,8 +104,11 @@ class Answer:
             return None
 
     def default_at(self) -> float:
-        """An operating load in the middle: the only one of the study, or that of its range."""
-        if len(self.study.values) == 1:
+        """An operating load in the middle: the only one of the study, or that of its range.
+
+        Under one force that is its mean pressure.
+        """
+        if len(self.study.values) == 1 or self.forced:
             return float(self.study.values[0])
         first, last = float(self.loads[0]), float(self.loads[-1])
         if first <= 0:

@@ -22,8 +22,10 @@ __all__ = [
     "TASKS",
     "compare",
     "compared",
+    "counted",
     "design",
     "error_bars",
+    "handed_on",
     "in_little",
     "mode_map",
     "roughness",
@@ -283,6 +285,28 @@ def surface(*, file: str, options: dict[str, Any], report: Report) -> dict[str, 
     return out
 
 
+def counted(file: str) -> dict[str, list[float]]:
+    """The bins of a particle counter, as a study file writes them."""
+    from ..populations.measured.sizes import read_sizes
+
+    bins = read_sizes(file).sizes
+    return {"edges": list(bins.edges), "counts": list(bins.counts)}
+
+
+def handed_on(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
+    """What ``thirdbody report`` writes, with the study file at its end."""
+    from ..views.report import PARTS
+    from ..views.report import report as made
+    from .text import to_toml
+
+    def told(part: str) -> None:
+        report(PARTS.index(part) / (len(PARTS) + 1))
+
+    found = made(_study(study, folder), file=to_toml(study), progress=told)
+    told(PARTS[-1])
+    return {"html": found.html()}
+
+
 TASKS: dict[str, Callable[..., dict[str, Any]]] = {
     "map": mode_map,
     "compare": compare,
@@ -290,6 +314,7 @@ TASKS: dict[str, Callable[..., dict[str, Any]]] = {
     "design": design,
     "surface": surface,
     "roughness": roughness,
+    "report": handed_on,
 }
 
 

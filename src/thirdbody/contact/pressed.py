@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ from ..numerics.roots import bracketed_root
 from ..populations.strength import WeibullStrength
 from ..quantities.say import percent
 from .interface import interface
+from .particle_sums import SeatedParticles
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -67,7 +69,10 @@ def _shares(contact: Contact, d: Array) -> tuple[Array, Array]:
 
 def about_pressed(contact: Contact, d: Array) -> list[str]:
     """What the lowest of these d does to particles that no law of one contact follows."""
-    deep, broken = (float(share[0]) for share in _shares(contact, np.array([np.nanmin(d)])))
+    lowest = np.array([np.nanmin(d)])
+    if max(_at_most(contact, lowest)) <= TOLD:
+        return []
+    deep, broken = (float(share[0]) for share in _shares(contact, lowest))
     out = []
     if deep > TOLD:
         out.append(
@@ -82,6 +87,51 @@ def about_pressed(contact: Contact, d: Array) -> list[str]:
             'them whole; give the particles a strength ("material" takes the library\'s)'
         )
     return out
+
+
+def _at_most(contact: Contact, d: Array) -> tuple[float, float]:
+    """Bounds from above of both shares at one d, from the tables alone.
+
+    A particle squeezed by ε of its size x lies in a gap of (1 − ε) x, which is no wider than that
+    under the largest one. What particles carry in all gaps so narrow is never less.
+    """
+    total = deep = broken = 0.0
+    for each, response in zip(contact.populations, interface(contact).populations, strict=True):
+        if each.strength is not None:
+            continue
+        law = contact.law_of(each)
+        try:
+            split = _radius_squeeze(law, contact.surfaces, each.material)
+        except InvalidValue:
+            continue
+        if not isinstance(response, SeatedParticles):
+            return math.inf, math.inf
+        strength = _strength(each)
+        for part in response.parts:
+            total += float(part.columns(d)[0, 0])
+            deep += float(part.load_in_gaps(d, min(split, default=math.inf))[0])
+            top = part.scale * part.average.particles.top
+            if strength is not None and top > strength.least(each.material):
+                most = strength.of_size(top)
+                squeeze = _squeeze_under(law, contact.surfaces, each.material, most)
+                broken += float(part.load_in_gaps(d, squeeze)[0])
+    if not total > 0:
+        return math.inf, math.inf
+    return deep / total, broken / total
+
+
+@lru_cache(maxsize=512)
+def _squeeze_under(
+    law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material, stress: float
+) -> float:
+    """Squeeze over diameter up to which F/x² stays below a stress [Pa]."""
+    one = law.one(surfaces=surfaces, particle=particle)
+    squeezes = np.geomspace(1e-6, 4.0, 200)
+    beyond = np.maximum.accumulate(one(squeezes)[:, 0]) > stress
+    first = int(np.argmax(beyond))
+    if not beyond[first]:
+        return math.inf
+    return float(squeezes[first - 1]) if first else 0.0
 
 
 @lru_cache(maxsize=512)

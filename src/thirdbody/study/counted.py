@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InvalidValue
+from ..populations.distributions import Histogram
 from ..populations.measured import cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
 from ..populations.particles import Particles
@@ -46,7 +47,13 @@ def counted(
         else:
             about = AMOUNT[name]
             keys[name] = Key(plain(number(reader, where, about)), False, about_of(name, about))
-    keys[kind] = Key(plain(_count_of(reader, path, data, kind)), True, "")
+    inline = kind == "sizes" and isinstance(data[kind], dict)
+    read = (
+        reader.value(f"{path}.{kind}", data[kind], Histogram)
+        if inline
+        else plain(_count_of(reader, path, data, kind))
+    )
+    keys[kind] = Key(read, True, "")
 
     def build(values: dict[str, Any]) -> Particles:
         if wrong:
@@ -55,6 +62,9 @@ def counted(
         options = {name: values.pop(name) for name in COUNTED[kind] if name in values}
         with told(path):
             if kind == "sizes":
+                if inline:
+                    weighting = options.get("weighting", "number")
+                    found = MeasuredSizes(sizes=found, weighting=weighting)
                 smallest = options.get("smallest")
                 source = found.fit(options["fit"]) if "fit" in options else found
                 return laden(reader, path, values, source.by_number(smallest))
@@ -76,7 +86,10 @@ def _count_of(reader: Reader, path: str, data: Any, kind: str) -> Callable[[Any]
 
     def measured(value: Any) -> MeasuredSizes:
         if not isinstance(value, str):
-            raise InvalidValue(f'{say(value)} must be the name of a file, e.g. "sizes.csv"')
+            raise InvalidValue(
+                f'{say(value)} must be the name of a file, e.g. "sizes.csv", or '
+                'its bins, { edges = ["1 um", "2 um"], counts = [5] }'
+            )
         given = get(data, "weighting")
         known = isinstance(given, str) and given in WEIGHTINGS
         beside = reader.folder / value

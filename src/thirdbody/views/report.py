@@ -70,6 +70,8 @@ MOST_ROWS, MOST_COLUMNS = 20, 5
 """States in the table of states, and in that of the outputs."""
 DRAWN, WINDOW, BEYOND = 120, (1e-8, 1e-2), 5.0
 """Loads of the curves, F* within which they lie, and the factor beyond what is marked on them."""
+DRAWING = (4.6, 3.4)
+"""Width and height of a figure [in]."""
 MOST_SAMPLES = 256
 """Samples of the error bars; `assess` takes what the study asks for."""
 USUAL, FAINT = 1e-5, 1e-12
@@ -357,20 +359,25 @@ class Report:
 
         out: list[tuple[Axes, str]] = []
         if not self.contact.two_body:
-            ax = plot.modes(self.curve, transitions=_transitions(self.result["transitions"]))
+            ax = plot.modes(
+                self.curve,
+                _place(left=0.60, above=0.74),
+                transitions=_transitions(self.result["transitions"]),
+            )
             out.append((self._at(ax), "Contact modes over the load."))
-        ax = self._marked(plot.area(self.curve))
+        ax = self._marked(plot.area(self.curve, _place(left=0.75)))
         out.append((ax, "Real contact area over the load."))
         if not self.contact.two_body:
-            ax = plot.shares(self.curve)
+            ax = plot.shares(self.curve, _place(left=0.60))
             if self.curve.populations:
                 self._each_population(ax)
             out.append((self._marked(ax), "Part of the load that particles carry."))
-        ax = self._marked(plot.separation(self.curve, quantity="h"))
+        ax = self._marked(plot.separation(self.curve, _place(left=0.92), quantity="h"))
         ax.yaxis.set_major_formatter(EngFormatter("m"))
         ax.set_ylabel(ax.get_ylabel().removesuffix(" [m]"))
         out.append((ax, "Separation of the mean planes over the load."))
-        out.append((self._at(plot.regimes(self.curve)), "How the real contact is deformed."))
+        ax = self._at(plot.regimes(self.curve, _place(left=0.60, above=0.12)))
+        out.append((ax, "How the real contact is deformed."))
         legend = f"F* = F/(A_n E_ss), with E_ss = {value_of(self.contact.E_ss, 'Pa')}."
         loads = len(set(self._marks()))
         if loads:
@@ -384,7 +391,7 @@ class Report:
 
     def _marked(self, ax: Axes) -> Axes:
         """Loads of the study and critical loads, and the pressure above."""
-        from matplotlib.ticker import EngFormatter
+        from matplotlib.ticker import EngFormatter, NullLocator
 
         E = self.contact.E_ss
         self._at(ax)
@@ -403,6 +410,7 @@ class Report:
         above = ax.secondary_xaxis("top", functions=(scaled(E), scaled(1 / E)))
         above.set_xlabel("Nominal pressure")
         above.xaxis.set_major_formatter(EngFormatter("Pa"))
+        above.xaxis.set_minor_locator(NullLocator())
         above.tick_params(which="both", direction="in")
         return ax
 
@@ -539,6 +547,11 @@ class Report:
         if found is None:
             if not self.result["states"]["F_star"][self.at] >= FAINT:
                 return ["<p>There are none: nothing presses the surfaces together.</p>"]
+            if self.study.uncertainty is None and stated_ranges(self.contact):
+                return [
+                    "<p>There are none: with particles that break every sample takes a second, so "
+                    "that bands are drawn only where a table [uncertainty] asks for them.</p>"
+                ]
             names = [body.name or label for label, body in alike(self._bodies())]
             return [
                 "<p>There are none: the study has no table [uncertainty] that says something of "
@@ -696,6 +709,21 @@ class Report:
         ]
         items = "".join(f"<li>{escape(line)}</li>" for line in dict.fromkeys(lines))
         return [f"<ul>{items}</ul>"]
+
+
+def _place(*, left: float, above: float = 0.52) -> Axes:
+    """Axes with so much room [in] for what stands beside them, found without drawing twice."""
+    from matplotlib.figure import Figure
+
+    width, height = DRAWING
+    below, right = 0.54, 0.17
+    rectangle = (
+        left / width,
+        below / height,
+        1 - (left + right) / width,
+        1 - (below + above) / height,
+    )
+    return Figure(figsize=DRAWING, dpi=150).add_axes(rectangle)
 
 
 # -------------------------------------------------------------------------- numbers in words
@@ -885,7 +913,8 @@ def report(
     -----
     Error bars and elasticities are those at the middle of the loads. Error bars take what the
     table [uncertainty] says, in at most 256 samples (`assess` takes all that it asks for);
-    without it, the ranges of the materials library, where it states some.
+    without it, the ranges of the materials library, where it states some, but for particles that
+    break, whose samples take a second each.
 
     Examples
     --------
@@ -953,7 +982,8 @@ def _curve(contact: Contact, result: dict[str, Any], loaded: Sequence[int]) -> E
 def _assessed(study: Study, contact: Contact, given: dict[str, float]) -> Assessment | None:
     asked = study.uncertainty
     if asked is None:
-        if not stated_ranges(contact):
+        breaks = any(each.strength is not None for each in contact.populations)
+        if breaks or not stated_ranges(contact):
             return None
         return assess(contact, **given, samples=MOST_SAMPLES)  # type: ignore[arg-type]
     loads = {"pressure", "F_star", "d"} - set(given)
@@ -970,6 +1000,6 @@ def _slopes(contact: Contact, given: dict[str, float]) -> Sensitivity | None:
     if not contact.two_body:
         names.insert(0, "particle_load_share")
     try:
-        return sensitivity(contact, of=names, **given)  # type: ignore[arg-type]
+        return sensitivity(contact, of=names, **given, quick=True)  # type: ignore[arg-type]
     except ThirdBodyError:
         return None

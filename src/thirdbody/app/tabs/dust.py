@@ -13,14 +13,17 @@ import thirdbody as tb
 from ...errors import InvalidValue
 from ...populations.measured.cleanliness import DUSTS
 from ...quantities.say import percent, value_of
-from ..bounds import LARGEST_TABLE
+from ..bounds import LARGEST_TABLE, MOST_NUMBERS
+from ..entries import about_of
 from ..fields import shown
 from ..figures import empty, figure, line, plain
-from ..inputs import Inputs, about_of
+from ..inputs import Inputs
+from ..solver import apart
 from ..state import Answer, State
-from ..text import with_micro
+from ..text import with_micro, without_paths
 from ..uploads import keep
 from ..widgets import facts, upload
+from ..worker import counted
 
 __all__ = ["TITLE", "build", "dust_facts", "size_figure"]
 
@@ -102,12 +105,15 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         chooser.reset()
         try:
             name = await keep(state.folder, event)
+            found = await apart(counted, str(state.folder / name))
         except InvalidValue as error:
-            ui.notify("; ".join(error.problems))
+            wrong.set_text(with_micro(without_paths("; ".join(error.problems))))
             return
         kept = {k: v for k, v in table_of().items() if k in (*KEPT, "areal_density")}
         kept.setdefault("areal_density", "1e9 / m^2")
-        state.set(*place(), kept | {"sizes": name}, whole=True)
+        few = len(found["edges"]) <= MOST_NUMBERS
+        # in the study itself they are in its address, so that a reload keeps them
+        state.set(*place(), kept | {"sizes": found if few else name}, whole=True)
         again()
 
     with ui.element("div").classes("figures w-full"):

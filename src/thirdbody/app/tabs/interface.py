@@ -12,6 +12,7 @@ import thirdbody as tb
 from ...equilibrium.columns import COLUMNS
 from ...equilibrium.words import MODES, NO_CONTACT, carried, load_of, mode_of, two_bodies
 from ...quantities.say import number, percent, value_of
+from ...systems.bodies import press
 from ..cross_section import section, to_svg
 from ..state import Answer, State
 from ..widgets import Facts
@@ -21,6 +22,7 @@ __all__ = ["TITLE", "abouts", "build", "headline", "swatch", "told"]
 TITLE = "Interface"
 LETTERS = {"h": "h", "d": "d", "F*": "F_star"}
 FILM = "The study has an oil film: here surfaces and particles carry the load alone; see Film."
+MEAN = "The page opens at the mean pressure; the slider of the load goes up to the largest."
 MET = (
     " Where a population carries and the slab held none of its loaded particles, one of them is "
     "drawn in the place of a free one."
@@ -74,6 +76,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     """The answer, the drawing, what it shows, and another draw."""
     seed = {"now": 0}
     answer = ui.label().classes("headline").props('data-fact="headline" role=status')
+    forced = ui.label().classes("hint").props('data-fact="force"')
     film = ui.label(FILM).classes("hint").props('data-fact="film"')
     picture = (
         ui.html("", sanitize=False)
@@ -103,6 +106,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
 
     async def draw() -> None:
         assert state.answer is not None
+        forced.set_text(under_force(state.answer))
+        forced.set_visibility(bool(forced.text))
         film.set_visibility(state.answer.study.film is not None)
         bad, found = await state.ask(_drawn, state.at, seed["now"])
         status.set_text(bad)
@@ -125,6 +130,15 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         await draw()
 
     return draw
+
+
+def under_force(answer: Answer) -> str:
+    """What one force does to its bodies; empty where the load is none."""
+    body, forces = answer.study.body, answer.study.forces
+    if body is None or forces is None or not answer.forced:
+        return ""
+    said = press(answer.contact, body, float(forces[0]), integrate=False).sentence()
+    return said if body.conjunction is None else f"{said} {MEAN}"
 
 
 def _drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:

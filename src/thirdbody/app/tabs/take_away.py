@@ -13,6 +13,7 @@ from ..python_text import to_python
 from ..state import Answer, State
 from ..text import LONGEST_STUDY, from_toml, to_link, to_toml
 from ..widgets import put, upload
+from ..work import Work
 
 __all__ = ["TITLE", "build"]
 
@@ -79,6 +80,12 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
                 label, icon="download", on_click=lambda _, n=name, k=kind: send(n, k)
             )
             put(button.props("no-caps outline"), {"data-download": name})
+    Work(
+        "report",
+        "Report to hand on (HTML)",
+        lambda: {"study": state.study, "folder": str(state.folder)},
+        lambda result: ui.download.content(result["html"], "report.html", "text/html"),
+    )
     with ui.row().classes("w-full gap-2 items-center"):
         which = ui.select(list(FIGURES), value="area", label="figure").props("dense")
         for suffix in ("png", "svg"):

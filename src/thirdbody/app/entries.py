@@ -1,0 +1,284 @@
+"""One entry of the study on the page: its widget, what is meant by its text, its mistake."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+
+from nicegui import ui
+
+import thirdbody as tb
+
+from ..errors import InvalidValue
+from ..quantities.say import number, value_of
+from .fields import VARIANTS, Field, fields_of, known_keys, options_of, shown, value_from
+from .state import State
+from .text import from_toml, to_toml, with_micro
+from .widgets import put
+
+__all__ = ["Entries", "Place", "about_of", "dotted"]
+
+Place = tuple[str | int, ...]
+OWN = "own values"
+BEGUN = {
+    "sweep": """[sweep]
+design = "sobol"
+samples = 256
+
+[sweep.vary.roughness]
+sigma = { from = "50 nm", to = "200 nm" }
+""",
+    "uncertainty": """[uncertainty]
+samples = 1024
+seed = 1
+
+[uncertainty.inputs]
+"roughness.sigma" = { low = "90 nm", high = "110 nm" }
+""",
+    "design": """[design]
+objective = { of = "particle_load_share", aim = "largest" }
+limits = [{ of = "A_t", most = 0.1 }]
+
+[design.vary]
+"roughness.sigma" = { low = "50 nm", high = "200 nm" }
+""",
+}
+"""How a table may begin; shown while there is none."""
+
+
+def dotted(path: Iterable[str | int]) -> str:
+    """A place in the study as messages name it."""
+    return ".".join(map(str, path))
+
+
+class Entry(NamedTuple):
+    """A widget of one entry; ``read`` gives what is meant by its text, None for a menu."""
+
+    widget: Any
+    read: Callable[[str], Any] | None = None
+    show: Callable[[Any], str] = shown
+    whole: bool = False
+    """Whether mistakes inside the table belong to it as well."""
+
+
+class Entries:
+    """Widgets bound to entries of the study; after every change each shows its own mistake."""
+
+    def __init__(self, state: State, again: Callable[[], None]) -> None:
+        self.state = state
+        self.again = again
+        """Called when other entries are needed than before."""
+        self.shown: dict[str, Entry] = {}
+        self.rest: Any = None
+        self.left: tuple[Any, list[str]] = (None, [])
+        """Where mistakes without a field stand, and which."""
+
+    # ------------------------------------------------------------------ mistakes
+    def tell(self) -> None:
+        """Put every mistake beside its field, and the others where they can be seen."""
+        left = list(self.state.problems)
+        for name, (widget, read, show, whole) in self.shown.items():
+            inner = f"{name}." if whole else name
+            mine = [t for t in left if about_of(t) == name or about_of(t).startswith(inner)]
+            left = [text for text in left if text not in mine]
+            path = tuple(int(step) if step.isdecimal() else step for step in name.split("."))
+            now = self.state.get(*path)
+            if read is not None:
+                try:
+                    if read(widget.value or "") != now and not mine:
+                        widget.value = show(now)
+                except InvalidValue as error:
+                    mine = list(error.problems)
+            fitting = with_micro(" ".join(mine)) or None
+            if widget.error != fitting:
+                widget.error = fitting
+        if self.rest is not None and self.left != (self.rest, left):
+            self.left = (self.rest, left)
+            self.rest.clear()
+            with self.rest:
+                for text in left:
+                    ui.label(with_micro(text)).classes("problem").props("role=alert")
+
+    # ------------------------------------------------------------------ one entry
+    def field(self, path: Place, field: Field) -> None:
+        """The widget of one entry."""
+        place = (*path, field.name)
+        now = self.state.get(*place)
+        if field.kind == "word":
+            blank = {"": f"{field.default} (when left out)" if field.default else "left out"}
+            options = blank | {word: word for word in field.options}
+            self.select(place, options, now or "", field.label, hint=field.about)
+        elif field.kind == "switch":
+            box = ui.checkbox(field.label, value=field.default if now is None else bool(now))
+            box.on_value_change(lambda e: self.state.set(*place, bool(e.value)))
+        else:
+            self.text(place, field)
+
+    def text(self, place: Place, field: Field, to: Callable[[Any], None] | None = None) -> Any:
+        """An entry that is written: the study changes when typing pauses."""
+        set_to = to or (lambda value: self.state.set(*place, value))
+        read, show = (
+            (lambda text: text.strip() or None, lambda value: str(value or ""))
+            if field.kind == "string"
+            else (value_from, shown)
+        )
+        entry = ui.input(field.label, value=show(self.state.get(*place))).classes("w-full")
+        name = dotted(place)
+        put(entry.props("dense debounce=350"), {"hint": with_micro(field.about)})
+        put(entry, {"aria-label": name, "data-path": name})
+        entry.on_value_change(lambda event: set_to(read(event.value or "")))
+        self.shown[name] = Entry(entry, read, show)
+        return entry
+
+    def known(self, *place: str) -> None:
+        """The entries of a table without a form of its own, as the reader knows them."""
+        for name, about in known_keys(self.state.study, place[0]).get(dotted(place), {}).items():
+            if about:
+                self.field(place, Field(name=name, kind="text", label=name, about=about))
+
+    def as_text(self, name: str) -> None:
+        """A table as it stands in the file, its mistakes below."""
+
+        def read(text: str) -> Any:
+            given = from_toml(text)
+            if other := [key for key in given if key != name]:
+                raise InvalidValue(f"here stands [{name}] alone, not {', '.join(other)}")
+            return given.get(name)
+
+        def changed(event: Any) -> None:
+            try:
+                self.state.set(name, read(event.value or ""))
+            except InvalidValue:
+                self.state.tell()  # which reads it again, to put the mistake beside it
+
+        def show(table: Any) -> str:
+            return "" if table is None else to_toml({name: table})
+
+        entry = ui.textarea(value=show(self.state.get(name)), placeholder=BEGUN.get(name, ""))
+        entry.props("outlined autogrow debounce=500")
+        put(entry, {"data-path": name, "aria-label": f"[{name}]"})
+        entry.classes("w-full code").on_value_change(changed)
+        keys = known_keys(self.state.study, name).get(name, {})
+        ui.label(f"Keys: {', '.join(keys)}.").classes("hint")
+        self.shown[name] = Entry(entry, read, show, whole=True)
+
+    def select(
+        self,
+        place: Place | None,
+        options: dict[str, str],
+        now: Any,
+        label: str,
+        then: Callable[[Any], None] | None = None,
+        hint: str = "",
+    ) -> Any:
+        """A menu; what follows from a choice is ``then``."""
+
+        def changed(event: Any) -> None:
+            if then is not None:
+                then(event.value)
+            elif place is not None:
+                self.state.set(*place, event.value or None)
+
+        if not isinstance(now, str):
+            now = shown(now)  # a mistake, which stands there as it is written
+        known = options if now in options else {now: now, **options}
+        menu = ui.select(known, value=now, label=label, on_change=changed)
+        put(menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)})
+        if place is not None:
+            put(menu, {"data-path": dotted(place)})
+            self.shown[dotted(place)] = Entry(menu)
+        return menu
+
+    def change(self, *path_and_value: Any) -> None:
+        """Set an entry on which depends which others there are."""
+        self.state.set(*path_and_value, whole=True)
+        self.again()
+
+    # ------------------------------------------------------------------ tables
+    def table(self, *place: str | int) -> dict[str, Any]:
+        """A table of the study; an empty one where something else stands."""
+        given = self.state.get(*place)
+        return given if isinstance(given, dict) else {}
+
+    def material(self, place: Place, label: str) -> None:
+        """A material of the library, or own values."""
+        now = self.state.get(*place)
+        own = isinstance(now, dict)
+        library = self.state.library
+        options = {OWN: OWN, **{name: name for name in library}}
+
+        def then(value: Any) -> None:
+            if value != OWN:
+                self.change(*place, value)
+                return
+            known = library[now] if isinstance(now, str) and now in library else None
+            given = {"E": known.E, "nu": known.nu, "H": known.H} if known else {}
+            self.change(*place, given or {"E": "205 GPa", "nu": 0.29, "H": "5 GPa"})
+
+        self.select(place, options, OWN if own else now, label, then)
+        if own:
+            for each in fields_of(tb.Material):
+                self.field(place, each)
+        elif isinstance(now, str) and now in library:
+            known = library[now]
+            ui.label(
+                f"E = {value_of(known.E, 'Pa')}, ν = {number(known.nu)}, "
+                f"H = {value_of(known.H, 'Pa')}"
+            ).classes("hint")
+
+    def variant(
+        self,
+        place: Place,
+        registry: Any,
+        default: str,
+        label: str,
+        tag: str = "name",
+        blank: str | None = None,
+    ) -> None:
+        """A word of a registry and the entries that go with it."""
+        now = self.state.get(*place)
+        word = now.get(tag) if isinstance(now, dict) else now
+        word = word if isinstance(word, str) else shown(word)
+        words = options_of(registry)
+        if blank is not None:
+            words = {"": blank, **words}
+
+        def then(value: Any) -> None:
+            self.change(*place, {tag: value} if value else None)
+
+        chosen = word or ("" if blank is not None else default)
+        self.select((*place, tag), words, chosen, label, then)
+        kind = registry.get(chosen)
+        if kind is None:
+            return
+        for each in fields_of(kind):
+            if not isinstance(now, dict):
+                # an entry needs a table to stand in
+                self._named(place, each, tag, chosen)
+            else:
+                self.field(place, each)
+        for item in dataclasses.fields(kind):
+            if item.type == "AbstractAsperityLaw" and isinstance(now, dict):
+                label = f"{item.name}: asperity law inside"
+                inner = (*place, item.name)
+                self.variant(inner, VARIANTS["asperity"], "", label, blank="left out")
+
+    def _named(self, place: Place, field: Field, tag: str, word: str) -> None:
+        """An entry of a table that is still a word, or left out."""
+
+        def to(value: Any) -> None:
+            table = self.state.get(*place)
+            if value is None and not isinstance(table, dict):
+                return
+            kept = table if isinstance(table, dict) else {tag: word}
+            new = {key: old for key, old in kept.items() if key != field.name}
+            self.state.set(*place, new if value is None else new | {field.name: value})
+
+        self.text((*place, field.name), field, to)
+
+
+def about_of(problem: str) -> str:
+    """The entry that a sentence is about: it begins with its place."""
+    first = problem.split(" ", 1)[0].rstrip(":,")
+    return first.split("[", 1)[0]
