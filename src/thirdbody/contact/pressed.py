@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 
 __all__ = ["about_pressed", "buried", "most_buried"]
 
+WIDE = 0.2
+"""Contact radius over that of a squashed particle from which it presses less than the law says;
+Chaudhri, Hutchings, Makin 1984, doi:10.1080/01418618408236551 (abstract seen)."""
 TOLD = 0.01
 """Share of the particles' load from which such particles are told of."""
 
@@ -83,10 +86,10 @@ def _shares(contact: Contact, d: Array, *, brittle: bool = True) -> tuple[Array,
 def about_pressed(contact: Contact, d: Array) -> list[str]:
     """What the lowest of these d does to particles that no law of one contact follows."""
     lowest = np.array([np.nanmin(d)])
+    out = _about_squashed(contact, lowest)
     if np.max(_at_most(contact, lowest)) <= TOLD:
-        return []
+        return out
     deep, broken = (float(share[0]) for share in _shares(contact, lowest))
-    out = []
     if deep > TOLD:
         out.append(
             f"{percent(deep, digits=2)} of the particles' load is on particles that sit deeper "
@@ -100,6 +103,29 @@ def about_pressed(contact: Contact, d: Array) -> list[str]:
             'them whole; give the particles a strength ("material" takes the library\'s)'
         )
     return out
+
+
+def _about_squashed(contact: Contact, d: Array) -> list[str]:
+    """Squashed particles beyond the width at which spheres were measured to press less."""
+    total = wide = 0.0
+    for each, response in zip(contact.populations, interface(contact).populations, strict=True):
+        if each.strength is not None or not isinstance(response, SeatedParticles):
+            continue
+        try:
+            squeeze = _wide_squeeze(contact.law_of(each), contact.surfaces, each.material)
+        except InvalidValue:
+            continue
+        for part in response.parts:
+            total += float(part.columns(d)[0, 0])
+            wide += float(part.load_in_gaps(d, squeeze)[0]) if squeeze < math.inf else 0.0
+    share = min(wide / total, 1.0) if total > 0 else 0.0
+    if share <= TOLD:
+        return []
+    return [
+        f"up to {percent(share, digits=2)} of the particles' load is on soft particles squashed to "
+        f"contacts wider than {WIDE:g} of their radius: metal spheres were measured to press there "
+        "with a sixth to a third less than this law says"
+    ]
 
 
 def _at_most(contact: Contact, d: Array) -> tuple[Array, Array]:
@@ -147,6 +173,17 @@ def _squeeze_under(
     if not beyond[first]:
         return math.inf
     return float(squeezes[first - 1]) if first else 0.0
+
+
+@lru_cache(maxsize=512)
+def _wide_squeeze(law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material) -> float:
+    """Squeeze over diameter at which a squashed particle's contact is `WIDE`; inf for others."""
+    one = law.one(surfaces=surfaces, particle=particle)
+    if not getattr(one, "spreads", False):
+        return math.inf
+    squeezes = np.geomspace(1e-6, 2.0, 400)
+    wide = np.minimum(*one.at(squeezes).areas) > math.pi * (WIDE / 2) ** 2
+    return float(squeezes[int(np.argmax(wide))]) if np.any(wide) else math.inf
 
 
 @lru_cache(maxsize=512)

@@ -151,8 +151,13 @@ class Friction(AbstractOutput):
         specimen.
     aspect : float, optional
         Longest axis of a particle over its size x, 1 for spheres [1]. A longer one rolls only if
-        it can turn over besides: longest axis over gap below 1.74 (Williams and Hyncica; from
-        memory: not confirmed in a source).
+        it can turn over besides: longest axis over gap below 1.74 (Williams and Hyncica;
+        recalled: no source was found, and a body that spans the gap would have to be held with a
+        coefficient of 1.42).
+    offset : float, optional
+        e/x, how far apart along the motion a grain touches the two surfaces, over its size [1]; 0
+        for spheres. A grain with an offset rolls if it turns over before it slides, which in a
+        gap g is where :math:`\min_i(\mu_{pi}+\tau_{sa}a_i/f) \ge e/g`.
 
     Notes
     -----
@@ -210,6 +215,7 @@ class Friction(AbstractOutput):
         "what decides that a particle rolls", "moment", "severity", default="moment"
     )
     aspect: float = quantity("D_l/x", "1", "longest axis over size", default=1.0, ge=1)
+    offset: float = quantity("e/x", "1", "offset of both contacts over size", default=0.0, ge=0)
 
     name = "friction"
     title = "Friction"
@@ -249,6 +255,11 @@ class Friction(AbstractOutput):
                     f"Friction.rear = {self.rear!r} must be 'recovery', 'rigid', or a number from "
                     "0 to 1"
                 )
+        if self.offset > 0 and self.rolling != "moment":
+            out.append(
+                f"Friction.offset = {self.offset:g} needs rolling = 'moment', whose balance it "
+                f"enters, not {self.rolling!r}"
+            )
         return out
 
     def problems(self, contact: Contact) -> list[str]:
@@ -390,14 +401,17 @@ class Friction(AbstractOutput):
         shear = [self.shear_force("sa", area=area, load=spots.load, H=H) for _, area, _, H in sides]
         slide = (one * spots.load + shear[0], two * spots.load + shear[1])
         side = (slide[1] < slide[0] * (1 - TIE)).astype(np.intp)
-        if self.rolling == "moment":
+        gap = spots.x - spots.depths[0] - spots.depths[1]
+        if self.offset > 0:
+            held = np.minimum(*slide) * np.maximum(gap, 0.0)
+            rolls = (held >= self.offset * spots.x * spots.load) & (spots.load > 0)
+        elif self.rolling == "moment":
             rolls = resistance * spots.load < np.minimum(*slide) * (1 - TIE)
         else:
             softer, harder = sorted(spots.hardness)
             S = severity(spots.load, x=spots.x, H_1=softer, H_2=harder)
             rolls = (threshold(softer, H_b=harder) > S) & (spots.load > 0)
         if self.aspect > 1:
-            gap = spots.x - spots.depths[0] - spots.depths[1]
             rolls &= self.aspect * spots.x < TUMBLES * gap
         return Motion(rolls, side, np.where(side, shear[1], shear[0]), (one, two), resistance)
 
