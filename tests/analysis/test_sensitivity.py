@@ -11,24 +11,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from steel_and_dust import DUSTY, STEEL, TWO_BODY
 
 import thirdbody as tb
 
 # the laws are asked outside their ranges too: derivatives are exact there as well
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 
-STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 BRONZE = tb.Material(E=110e9, nu=0.34, H=1.9e9)
-TWO_BODY = tb.Contact(
-    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
-)
-DUSTY = TWO_BODY.replace(
-    particles=tb.Particles(
-        material=SILICA,
-        areal_density=1e11,
-        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
-    )
-)
 PLANE = DUSTY.replace(particle_law=tb.particle.Series(seat="plane"))
 MONODISPERSE = PLANE.replace(
     surfaces=tb.MaterialPair(STEEL, BRONZE), **{"particles.diameter": tb.Monodisperse(mean=300e-9)}

@@ -15,6 +15,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.stats import qmc
+from steel_and_dust import DUSTY
+from steel_and_dust import TWO_BODY as CLEAN
 from typer.testing import CliRunner
 
 import thirdbody as tb
@@ -27,17 +29,6 @@ from thirdbody.study import check, load_study
 
 xr = pytest.importorskip("xarray")
 
-STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
-CLEAN = tb.Contact(
-    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
-)
-DUSTY = CLEAN.replace(
-    particles=tb.Particles(
-        material=SILICA,
-        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
-        areal_density=1e11,
-    )
-)
 MEAN, DENSITY = "particles.diameter.mean", "particles.areal_density"
 GRID = dict(F_star=np.geomspace(5e-7, 3e-3, 9), vary={DENSITY: [0, 1e10, 1e11]})
 SAMPLES = dict(

@@ -12,10 +12,8 @@ theirs.
 
 from __future__ import annotations
 
-import csv
 import dataclasses
 import difflib
-import io
 import json
 import math
 import re
@@ -33,6 +31,7 @@ from ..equilibrium.columns import COLUMNS, Equilibrium
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, RangeWarning
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
+from ..quantities.files import csv_of, with_units
 from ..quantities.say import percent
 
 if TYPE_CHECKING:
@@ -472,11 +471,7 @@ def csv_text(table: xarray.Dataset) -> str:
     }
     plain = flat(table.law.values.tolist(), columns, table.note.values.tolist())
     units = {name: table[name].attrs["units"] for name in columns}
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(f"{name} [{units[name]}]" if units.get(name) else name for name in plain)
-    writer.writerows(zip(*plain.values(), strict=True))
-    return text.getvalue()
+    return csv_of(with_units(plain, units))
 
 
 def flat(laws: list[str], columns: dict[str, Any], notes: list[str]) -> dict[str, list[Any]]:

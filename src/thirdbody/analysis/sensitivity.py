@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -264,25 +264,10 @@ def sensitivity(
     load = ""
     if given or plain:
         load, _, _ = given_load(contact, pressure, F_star, d)
-    labels = [to] if isinstance(to, str) else list(to if to is not None else ())
-    if to is None:
-        labels = _default_inputs(contact) + [load] * bool(load)
-    for name in labels:
-        if name in loads and name != load:
-            raise InvalidValue(f"to = {name!r} needs {name} as the given load")
+    labels = _labels(contact, to, load)
     moved = [input_of(contact, name) for name in dict.fromkeys(labels) if name != load]
 
-    rule = QUICK if quick else FULL
-    value: dict[str, Array] = {}
-    entries: dict[str, dict[str, Entry]] = {}
-    if plain:
-        state = solve(contact, **given)  # type: ignore[arg-type]
-        columns = state.columns()
-        value = {name: columns[name] for name in plain}
-        entries = _of_columns(contact, state, moved, load, plain, rule)
-    for name in results:
-        if name in CRITICAL:
-            value[name], entries[name] = _of_critical(contact, name, moved, load, rule)
+    value, entries = _derived(contact, results, given, moved, load, QUICK if quick else FULL)
 
     start: dict[str, Any] = {each.label: each.values[0] for each in moved}
     if load in labels:
@@ -314,6 +299,17 @@ def sensitivity(
     )
 
 
+def _labels(contact: Contact, to: str | Sequence[str] | None, load: str) -> list[str]:
+    """What is moved: the names of ``to``, or every input and the load."""
+    if to is None:
+        return _default_inputs(contact) + [load] * bool(load)
+    labels = [to] if isinstance(to, str) else list(to)
+    for name in labels:
+        if name in ("F_star", "pressure", "d") and name != load:
+            raise InvalidValue(f"to = {name!r} needs {name} as the given load")
+    return labels
+
+
 def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
     """The names of ``of``, each once."""
     known = (*NUMBERS, *(name for each in contact.outputs for name in each.columns), *CRITICAL)
@@ -327,6 +323,28 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
     ]:
         raise InvalidValue(*problems)
     return names
+
+
+def _derived(
+    contact: Contact,
+    results: Sequence[str],
+    given: Mapping[str, Any],
+    moved: Sequence[Input],
+    load: str,
+    rule: Rule,
+) -> tuple[dict[str, Array], dict[str, dict[str, Entry]]]:
+    """Values of the results, and their derivatives with every input."""
+    value: dict[str, Array] = {}
+    entries: dict[str, dict[str, Entry]] = {}
+    if plain := [name for name in results if name not in CRITICAL]:
+        state = solve(contact, **given)
+        columns = state.columns()
+        value = {name: columns[name] for name in plain}
+        entries = _of_columns(contact, state, moved, load, plain, rule)
+    for name in results:
+        if name in CRITICAL:
+            value[name], entries[name] = _of_critical(contact, name, moved, load, rule)
+    return value, entries
 
 
 def _of_columns(

@@ -20,12 +20,14 @@ __all__ = [
     "SCALES",
     "empty",
     "figure",
+    "fix",
     "line",
     "listed",
     "log_title",
     "mark",
     "mode_bands",
     "plain",
+    "span",
 ]
 
 INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
@@ -124,6 +126,39 @@ def listed(values: Any) -> list[float | None]:
     """Numbers for JSON, None where there is none."""
     array = np.atleast_1d(np.asarray(values, dtype=float))
     return [x if np.isfinite(x) else None for x in array.tolist()]
+
+
+def span(values: Any, *, log: bool = False, padded: bool = True) -> list[float] | None:
+    """The range of an axis over these values; None where there is none.
+
+    Ends are round, so that an axis stays as it is while a slider moves, or those of the values.
+
+    >>> span([0.3, 4.2]), span([0.3, 42], log=True, padded=False)[1] == np.log10(42)
+    ([0.0, 5.0], True)
+    """
+    known = np.asarray(values, float).ravel()
+    known = known[np.isfinite(known) & ((known > 0) | (not log))]
+    if not known.size:
+        return None
+    low, high = float(known.min()), float(known.max())
+    if log:
+        if not padded:
+            return [float(np.log10(low)), float(np.log10(high))] if low < high else None
+        ends = [np.floor(3 * np.log10(low)), np.ceil(3 * np.log10(high))]
+        return [float(ends[0]) / 3, float(ends[1] + (ends[0] == ends[1])) / 3]
+    if not low < high:
+        return None
+    if not padded:
+        return [low, high]
+    step = 10.0 ** np.floor(np.log10(high - low))
+    step *= 0.5 if high - low < 3 * step else 1.0
+    return [float(np.floor(low / step) * step), float(np.ceil(high / step) * step)]
+
+
+def fix(made: dict[str, Any], axis: str, ends: list[float] | None) -> None:
+    """Set the range of an axis of a figure, "xaxis" or "yaxis"."""
+    if ends is not None:
+        made["layout"][axis]["range"] = ends
 
 
 def line(x: Any, y: Any, name: str, number: int = 0, **more: Any) -> dict[str, Any]:

@@ -6,7 +6,6 @@ import asyncio
 import shutil
 import time
 from collections.abc import Awaitable, Callable, Mapping
-from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -15,12 +14,11 @@ from nicegui import background_tasks, events, run, ui
 from starlette.datastructures import QueryParams
 
 from ..errors import InvalidValue, ThirdBodyError
-from ..study.tables import TABLES
 from .address import FOLLOW, TRAVELLED, Address
 from .examples import EXAMPLES, example
-from .fields import Field
 from .folders import Folders
-from .inputs import FORMED, Inputs
+from .look import LOOK, RESIZE
+from .side import Side
 from .sliders import Sliders
 from .state import State, files_of
 from .tabs import TABS
@@ -30,119 +28,14 @@ from .work import when_left
 
 __all__ = ["Start", "page"]
 
-LOOK = """
-:root { --hint: #5f6672; --problem: #b3261e; }
-.body--dark { --hint: #a9b0bb; --problem: #ff8a80; }
-body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
-.hint { color: var(--hint); font-size: 0.83rem; line-height: 1.3; }
-.stale { font-size: 0.85rem; border-left: 3px solid #E69F00; padding-left: 0.6rem; }
-.problem { color: var(--problem); font-size: 0.85rem; font-weight: 600; }
-.subhead { font-weight: 600; margin-top: 0.4rem; }
-.facts { gap: 0.5rem 1.6rem; }
-.headline { font-size: 1.25rem; font-weight: 600; line-height: 1.35; text-wrap: balance; }
-.words { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1rem; }
-.fact .value { font-size: 1.05rem; font-weight: 600; }
-.figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
-@media (min-width: 1100px) { .figures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
-.figures > * { min-width: 0; }
-.js-plotly-plot { position: relative; }
-.here { position: absolute; border-left: 2px solid var(--hint); pointer-events: none; }
-.here[hidden] { display: none; }
-.sliders { gap: 0.4rem 1.6rem; align-items: flex-end; }
-.slider { flex: 1 1 130px; min-width: 130px; padding: 0 8px; }
-.knobs { flex: 6 1 0; gap: 0.4rem 1.6rem; align-items: flex-end; }
-@media (max-width: 699px) {
-  .sliders { display: contents; }
-  .load { position: sticky; top: 72px; z-index: 3; width: 100%; flex: none; background: #fff; }
-  .body--dark .load { background: #121212; }
-  .knobs { flex: none; width: 100%; gap: 0.4rem 1rem; }
-}
-.skip { position: absolute; left: -9999px; }
-.skip:focus { left: 8px; top: 8px; z-index: 9999; padding: 8px 12px; }
-.skip:focus { background: #fff; color: #00518a; }
-h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-spacing: 0; }
-.scroll-x { overflow-x: auto; }
-.section { display: block; width: 100%; min-width: 640px; height: auto; }
-.q-uploader { width: 260px; }
-/* under the pointer a button gets darker, so that its words stay readable */
-.q-btn.bg-primary > .q-focus-helper { color: #000; }
-.q-btn.bg-primary > .q-focus-helper::after { display: none; }
-.q-uploader__list { display: none; }
-#q-loading-bar { display: none; }
-.scroll-x .q-table { min-width: 620px; }
-.narrow { max-width: 34rem; }
-.code textarea { font-family: ui-monospace, monospace; font-size: 0.8rem; line-height: 1.35; }
-.listing {
-  font-family: ui-monospace, monospace; font-size: 0.8rem; white-space: pre; overflow-x: auto;
-}
-.js-plotly-plot .main-svg text { fill: currentColor !important; }
-.js-plotly-plot .main-svg { background: transparent !important; }
-.js-plotly-plot .hoverlayer text { fill: #222 !important; }
-.body--dark .scatterlayer .lines, .body--dark .legendlines { filter: brightness(1.4); }
-.body--dark .layer-below .shapelayer { opacity: 0.5; }
-.q-tab { padding: 0 11px; }
-.q-field__messages { line-height: 1.2; }
-.q-field--with-bottom { padding-bottom: 0; }
-.q-field--with-bottom .q-field__bottom { position: static; transform: none; padding: 3px 0 6px; }
-.q-header .q-field__label { color: #ffffff; }
-@media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
-/* what is important in the framework yields only to an earlier layer */
-@layer overrides {
-  :root { --focus: #0072B2; }
-  .body--dark { --focus: #56B4E9; }
-  .q-header { --focus: #ffffff; }
-  :focus-visible { outline: 2px solid var(--focus) !important; outline-offset: 2px; }
-  .body--dark .text-primary,
-  .body--dark .q-field--highlighted .q-field__label { color: #56B4E9 !important; }
-}
-"""
-
-
-RESIZE = """
-<script type="module">
-const here = (plot) => {
-  const around = plot.closest("[data-at]"), { xaxis } = plot._fullLayout ?? {};
-  if (!around || !xaxis) return;
-  let line = plot.querySelector(":scope > .here");
-  if (!line) {
-    line = Object.assign(document.createElement("div"), { className: "here" });
-    plot.append(line);
-  }
-  const { _offset: left, _length: width } = xaxis, { t, h } = plot._fullLayout._size;
-  const x = xaxis.d2p(Number(around.dataset.at));
-  line.hidden = !(x >= 0 && x <= width);
-  Object.assign(line.style, { left: `${left + x}px`, top: `${t}px`, height: `${h}px` });
-};
-const sized = new ResizeObserver(async (entries) => {
-  const { Plotly } = await import("nicegui-plotly");
-  for (const { target } of entries)
-    if (target.offsetParent && target._fullLayout) Plotly.Plots.resize(target).catch(() => {});
-});
-new MutationObserver(() => {
-  for (const plot of document.querySelectorAll(".js-plotly-plot:not([data-sized])")) {
-    plot.dataset.sized = "";
-    sized.observe(plot);
-  }
-  for (const plot of document.querySelectorAll("[data-at] .js-plotly-plot:not([data-here])"))
-    if (plot.on) {
-      plot.dataset.here = "";
-      plot.on("plotly_afterplot", () => here(plot));
-      here(plot);
-    }
-}).observe(document.body, { childList: true, subtree: true });
-new MutationObserver(() => document.querySelectorAll("[data-at] .js-plotly-plot").forEach(here))
-  .observe(document.body, { subtree: true, attributeFilter: ["data-at"] });
-</script>
-"""
-"""Figures follow the width of their place; one that is out of sight has none. The operating load,
-which moves most, is a line over them: `data-at` around them says where."""
-
-
-MORE = "More tables, as text"
 SKIP = """event => {
   event.preventDefault();
   document.querySelector(event.currentTarget.getAttribute("href")).focus();
 }"""
+
+
+TURN = '() => setDark(!document.body.classList.contains("body--dark"))'
+"""The framework's element for it would set the colours anew at every change of the page."""
 
 
 class Start:
@@ -232,193 +125,166 @@ class Soon:
 
 def page(state: State, told: str, start: Start) -> None:
     """Put everything on the page of one visitor; what is computed follows."""
-    client = ui.context.client
 
     def closed() -> None:
         state.close()
         shutil.rmtree(state.folder, ignore_errors=True)
 
-    client.on_delete(closed)
+    ui.context.client.on_delete(closed)
     when_left(state.close)
     ui.add_css(LOOK)
     ui.add_body_html(RESIZE + FOLLOW)
     ui.colors(primary="#0072B2", accent="#D55E00", positive="#009E73", negative="#b3261e")
-    dark = ui.dark_mode(value=None)
+    Page(state, told, start)
 
-    def again() -> None:
-        panel.refresh()
 
-    inputs = Inputs(state, again)
-    draws: dict[str, Callable[[], Awaitable[None] | None]] = {}
-    opened_sections = {"Load", "Particles"}
-    drawer: Any
+class Page:
+    """Header, entries at the side, sliders and tabs; and what happens between them."""
 
-    def folded(name: str, is_open: bool) -> None:
-        (opened_sections.add if is_open else opened_sections.discard)(name)
+    def __init__(self, state: State, told: str, start: Start) -> None:
+        self.state, self.told, self.start = state, told, start
+        self.draws: dict[str, Callable[[], Awaitable[None] | None]] = {}
+        """How each tab that was opened is drawn."""
+        self.said: list[str] = []
+        """Notes that are shown."""
+        skip = self._header()
+        self.side = Side(state)
+        whole = ui.column().classes("whole gap-2")
+        put(skip, {"href": f"#{whole.html_id}"})
+        with whole.props('tabindex=-1 role=region aria-label="the answer"'):
+            self.banner = ui.label(told).classes("problem").props('role=alert data-said="page"')
+            self.sliders = Sliders(state)
+            self._tabs()
+            self.notes = ui.column().classes("w-full gap-1")
+            self.address = Address(state)
+            self.clock = ui.label().classes("hint").props('data-fact="time"')
+        self.soon = Soon(self._refresh)
+        state.changed.append(self.soon)
+        self.tabs.on_value_change(self._turned)
+        ui.on(TRAVELLED, self._travelled)
+        self.soon()
 
-    with ui.header(elevated=False).classes("items-center q-py-xs gap-2 no-wrap"):
-        skip = ui.element("a").classes("skip")
-        with skip:
-            ui.label("Skip to the answer")
-        skip.on("click", js_handler=SKIP)
-        menu = ui.button(icon="tune", on_click=lambda: drawer.toggle())
-        menu.props('flat dense color=white aria-label="inputs"')
-        ui.html("thirdbody", sanitize=False, tag="h1").classes("name")
-        ui.space()
-        undo = ui.button(icon="undo", on_click=lambda: undone())
-        undo.props('flat dense color=white aria-label="undo" data-path="undo"')
-        names = ui.select(
-            list(EXAMPLES), label="open an example", on_change=lambda e: opened(e.value)
-        )
-        names.props('dense dark options-dense standout data-path="example"').classes("w-56")
-        shade = ui.button(icon="contrast", on_click=lambda: turn())
-        shade.props('flat dense color=white aria-label="light or dark"')
+    # ------------------------------------------------------------------ what there is
+    def _header(self) -> Any:
+        """The bar on top; its first link skips the entries."""
+        with ui.header(elevated=False).classes("items-center q-py-xs gap-2 no-wrap"):
+            skip = ui.element("a").classes("skip")
+            with skip:
+                ui.label("Skip to the answer")
+            skip.on("click", js_handler=SKIP)
+            menu = ui.button(icon="tune", on_click=lambda: self.side.drawer.toggle())
+            menu.props('flat dense color=white aria-label="inputs"')
+            ui.html("thirdbody", sanitize=False, tag="h1").classes("name")
+            ui.space()
+            self.undo = ui.button(icon="undo", on_click=self._undone)
+            self.undo.props('flat dense color=white aria-label="undo" data-path="undo"')
+            self.names = ui.select(
+                list(EXAMPLES), label="open an example", on_change=lambda e: self._opened(e.value)
+            )
+            self.names.props('dense dark options-dense standout data-path="example"')
+            self.names.classes("w-56")
+            shade = ui.button(icon="contrast").on("click", js_handler=TURN)
+            shade.props('flat dense color=white aria-label="light or dark"')
+        return skip
 
-    with ui.left_drawer(value=None, bordered=True).props(
-        "width=340 breakpoint=900 aria-label=inputs"
-    ) as drawer:
-
-        def section(name: str, build: Callable[[], Any]) -> None:
-            fold = ui.expansion(name, value=name in opened_sections).classes("w-full")
-            fold.on_value_change(lambda e: folded(name, e.value))
-            with fold, ui.column().classes("w-full gap-2"):
-                build()
-
-        @ui.refreshable
-        def panel() -> None:
-            inputs.shown.clear()
-            with ui.column().classes("w-full gap-1"):
-                inputs.rest = ui.column().classes("w-full")
-                title = Field(name="title", kind="string", label="title", about="a line of text")
-                inputs.field((), title)
-                sections: dict[str, Callable[[], None]] = {
-                    "Load": inputs.load,
-                    "Particles": inputs.particles,
-                    "Roughness": inputs.roughness,
-                    "Surfaces": inputs.surfaces,
-                    "Asperity law": inputs.asperity_law,
-                }
-                more = {
-                    f"[{table.name}] as text": partial(inputs.as_text, table.name)
-                    for table in TABLES
-                    if table.name not in FORMED
-                }
-                for name, build in sections.items():
-                    section(name, build)
-
-                def tables() -> None:
-                    for name, build in more.items():
-                        section(name, build)
-
-                section(MORE, tables)
-                ui.label(
-                    "Outputs have a tab of their own; the whole study file stands under Take away."
-                ).classes("hint")
-            inputs.tell()
-
-        panel()
-
-    whole = ui.column().classes("w-full max-w-[1500px] mx-auto gap-2")
-    put(skip, {"href": f"#{whole.html_id}"})
-    with whole.props('tabindex=-1 role=region aria-label="the answer"'):
-        banner = ui.label(told).classes("problem").props('role=alert data-said="page"')
-        sliders = Sliders(state)
-        with (
-            ui.tabs()
-            .props("dense no-caps align=left outside-arrows mobile-arrows")
-            .classes("w-full") as tabs
-        ):
+    def _tabs(self) -> None:
+        """A tab for every question, empty until it is opened."""
+        self.tabs = ui.tabs().props("dense no-caps align=left outside-arrows mobile-arrows")
+        with self.tabs.classes("w-full"):
             for name in TABS:
                 ui.tab(name, label=import_module(f".tabs.{name}", __package__).TITLE)
-        with ui.tab_panels(tabs, value=state.tab, animated=False).classes("w-full bg-transparent"):
-            places = {}
+        panels = ui.tab_panels(self.tabs, value=self.state.tab, animated=False)
+        self.places = {}
+        with panels.classes("w-full bg-transparent"):
             for name in TABS:
                 with ui.tab_panel(name).classes("q-px-none"):
-                    places[name] = ui.column().classes("w-full gap-3")
-        notes = ui.column().classes("w-full gap-1")
-        said: list[str] = []
-        address = Address(state)
-        clock = ui.label().classes("hint").props('data-fact="time"')
+                    self.places[name] = ui.column().classes("w-full gap-3")
 
-    async def refresh() -> None:
+    # ------------------------------------------------------------------ what is shown
+    async def _refresh(self) -> None:
         """Show the study as it is now: fields, sliders, the tab in sight."""
-        library = state.library
+        state, library = self.state, self.state.library
         await state.settle()
         if state.library != library:
-            again()
-        inputs.tell()
-        sliders.tell()
-        name = state.tab
-        undo.set_enabled(bool(state.past))
-        remark = address.tell()
-        wrong = ""
-        if state.problems and state.answer is not None:
-            if state.current:
-                wrong = "Outputs with mistakes, told beside their fields, are left out."
-            else:
-                wrong = (
-                    f"The study has {len(state.problems)} mistake(s), told beside the fields; "
-                    "shown is the last study without one."
-                )
+            self.side.again()
+        self.side.inputs.tell()
+        self.sliders.tell()
+        self.undo.set_enabled(bool(state.past))
+        remark = self.address.tell()
         if state.answer is None:
-            banner.set_text(with_micro("; ".join(state.problems)))
+            self.banner.set_text(with_micro("; ".join(state.problems)))
             return
+        wrong = self._wrong()
         try:
-            if name not in draws:
-                with places[name]:
-                    draws[name] = import_module(f".tabs.{name}", __package__).build(state, again)
-            drawing = draws[name]()
-            if drawing is not None:
-                await drawing
+            await self._draw(state.tab)
         except ThirdBodyError as error:
             wrong = "; ".join(getattr(error, "problems", None) or [str(error)])
-        banner.set_text(with_micro(wrong or told))
-        known = [f"Note: {text}" for text in state.answer.notes[:6]]
-        known = [with_micro(without_paths(text)) for text in known] + [remark] * bool(remark)
-        if known != said:
-            said[:] = known
-            notes.clear()
-            with notes:
-                for text in known:
-                    ui.label(text).classes("hint")
-        clock.set_text(f"answered in {1e3 * (time.perf_counter() - state.began):.0f} ms")
+        self.banner.set_text(with_micro(wrong or self.told))
+        self._note(state.answer.notes, remark)
+        self.clock.set_text(f"answered in {1e3 * (time.perf_counter() - state.began):.0f} ms")
 
-    def opened(name: str | None) -> None:
+    def _wrong(self) -> str:
+        """What is told of a study with mistakes."""
+        problems = self.state.problems
+        if not problems:
+            return ""
+        if self.state.current:
+            return "Outputs with mistakes, told beside their fields, are left out."
+        return (
+            f"The study has {len(problems)} mistake(s), told beside the fields; "
+            "shown is the last study without one."
+        )
+
+    async def _draw(self, name: str) -> None:
+        """Draw a tab, built when it is opened first."""
+        if name not in self.draws:
+            with self.places[name]:
+                module = import_module(f".tabs.{name}", __package__)
+                self.draws[name] = module.build(self.state, self.side.again)
+        drawing = self.draws[name]()
+        if drawing is not None:
+            await drawing
+
+    def _note(self, notes: list[str], remark: str) -> None:
+        """Notes of the answer, and a remark of the page, below the tab."""
+        known = [with_micro(without_paths(f"Note: {text}")) for text in notes[:6]]
+        known += [remark] * bool(remark)
+        if known == self.said:
+            return
+        self.said = known
+        self.notes.clear()
+        with self.notes:
+            for text in known:
+                ui.label(text).classes("hint")
+
+    # ------------------------------------------------------------------ what happens
+    def _opened(self, name: str | None) -> None:
         if name:
-            names.set_value(None)
-            state.open(example(name))
-            again()
+            self.names.set_value(None)
+            self.state.open(example(name))
+            self.side.again()
 
-    def undone() -> None:
-        state.undo()
-        again()
+    def _undone(self) -> None:
+        self.state.undo()
+        self.side.again()
 
-    async def travelled(event: events.GenericEventArguments) -> None:
+    async def _travelled(self, event: events.GenericEventArguments) -> None:
         query = QueryParams(str(event.args).removeprefix("?"))
-        read = await run.io_bound(start.read, query)
+        read = await run.io_bound(self.start.read, query)
         if read is None:  # as it is when the server ends
             return
+        state = self.state
         study, at, state.tab, wrong = read
         if wrong:
             ui.notify(wrong)
-        if (study, at, state.tab) == (state.study, state.wanted, tabs.value):
+        if (study, at, state.tab) == (state.study, state.wanted, self.tabs.value):
             return
         state.travel(study, at)
-        address.travelled()
-        tabs.set_value(state.tab)
-        again()
+        self.address.travelled()
+        self.tabs.set_value(state.tab)
+        self.side.again()
 
-    def turn() -> None:
-        dark.value = not dark.value if dark.value is not None else True
-
-    soon = Soon(refresh)
-    state.changed.append(soon)
-
-    def turned() -> None:
-        state.tab = str(tabs.value or TABS[0])
-        state.began = time.perf_counter()
-        soon()
-
-    tabs.on_value_change(turned)
-    ui.on(TRAVELLED, travelled)
-    soon()
+    def _turned(self) -> None:
+        self.state.tab = str(self.tabs.value or TABS[0])
+        self.state.began = time.perf_counter()
+        self.soon()

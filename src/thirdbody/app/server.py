@@ -82,6 +82,8 @@ def _run(host: str, port: int, browser: bool) -> None:
         show_welcome_message=False,
         language="en-US",
         dark=None,
+        tailwind=False,
+        ws_per_message_deflate=False,
         reconnect_timeout=60.0,
         storage_secret=None,
         on_air=None,

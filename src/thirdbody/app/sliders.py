@@ -54,6 +54,10 @@ def _said(answer: Answer, at: float) -> str:
     return f"load {value_of(pressure, 'Pa')}"
 
 
+def _length(value: float) -> str:
+    return value_of(value, "m")
+
+
 class Slider(ui.slider):
     """A slider whose value is the user's: no answer of the server to a former place moves it."""
 
@@ -88,71 +92,58 @@ class Sliders:
                 self.knobs = [self._knob(knob) for knob in self._all()]
 
     def _all(self) -> list[Knob]:
-        state = self.state
+        sizes = Knob(
+            "mean size x_a",
+            "particles.size",
+            self._size,
+            lambda v: self.state.replace(
+                with_size(self.state.study, float(f"{v:.3g}")), kind="particles.size"
+            ),
+            _length,
+        )
+        amount = Knob(
+            "particles per area",
+            "particles.areal_density",
+            self._density,
+            lambda v: self.state.set(
+                *Inputs.first_population(self.state), "areal_density", engineering(v, "1/m^2", 3)
+            ),
+            lambda v: value_of(v, "1/m^2"),
+        )
+        fields = tb.Roughness.__dataclass_fields__
+        return [
+            self._rough("σ", "sigma", fields["sigma"].metadata["quantity"]),
+            self._rough("Ra", "Ra", STATED["Ra"]),
+            self._rough("R", "R", fields["R"].metadata["quantity"]),
+            sizes,
+            amount,
+        ]
 
-        def rough(name: str, about: Any = None) -> Callable[[], float | None]:
-            about = about or tb.Roughness.__dataclass_fields__[name].metadata["quantity"]
+    def _rough(self, label: str, name: str, about: dict[str, Any]) -> Knob:
+        """A length of the roughness."""
 
-            def read() -> float | None:
-                value = number_of(state.get("roughness", name), about)
-                return value if value > 0 else None
-
-            return read
-
-        def size() -> float | None:
-            if state.answer is None or state.answer.contact.two_body:
-                return None
-            place = Inputs.first_population(state)
-            known = state.get(*place, "distribution")
-            scalable = known not in (None, "mixture", "histogram", "power-law")
-            return size_of(state.answer.contact) if scalable else None
-
-        def density() -> float | None:
-            about = tb.Particles.__dataclass_fields__["areal_density"].metadata["quantity"]
-            value = number_of(state.get(*Inputs.first_population(state), "areal_density"), about)
+        def read() -> float | None:
+            value = number_of(self.state.get("roughness", name), about)
             return value if value > 0 else None
 
-        def length(value: float) -> str:
-            return value_of(value, "m")
+        def write(value: float) -> None:
+            self.state.set("roughness", name, engineering(value, "m", 3))
 
-        def put(*place: str | int, unit: str) -> Callable[[float], None]:
-            return lambda value: state.set(*place, engineering(value, unit, 3))
+        return Knob(label, f"roughness.{name}", read, write, _length)
 
-        return [
-            Knob(
-                "σ",
-                "roughness.sigma",
-                rough("sigma"),
-                put("roughness", "sigma", unit="m"),
-                length,
-            ),
-            Knob(
-                "Ra",
-                "roughness.Ra",
-                rough("Ra", STATED["Ra"]),
-                put("roughness", "Ra", unit="m"),
-                length,
-            ),
-            Knob("R", "roughness.R", rough("R"), put("roughness", "R", unit="m"), length),
-            Knob(
-                "mean size x_a",
-                "particles.size",
-                size,
-                lambda v: state.replace(
-                    with_size(state.study, float(f"{v:.3g}")), kind="particles.size"
-                ),
-                length,
-            ),
-            Knob(
-                "particles per area",
-                "particles.areal_density",
-                density,
-                lambda v: state.set(
-                    *Inputs.first_population(state), "areal_density", engineering(v, "1/m^2", 3)
-                ),
-                lambda v: value_of(v, "1/m^2"),
-            ),
-        ]
+    def _size(self) -> float | None:
+        state = self.state
+        if state.answer is None or state.answer.contact.two_body:
+            return None
+        known = state.get(*Inputs.first_population(state), "distribution")
+        scalable = known not in (None, "mixture", "histogram", "power-law")
+        return size_of(state.answer.contact) if scalable else None
+
+    def _density(self) -> float | None:
+        about = tb.Particles.__dataclass_fields__["areal_density"].metadata["quantity"]
+        place = Inputs.first_population(self.state)
+        value = number_of(self.state.get(*place, "areal_density"), about)
+        return value if value > 0 else None
 
     def _knob(self, knob: Knob) -> dict[str, Any]:
         made: dict[str, Any] = {"knob": knob, "middle": None}

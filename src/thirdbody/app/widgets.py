@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
 from nicegui import ui
 
-from .figures import empty
+from .figures import CONFIG, empty
 
 __all__ = ["Facts", "Plot", "facts", "put", "table", "upload"]
 
@@ -57,8 +58,12 @@ class Facts:
             self.labels[name].set_text(value)
 
 
+DRAWS = 10.0
+"""Seconds a browser may take to draw a figure."""
+
+
 class Plot:
-    """A figure; where lines and words on it alone are others, nothing else is drawn again."""
+    """A figure; once it is drawn, another one in its place goes to the browser by itself."""
 
     def __init__(self, name: str, height: int = 360) -> None:
         self.widget = put(ui.plotly(empty(height)).classes("w-full"), {"data-figure": name})
@@ -71,18 +76,30 @@ class Plot:
 
     def show(self, made: dict[str, Any]) -> None:
         """This figure, as `figures.figure` gives it."""
+        if call := self._taken(made):
+            self.widget.run_plot_method(*call)
+
+    async def shown(self, made: dict[str, Any]) -> None:
+        """The same, and wait until the browser has drawn it."""
+        if call := self._taken(made):
+            with contextlib.suppress(TimeoutError):  # the browser is gone
+                await self.widget.run_plot_method(*call, timeout=DRAWS)
+
+    def _taken(self, made: dict[str, Any]) -> tuple[Any, ...] | None:
+        """What to call in the browser, past the framework, which goes through all elements."""
         if made == self.made:
-            return
-        marks = {name: made["layout"].get(name, []) for name in ("shapes", "annotations")}
-        same = self.drawn and self.made | {"layout": self.made["layout"] | marks} == made
+            return None
+        layout = made["layout"]
+        marks = {name: layout.get(name, []) for name in ("shapes", "annotations")}
+        same = self.made | {"layout": self.made.get("layout", {}) | marks} == made
         self.made = made
-        if not same:
+        if not self.drawn:
             self.widget.update_figure(made)
-            return
+            return None
         self.widget.figure = made
-        with self.widget.props.suspend_updates():
-            self.widget.props["options"] = made
-        self.widget.run_plot_method("relayout", marks)
+        # every number would be watched by the framework otherwise
+        dict.__setitem__(self.widget.props, "options", made)
+        return ("relayout", marks) if same else ("react", made["data"], layout, CONFIG)
 
 
 PICK = "e => e.currentTarget.closest('.q-uploader').querySelector('input[type=file]').click()"

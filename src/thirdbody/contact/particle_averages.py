@@ -180,6 +180,10 @@ class SizeAverage:
         """The load of P(g) where the gap is narrower than this, else 0: (N,)."""
         return np.where(gaps < narrow, self(gaps)[:, 0], 0.0)
 
+    def part_in_gaps(self, gaps: Array, narrow: float) -> Array:
+        """Part of the particles in gaps narrower than this: (N,)."""
+        return np.where(gaps < narrow, 1.0, 0.0)
+
     def derivatives(self, gaps: Array, columns: tuple[int, ...]) -> Array:
         """P, P′ and P″ of some columns: (N, len(columns), 3)."""
         u = np.sqrt(np.maximum(self.top - gaps, 0.0))
@@ -386,14 +390,14 @@ class SeatAverage:
     def load_in_gaps(self, mean_gap: Array, narrow: float) -> Array:
         """The load at mean gaps from those seats alone in which the gap is narrower: (N,)."""
         gaps, weights = self.nodes
-        out = np.minimum(
-            special.ndtr((self.average.bottom - mean_gap) / self.width),
-            special.ndtr((narrow - mean_gap) / self.width),
-        )
-        out *= self.floor[0]
+        out = self.floor[0] * self.part_in_gaps(mean_gap, min(narrow, self.average.bottom))
         below = gaps < narrow
         z = (mean_gap[:, None] - gaps[below]) / self.width
         return out + np.exp(-0.5 * z * z) @ weights[below, 0]
+
+    def part_in_gaps(self, mean_gap: Array, narrow: float) -> Array:
+        """Part of the seats in which the gap is narrower than this: (N,)."""
+        return special.ndtr((narrow - mean_gap) / self.width)
 
     def spots(self, mean_gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         """Every squeezed particle at mean gaps (N,)."""

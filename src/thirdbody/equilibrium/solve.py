@@ -40,6 +40,15 @@ TOO_DEEP = (
 )
 
 
+def only_one(**quantities: Any) -> tuple[str, Any]:
+    """Name and value of the one quantity that is given, not None."""
+    given = {name: value for name, value in quantities.items() if value is not None}
+    if len(given) != 1:
+        names = ", ".join(given) or "none"
+        raise InvalidValue(f"give exactly one of {', '.join(quantities)}; got {names}")
+    return given.popitem()
+
+
 def given_load(
     contact: Contact,
     pressure: ArrayLike | None,
@@ -47,15 +56,7 @@ def given_load(
     d: ArrayLike | None,
 ) -> tuple[str, Array, bool]:
     """Which quantity is given, its values (F in Pa or d in m), and whether it was one number."""
-    given = {
-        name: value
-        for name, value in (("pressure", pressure), ("F_star", F_star), ("d", d))
-        if value is not None
-    }
-    if len(given) != 1:
-        names = ", ".join(given) or "none"
-        raise InvalidValue(f"give exactly one of pressure, F_star, d; got {names}")
-    ((name, value),) = given.items()
+    name, value = only_one(pressure=pressure, F_star=F_star, d=d)
     try:
         if np.asarray(value).dtype.kind in "USO":
             raise TypeError

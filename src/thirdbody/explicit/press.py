@@ -129,9 +129,7 @@ def _press(
             A = programme.working_set(x, squeeze)  # no convolution
             if levelling:
                 x.level -= A.mu
-        certificate = A.excess / (programme.sigma * A.weight) if A.weight > 0 else (
-            math.inf if A.excess else 0.0
-        )  # fmt: skip
+        certificate = A.certificate(programme.sigma)
         if certificate < tol or iterations >= max_iterations:
             if judged or iterations == 0:
                 break
@@ -196,6 +194,12 @@ class _WorkingSet:
     """What is carried times what is lacking, summed [Pa m]."""
     weight: float
     """Sum of all pressures [Pa]."""
+
+    def certificate(self, sigma: float) -> float:
+        """ε of `Pressed` [1]."""
+        if self.weight > 0:
+            return self.excess / (sigma * self.weight)
+        return math.inf if self.excess else 0.0
 
 
 @dataclass(slots=True)

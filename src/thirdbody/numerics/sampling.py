@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .sobol_points import WIDEST, points
+
 __all__ = ["Span", "latin", "sobol"]
 
 Array = NDArray[np.float64]
@@ -66,6 +68,9 @@ def sobol(size: int, width: int, seed: int, start: int, stop: int) -> Array:
     >>> bool(np.all(sobol(8, 2, 1, 5, 8) == whole[5:]))
     True
     """
+    bits = max(30, math.ceil(math.log2(size)))
+    if width <= WIDEST:
+        return points(width, seed, bits, start, stop)
     from scipy.stats import qmc
 
     key = (size, width, seed)
@@ -75,14 +80,14 @@ def sobol(size: int, width: int, seed: int, start: int, stop: int) -> Array:
     _last.key = None  # an interrupt may leave it between two points
     # skipping costs a few nanoseconds a point: go on where the last part ended when possible
     if engine is None or engine.num_generated > start:
-        engine = qmc.Sobol(width, rng=seed, bits=max(30, math.ceil(math.log2(size))))
+        engine = qmc.Sobol(width, rng=seed, bits=bits)
     if start > engine.num_generated:
         engine.fast_forward(start - engine.num_generated)
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="The balance properties")
-        points = engine.random(stop - start)
+        found: Array = engine.random(stop - start)
     _last.key, _last.engine = key, engine
-    return points
+    return found
 
 
 def latin(size: int, width: int, seed: int, start: int, stop: int) -> Array:

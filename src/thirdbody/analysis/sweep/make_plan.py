@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...contact.contact import Contact
 from ...equilibrium.columns import columns_of, quantity_of
-from ...equilibrium.solve import given_load
+from ...equilibrium.solve import given_load, only_one
 from ...errors import InvalidValue
 from ...numerics.sampling import DESIGNS, Span
 from ...quantities.value import Value, problem_with
@@ -40,7 +40,7 @@ def make_plan(
     chunk: int = CHUNK,
 ) -> Plan:
     """The plan that these arguments describe; see `sweep`."""
-    load, loads = _the_load({"pressure": pressure, "F_star": F_star, "d": d})
+    load, loads = only_one(pressure=pressure, F_star=F_star, d=d)
     entries: dict[str, Any] = dict(vary or {})
     problems = _not_known("design", design, ("grid", "zip", *DESIGNS))
     if load in entries:
@@ -74,16 +74,6 @@ def make_plan(
     dims.sort(key=lambda dim: dim.name in reduction.over)
     plan = Plan(contact, load, tuple(dims), kept, reduction, chunk)
     return _with_whole_cells(plan) if reduction.quantiles else plan
-
-
-def _the_load(loads: Mapping[str, Any]) -> tuple[str, Any]:
-    """The one load that is given, and its values."""
-    given = {name: value for name, value in loads.items() if value is not None}
-    if len(given) != 1:
-        names = ", ".join(given) or "none"
-        raise InvalidValue(f"give exactly one of pressure, F_star, d; got {names}")
-    ((load, values),) = given.items()
-    return load, values
 
 
 def _inputs(

@@ -17,11 +17,13 @@ from ..figures import (
     REGIME_FILLS,
     SCALES,
     figure,
+    fix,
     line,
     log_title,
     mark,
     mode_bands,
     plain,
+    span,
 )
 from ..state import Answer, State
 from ..widgets import Plot, put
@@ -31,8 +33,7 @@ from .interface import abouts, swatch
 __all__ = ["TITLE", "build", "figures"]
 
 TITLE = "Curves"
-SIGHT = 0.02
-"""Seconds in which the figures on top are drawn before those below."""
+FIGURES = ("area", "shares", "regimes", "separation")
 CRITICAL = {
     "F_cr1": "F<sub>cr1</sub>",
     "F_cr2": "F<sub>cr2</sub>",
@@ -59,48 +60,69 @@ def figures(answer: Answer, against: str, *, critical: bool = True) -> dict[str,
     """The four figures as plain data."""
     state = answer.curves
     x = np.asarray(getattr(state, against)) * SCALES.get(against, 1.0)
-    xlog = against != "d"
-    two_body = answer.contact.two_body
-    shapes = [] if two_body else mode_bands(x, state.mode)
-    notes: list[dict[str, Any]] = []
-    marked = critical_loads(answer) if critical else {}
-    scale = {"F_star": 1.0, "pressure": answer.contact.E_ss * SCALES["pressure"]}.get(against)
-    if scale is not None:
-        known = [(n, v * scale) for n, v in marked.items() if x.min() <= v * scale <= x.max()]
-        for number, (name, value) in enumerate(sorted(known, key=lambda item: item[1])):
-            shape, note = mark(value, CRITICAL[name], number=number)
-            shapes.append(shape)
-            notes.append(log_title(note))
+    lines, notes = _critical_lines(answer, against, x) if critical else ([], [])
+    bands = [] if answer.contact.two_body else mode_bands(x, state.mode)
     more: dict[str, Any] = {
         "x": AXES[against],
-        "xlog": xlog,
-        "shapes": shapes,
+        "xlog": against != "d",
+        "shapes": bands + lines,
         "annotations": notes,
     }
+    out = {"area": _area(answer, x, more)}
+    if not answer.contact.two_body:
+        out["shares"] = _shares(answer, x, more)
+    out["regimes"] = _regimes(answer, x, more | {"shapes": lines})
+    out["separation"] = _separation(answer, x, more)
+    for made in out.values():
+        fix(made, "xaxis", span(x, log=against != "d", padded=False))
+    return out
 
-    area = [line(x, state.A_t, "all A<sub>t</sub>", 0)]
-    if not two_body:
-        area += [
+
+def _critical_lines(answer: Answer, against: str, x: Any) -> tuple[list[Any], list[Any]]:
+    """Critical loads in sight, as shapes and annotations."""
+    scale = {"F_star": 1.0, "pressure": answer.contact.E_ss * SCALES["pressure"]}.get(against)
+    if scale is None:
+        return [], []
+    marked = critical_loads(answer)
+    known = [(n, v * scale) for n, v in marked.items() if x.min() <= v * scale <= x.max()]
+    known.sort(key=lambda item: item[1])
+    made = [mark(v, CRITICAL[name], number=i) for i, (name, v) in enumerate(known)]
+    return [shape for shape, _ in made], [log_title(note) for _, note in made]
+
+
+def _area(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
+    state = answer.curves
+    lines = [line(x, state.A_t, "all A<sub>t</sub>", 0)]
+    if not answer.contact.two_body:
+        lines += [
             line(x, state.A_ss, "asperities A<sub>ss</sub>", 1),
             line(x, state.A_sa, "particles A<sub>sa</sub>", 2),
         ]
-    out = {
-        "area": figure(
-            area, y="real area over A<sub>n</sub>", title="Real contact area", ylog=True, **more
-        )
-    }
-    if not two_body:
-        parts = [
-            line(x, 100 * np.asarray(state.particle_load_share), "of the load", 0),
-            line(x, 100 * np.asarray(state.particle_area_share), "of the real area", 1),
-        ]
-        for number, part in enumerate(state.populations):
-            share = 100 * np.asarray(part.load_share)
-            parts.append(line(x, share, f"{plain(part.name)}: load", number + 2))
-        out["shares"] = figure(
-            parts, y="share of particles [%]", title="What particles carry; mode as bands", **more
-        )
-        out["shares"]["layout"]["yaxis"]["range"] = [-2, 102]
+    made = figure(
+        lines, y="real area over A<sub>n</sub>", title="Real contact area", ylog=True, **more
+    )
+    fix(made, "yaxis", span([each["y"] for each in lines], log=True))
+    return made
+
+
+def _shares(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
+    state = answer.curves
+    lines = [
+        line(x, 100 * np.asarray(state.particle_load_share), "of the load", 0),
+        line(x, 100 * np.asarray(state.particle_area_share), "of the real area", 1),
+    ]
+    for number, part in enumerate(state.populations):
+        share = 100 * np.asarray(part.load_share)
+        lines.append(line(x, share, f"{plain(part.name)}: load", number + 2))
+    made = figure(
+        lines, y="share of particles [%]", title="What particles carry; mode as bands", **more
+    )
+    fix(made, "yaxis", [-2, 102])
+    return made
+
+
+def _regimes(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
+    state = answer.curves
     total = np.asarray(state.A_t)
     stacked = []
     for name, (label, colour) in REGIME_FILLS.items():
@@ -114,91 +136,104 @@ def figures(answer: Answer, against: str, *, critical: bool = True) -> dict[str,
                 "fillpattern": {"shape": HATCHES[name], "size": 7},
             }
         )
-    lined = more | {"shapes": [s for s in shapes if s["type"] == "line"]}
-    out["regimes"] = figure(
-        stacked, y="part of the real area [%]", title="Deformation regimes", **lined
-    )
-    out["regimes"]["layout"]["yaxis"]["range"] = [0, 100]
-    nm = 1e9
-    out["separation"] = figure(
-        [
-            line(x, nm * np.asarray(state.h), "h, from the mean surface", 0),
-            line(x, nm * np.asarray(state.d), "d, from the mean asperity", 1),
-        ],
-        y="separation [nm]",
-        title="Separation",
-        **more,
-    )
-    return out
+    made = figure(stacked, y="part of the real area [%]", title="Deformation regimes", **more)
+    fix(made, "yaxis", [0, 100])
+    return made
+
+
+def _separation(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
+    state, nm = answer.curves, 1e9
+    lines = [
+        line(x, nm * np.asarray(state.h), "h, from the mean surface", 0),
+        line(x, nm * np.asarray(state.d), "d, from the mean asperity", 1),
+    ]
+    made = figure(lines, y="separation [nm]", title="Separation", **more)
+    fix(made, "yaxis", span([each["y"] for each in lines]))
+    return made
 
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Four figures and the critical loads."""
-    with ui.row().classes("w-full items-center gap-4"):
-        against = ui.toggle({"pressure": "pressure", "F_star": "F*"}, value="pressure")
-        against.props('dense no-caps aria-label="horizontal axis" data-path="curves.against"')
-        with ui.row().classes("items-center gap-4").props('data-figure="bands key"') as key:
-            for mode, colour in MODE_FILLS.items():
-                swatch("opacity:0.5;background:" + colour, f"{mode}: {abouts()[mode]}")
-    grid = ui.element("div").classes("figures w-full")
-    with grid:
-        plots = {name: Plot(name) for name in ("area", "shares", "regimes", "separation")}
-    table = ui.column().classes("w-full scroll-x")
-    now: dict[str, Any] = {"timer": None, "shown": None, "table": None}
+    return Curves(state).draw
 
-    async def show(critical: bool) -> None:
-        answer = state.answer
-        assert answer is not None
-        asked = (answer, str(against.value), critical)
-        if asked == now["shown"]:
-            return
-        found = await state.ask(_figures, *asked[1:])
-        if answer is not state.answer:
-            return  # it moved on meanwhile
-        now["shown"] = asked
-        plots["shares"].widget.set_visibility(not answer.contact.two_body)
-        key.set_visibility(not answer.contact.two_body)
-        for number, (name, made) in enumerate(found.items()):
-            if number == 2:
-                await asyncio.sleep(SIGHT)
-                if state.study is not state.read:
-                    now["shown"] = None
-                    return
-            plots[name].show(made)
 
-    async def place() -> None:
-        answer, axis = state.answer, str(against.value)
+class Curves:
+    """Four figures over the load, and a table of the critical loads once the slider rests."""
+
+    def __init__(self, state: State) -> None:
+        self.state = state
+        with ui.row().classes("w-full items-center gap-4"):
+            self.against = ui.toggle({"pressure": "pressure", "F_star": "F*"}, value="pressure")
+            self.against.props('dense no-caps aria-label="horizontal axis"')
+            self.against.props('data-path="curves.against"')
+            self.key = ui.row().classes("items-center gap-4").props('data-figure="bands key"')
+            with self.key:
+                for mode, colour in MODE_FILLS.items():
+                    swatch("opacity:0.5;background:" + colour, f"{mode}: {abouts()[mode]}")
+        self.grid = ui.element("div").classes("figures w-full")
+        with self.grid:
+            self.plots = {name: Plot(name) for name in FIGURES}
+        self.table = ui.column().classes("w-full scroll-x")
+        self.later: Any = None
+        """The timer after which critical loads follow."""
+        self.shown: tuple[Any, ...] | None = None
+        """What the figures show."""
+        self.told: Answer | None = None
+        """Whose critical loads the table holds."""
+        self.against.on_value_change(self.draw)
+
+    async def draw(self) -> None:
+        answer = self.state.answer
         assert answer is not None
+        known = "critical" in answer.__dict__
+        await self._place(answer)
+        await self._show(answer, critical=known)
+        if known:
+            self._tell(answer)
+        elif self.later is None:
+            # critical loads are many states: they follow when the slider rests
+            with self.grid:
+                self.later = ui.timer(0.25, self._finish, once=True)
+
+    async def _place(self, answer: Answer) -> None:
+        """Where the line of the operating load is."""
+        state, axis = self.state, str(self.against.value)
         at = await state.ask(_solved, state.at) if answer.load == "d" else state.at
         F_star = at / answer.contact.E_ss if answer.load == "pressure" else at
         here = F_star * (1.0 if axis == "F_star" else answer.contact.E_ss * SCALES[axis])
-        put(grid, {"data-at": repr(here)})
+        put(self.grid, {"data-at": repr(here)})
 
-    async def finish() -> None:
-        now["timer"] = None
-        await show(critical=True)
-        _told(state.answer)
+    async def _show(self, answer: Answer, *, critical: bool) -> None:
+        asked = (answer, str(self.against.value), critical)
+        if asked == self.shown:
+            return
+        found = await self.state.ask(_figures, *asked[1:])
+        if answer is not self.state.answer:
+            return  # it moved on meanwhile
+        self.shown = asked
+        two_body = answer.contact.two_body
+        self.plots["shares"].widget.set_visibility(not two_body)
+        self.key.set_visibility(not two_body)
+        above, below = list(found)[:2], list(found)[2:]
+        await asyncio.gather(*(self.plots[name].shown(found[name]) for name in above))
+        if self.state.study is not self.state.read:  # it moved on: the last move wins
+            self.shown = None
+            return
+        for name in below:
+            self.plots[name].show(found[name])
 
-    def _told(answer: Answer | None) -> None:
-        if answer is not now["table"]:
-            now["table"] = answer
-            _table(state, table)
-
-    async def draw() -> None:
-        answer = state.answer
+    async def _finish(self) -> None:
+        self.later = None
+        answer = self.state.answer
         assert answer is not None
-        known = "critical" in answer.__dict__
-        await place()
-        await show(critical=known)
-        if known:
-            _told(answer)
-        elif now["timer"] is None:
-            # critical loads are many states: they follow when the slider rests
-            with grid:
-                now["timer"] = ui.timer(0.25, finish, once=True)
+        await self._show(answer, critical=True)
+        if answer is self.state.answer:
+            self._tell(answer)
 
-    against.on_value_change(lambda: draw())
-    return draw
+    def _tell(self, answer: Answer) -> None:
+        if answer is not self.told:
+            self.told = answer
+            _table(answer, self.table)
 
 
 def _figures(answer: Answer, against: str, critical: bool) -> dict[str, dict[str, Any]]:
@@ -211,10 +246,8 @@ def _solved(answer: Answer, d: float) -> float:
     return float(answer.solve(d).F_star)
 
 
-def _table(state: State, place: Any) -> None:
+def _table(answer: Answer, place: Any) -> None:
     """Critical loads, as the command line prints them."""
-    answer = state.answer
-    assert answer is not None
     place.clear()
     found = answer.__dict__.get("critical")
     if found is None or answer.contact.two_body:

@@ -24,6 +24,13 @@ TITLE = "Design"
 LOADS = 16
 METRICS = ("particle_load_share", "A_t", "plastic_share", "d", "h", "A_p")
 WRITTEN = "as the table [design] says"
+AIMS = {
+    "smallest": "as small as possible",
+    "largest": "as large as possible",
+    "window": "within 0.25 to 0.75",
+}
+OVER = {"mean": "on average", "worst": "at the worst load"}
+NO_LIMIT = {"": "no limit"}
 
 
 def metrics_of(state: State) -> dict[str, str]:
@@ -104,113 +111,129 @@ def design_figure(found: dict[str, Any], variable: str, objective: str) -> dict[
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """What may change, what is wanted, what must hold; then the search."""
-    ui.label(
-        "The search runs over the loads of the study. Limits hold at every load; besides, "
-        "always: A_t < 0.2, and particles cover less than 0.3."
-    ).classes("hint")
-    names = _names(state)
-    which = ui.select(names, value=names[0], label="what may change").classes("w-full")
-    which.props('data-path="design.which"')
-    form = ui.column().classes("w-full")
-    with form, ui.row().classes("w-full items-end gap-3"):
-        low = ui.input("from", value="50 nm").props('data-path="design.low"')
-        high = ui.input("to", value="1 µm").props('data-path="design.high"')
-        of = ui.select(metrics_of(state), value="particle_load_share", label="what counts")
-        aims = {
-            "smallest": "as small as possible",
-            "largest": "as large as possible",
-            "window": "within 0.25 to 0.75",
-        }
-        aim = ui.select(aims, value="largest", label="aim")
-        over = ui.select({"mean": "on average", "worst": "at the worst load"}, value="mean")
-    with form, ui.row().classes("w-full items-end gap-3"):
-        limit = ui.select({"": "no limit"} | metrics_of(state), value="", label="limit")
-        most = ui.input("at most").props('data-path="design.most"')
-        least = ui.input("at least").props('data-path="design.least"')
-    for each in (which, of, aim, over, limit, low, high, most, least):
-        each.props("dense")
-    for each in (of, limit):
-        each.classes("grow")
-    form.set_visibility(names[0] != WRITTEN)
+    return Search(state).draw
 
-    def ranged() -> None:
-        name = str(which.value)
-        unit = variables_of(state).get(name)
-        form.set_visibility(name != WRITTEN)
-        if unit is None or state.answer is None:
+
+class Search:
+    """The form that asks for a design, and the answer."""
+
+    def __init__(self, state: State) -> None:
+        self.state = state
+        ui.label(
+            "The search runs over the loads of the study. Limits hold at every load; besides, "
+            "always: A_t < 0.2, and particles cover less than 0.3."
+        ).classes("hint")
+        names = _names(state)
+        self.which = ui.select(names, value=names[0], label="what may change").classes("w-full")
+        self.which.props('dense data-path="design.which"')
+        self.form = ui.column().classes("w-full")
+        with self.form, ui.row().classes("w-full items-end gap-3"):
+            self._aim()
+        with self.form, ui.row().classes("w-full items-end gap-3"):
+            self._limit()
+        self.form.set_visibility(names[0] != WRITTEN)
+        self.which.on_value_change(self._ranged)
+        self.work = Work("design", "Search", self._ask, self._show, key=lambda: state.answer)
+        self.said = ui.label().props('data-fact="design"')
+        self.plot = ui.plotly(empty(420)).classes("w-full").props('data-figure="design"')
+        self.plot.set_visibility(False)
+
+    def _aim(self) -> None:
+        """The range, and what is to be small or large in it."""
+        self.low = ui.input("from", value="50 nm").props('dense data-path="design.low"')
+        self.high = ui.input("to", value="1 µm").props('dense data-path="design.high"')
+        self.of = ui.select(
+            metrics_of(self.state), value="particle_load_share", label="what counts"
+        )
+        self.of.props("dense").classes("grow")
+        self.aim = ui.select(AIMS, value="largest", label="aim").props("dense")
+        self.over = ui.select(OVER, value="mean").props("dense")
+
+    def _limit(self) -> None:
+        """What must hold."""
+        self.limit = ui.select(NO_LIMIT | metrics_of(self.state), value="", label="limit")
+        self.limit.props("dense").classes("grow")
+        self.most = ui.input("at most").props('dense data-path="design.most"')
+        self.least = ui.input("at least").props('dense data-path="design.least"')
+
+    def _ranged(self) -> None:
+        """Another input: a range about what it is."""
+        name, answer = str(self.which.value), self.state.answer
+        unit = variables_of(self.state).get(name)
+        self.form.set_visibility(name != WRITTEN)
+        if unit is None or answer is None:
             return
         *path, last = name.split("+")[0].split(".")
         try:
-            now = float(state.answer.contact.part(field_of(".".join(path), last)))
+            now = float(answer.contact.part(field_of(".".join(path), last)))
         except (InvalidValue, TypeError, ValueError):
             return
-        low.set_value(shown(engineering(now / 5, unit)))
-        high.set_value(shown(engineering(now * 3, unit)))
+        self.low.set_value(shown(engineering(now / 5, unit)))
+        self.high.set_value(shown(engineering(now * 3, unit)))
 
-    which.on_value_change(ranged)
-
-    async def table() -> dict[str, Any]:
+    async def _table(self) -> dict[str, Any]:
         """What the form asks, as the table [design] of a study."""
-        ends = {end: value_from(str(w.value or "")) for end, w in (("low", low), ("high", high))}
-        wanted = {"of": of.value, "aim": aim.value, "over_loads": over.value}
-        asked: dict[str, Any] = {"objective": wanted, "vary": {str(which.value): ends}}
-        if limit.value:
-            ends = {"most": value_from(most.value or ""), "least": value_from(least.value or "")}
-            asked["limits"] = [
-                {"of": limit.value} | {k: v for k, v in ends.items() if v is not None}
-            ]
-        if (answer := state.answer) is not None:
+        ends = {"low": _value(self.low), "high": _value(self.high)}
+        wanted = {"of": self.of.value, "aim": self.aim.value, "over_loads": self.over.value}
+        asked: dict[str, Any] = {"objective": wanted, "vary": {str(self.which.value): ends}}
+        if self.limit.value:
+            ends = {"most": _value(self.most), "least": _value(self.least)}
+            known = {key: value for key, value in ends.items() if value is not None}
+            asked["limits"] = [{"of": self.limit.value} | known]
+        if (answer := self.state.answer) is not None:
             name = answer.load if answer.load != "d" else "F_star"
-            values = answer.loads if name == answer.load else await state.ask(loads_as, name)
+            same = name == answer.load
+            values = answer.loads if same else await self.state.ask(loads_as, name)
             first, last = float(values.min()), float(values.max())
             asked[name] = {"from": first, "to": last, "points": LOADS}
         return asked
 
-    async def ask() -> dict[str, Any]:
-        own = {} if which.value == WRITTEN else {"design": await table()}
-        return {"study": state.study | own, "folder": str(state.folder)}
+    async def _ask(self) -> dict[str, Any]:
+        own = {} if self.which.value == WRITTEN else {"design": await self._table()}
+        return {"study": self.state.study | own, "folder": str(self.state.folder)}
 
-    def show(result: dict[str, Any]) -> None:
+    def _show(self, result: dict[str, Any]) -> None:
         objective, variable = next(iter(result["objectives"])), next(iter(result["values"]))
-        plot.update_figure(design_figure(result, variable, objective))
-        plot.set_visibility(True)
-        units = {e.field: e.quantity["unit"] for e in inputs_of(state.study) if e.quantity}
+        self.plot.update_figure(design_figure(result, variable, objective))
+        self.plot.set_visibility(True)
+        units = {e.field: e.quantity["unit"] for e in inputs_of(self.state.study) if e.quantity}
+        self.said.set_text(with_micro(" ".join(told(result, units))))
 
-        def told(name: str, value: Any) -> str:
-            unit = units.get(name.split("+")[0], "1")
-            return str(value) if isinstance(value, str) else str(engineering(value, unit))
-
-        best = [f"{name} = {told(name, value)}" for name, value in result["values"].items()]
-        best += [f"{name} = {number(value)}" for name, value in result["objectives"].items()]
-        words = [f"Best: {', '.join(best)}."]
-        if not result["feasible"]:
-            words = [f"Nothing that was tried obeys the limits: {result['reason']}."]
-        for name, band in result["tolerance"].items():
-            low_, high_ = (told(name, end) for end in band)
-            words.append(f"Less than 5 % is lost for {name} between {low_} and {high_}.")
-        if result["at_bound"]:
-            words.append("It lies at an end of the range: the best may lie beyond.")
-        if result["active"]:
-            words.append(f"Limits that hold it there: {', '.join(result['active'])}.")
-        said.set_text(with_micro(" ".join(words)))
-
-    work = Work("design", "Search", ask, show, key=lambda: state.answer)
-    said = ui.label().props('data-fact="design"')
-    plot = ui.plotly(empty(420)).classes("w-full")
-    plot.props('data-figure="design"')
-    plot.set_visibility(False)
-
-    async def draw() -> None:
-        await work.tell(state)
-        names = _names(state)
+    async def draw(self) -> None:
+        await self.work.tell(self.state)
+        names, which = _names(self.state), self.which
         if names != which.options:
             which.set_options(names, value=which.value if which.value in names else names[0])
-        for menu, blank in ((of, {}), (limit, {"": "no limit"})):
-            options = blank | metrics_of(state)
+        for menu, blank in ((self.of, {}), (self.limit, NO_LIMIT)):
+            options = blank | metrics_of(self.state)
             if options != menu.options:
                 menu.set_options(options, value=menu.value if menu.value in options else None)
 
-    return draw
+
+def told(result: dict[str, Any], units: dict[str, str]) -> list[str]:
+    """The design that was found, in sentences."""
+
+    def one(name: str, value: Any) -> str:
+        unit = units.get(name.split("+")[0], "1")
+        return str(value) if isinstance(value, str) else str(engineering(value, unit))
+
+    best = [f"{name} = {one(name, value)}" for name, value in result["values"].items()]
+    best += [f"{name} = {number(value)}" for name, value in result["objectives"].items()]
+    words = [f"Best: {', '.join(best)}."]
+    if not result["feasible"]:
+        words = [f"Nothing that was tried obeys the limits: {result['reason']}."]
+    for name, band in result["tolerance"].items():
+        low, high = (one(name, end) for end in band)
+        words.append(f"Less than 5 % is lost for {name} between {low} and {high}.")
+    if result["at_bound"]:
+        words.append("It lies at an end of the range: the best may lie beyond.")
+    if result["active"]:
+        words.append(f"Limits that hold it there: {', '.join(result['active'])}.")
+    return words
+
+
+def _value(entry: Any) -> Any:
+    return value_from(str(entry.value or ""))
 
 
 def _names(state: State) -> list[str]:

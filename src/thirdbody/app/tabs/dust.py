@@ -88,84 +88,90 @@ def begun(table: dict[str, Any], key: str, value: str) -> dict[str, Any]:
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """A code, a test dust or a counted file, and what the particles amount to."""
+    return Dust(state, again).draw
 
-    def place() -> tuple[str | int, ...]:
-        return Inputs.first_population(state)
 
-    def table_of() -> dict[str, Any]:
-        given = state.get(*place())
+class Dust:
+    """The first population, given in another way than by a distribution."""
+
+    def __init__(self, state: State, again: Callable[[], None]) -> None:
+        self.state, self.again = state, again
+        with ui.element("div").classes("figures w-full"):
+            with ui.column().classes("w-full narrow"):
+                self._form()
+            with ui.column().classes("w-full"):
+                self.plot = ui.plotly(empty(360)).classes("w-full").props('data-figure="sizes"')
+                self.table = ui.column().classes("w-full")
+
+    def _form(self) -> None:
+        ui.label(
+            "The first population as a cleanliness code of the oil, as a test dust, or as a "
+            "particle counter found it. Everything else of it, other codes, distributions and "
+            "concentrations stand at the side under Particles."
+        ).classes("hint")
+        self.code = ui.input("cleanliness code ISO 4406", placeholder="18/16/13")
+        self.code.props('debounce=500 data-path="dust.iso4406"').classes("w-full")
+        self.code.on_value_change(lambda e: self._use("iso4406", str(e.value or "").strip()))
+        self.test = ui.select(list(DUSTS), label="test dust ISO 12103-1", clearable=False)
+        self.test.props('data-path="dust.test_dust"').classes("w-full")
+        self.test.on_value_change(lambda e: self._use("test_dust", str(e.value or "")))
+        self.wrong = ui.label().classes("problem").props('role=alert data-said="dust"')
+        self.chooser = upload(
+            "sizes",
+            "Sizes from a particle counter",
+            max_file_size=LARGEST_TABLE,
+            max_files=1,
+            on_upload=self._uploaded,
+            on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
+        )
+
+    def _given(self) -> dict[str, Any]:
+        given = self.state.get(*Inputs.first_population(self.state))
         return given if isinstance(given, dict) else {"material": "SiO2"}
 
-    def use(key: str, value: str) -> None:
-        if value and table_of().get(key) != value:
-            state.set(*place(), begun(table_of(), key, value), whole=True)
-            again()
+    def _put(self, table: dict[str, Any]) -> None:
+        self.state.set(*Inputs.first_population(self.state), table, whole=True)
+        self.again()
 
-    async def uploaded(event: events.UploadEventArguments) -> None:
-        chooser.reset()
+    def _use(self, key: str, value: str) -> None:
+        if value and self._given().get(key) != value:
+            self._put(begun(self._given(), key, value))
+
+    async def _uploaded(self, event: events.UploadEventArguments) -> None:
+        self.chooser.reset()
         try:
-            name = await keep(state.folder, event)
-            found = await apart(counted, str(state.folder / name))
+            name = await keep(self.state.folder, event)
+            found = await apart(counted, str(self.state.folder / name))
         except InvalidValue as error:
-            wrong.set_text(with_micro(without_paths("; ".join(error.problems))))
+            self.wrong.set_text(with_micro(without_paths("; ".join(error.problems))))
             return
-        kept = {k: v for k, v in table_of().items() if k in (*KEPT, "areal_density")}
+        kept = {k: v for k, v in self._given().items() if k in (*KEPT, "areal_density")}
         kept.setdefault("areal_density", "1e9 / m^2")
         few = len(found["edges"]) <= MOST_NUMBERS
         # in the study itself they are in its address, so that a reload keeps them
-        state.set(*place(), kept | {"sizes": found if few else name}, whole=True)
-        again()
+        self._put(kept | {"sizes": found if few else name})
 
-    with ui.element("div").classes("figures w-full"):
-        with ui.column().classes("w-full narrow"):
-            ui.label(
-                "The first population as a cleanliness code of the oil, as a test dust, or as a "
-                "particle counter found it. Everything else of it, other codes, distributions and "
-                "concentrations stand at the side under Particles."
-            ).classes("hint")
-            code = ui.input("cleanliness code ISO 4406", placeholder="18/16/13")
-            code.props('debounce=500 data-path="dust.iso4406"').classes("w-full")
-            code.on_value_change(lambda e: use("iso4406", str(e.value or "").strip()))
-            test = ui.select(list(DUSTS), label="test dust ISO 12103-1", clearable=False)
-            test.props('data-path="dust.test_dust"').classes("w-full")
-            test.on_value_change(lambda e: use("test_dust", str(e.value or "")))
-            wrong = ui.label().classes("problem").props('role=alert data-said="dust"')
-            chooser = upload(
-                "sizes",
-                "Sizes from a particle counter",
-                max_file_size=LARGEST_TABLE,
-                max_files=1,
-                on_upload=uploaded,
-                on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
-            )
-        with ui.column().classes("w-full"):
-            plot = ui.plotly(empty(360)).classes("w-full")
-            plot.props('data-figure="sizes"')
-            table = ui.column().classes("w-full")
-
-    async def draw() -> None:
-        given = table_of()
-        code.set_value(shown(given.get("iso4406")))
+    async def draw(self) -> None:
+        given = self._given()
+        self.code.set_value(shown(given.get("iso4406")))
         known = given.get("test_dust")
-        test.set_value(known if isinstance(known, str) and known in DUSTS else None)
-        mine = [text for text in state.problems if about_of(text).startswith("particles")]
-        wrong.set_text(with_micro(" ".join(mine)))
-        answer = state.answer
+        self.test.set_value(known if isinstance(known, str) and known in DUSTS else None)
+        mine = [text for text in self.state.problems if about_of(text).startswith("particles")]
+        self.wrong.set_text(with_micro(" ".join(mine)))
+        answer = self.state.answer
         assert answer is not None
-        plot.set_visibility(not answer.contact.two_body)
+        self.plot.set_visibility(not answer.contact.two_body)
         if answer.contact.two_body:
-            table.clear()
+            self.table.clear()
             return
-        drawn, told = await state.ask(_found)
-        plot.update_figure(drawn)
-        table.clear()
-        with table:
+        drawn, told = await self.state.ask(_found)
+        self.plot.update_figure(drawn)
+        self.table.clear()
+        with self.table:
             for name, numbers in told:
                 ui.label(name).classes("subhead")
                 with ui.row().classes("facts w-full"):
                     facts(numbers)
-
-    return draw
 
 
 def _found(answer: Answer) -> tuple[dict[str, Any], list[tuple[str, list[tuple[str, str]]]]]:

@@ -177,97 +177,109 @@ def tornado_figure(found: dict[str, Any]) -> dict[str, Any]:
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """What is uncertain, a button, two figures."""
-    ui.label(
-        "Say what is known of the inputs. Without any entry the ranges of the materials library "
-        "count, where it states some."
-    ).classes("hint")
-    seen: dict[str, Any] = {"inputs": (state.get("uncertainty", "inputs"), _ranges(state))}
+    return ErrorBars(state).draw
 
-    def renewed() -> None:
-        entries.refresh()
 
-    inputs = Inputs(state, renewed)
+class ErrorBars:
+    """Entries for what is uncertain, and the bands that follow."""
 
-    @ui.refreshable
-    def entries() -> None:
+    def __init__(self, state: State) -> None:
+        self.state = state
+        ui.label(
+            "Say what is known of the inputs. Without any entry the ranges of the materials "
+            "library count, where it states some."
+        ).classes("hint")
+        self.inputs = Inputs(state, self._renewed)
+        self.known = self._known()
+        """What the entries show."""
+        self._entries()
+        with ui.row().classes("w-full items-end gap-3"):
+            self.of = ui.select(results_of(state), value=PLAIN[0], label="result")
+            self.of.props('dense options-dense data-path="error bars.of"').classes("grow")
+            self.samples = ui.select([256, 1024, 4096, 16384], value=1024, label="samples")
+            self.samples.props("dense").classes("w-24")
+        self.load = ""
+        """The load that the bands were asked over."""
+        self.work = Work(
+            "error bars", "Draw error bars", self._ask, self._show, key=self._key, little=_little
+        )
+        self.of.on_value_change(lambda: self.work.tell(state))
+        self.said = ui.label().props('data-fact="error bars"')
+        self.box = ui.element("div").classes("figures w-full")
+        self.plots: dict[str, Any] = {}
+        with self.box:
+            for name in ("bands", "tornado"):
+                self.plots[name] = ui.plotly(empty(380)).classes("w-full")
+                put(self.plots[name], {"data-figure": name})
+        self.box.set_visibility(False)
+
+    def _renewed(self) -> None:
+        self._entries.refresh()
+
+    @ui.refreshable_method
+    def _entries(self) -> None:
+        inputs = self.inputs
         inputs.shown.clear()
         with ui.column().classes("w-full gap-2"):
             inputs.uncertain()
-            _offer(inputs, state)
+            _offer(inputs, self.state)
             inputs.rest = ui.column().classes("w-full")
             inputs.tell()
 
-    entries()
-    found: dict[str, Any] = {}
-    with ui.row().classes("w-full items-end gap-3"):
-        of = ui.select(results_of(state), value=PLAIN[0], label="result")
-        of.props('dense options-dense data-path="error bars.of"').classes("grow")
-        samples = ui.select([256, 1024, 4096, 16384], value=1024, label="samples")
-        samples.props("dense").classes("w-24")
+    def _known(self) -> Any:
+        return self.state.get("uncertainty", "inputs"), _ranges(self.state)
 
-    def ask() -> dict[str, Any] | None:
-        answer = state.answer
+    def _key(self) -> Any:
+        state = self.state
+        return state.answer, state.get("uncertainty"), str(self.of.value), state.at
+
+    def _ask(self) -> dict[str, Any] | None:
+        answer = self.state.answer
         if answer is None:
             return None
         values = answer.loads
-        said.set_text("")
+        self.said.set_text("")
         space = np.linspace if answer.load == "d" else np.geomspace
-        found["load"] = answer.load
+        self.load = answer.load
         return {
-            "study": state.study,
-            "folder": str(state.folder),
+            "study": self.state.study,
+            "folder": str(self.state.folder),
             "load": answer.load,
             "loads": space(values[0], values[-1], LOADS).tolist(),
-            "at": state.at,
-            "of": str(of.value),
-            "samples": int(samples.value or 1024),
+            "at": self.state.at,
+            "of": str(self.of.value),
+            "samples": int(self.samples.value or 1024),
         }
 
-    def show(result: dict[str, Any]) -> None:
-        bands = (
-            critical_figure(result) if result["critical"] else band_figure(result, found["load"])
-        )
-        plots["bands"].update_figure(bands)
-        plots["tornado"].update_figure(tornado_figure(result))
+    def _show(self, result: dict[str, Any]) -> None:
+        critical = result["critical"]
+        bands = critical_figure(result) if critical else band_figure(result, self.load)
+        self.plots["bands"].update_figure(bands)
+        self.plots["tornado"].update_figure(tornado_figure(result))
         low, middle, high = result["band_at"][0], result["nominal_at"], result["band_at"][-1]
-        start = result["of"] if result["critical"] else "At the operating load"
-        said.set_text(
+        start = result["of"] if critical else "At the operating load"
+        self.said.set_text(
             f"{start}: {number(middle)}, in nine of ten cases between {number(low)} and "
             f"{number(high)} ({result['samples']} samples)."
             if None not in (low, middle, high)
             else f"{result['of']} is not known at every end of the inputs."
         )
-        box.set_visibility(True)
-        said.set_visibility(True)
+        self.box.set_visibility(True)
+        self.said.set_visibility(True)
 
-    def key() -> Any:
-        return state.answer, state.get("uncertainty"), str(of.value), state.at
-
-    def little(asked: dict[str, Any]) -> dict[str, Any]:
-        return asked | {"loads": asked["loads"][::4], "samples": 128}
-
-    work = Work("error bars", "Draw error bars", ask, show, key=key, little=little)
-    of.on_value_change(lambda: work.tell(state))
-    said = ui.label().props('data-fact="error bars"')
-    box = ui.element("div").classes("figures w-full")
-    plots: dict[str, Any] = {}
-    with box:
-        for name in ("bands", "tornado"):
-            plots[name] = ui.plotly(empty(380)).classes("w-full")
-            put(plots[name], {"data-figure": name})
-    box.set_visibility(False)
-
-    async def draw() -> None:
-        if (now := state.get("uncertainty", "inputs"), _ranges(state)) != seen["inputs"]:
-            seen["inputs"] = now, _ranges(state)
-            entries.refresh()
-        inputs.tell()
-        options = results_of(state)
+    async def draw(self) -> None:
+        if self._known() != self.known:
+            self.known = self._known()
+            self._renewed()
+        self.inputs.tell()
+        options, of = results_of(self.state), self.of
         if options != of.options:
             of.set_options(options, value=of.value if of.value in options else PLAIN[0])
-        await work.tell(state)
+        await self.work.tell(self.state)
 
-    return draw
+
+def _little(asked: dict[str, Any]) -> dict[str, Any]:
+    return asked | {"loads": asked["loads"][::4], "samples": 128}
 
 
 def _ranges(state: State) -> dict[str, dict[str, Any]]:

@@ -139,83 +139,96 @@ def film_figures(found: dict[str, Any], i: int) -> dict[str, dict[str, Any]]:
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Entries, a slider over the speed, facts, three figures."""
-    ui.label(
-        "An oil film, asperities and particles carry one load together. The film of smooth bodies "
-        "follows from their radii, the oil and the speed."
-    ).classes("hint")
+    return Film(state).draw
 
-    def renewed() -> None:
-        entries.refresh()
 
-    inputs = Inputs(state, renewed)
+class Film:
+    """The table [film] and what it says at one speed."""
 
-    @ui.refreshable
-    def entries() -> None:
-        inputs.shown.clear()
+    def __init__(self, state: State) -> None:
+        self.state = state
+        ui.label(
+            "An oil film, asperities and particles carry one load together. The film of smooth "
+            "bodies follows from their radii, the oil and the speed."
+        ).classes("hint")
+        self.inputs = Inputs(state, self._renewed)
+        self.answer: Answer | None = None
+        self.found: dict[str, Any] | None = None
+        """What was found for the answer."""
+        self.i = 0
+        """The speed that is shown."""
+        self.there: Any = None
+        """Which entries there are."""
+        self.plots: dict[str, Any] = {}
+        with ui.element("div").classes("figures w-full"):
+            with ui.column().classes("w-full"):
+                self._form()
+            self.beside = ui.column().classes("w-full gap-1")
+            with self.beside:
+                self._results()
+
+    def _renewed(self) -> None:
+        self._form.refresh()
+
+    @ui.refreshable_method
+    def _form(self) -> None:
+        self.inputs.shown.clear()
         with ui.column().classes("w-full gap-2 narrow"):
-            _entries(inputs, state)
-            inputs.rest = ui.column().classes("w-full")
+            _entries(self.inputs, self.state)
+            self.inputs.rest = ui.column().classes("w-full")
 
-    plots: dict[str, Any] = {}
-    now: dict[str, Any] = {"answer": None, "found": None, "i": 0, "there": None}
-    with ui.element("div").classes("figures w-full"):
-        with ui.column().classes("w-full"):
-            entries()
-        with ui.column().classes("w-full gap-1") as beside:
-            said = ui.label().classes("hint").props('data-fact="film speed"')
-            slider = Slider(min=0, max=MOST, step=1, value=0)
-            slider.props('aria-label="speed" data-slider="film.speed"').classes("q-px-sm")
-            facts = ui.row().classes("facts w-full")
-            words = ui.column().classes("w-full gap-0")
-            for name in CURVES:
-                plots[name] = ui.plotly(empty(360)).classes("w-full")
-                put(plots[name], {"data-figure": name})
+    def _results(self) -> None:
+        self.said = ui.label().classes("hint").props('data-fact="film speed"')
+        self.slider = Slider(min=0, max=MOST, step=1, value=0)
+        self.slider.props('aria-label="speed" data-slider="film.speed"').classes("q-px-sm")
+        self.slider.on_value_change(self._moved)
+        self.facts = ui.row().classes("facts w-full")
+        self.words = ui.column().classes("w-full gap-0")
+        for name in CURVES:
+            self.plots[name] = ui.plotly(empty(360)).classes("w-full")
+            put(self.plots[name], {"data-figure": name})
 
-    def show() -> None:
-        found, i = now["found"], now["i"]
-        for name, made in film_figures(found, i).items():
-            plots[name].update_figure(made)
-        known = found["states"]["mu"][i] is not None
-        plots["film friction"].set_visibility(known)
-        said.set_text(f"speed {value_of(found['states']['speed'][i], 'm/s')}")
-        facts.clear()
-        with facts:
-            said_of = point(found, i)
-            named_values(said_of.items(), "film: ")
+    def _show(self, found: dict[str, Any]) -> None:
+        """Facts and figures at the speed of the slider."""
+        for name, made in film_figures(found, self.i).items():
+            self.plots[name].update_figure(made)
+        known = found["states"]["mu"][self.i] is not None
+        self.plots["film friction"].set_visibility(known)
+        self.said.set_text(f"speed {value_of(found['states']['speed'][self.i], 'm/s')}")
+        self.facts.clear()
+        with self.facts:
+            named_values(point(found, self.i).items(), "film: ")
 
-    def moved() -> None:
-        i = int(slider.value or 0)
-        if now["found"] is not None and i != now["i"]:
-            now["i"] = i
-            show()
+    def _moved(self) -> None:
+        i = int(self.slider.value or 0)
+        if self.found is not None and i != self.i:
+            self.i = i
+            self._show(self.found)
 
-    slider.on_value_change(moved)
-
-    async def draw() -> None:
-        table = state.get("film")
-        if _shape(table) != now["there"]:
-            now["there"] = _shape(table)
-            entries.refresh()
-        inputs.tell()
-        answer = state.answer
+    async def draw(self) -> None:
+        shape = _shape(self.state.get("film"))
+        if shape != self.there:
+            self.there = shape
+            self._renewed()
+        self.inputs.tell()
+        answer = self.state.answer
         assert answer is not None
         given = answer.study.film
-        beside.set_visibility(given is not None)
-        if given is None or answer is now["answer"]:
+        self.beside.set_visibility(given is not None)
+        if given is None or answer is self.answer:
             return
-        before = now["found"]
-        found, middle = await state.ask(_solved)
+        before = self.found
+        found, middle = await self.state.ask(_solved)
         kept = before is not None and before["states"]["speed"] == found["states"]["speed"]
-        now.update(answer=answer, found=found, i=now["i"] if kept else middle)
-        put(slider, {"max": len(found["states"]["speed"]) - 1})
-        slider.set_value(now["i"])
-        words.clear()
-        with words:
+        self.answer, self.found = answer, found
+        self.i = self.i if kept else middle
+        put(self.slider, {"max": len(found["states"]["speed"]) - 1})
+        self.slider.set_value(self.i)
+        self.words.clear()
+        with self.words:
             for text in (*summary(found), *found["warnings"][len(answer.study.notes) :]):
                 ui.label(with_micro(text)).classes("hint")
-        show()
-
-    return draw
+        self._show(found)
 
 
 def _entries(inputs: Inputs, state: State) -> None:

@@ -64,23 +64,8 @@ def map_figure(found: dict[str, Any], here: tuple[float, float] | None) -> dict[
         },
     ]
     if here is not None:
-        traces.append(
-            {
-                "type": "scatter",
-                "mode": "markers",
-                "x": [here[0]],
-                "y": [here[1]],
-                "marker": {
-                    "size": 14,
-                    "color": "#ffffff",
-                    "line": {"color": "#000000", "width": 3},
-                    "symbol": "circle",
-                },
-                "name": "this study",
-                "hoverinfo": "skip",
-            }
-        )
-    made = figure(
+        traces.append(_here(*here))
+    return figure(
         traces,
         x="particle size over roughness x<sub>a</sub>/σ",
         y="load F*",
@@ -89,7 +74,24 @@ def map_figure(found: dict[str, Any], here: tuple[float, float] | None) -> dict[
         height=520,
         hovermode="closest",
     )
-    return made
+
+
+def _here(size: float, load: float) -> dict[str, Any]:
+    """The study as a point of the map."""
+    return {
+        "type": "scatter",
+        "mode": "markers",
+        "x": [size],
+        "y": [load],
+        "marker": {
+            "size": 14,
+            "color": "#ffffff",
+            "line": {"color": "#000000", "width": 3},
+            "symbol": "circle",
+        },
+        "name": "this study",
+        "hoverinfo": "skip",
+    }
 
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:

@@ -57,132 +57,156 @@ def options_from(texts: dict[str, str]) -> dict[str, Any]:
     return out
 
 
+ENTRIES = (
+    ("cutoff", "cut-off, e.g. 2 µm; 0 as sampled"),
+    ("spacing", "of a file that tells none"),
+    ("unit", "of a file that tells none"),
+    ("channel", "of a file with several"),
+    ("resolution", "of the instrument"),
+)
+FORMS = {"": "tilt", "none": "none", "curvature": "curvature"}
+TAKEN = (("Use these numbers", "surface"), ("Use the file", "file"))
+
+
 def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     """An upload, options, pictures, and a button that takes the numbers over."""
-    now: dict[str, Any] = {"file": "example"}
-    texts: dict[str, Any] = {}
-    work: Work
-    source: Any
-    chooser: Any
-    table: Any
-    notes: Any
-    box: Any
-    ui.label(
-        "Maps and profiles of instruments (x3p, sur, opd, al3d, npy, txt, ...), up to "
-        f"{LARGEST_UPLOAD // 2**20} MB. The file stays on this machine; it is read in a process "
-        f"of its own, which is stopped after {value_of(SECONDS, 's')}."
-    ).classes("hint")
+    Surface(state, again)
+    return lambda: None
 
-    async def uploaded(event: events.UploadEventArguments) -> None:
-        try:
-            name = await keep(state.folder, event)
-        except InvalidValue as error:
-            work.said.set_text("; ".join(error.problems))
-            return
-        now["file"] = str(state.folder / name)
-        box.set_visibility(False)
-        source.set_text(f"file: {name}")
-        chooser.reset()
-        await work.run()
 
-    with ui.row().classes("w-full items-center gap-4"):
-        chooser = upload(
-            "surface",
-            "Drop a file",
-            max_file_size=LARGEST_UPLOAD,
-            max_files=1,
-            on_upload=uploaded,
-            on_rejected=lambda: work.said.set_text(
-                f"the file is larger than {LARGEST_UPLOAD // 2**20} MB, or not one file"
-            ),
+class Surface:
+    """A measured file, how it is read, and what it says."""
+
+    def __init__(self, state: State, again: Callable[[], None]) -> None:
+        self.state, self.again = state, again
+        self.file = "example"
+        self.asked: dict[str, str] = {}
+        """How the file was read that is shown."""
+        self.result: dict[str, Any] = {}
+        ui.label(
+            "Maps and profiles of instruments (x3p, sur, opd, al3d, npy, txt, ...), up to "
+            f"{LARGEST_UPLOAD // 2**20} MB. The file stays on this machine; it is read in a "
+            f"process of its own, which is stopped after {value_of(SECONDS, 's')}."
+        ).classes("hint")
+        self._chooser()
+        self.texts: dict[str, Any] = {}
+        with ui.row().classes("w-full gap-3"):
+            self._options()
+        self.work = Work(
+            "surface", "Read it", self._ask, self._show, seconds=SECONDS, key=self._key
         )
-        source = ui.label("file: the example of the library").classes("hint")
-    with ui.row().classes("w-full gap-3"):
-        for name, hint in (
-            ("cutoff", "cut-off, e.g. 2 µm; 0 as sampled"),
-            ("spacing", "of a file that tells none"),
-            ("unit", "of a file that tells none"),
-            ("channel", "of a file with several"),
-            ("resolution", "of the instrument"),
-        ):
+        for entry in self.texts.values():
+            entry.on_value_change(lambda: self.work.tell(state))
+        self.box = ui.column().classes("w-full")
+        with self.box:
+            self._results()
+        self.box.set_visibility(False)
+
+    # ------------------------------------------------------------------ what there is
+    def _chooser(self) -> None:
+        with ui.row().classes("w-full items-center gap-4"):
+            self.chooser = upload(
+                "surface",
+                "Drop a file",
+                max_file_size=LARGEST_UPLOAD,
+                max_files=1,
+                on_upload=self._uploaded,
+                on_rejected=lambda: self.work.said.set_text(
+                    f"the file is larger than {LARGEST_UPLOAD // 2**20} MB, or not one file"
+                ),
+            )
+            self.source = ui.label("file: the example of the library").classes("hint")
+
+    def _options(self) -> None:
+        for name, hint in ENTRIES:
             entry = ui.input(name).props("dense").classes("w-52")
-            texts[name] = put(entry, {"hint": hint, "data-path": f"surface.{name}"})
-        forms = {"": "tilt", "none": "none", "curvature": "curvature"}
-        texts["detrend"] = ui.select(forms, value="", label="form removed")
-        texts["detrend"].props("dense").classes("w-36")
+            self.texts[name] = put(entry, {"hint": hint, "data-path": f"surface.{name}"})
+        form = ui.select(FORMS, value="", label="form removed")
+        self.texts["detrend"] = form.props("dense").classes("w-36")
 
-    def written() -> dict[str, str]:
-        return {name: str(w.value or "") for name, w in texts.items()}
-
-    def ask() -> dict[str, Any] | None:
-        try:
-            options = options_from(written())
-        except InvalidValue as error:
-            work.said.set_text("; ".join(error.problems))
-            return None
-        box.set_visibility(False)
-        now["asked"] = written()
-        return {"file": now["file"], "options": options}
-
-    def show(result: dict[str, Any]) -> None:
-        now["result"] = result
-        plots["heights"].update_figure(height_figure(result))
-        for name in ("R", "eta", "rms_gradient"):
-            plots[name].update_figure(cutoff_figure(result, name))
-        used = result["used"]
-        words = {
-            "σ": value_of(used["sigma"], "m"),
-            "R": value_of(used["R"], "m"),
-            "η": value_of(used["eta"], "1/m^2"),
-            "α": number(used["alpha"]),
-            "σ_s": value_of(used["sigma_s"], "m"),
-            "cut-off": value_of(used["cutoff"], "m") if used["cutoff"] else "as sampled",
-            "skewness": number(result["skewness"]),
-            "kurtosis": number(result["kurtosis"]),
-        }
-        table.clear()
-        with table:
-            facts(words.items(), "surface ")
-        notes.clear()
-        with notes:
-            for text in result["warnings"]:
-                ui.label(with_micro(text)).classes("hint")
-        box.set_visibility(True)
-
-    work = Work(
-        "surface", "Read it", ask, show, seconds=SECONDS, key=lambda: (now["file"], written())
-    )
-    for entry in texts.values():
-        entry.on_value_change(lambda: work.tell(state))
-    box = ui.column().classes("w-full")
-    with box:
-        table = ui.row().classes("facts w-full")
-        notes = ui.column().classes("w-full gap-1")
+    def _results(self) -> None:
+        self.table = ui.row().classes("facts w-full")
+        self.notes = ui.column().classes("w-full gap-1")
         with ui.row():
-            for label, name in (("Use these numbers", "surface"), ("Use the file", "file")):
-                button = ui.button(label, icon="input", on_click=lambda _, n=name: take(n))
+            for label, name in TAKEN:
+                button = ui.button(label, icon="input", on_click=lambda _, n=name: self._take(n))
                 put(button.props("no-caps"), {"data-take": name})
-        plots: dict[str, Any] = {}
+        self.plots: dict[str, Any] = {}
         with ui.element("div").classes("figures w-full"):
             for name in ("heights", "rms_gradient", "R", "eta"):
-                plots[name] = ui.plotly(empty(360)).classes("w-full")
-                put(plots[name], {"data-figure": f"surface-{name}"})
-    box.set_visibility(False)
+                self.plots[name] = ui.plotly(empty(360)).classes("w-full")
+                put(self.plots[name], {"data-figure": f"surface-{name}"})
 
-    def take(what: str) -> None:
-        used = now["result"]["used"]
+    # ------------------------------------------------------------------ what happens
+    def _written(self) -> dict[str, str]:
+        return {name: str(w.value or "") for name, w in self.texts.items()}
+
+    def _key(self) -> Any:
+        return self.file, self._written()
+
+    async def _uploaded(self, event: events.UploadEventArguments) -> None:
+        try:
+            name = await keep(self.state.folder, event)
+        except InvalidValue as error:
+            self.work.said.set_text("; ".join(error.problems))
+            return
+        self.file = str(self.state.folder / name)
+        self.box.set_visibility(False)
+        self.source.set_text(f"file: {name}")
+        self.chooser.reset()
+        await self.work.run()
+
+    def _ask(self) -> dict[str, Any] | None:
+        try:
+            options = options_from(self._written())
+        except InvalidValue as error:
+            self.work.said.set_text("; ".join(error.problems))
+            return None
+        self.box.set_visibility(False)
+        self.asked = self._written()
+        return {"file": self.file, "options": options}
+
+    def _show(self, result: dict[str, Any]) -> None:
+        self.result = result
+        self.plots["heights"].update_figure(height_figure(result))
+        for name in ("R", "eta", "rms_gradient"):
+            self.plots[name].update_figure(cutoff_figure(result, name))
+        self.table.clear()
+        with self.table:
+            facts(told(result).items(), "surface ")
+        self.notes.clear()
+        with self.notes:
+            for text in result["warnings"]:
+                ui.label(with_micro(text)).classes("hint")
+        self.box.set_visibility(True)
+
+    def _take(self, what: str) -> None:
+        used = self.result["used"]
         if what == "file":
             # as it was read, not as it may be written by now
-            asked = {name: value_from(text) for name, text in now["asked"].items()}
+            asked = {name: value_from(text) for name, text in self.asked.items()}
             asked.pop("resolution")
-            rough = {"topography": Path(now["file"]).name} | {k: v for k, v in asked.items() if v}
+            rough = {"topography": Path(self.file).name} | {k: v for k, v in asked.items() if v}
         else:
             rough = {key: used[key] for key in ("sigma", "R", "alpha", "eta")}
-        state.set("roughness", rough)
-        again()
+        self.state.set("roughness", rough)
+        self.again()
         ui.notify("The roughness of the study is that of this surface now.")
 
-    return lambda: None
+
+def told(result: dict[str, Any]) -> dict[str, str]:
+    """A measured surface in numbers."""
+    used = result["used"]
+    return {
+        "σ": value_of(used["sigma"], "m"),
+        "R": value_of(used["R"], "m"),
+        "η": value_of(used["eta"], "1/m^2"),
+        "α": number(used["alpha"]),
+        "σ_s": value_of(used["sigma_s"], "m"),
+        "cut-off": value_of(used["cutoff"], "m") if used["cutoff"] else "as sampled",
+        "skewness": number(result["skewness"]),
+        "kurtosis": number(result["kurtosis"]),
+    }
 
 
 def height_figure(found: dict[str, Any]) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from .measures import (
     critical_load_2,
     extreme,
     inside,
+    largest_over_two_body,
     measure,
     ratios,
     slope,
@@ -41,14 +42,7 @@ def smallest_asperity_share(curves: Curves, material: str, sigma: float, x_a: fl
 def largest_area_over_two_body(
     curves: Curves, materials: list[str], sigma: float, x_a: list[float]
 ) -> Measurement:
-    bare = curves.two_body(sigma)
-    part = inside(bare)
-    return Measurement.of(
-        max(
-            np.max((curves(material, sigma, x).A_t / bare.A_t)[part])
-            for material, x in product(materials, x_a)
-        )
-    )
+    return largest_over_two_body(curves, materials, sigma, x_a, lambda curve: curve.A_t)
 
 
 @measure

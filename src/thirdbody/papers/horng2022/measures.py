@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ __all__ = [
     "first_load",
     "inside",
     "interior_peak_of",
+    "largest_over_two_body",
     "measure",
     "ratios",
     "second_load",
@@ -144,3 +145,21 @@ def first_load(curves: Curves, material: str, sigma: float, x_a: float) -> float
 
 def second_load(curves: Curves, material: str, sigma: float, x_a: float) -> float:
     return critical_load_2(curves(material, sigma, x_a))
+
+
+def largest_over_two_body(
+    curves: Curves,
+    materials: list[str],
+    sigma: float,
+    x_a: list[float],
+    value: Callable[[Curve], Array],
+) -> Measurement:
+    """The largest value over that without particles, of all materials and sizes."""
+    bare = curves.two_body(sigma)
+    part = inside(bare)
+    return Measurement.of(
+        max(
+            np.max((value(curves(material, sigma, x)) / value(bare))[part])
+            for material, x in product(materials, x_a)
+        )
+    )

@@ -11,6 +11,7 @@ from ..ledger import Measurement
 from .claims import study_data
 from .measures import (
     inside,
+    largest_over_two_body,
     measure,
 )
 from .readings import SILICA, STEEL, Curves
@@ -37,14 +38,7 @@ def largest_elastic_share(
 def largest_elastic_share_over_two_body(
     curves: Curves, materials: list[str], sigma: float, x_a: list[float]
 ) -> Measurement:
-    bare = curves.two_body(sigma)
-    part = inside(bare)
-    return Measurement.of(
-        max(
-            np.max((curves(material, sigma, x).share("e") / bare.share("e"))[part])
-            for material, x in product(materials, x_a)
-        )
-    )
+    return largest_over_two_body(curves, materials, sigma, x_a, lambda curve: curve.share("e"))
 
 
 @measure

@@ -44,6 +44,7 @@ from .style import (
     _column,
     _curves,
     _dress,
+    _legend_above,
     _share_axis,
     _styles,
     _tint,
@@ -375,14 +376,8 @@ def modes(
     _share_axis(ax)
     ax.set_xlim(x.min(), x.max())
     drawn = [name for name in MODES if name in {mode for _, _, mode in runs}]
-    ax.legend(
-        handles=[*ax.get_legend_handles_labels()[0], *_mode_key(drawn)],
-        fontsize="small",
-        frameon=False,
-        ncols=1 + (len(drawn) + 1) // 2,
-        loc="lower center",
-        bbox_to_anchor=(0.5, 1.08),
-    )
+    handles = [*ax.get_legend_handles_labels()[0], *_mode_key(drawn)]
+    _legend_above(ax, handles, ncols=1 + (len(drawn) + 1) // 2, y=1.08)
     return ax
 
 
@@ -450,12 +445,5 @@ def _mode_chart(curves: Sequence[Curve], ax: Axes, against: str) -> Axes:
     ax.tick_params(axis="y", length=0)
     every = np.concatenate([_column(curve, against) for curve in curves])
     ax.set_xlim(np.nanmin(every), np.nanmax(every))
-    ax.legend(
-        handles=_mode_key(MODES),
-        ncols=3,
-        fontsize="small",
-        frameon=False,
-        loc="lower center",
-        bbox_to_anchor=(0.5, 1.0),
-    )
+    _legend_above(ax, _mode_key(MODES), ncols=3)
     return ax

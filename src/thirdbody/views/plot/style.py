@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.colors import to_rgb
@@ -186,6 +187,18 @@ def _dress(ax: Axes, x: str, y: str, *, xlog: bool = True, ylog: bool = False) -
 def _share_axis(ax: Axes) -> None:
     ax.set_ylim(-0.02, 1.02)
     ax.yaxis.set_major_formatter(PercentFormatter(1, symbol=""))
+
+
+def _legend_above(ax: Axes, handles: Sequence[Artist], *, ncols: int = 1, y: float = 1.0) -> None:
+    """A legend over the figure, where it hides no curve; ``y`` in the height of the axes."""
+    ax.legend(
+        handles=handles,
+        ncols=ncols,
+        fontsize="small",
+        frameon=False,
+        loc="lower center",
+        bbox_to_anchor=(0.5, y),
+    )
 
 
 def _styles(curves: Sequence[Curve]) -> list[dict[str, Any]]:

@@ -12,7 +12,7 @@ from matplotlib.ticker import EngFormatter, PercentFormatter
 
 from ...errors import InvalidValue
 from ...quantities.say import percent, value_of
-from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _share_axis, _tint
+from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _legend_above, _share_axis, _tint
 
 if TYPE_CHECKING:
     from ...analysis.uncertainty.propagation import Propagation
@@ -173,17 +173,11 @@ def tornado(
         ax.set_xlim(first * (first / last) ** ROOM, last * (last / first) ** ROOM)
     elif last > first:
         ax.set_xlim(first - ROOM * (last - first), last + ROOM * (last - first))
-    ax.legend(
-        handles=[
-            Patch(facecolor=colour, edgecolor="white", hatch=hatch, label=name)
-            for name, colour, hatch in _ends()
-        ],
-        ncols=2,
-        fontsize="small",
-        frameon=False,
-        loc="lower center",
-        bbox_to_anchor=(0.5, 1.0),
-    )
+    handles = [
+        Patch(facecolor=colour, edgecolor="white", hatch=hatch, label=name)
+        for name, colour, hatch in _ends()
+    ]
+    _legend_above(ax, handles, ncols=2)
     return ax
 
 

@@ -1,0 +1,166 @@
+"""How the page looks: its styles, and the script that fits figures to their places."""
+
+from __future__ import annotations
+
+__all__ = ["LOOK", "RESIZE"]
+
+BASE = """
+@layer base {
+  *, ::after, ::before, ::backdrop, ::file-selector-button {
+    box-sizing: border-box; margin: 0; padding: 0; border: 0 solid;
+  }
+  html { line-height: 1.5; -webkit-text-size-adjust: 100%; tab-size: 4; }
+  h1, h2, h3, h4, h5, h6 { font-size: inherit; font-weight: inherit; }
+  a { color: inherit; text-decoration: inherit; }
+  b, strong { font-weight: bolder; }
+  code, kbd, samp, pre { font-family: ui-monospace, Menlo, Consolas, monospace; font-size: 1em; }
+  sub, sup { font-size: 75%; line-height: 0; position: relative; vertical-align: baseline; }
+  sub { bottom: -0.25em; }
+  sup { top: -0.5em; }
+  table { text-indent: 0; border-color: inherit; border-collapse: collapse; }
+  ol, ul, menu { list-style: none; }
+  img, svg, video, canvas { display: block; vertical-align: middle; }
+  button, input, select, textarea, ::file-selector-button {
+    font: inherit; letter-spacing: inherit; color: inherit; border-radius: 0; opacity: 1;
+    background-color: transparent;
+  }
+  ::placeholder { opacity: 1; color: color-mix(in oklab, currentcolor 50%, transparent); }
+  textarea { resize: vertical; }
+  button, input:where([type="button"]), ::file-selector-button { appearance: button; }
+}
+@layer utilities {
+  .items-center { align-items: center; }
+  .items-end { align-items: flex-end; }
+  .items-start { align-items: flex-start; }
+  .justify-between { justify-content: space-between; }
+  .justify-center { justify-content: center; }
+  .self-stretch { align-self: stretch; }
+  .grow { flex-grow: 1; }
+  .gap-0 { gap: 0; }
+  .gap-1 { gap: 0.25rem; }
+  .gap-2 { gap: 0.5rem; }
+  .gap-3 { gap: 0.75rem; }
+  .gap-4 { gap: 1rem; }
+  .w-24 { width: 6rem; }
+  .w-36 { width: 9rem; }
+  .w-52 { width: 13rem; }
+  .w-56 { width: 14rem; }
+  .w-full { width: 100%; }
+  .whole { width: 100%; max-width: 1500px; margin-inline: auto; }
+  .pl-4 { padding-left: 1rem; }
+  .hidden { display: none; }
+  .break-all { word-break: break-all; }
+  .font-bold { font-weight: 700; }
+  .bg-transparent { background-color: transparent; }
+}
+"""
+"""What the page takes of Tailwind, whose own script looks through the page at every change."""
+LOOK = (
+    BASE
+    + """
+:root { --hint: #5f6672; --problem: #b3261e; }
+.body--dark { --hint: #a9b0bb; --problem: #ff8a80; }
+body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
+.hint { color: var(--hint); font-size: 0.83rem; line-height: 1.3; }
+.stale { font-size: 0.85rem; border-left: 3px solid #E69F00; padding-left: 0.6rem; }
+.problem { color: var(--problem); font-size: 0.85rem; font-weight: 600; }
+.subhead { font-weight: 600; margin-top: 0.4rem; }
+.facts { gap: 0.5rem 1.6rem; }
+.headline { font-size: 1.25rem; font-weight: 600; line-height: 1.35; text-wrap: balance; }
+.words { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1rem; }
+.fact .value { font-size: 1.05rem; font-weight: 600; }
+.figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
+@media (min-width: 1100px) { .figures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
+.figures > * { min-width: 0; }
+.js-plotly-plot { position: relative; }
+.here { position: absolute; border-left: 2px solid var(--hint); pointer-events: none; }
+.here[hidden] { display: none; }
+.sliders { gap: 0.4rem 1.6rem; align-items: flex-end; }
+.slider { flex: 1 1 130px; min-width: 130px; padding: 0 8px; }
+.knobs { flex: 6 1 0; gap: 0.4rem 1.6rem; align-items: flex-end; }
+@media (max-width: 699px) {
+  .sliders { display: contents; }
+  .load { position: sticky; top: 72px; z-index: 3; width: 100%; flex: none; background: #fff; }
+  .body--dark .load { background: #121212; }
+  .knobs { flex: none; width: 100%; gap: 0.4rem 1rem; }
+}
+.skip { position: absolute; left: -9999px; }
+.skip:focus { left: 8px; top: 8px; z-index: 9999; padding: 8px 12px; }
+.skip:focus { background: #fff; color: #00518a; }
+h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-spacing: 0; }
+.scroll-x { overflow-x: auto; }
+.section { display: block; width: 100%; min-width: 640px; height: auto; }
+.q-uploader { width: 260px; }
+/* under the pointer a button gets darker, so that its words stay readable */
+.q-btn.bg-primary > .q-focus-helper { color: #000; }
+.q-btn.bg-primary > .q-focus-helper::after { display: none; }
+.q-uploader__list { display: none; }
+#q-loading-bar { display: none; }
+.scroll-x .q-table { min-width: 620px; }
+.narrow { max-width: 34rem; }
+.code textarea { font-family: ui-monospace, monospace; font-size: 0.8rem; line-height: 1.35; }
+.listing {
+  font-family: ui-monospace, monospace; font-size: 0.8rem; white-space: pre; overflow-x: auto;
+}
+.js-plotly-plot .main-svg text { fill: currentColor !important; }
+.js-plotly-plot .main-svg { background: transparent !important; }
+.js-plotly-plot .hoverlayer text { fill: #222 !important; }
+.body--dark .scatterlayer .lines, .body--dark .legendlines { filter: brightness(1.4); }
+.body--dark .layer-below .shapelayer { opacity: 0.5; }
+.q-tab { padding: 0 11px; }
+.q-field__messages { line-height: 1.2; }
+.q-field--with-bottom { padding-bottom: 0; }
+.q-field--with-bottom .q-field__bottom { position: static; transform: none; padding: 3px 0 6px; }
+.q-header .q-field__label { color: #ffffff; }
+@media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
+/* what is important in the framework yields only to an earlier layer */
+@layer overrides {
+  :root { --focus: #0072B2; }
+  .body--dark { --focus: #56B4E9; }
+  .q-header { --focus: #ffffff; }
+  :focus-visible { outline: 2px solid var(--focus) !important; outline-offset: 2px; }
+  .body--dark .text-primary,
+  .body--dark .q-field--highlighted .q-field__label { color: #56B4E9 !important; }
+}
+"""
+)
+
+
+RESIZE = """
+<script type="module">
+const here = (plot) => {
+  const around = plot.closest("[data-at]"), { xaxis } = plot._fullLayout ?? {};
+  if (!around || !xaxis) return;
+  let line = plot.querySelector(":scope > .here");
+  if (!line) {
+    line = Object.assign(document.createElement("div"), { className: "here" });
+    plot.append(line);
+  }
+  const { _offset: left, _length: width } = xaxis, { t, h } = plot._fullLayout._size;
+  const x = xaxis.d2p(Number(around.dataset.at));
+  line.hidden = !(x >= 0 && x <= width);
+  Object.assign(line.style, { left: `${left + x}px`, top: `${t}px`, height: `${h}px` });
+};
+const sized = new ResizeObserver(async (entries) => {
+  const { Plotly } = await import("nicegui-plotly");
+  for (const { target } of entries)
+    if (target.offsetParent && target._fullLayout) Plotly.Plots.resize(target).catch(() => {});
+});
+new MutationObserver(() => {
+  for (const plot of document.querySelectorAll(".js-plotly-plot:not([data-sized])")) {
+    plot.dataset.sized = "";
+    sized.observe(plot);
+  }
+  for (const plot of document.querySelectorAll("[data-at] .js-plotly-plot:not([data-here])"))
+    if (plot.on) {
+      plot.dataset.here = "";
+      plot.on("plotly_afterplot", () => here(plot));
+      here(plot);
+    }
+}).observe(document.body, { childList: true, subtree: true });
+new MutationObserver(() => document.querySelectorAll("[data-at] .js-plotly-plot").forEach(here))
+  .observe(document.body, { subtree: true, attributeFilter: ["data-at"] });
+</script>
+"""
+"""Figures follow the width of their place; one that is out of sight has none. The operating load,
+which moves most, is a line over them: `data-at` around them says where."""
