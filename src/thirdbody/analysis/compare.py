@@ -19,6 +19,7 @@ import math
 import re
 import warnings
 from collections.abc import Iterable
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -59,8 +60,37 @@ DERIVED = {
 """Symbol, unit and meaning of what a comparison adds."""
 TELLING = 0.01
 """Share of the area beyond a law's range from which a comparison says so."""
+NO_PARTICLES = "knows no particles: ask it of the contact without them"
 ATOMIC = 0.2e-9
 """Distance z_0 of atomic planes in the Tabor number [m]."""
+
+
+class Persson:
+    r"""A second opinion on the area, of no asperities at all.
+
+    .. math:: A_t = \operatorname{erf}\frac{\sqrt2\,p}{E^*g}, \qquad
+              g^2 = 2m_2 = \frac{3\sqrt\pi}{4}\,\frac{\sigma}{R\sqrt\alpha}
+
+    with the RMS slope g of the roughness. It knows neither yielding nor a separation.
+    """
+
+    name = "persson"
+    title = "Area after Persson: elastic, without asperities"
+    year = 2001
+    citation = "Persson 2001, J. Chem. Phys. 115, 3840 (recalled), doi:10.1063/1.1388626"
+
+    @staticmethod
+    def state(contact: Contact, pressure: Array) -> SimpleNamespace:
+        """What stands in the columns of a comparison; NaN where it says nothing."""
+        rough = contact.roughness
+        m_2 = 3 * math.sqrt(math.pi) / 8 * rough.sigma / (rough.R * math.sqrt(rough.alpha))
+        slope = math.sqrt(2 * m_2)
+        area = np.vectorize(math.erf)(math.sqrt(2) * pressure / (contact.E_ss * slope))
+        none, unknown = np.zeros_like(area), np.full_like(area, np.nan)
+        known = {"F_ss_star": pressure / contact.E_ss, "mode": "s-s", "status": "ok"}
+        known |= dict.fromkeys(("A_t", "A_ss", "A_e"), area)
+        known |= dict.fromkeys(("A_sa", "A_ep", "A_p", "particle_load_share"), none)
+        return SimpleNamespace(**dict.fromkeys(KEPT, unknown) | known)
 
 
 # -------------------------------------------------------------------------- comparing
@@ -83,7 +113,9 @@ def compare(
         Words of the registry, which mean the law with its default options, or laws. When left
         out: every registered law but the adhesive ones, which need a work of adhesion, the coated
         one, which needs the coating, and the elliptic ones, which equal their circular ones at a
-        ratio of 1. The contact's own law is always there and comes first.
+        ratio of 1. The contact's own law is always there and comes first. ``persson``, the last
+        row where nothing is asked and no particles lie between, is no law of asperities but a
+        second opinion on the elastic area, erf(√2 p/E*g) with the RMS slope g.
 
     Returns
     -------
@@ -181,8 +213,10 @@ def compared(
     rows = _rows(contact, laws)
     solved = [_solved(contact, law, {load: given}) for law in rows.values()]
     notes, common = _without_repeats(solved)
-    used = [_under(contact, law) for law in rows.values() if not isinstance(law, type)]
+    used = [_under(contact, law) for law in rows.values() if isinstance(law, AbstractAsperityLaw)]
     cited = "\n".join(cite(each) for each in used)
+    if any(isinstance(law, Persson) for law in rows.values()):
+        cited += f"\n{Persson.citation}"
     return Comparison(
         load=load,
         loads=loads,
@@ -204,7 +238,7 @@ def compared(
 class _Solved(NamedTuple):
     """One law: its states, or None; what to say of the row; warnings of the states."""
 
-    state: Equilibrium | None
+    state: Equilibrium | SimpleNamespace | None
     note: list[str]
     heard: tuple[str, ...] = ()
 
@@ -250,12 +284,13 @@ def _numberless(sentence: str) -> str:
     return re.sub(r"-?\d+(\.\d*)?(e[+-]?\d+)?", "#", sentence)
 
 
-def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | type]:
+def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persson | type]:
     """The laws to compare by label, the contact's own first; a class where no law can be made."""
     own = contact.asperity_law
     by_year = sorted(REGISTRY.values(), key=lambda law: (law.year, law.name))
     if laws is None:
         asked: list[Any] = [law.name for law in by_year if not _special(law)]
+        asked += [Persson.name] if contact.two_body else []
     elif isinstance(laws, (str, AbstractAsperityLaw)):
         asked = [laws]
     else:
@@ -265,12 +300,14 @@ def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | type]:
     for item in asked:
         if isinstance(item, AbstractAsperityLaw):
             found.append(item)
+        elif item == Persson.name:
+            found.append(Persson())
         elif isinstance(item, str) and item in REGISTRY:
             found.append(own if item == own.name else _usual(REGISTRY[item]))
         else:
             near = difflib.get_close_matches(str(item), REGISTRY, n=1, cutoff=0.4)
             guess = f"; did you mean {near[0]!r}?" if near else ""
-            known = ", ".join(law.name for law in by_year)
+            known = ", ".join([*(law.name for law in by_year), Persson.name])
             problems.append(f"laws: {item!r} names no asperity law ({known}){guess}")
     if not asked:
         problems.append("laws is empty; give at least one law, or leave it out for all")
@@ -293,7 +330,7 @@ def _usual(law: type) -> Any:
 
 def _label(law: Any) -> str:
     """The law's word, with the options that are not its usual ones."""
-    if isinstance(law, type) or isinstance(usual := _usual(type(law)), type):
+    if isinstance(law, type | Persson) or isinstance(usual := _usual(type(law)), type):
         return law.name
     changed = [
         f"{item.name}={getattr(law, item.name)!r}".replace("'", "")
@@ -307,8 +344,8 @@ def _title(law: Any) -> str:
     return f"{law.title} ({law.year})"
 
 
-def _options(law: AbstractAsperityLaw | type) -> str:
-    return "" if isinstance(law, type) else json.dumps(law.to_dict(), ensure_ascii=False)
+def _options(law: AbstractAsperityLaw | Persson | type) -> str:
+    return "" if isinstance(law, type | Persson) else json.dumps(law.to_dict(), ensure_ascii=False)
 
 
 def _under(contact: Contact, law: AbstractAsperityLaw) -> Contact:
@@ -319,7 +356,14 @@ def _under(contact: Contact, law: AbstractAsperityLaw) -> Contact:
     return contact.replace(roughness=rough, asperity_law=law)
 
 
-def _solved(contact: Contact, law: AbstractAsperityLaw | type, load: dict[str, Any]) -> _Solved:
+def _solved(
+    contact: Contact, law: AbstractAsperityLaw | Persson | type, load: dict[str, Any]
+) -> _Solved:
+    if isinstance(law, Persson):
+        if not contact.two_body:
+            return _Solved(None, [NO_PARTICLES])
+        _, pressure, _ = given_load(contact, load.get("pressure"), load.get("F_star"), None)
+        return _Solved(law.state(contact, pressure), ["a second opinion on the elastic area"])
     if isinstance(law, type):
         return _Solved(None, ["has options without a usual value: give the law itself"])
     try:
