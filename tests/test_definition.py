@@ -43,6 +43,8 @@ SEATS = {
     "rough": dict(),
     "valleys": dict(zeta_mean=-0.4, zeta_std=0.7),
 }
+SHARP = tb.Angular(roundness=0.25, angle="35 deg")
+BLUNT = tb.Angular(roundness=0.5, angle="12 deg", flatness=1.3)
 SHADOWS = ("footprint", "projected", "covered", "none")
 DUSTS = {"silica": SILICA, "soft": tb.Material(E=3e9, nu=0.4, H=4e8)}
 SECONDS = {"like": STEEL, "unlike": SOFT}
@@ -113,8 +115,8 @@ def particle_cases():
 
 
 def other_cases():
-    """Laws of one particle (without a jump of their load, where no share balances), two
-    populations, an ellipticity."""
+    """Laws of one particle (without a jump of their load, where no share balances), angular
+    particles, two populations, an ellipticity."""
     dust = tb.Particles(material=SILICA, areal_density=1e11, diameter=SIZES["one size"])
     pair = tb.MaterialPair(STEEL, SOFT)
     for name in ("gw", "zmc"):
@@ -122,6 +124,18 @@ def other_cases():
         yield (
             f"particles of {name}",
             tb.Contact(surfaces=pair, roughness=ROUGH, particles=dust, particle_law=law),
+        )
+    seats, shadows = itertools.cycle(SEATS.items()), itertools.cycle(SHADOWS)
+    for (size, diameter), (seat, where), shadow in zip(SIZES.items(), seats, shadows, strict=False):
+        second, shape = (SOFT, BLUNT) if size == "gaussian" else (STEEL, SHARP)
+        yield (
+            f"angular {seat} {size} {shadow}",
+            tb.Contact(
+                surfaces=tb.MaterialPair(STEEL, second),
+                roughness=ROUGH,
+                particle_law=tb.particle.Series(**where | dict(shadow=shadow)),
+                particles=dust.replace(diameter=diameter, shape=shape),
+            ),
         )
     debris = tb.Particles(material=SOFT, areal_density=3e11, diameter=SIZES["lognormal"])
     yield (
@@ -165,6 +179,42 @@ def chosen():
 def test_every_path_is_the_model(name):
     for path, off in compared(CASES[name]).items():
         assert off < TOLERANCE, path
+
+
+def breaking(diameter, fragments, shape=None, **options):
+    """Quartz between hard steels."""
+    hard = tb.Material(E=206e9, nu=0.29, H=7.37e9)
+    strength = tb.WeibullStrength(
+        sigma_0=67e6, x_0=1e-3, m=3, size_exponent=0.55, x_c=1e-6, fragments=fragments
+    )
+    dust = tb.Particles(material=tb.materials["quartz"], areal_density=1e7, diameter=diameter,
+                        strength=strength, shape=shape or tb.Sphere())  # fmt: skip
+    return tb.Contact(
+        surfaces=tb.MaterialPair(hard, hard.replace(H=options.pop("H", 7.37e9))),
+        roughness=tb.Roughness(sigma=1e-6, R=20e-6),
+        particles=dust,
+        particle_law=tb.particle.Series(**options),
+    )
+
+
+ONE, SOME = tb.Monodisperse(mean=20e-6), tb.Uniform(low=8e-6, high=20e-6)
+BREAKING = {
+    "one size plane": (breaking(ONE, "footprint", seat="plane"), (15e-6, 6e-6, 0.8e-6)),
+    "one size rough": (breaking(ONE, "all"), (17e-6, 7e-6)),
+    "one size unlike": (breaking(ONE, "gone", H=4e9), (12e-6,)),
+    "sizes plane": (breaking(SOME, "footprint", seat="plane"), (12e-6, 3e-6)),
+    "angular": (breaking(ONE, "all", SHARP, seat="plane", H=4e9), (14e-6, 3e-6)),
+}
+
+
+@pytest.mark.parametrize("name", list(BREAKING))
+def test_particles_that_break(name):
+    """Tables of them are made to 1e-10, and so is the tension inside."""
+    case, separations = BREAKING[name]
+    for d in separations:
+        want = definition.state(case, d)
+        assert want["F_sa"] > 0
+        assert difference(case, want, by_tables(case, d, want)) < 1e-8, d
 
 
 def test_the_balance():

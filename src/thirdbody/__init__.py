@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from .populations.measured.topography import Topography
     from .populations.particles import Particles
     from .populations.roughness import Roughness
+    from .populations.shape import Angular, Sphere
     from .populations.strength import WeibullStrength
     from .study.whole import load_study
     from .systems import film_formulas as films
@@ -72,6 +73,7 @@ if TYPE_CHECKING:
     from .views import plot
 
 __all__ = [
+    "Angular",
     "Assessment",
     "Contact",
     "Critical",
@@ -102,6 +104,7 @@ __all__ = [
     "Roughness",
     "Sensitivity",
     "SpectralMoments",
+    "Sphere",
     "Suspension",
     "ThirdBodyError",
     "Topography",
@@ -171,6 +174,7 @@ _MODULES = {
 }
 """Modules by the names that users give them."""
 _HOMES = {
+    "Angular": "populations.shape",
     "Assessment": "analysis.assessment",
     "Contact": "contact.contact",
     "Critical": "equilibrium.transitions",
@@ -201,6 +205,7 @@ _HOMES = {
     "Roughness": "populations.roughness",
     "Sensitivity": "analysis.sensitivity",
     "SpectralMoments": "populations.measured.spectra",
+    "Sphere": "populations.shape",
     "Suspension": "analysis.design.problem",
     "ThirdBodyError": "errors",
     "Topography": "populations.measured.topography",

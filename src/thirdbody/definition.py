@@ -6,7 +6,7 @@ r"""The model as it is meant, slow and plain: two integrals and a balance.
 Every formula is a law's own, every integral is `scipy.integrate.cubature`'s, every balance a root
 of SciPy: no tables, no engine. All that is faster in this library is held to this module by a test.
 The particle law is `Series` or `Flakes`; `Horng2022` prints its integrals in closed form.
-Particles that break (`strength`) are not written out here.
+Particles that break are followed from one generation of pieces to the next.
 """
 
 from __future__ import annotations
@@ -16,15 +16,16 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import cubature
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 from scipy.optimize.elementwise import find_root
 from scipy.special import ndtr
 
-from .errors import InvalidValue
 from .laws.asperity.jg import JG
 from .laws.base import REGIMES
+from .laws.particle.tension import confined
 from .populations.distributions import Monodisperse
 from .populations.materials import reduced_modulus
+from .populations.shape import Sphere
 
 __all__ = ["Side", "Tip", "asperities", "particles", "separation", "squeezed", "state"]
 
@@ -73,7 +74,8 @@ def asperities(contact: Any, d: float) -> Any:
 
         starts, end = h + tip.kinks / rough.sigma_s, heights.pieces[-1]
         z = between(starts[0], end, [*starts, *heights.pieces])
-        total += share * rough.density * integral(pressed, z)
+        if len(z):  # else the surfaces are too far apart
+            total += share * rough.density * integral(pressed, z)
     return total
 
 
@@ -98,11 +100,9 @@ class Tip:
 # ---------------------------------------------------------------- particles
 def particles(contact: Any, some: Any, d: float) -> Any:
     """F_sa, areas on surface 1 by regime, area on surface 2, shadow ς, of one population: (6,)."""
-    if some.strength is not None:
-        raise InvalidValue("particles that break (strength) are not written out in the definition")
     law, rough = contact.law_of(some), contact.roughness
     one, two = [
-        half_of(law, reduced_modulus(body, some.material), body, some.material)
+        half_of(law, reduced_modulus(body, some.material), body, some.material, some.shape)
         for body in (contact.surfaces.first, contact.surfaces.second)
     ]
     eps = squeezes(one, two)
@@ -121,24 +121,27 @@ def particles(contact: Any, some: Any, d: float) -> Any:
         return x**2 * ndtr(z) * squeezed(one, two, 2 * eps[-1:] * np.ones_like(x))
 
     total = np.zeros(7)
+    cascade = None if some.strength is None else Cascade(some, one, two)
     for share, sizes in some.diameter.components:
-        if width:
+        if cascade:
+            found = cascade.over(sizes, gap, width)
+        elif width:
             found = over_sizes(sizes, on_seats, eps) + over_sizes(sizes, embedded)
         else:
             found = over_sizes(sizes, on_plane, splits=gap / (1 - eps[eps != 1]))
         total += share * some.areal_density * found
     footprint, projected = total[5:]
-    covered = 2 * law.tip_radius * some.coverage
+    covered = one.full / (np.pi / 4) * some.coverage
     shadows = dict(footprint=footprint, projected=projected, covered=covered, none=0.0)
     return np.array([*total[:5], shadows[law.shadow]])
 
 
 class Side(Tip):
-    """A particle of size 1 on one surface: its contact ends at its great circle."""
+    """A particle of size 1 on one surface: its contact ends at its great circle, or ``full``."""
 
-    def __init__(self, law: Any, R: float, E_star: float, H: float, nu: float):
+    def __init__(self, law: Any, R: float, E_star: float, H: float, nu: float, full: float = 0.0):
         super().__init__(law, R, E_star, H, nu)
-        self.full = 0.5 * np.pi * R
+        self.full = full or 0.5 * np.pi * R
         self.plastic = self.law.branches[-1].regime == "plastic"
         self.cap = brentq(lambda u: super(Side, self).__call__(u)[1:].sum() - self.full, 0, 10)
         self.kinks = np.sort([*self.kinks[1:], self.cap])
@@ -154,10 +157,46 @@ class Side(Tip):
         return out
 
 
-def half_of(law: Any, E_star: float, surface: Any, particle: Any) -> Side:
-    """What a particle does on one surface: squashed where it is the softer of the two."""
+class Faced(Side):
+    r"""A rounded tip of radius r up to the contact radius b = r tan β, then faces at one pressure.
+
+    .. math:: a = b + (\delta-\delta_j)\cot\beta/r_c, \qquad
+        r_c = 1 + (\pi/2-1)(\delta_j/\delta_t-1), \qquad \delta_t = \tfrac12 r\tan^2\beta
+    """
+
+    def __init__(self, law: Any, E_star: float, H: float, nu: float, shape: Any):
+        r, slope = 0.5 * shape.roundness, np.tan(shape.angle)
+        super().__init__(law, r, E_star, H, nu, np.pi / 4 * shape.flatness**2)
+        b = r * slope
+        self.tip = super().__call__
+        at = brentq(lambda u: self.tip(u)[1:].sum() - np.pi * b**2, 0, self.cap, xtol=1e-18)
+        self.joint = at
+        r_c = 1 + (np.pi / 2 - 1) * (self.joint / (0.5 * r * slope**2) - 1)
+        self.radius = lambda u: b + (u - self.joint) / (slope * r_c)
+        self.p = self.tip(self.joint)[0] / (np.pi * b**2)
+        self.cap = self.joint + (shape.flatness / 2 - b) * slope * r_c
+        points = [*(u for u in self.kinks if u < self.joint), self.joint, self.cap]
+        self.kinks = np.sort(points)
+
+    def __call__(self, delta: Any) -> Any:
+        delta = np.asarray(delta, dtype=float)
+        tip = self.tip(np.minimum(delta, self.joint))
+        area = np.pi * self.radius(np.minimum(delta, self.cap)) ** 2
+        faces = np.where(tip[1:] > 0, area, 0.0)
+        if self.plastic:
+            ended = np.stack([0 * area, 0 * area, area])
+            faces = np.where(delta >= self.cap, ended, faces)
+        return np.where(delta < self.joint, tip, np.stack([self.p * area, *faces]))
+
+
+def half_of(law: Any, E_star: float, surface: Any, particle: Any, shape: Any) -> Side:
+    """What a particle does on one surface: squashed where it is round and the softer of the two."""
     softer = min(surface, particle, key=lambda each: each.H)
     body = E_star, softer.H, softer.nu
+    if not isinstance(shape, Sphere):
+        if shape.faced:
+            return Faced(law.law, *body, shape)
+        return Side(law.law, shape.tip_radius, *body, np.pi / 4 * shape.flatness**2)
     sphere = Side(law.law, law.tip_radius, *body)
     if law.soft == "sphere" or not particle.H < surface.H:
         return sphere
@@ -294,6 +333,73 @@ def squeezes(one: Side, two: Side) -> Any:
 
 def _excess(delta: float, side: Side, load: float) -> float:
     return side(delta)[0] - load
+
+
+# ---------------------------------------------------------------- particles that break
+class Cascade:
+    r"""Particles that break as a gap g closes, and their pieces of κ times the size.
+
+    .. math:: \bar f(x, g) = \sum_k N_k S_k P_k f(\kappa^k x, g), \qquad
+        P = \exp[-(\hat\sigma/\sigma_x)^m], \quad S_k = \prod_{j<k}(1-P_j), \quad
+        N_k = (\chi\kappa^{-3})^k
+
+    with the largest tension :math:`\hat\sigma` on the way down.
+    """
+
+    def __init__(self, some: Any, one: Side, two: Side):
+        self.strength, self.nu, self.one, self.two = some.strength, some.material.nu, one, two
+        self.x_c = some.strength.least(some.material)
+        self.eps = squeezes(one, two)[1:]
+        # where the tension is larger than before and after
+        grid = np.unique([*np.geomspace(1e-3 * self.eps[0], self.eps[-1], 4000), *self.eps])
+        now = self.tension(grid)
+        tops = np.flatnonzero((now[1:-1] > now[:-2]) & (now[1:-1] >= now[2:])) + 1
+        found = [minimize_scalar(
+            lambda e: -self.tension(e), bounds=(grid[i - 1], grid[i + 1]), method="bounded",
+            options={"xatol": 1e-14},
+        ).x for i in tops]  # fmt: skip
+        self.tops = np.unique([*found, *self.eps])
+
+    def tension(self, eps: Any) -> Any:
+        """σ_t of a particle of size 1 [Pa]."""
+        load, *areas, second = squeezed(self.one, self.two, eps)[:5]
+        if self.strength.confinement == "none":
+            return load
+        s = [np.minimum(2 * np.sqrt(a / np.pi), 1.0) for a in (np.sum(areas, axis=0), second)]
+        return load * 0.5 * (confined(s[0], self.nu) + confined(s[1], self.nu))
+
+    def survival(self, x: Any, eps: Any) -> Any:
+        """P_s of particles of sizes x [m] that are squeezed by ε."""
+        eps = np.minimum(eps, self.eps[-1])
+        before = np.where(self.tops <= eps[..., None], self.tension(self.tops), 0.0).max(axis=-1)
+        met = np.maximum(self.tension(eps), before)
+        broken = (met / self.strength.of_size(x)) ** self.strength.m
+        return np.where(x <= self.x_c, 1.0, np.exp(-broken))
+
+    def __call__(self, x: Any, gap: Any) -> Any:
+        """Seven sums over what has become of a particle of size x in a gap [m]: (7, ...)."""
+        x, gap = np.broadcast_arrays(np.asarray(x, float), np.asarray(gap, float))
+        total, number = np.zeros((7, *x.shape)), np.ones(x.shape)
+        while np.any(number * x**2 * (x > gap) > 1e-16 * np.max(x) ** 2 * 1e-3):
+            eps = np.maximum(1 - gap / x, 0.0)
+            survival = self.survival(x, eps)
+            total += number * survival * x**2 * squeezed(self.one, self.two, eps)
+            number = number * (1 - survival) * self.strength.kept * self.strength.ratio**-3
+            number, x = np.where(x > gap, number, 0.0), x * self.strength.ratio
+        return total
+
+    def over(self, sizes: Any, gap: float, width: float) -> Any:
+        """Over the sizes, and over seats of a width where there is one."""
+        k = self.strength.ratio ** np.arange(12)
+        ends = np.array([1.0, *(1 - self.tops)])
+        if not width:
+            splits = [*(gap / np.outer(ends[ends > 0], k)).ravel(), *(self.x_c / k)]
+            return over_sizes(sizes, lambda x: self(x, gap), splits=splits)
+        x = np.array([sizes.support[1], *sizes.support])[:, None, None]
+        z = ((x * np.outer(ends, k) - gap) / width).ravel()
+        weigh = lambda z: np.exp(-0.5 * z**2) / np.sqrt(2 * np.pi)  # noqa: E731
+        seats = between(-9.0, 9.0, z)
+        return over_sizes(sizes, lambda x, z: weigh(z) * self(x, gap + width * z), seats)
 
 
 # ---------------------------------------------------------------- integrals

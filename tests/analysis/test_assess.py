@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from steel_and_dust import DUSTY, TWO_BODY
 from typer.testing import CliRunner
 
 import thirdbody as tb
@@ -23,17 +24,6 @@ from thirdbody.views import assess_page, plot
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "assess.toml"
 FEW = ["--set", "uncertainty.samples=64"]
-STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
-TWO_BODY = tb.Contact(
-    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
-)
-DUSTY = TWO_BODY.replace(
-    particles=tb.Particles(
-        material=SILICA,
-        areal_density=1e11,
-        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
-    )
-)
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
+from steel_and_dust import DUSTY as CONTACT
 from typer.testing import CliRunner
 
 import thirdbody as tb
@@ -21,16 +22,6 @@ pytest.importorskip("zarr", reason="needs the extra: pip install 'thirdbody[swee
 
 pytestmark = pytest.mark.check
 EXAMPLE = Path(__file__).parents[2] / "examples" / "sweep.toml"
-STEEL = tb.materials["S45C"]
-CONTACT = tb.Contact(
-    surfaces=tb.MaterialPair(STEEL, STEEL),
-    roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
-    particles=tb.Particles(
-        material=tb.materials["SiO2"],
-        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
-        areal_density=1e11,
-    ),
-)
 ASKED = dict(
     pressure=(1e6, 1e8),
     vary={

@@ -11,24 +11,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from steel_and_dust import DUSTY, STEEL, TWO_BODY
 
 import thirdbody as tb
 
 # the laws are asked outside their ranges too: derivatives are exact there as well
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 
-STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 BRONZE = tb.Material(E=110e9, nu=0.34, H=1.9e9)
-TWO_BODY = tb.Contact(
-    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
-)
-DUSTY = TWO_BODY.replace(
-    particles=tb.Particles(
-        material=SILICA,
-        areal_density=1e11,
-        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
-    )
-)
 PLANE = DUSTY.replace(particle_law=tb.particle.Series(seat="plane"))
 MONODISPERSE = PLANE.replace(
     surfaces=tb.MaterialPair(STEEL, BRONZE), **{"particles.diameter": tb.Monodisperse(mean=300e-9)}
@@ -346,6 +336,49 @@ def test_several_loads_at_once():
     data = json.loads(json.dumps(got.to_dict(), allow_nan=False))
     assert data["derivative"]["A_t"]["roughness.sigma"][2] is None
     assert data["elasticity"]["d"]["F_star"][1] == got.elasticity["d"]["F_star"][1]
+
+
+SAND = tb.Particles(
+    material=tb.materials["quartz"],
+    areal_density=1e7,
+    diameter=tb.PowerLaw(edges=(5e-6, 40e-6), counts=(1,), slopes=(3,)),
+    strength=tb.WeibullStrength.of(tb.materials["quartz"]),
+)
+FEW_BREAK = ("particles.strength.m", "roughness.sigma", "surfaces.first.E+surfaces.second.E")
+
+
+@pytest.mark.parametrize(
+    ("contact", "loads", "to"),
+    [
+        (DUSTY, {"F_star": np.array([1e-7, 1e-5, 1e-3])}, None),
+        (PLANE, {"pressure": np.array([1e5, 1e7])}, None),
+        (TWO_BODY, {"F_star": np.array([1e-6])}, None),
+        (DUSTY.replace(particles=SAND), {"d": np.array([5e-6, 2e-5])}, FEW_BREAK),
+    ],
+    ids=["rough", "plane", "two-body", "breaking"],
+)
+def test_quick_ones_have_three_digits(contact, loads, to):
+    of = ["A_t", "h"] + ["particle_load_share"] * (not contact.two_body)
+    slow = tb.sensitivity(contact, of=of, to=to, **loads)
+    fast = tb.sensitivity(contact, of=of, to=to, **loads, quick=True)
+    assert fast.inputs.keys() == slow.inputs.keys()
+    for name in of:
+        for label in slow.inputs:
+            assert fast.elasticity[name][label] == pytest.approx(
+                slow.elasticity[name][label], rel=1e-3, abs=1e-6
+            ), (name, label)
+            assert set(fast.status[name][label]) == {"ok"}
+
+
+def test_quick_ones_make_no_tables(monkeypatch):
+    """The tables of particles that break take a second for every changed input."""
+    from thirdbody.contact.broken_averages import BrokenAverage
+
+    contact = DUSTY.replace(particles=SAND)
+    tb.solve(contact, d=5e-6)
+    monkeypatch.setattr(BrokenAverage, "_table", lambda *_: pytest.fail("a table is made"))
+    found = tb.sensitivity(contact, of="A_t", to=FEW_BREAK[0], d=5e-6, quick=True)
+    assert found.status["A_t"][FEW_BREAK[0]] == "ok"
 
 
 def test_loads_that_nothing_carries():

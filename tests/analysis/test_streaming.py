@@ -15,6 +15,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.stats import qmc
+from steel_and_dust import DUSTY
+from steel_and_dust import TWO_BODY as CLEAN
 from typer.testing import CliRunner
 
 import thirdbody as tb
@@ -23,21 +25,11 @@ from thirdbody.analysis.sweep import stores, streaming
 from thirdbody.analysis.sweep.make_plan import make_plan
 from thirdbody.analysis.sweep.plan import LOOKED_AT, MODES
 from thirdbody.numerics.sampling import DESIGNS, Span, latin, sobol
+from thirdbody.numerics.sobol_points import WIDEST
 from thirdbody.study import check, load_study
 
 xr = pytest.importorskip("xarray")
 
-STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
-CLEAN = tb.Contact(
-    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
-)
-DUSTY = CLEAN.replace(
-    particles=tb.Particles(
-        material=SILICA,
-        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
-        areal_density=1e11,
-    )
-)
 MEAN, DENSITY = "particles.diameter.mean", "particles.areal_density"
 GRID = dict(F_star=np.geomspace(5e-7, 3e-3, 9), vary={DENSITY: [0, 1e10, 1e11]})
 SAMPLES = dict(
@@ -598,8 +590,9 @@ def test_a_store_without_one_of_its_arrays_is_told(tmp_path, lost):
 
 def test_an_interrupted_design_goes_on_with_the_right_points(monkeypatch):
     """Ctrl-C between a point and its number, and the same call again in the same process."""
-    whole = sobol(64, 3, 7, 0, 64)
-    sobol(64, 3, 7, 0, 8)
+    width = WIDEST + 1  # that the library of SciPy draws
+    whole = sobol(64, width, 7, 0, 64)
+    sobol(64, width, 7, 0, 8)
     drawn = qmc.Sobol.random
 
     def interrupted(self, n):
@@ -609,9 +602,9 @@ def test_an_interrupted_design_goes_on_with_the_right_points(monkeypatch):
 
     monkeypatch.setattr(qmc.Sobol, "random", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        sobol(64, 3, 7, 8, 16)
+        sobol(64, width, 7, 8, 16)
     monkeypatch.undo()
-    assert_array_equal(sobol(64, 3, 7, 8, 16), whole[8:16])
+    assert_array_equal(sobol(64, width, 7, 8, 16), whole[8:16])
 
 
 def test_locked_by_another_process_as_long_as_it_lives(tmp_path):

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from scipy import stats
+from steel_and_dust import DUSTY, STEEL, TWO_BODY
 
 import thirdbody as tb
 from thirdbody.analysis.uncertainty.inputs import library_ranges
@@ -14,17 +15,6 @@ from thirdbody.analysis.uncertainty.propagation import OUTPUTS
 from thirdbody.equilibrium.critical_loads import critical_loads
 from thirdbody.study import check
 
-STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
-TWO_BODY = tb.Contact(
-    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
-)
-DUSTY = TWO_BODY.replace(
-    particles=tb.Particles(
-        material=SILICA,
-        areal_density=1e11,
-        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
-    )
-)
 # small particles, too few to carry a low load: their share rises before it falls
 FEW = DUSTY.replace(
     **{

@@ -60,6 +60,11 @@ DEEP = (
 )  # fmt: skip
 WARNED = {"quartz_in_bearing": ["strengths are extrapolated by a factor"]}
 WARNED |= {name: ["sit deeper than their radius"] for name in DEEP}
+SQUASHED = "soft particles squashed to contacts wider than"
+WARNED |= {
+    name: [SQUASHED, *WARNED.get(name, [])]
+    for name in ("soft_ptfe_particles", "steel_debris_in_film")
+}
 """What examples are warned of, and not of anything else."""
 
 

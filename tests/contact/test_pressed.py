@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.contact import pressed
 from thirdbody.contact.pressed import about_pressed
 
 STEEL = tb.materials["S45C"]
@@ -63,3 +64,56 @@ def test_what_does_not_break_is_not_told_of():
     # between soft surfaces a grain sinks whole
     soft = tb.MaterialPair(STEEL.replace(H=50e6), STEEL.replace(H=50e6))
     assert not brittle(contact(5e-6).replace(surfaces=soft), 0.5e-6)
+
+
+@pytest.mark.parametrize("seat", ["plane", "rough"])
+@pytest.mark.parametrize(("size", "spread"), [(300e-9, 0.05), (300e-9, 0.3), (8e-6, 0.2)])
+def test_bounds_of_the_shares_hold(seat, size, spread):
+    """What the tables say at most is never less than what every particle says."""
+    case = contact(size).replace(particle_law=tb.particle.Series(seat=seat))
+    sizes = tb.TruncatedGaussian(mean=size, std=spread * size)
+    case = case.replace(**{"particles.diameter": sizes})
+    quiet = 0
+    for d in np.linspace(0.2, 1.6, 15) * size:
+        shares = [float(share[0]) for share in pressed._shares(case, np.array([d]))]
+        bounds = pressed._at_most(case, np.array([d]))
+        for share, bound in zip(shares, bounds, strict=True):
+            assert bound[0] >= share * (1 - 1e-7)
+        quiet += np.max(bounds) <= pressed.TOLD
+    assert quiet
+
+
+def test_single_particles_are_left_alone_where_the_tables_suffice(monkeypatch):
+    case = contact(300e-9).replace(particle_law=tb.particle.Series(seat="rough"))
+    tb.solve(case, pressure=1e5)
+    monkeypatch.setattr(pressed, "_shares", lambda *_: pytest.fail("single particles evaluated"))
+    assert not tb.solve(case, pressure=1e5).warnings
+
+
+def test_squashed_particles_are_told_of_from_a_fifth_of_their_radius_on():
+    """Soft spheres of one size on a plane seat: the gap at which their contact is that wide."""
+    soft = tb.Material(E=70e9, nu=0.33, H=1e9)
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(STEEL, STEEL),
+        roughness=tb.Roughness(sigma=50e-9, R=5e-6),
+        particles=tb.Particles(
+            material=soft, diameter=tb.Monodisperse(mean=10e-6), areal_density=1e8
+        ),
+        particle_law=tb.particle.Series(seat="plane"),
+    )
+
+    def told(gap):
+        found = case.particle_law.single(10e-6, gap, surfaces=case.surfaces, particle=soft)
+        width = (min(float(found["area_1"]), float(found["area_2"])) / np.pi) ** 0.5 / 5e-6
+        said = [text for text in tb.solve(case, d=gap).warnings if "squashed" in text]
+        return width, bool(said)
+
+    for gap in np.linspace(9.0, 9.99, 23) * 1e-6:
+        width, said = told(gap)
+        if abs(width - 0.2) > 0.005:
+            assert said == (width > 0.2), gap
+    # a sphere that stays one is not told of, nor a hard particle
+    for changed in ({"particle_law": tb.particle.Series(seat="plane", soft="sphere")},
+                    {"particles.material": tb.materials["Al2O3"]}):  # fmt: skip
+        case = case.replace(**changed)
+        assert not told(9.2e-6)[1]

@@ -86,6 +86,7 @@ CASES = {
     "softer first": {"first": SOFT},
     "severity": {"second": SOFT, "rolling": "severity"},
     "long": {"second": SOFT, "aspect": 1.4, "x_a": 300e-9},
+    "offset": {"second": SOFT, "offset": 0.15, "x_a": 300e-9},
     "film": {"tau_sa": 1e7, "alpha_ss": 0.05, "alpha_sa": 0.08, "second": SOFT},
     "factor": {"tau_ss": None, "tau_sa": None, "m_ss": 0.3, "m_sa": 0.2, "second": SOFT},
     "growing": {"alpha_T": 9.0, "second": SOFT},
@@ -306,6 +307,30 @@ def test_long_particles_tumble_only_in_a_wide_gap():
     assert never["mu_sa_plough"] > 0
 
 
+@pytest.mark.parametrize("second", [None, SOFT], ids=["equal", "unequal"])
+def test_grains_with_an_offset_turn_over_where_they_are_held(second):
+    """min(μ_p + τa/f) ≥ (e/x)/(g/x)."""
+    bodies = {} if second is None else {"second": second}
+    friction, spots = particles(contact(300e-9, offset=0.2, **bodies))
+    gap = spots.x - spots.depths[0] - spots.depths[1]
+    loaded = spots.load > 0
+    mu = friction.motion(spots).plough
+    with np.errstate(invalid="ignore", divide="ignore"):
+        held = np.minimum(*(m + 2e8 * a / spots.load for m, a in zip(mu, spots.areas, strict=True)))
+        turns = (held >= 0.2 * spots.x / gap) & (gap > 0)
+    assert np.array_equal(friction.rolls(spots)[loaded], turns[loaded])
+    assert 0 < np.count_nonzero(turns[loaded]) < np.count_nonzero(loaded)
+
+
+def test_an_offset_lets_equal_surfaces_be_grooved():
+    rolling, sliding = (solved(contact(300e-9, offset=e)).outputs for e in (0.0, 2.0))
+    assert rolling["rolling_share"] == 1
+    assert sliding["rolling_share"] < 1e-9  # barely loaded ones are held by their shear
+    assert sliding["mu_sa_plough"] > 0
+    ladder = [solved(contact(300e-9, offset=e)).outputs["rolling_share"] for e in (0.05, 0.1, 0.2)]
+    assert np.all(np.diff(ladder) < 0)
+
+
 def test_severity_decides_instead():
     friction, spots = particles(contact(300e-9, rolling="severity"), pressure=1e4)
     S = 6 * spots.load / (np.pi * spots.x**2) * 2 / 5e9
@@ -410,6 +435,8 @@ def test_growth_raises_friction_and_none_is_the_default():
         ({"tau_ss": 1e8, "rear": 1.5}, "a number from 0 to 1"),
         ({"tau_ss": 1e8, "rolling": "coin"}, "'moment', 'severity'"),
         ({"tau_ss": 1e8, "aspect": 0.5}, "must be >= 1"),
+        ({"tau_ss": 1e8, "offset": -0.1}, "must be >= 0"),
+        ({"tau_ss": 1e8, "offset": 0.1, "rolling": "severity"}, "needs rolling = 'moment'"),
     ],
 )
 def test_mistakes(fields, words):

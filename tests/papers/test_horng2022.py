@@ -10,7 +10,7 @@ import pytest
 from thirdbody import InvalidValue
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves, claims, reproduce, score, study
 from thirdbody.papers.horng2022.claims import study_data
-from thirdbody.papers.horng2022.ledger import (
+from thirdbody.papers.horng2022.measures import (
     MEASURES,
     critical_load_1,
     critical_load_2,
@@ -315,7 +315,7 @@ def test_a_file_where_the_folder_should_be(tmp_path):
 
 @pytest.mark.parametrize("name", ["9a", "9b", "12b"])
 def test_panels_of_every_reading_can_be_drawn(name):
-    from thirdbody.papers.horng2022.figures import draw
+    from thirdbody.papers.horng2022.drawing import draw
 
     for reading in ("literal", "series-plane"):
         draw(PANELS[name](Curves(READINGS[reading]))).canvas.draw()

@@ -857,6 +857,65 @@ def test_toughness_in_a_file(write, problems):
     only(found, "particles.material.K_c", "a fracture toughness")
 
 
+ANGULAR = 'shape = { kind = "angular", roundness = 0.25, angle = "30 deg" }'
+
+
+@pytest.mark.parametrize(
+    ("line", "shape"),
+    [
+        ('shape = "sphere"', tb.Sphere()),
+        ('shape = { kind = "sphere" }', tb.Sphere()),
+        (ANGULAR, tb.Angular(roundness=0.25, angle="30 deg")),
+        (
+            'shape = { kind = "angular", roundness = 0.5, angle = 0.6, flatness = 1.5 }',
+            tb.Angular(roundness=0.5, angle=0.6, flatness=1.5),
+        ),
+    ],
+)
+def test_shape_of_particles(write, line, shape):
+    study = load_study(write(("n = 3\n", f"n = 3\n{line}\n")))
+    assert study.contact.particles.shape == shape
+
+
+@pytest.mark.parametrize(
+    ("line", "sentence"),
+    [
+        ('shape = "angular"', 'particles.shape = "angular" must be sphere, or the table { kind'),
+        ("shape = 3", "particles.shape = 3 must be sphere, or the table"),
+        ('shape = { kind = "cube" }', 'particles.shape.kind = "cube" must be one of'),
+        ('shape = { kind = "sphere", angle = 1 }', "particles.shape.angle"),
+        (ANGULAR.replace("30 deg", "95 deg"), 'particles.shape.angle = "95 deg" must be > 0'),
+        (ANGULAR.replace('"30 deg"', "30"), "degrees are written '25 deg'"),
+        (ANGULAR.replace("30 deg", "30 nm"), "is a length, but an angle [rad] is needed"),
+        (ANGULAR.replace("0.25", "1.5"), "particles.shape.roundness = 1.5 must be > 0 and <= 1"),
+        (ANGULAR.replace(" }", ", flatness = 0.5 }"), "particles.shape.flatness = 0.5 must be >="),
+        (ANGULAR.replace("roundness = 0.25, ", ""), "particles.shape.roundness is missing"),
+        (ANGULAR.replace(', angle = "30 deg"', ""), "particles.shape.angle is missing"),
+    ],
+)
+def test_mistakes_in_a_shape(problems, line, sentence):
+    only(problems(("n = 3\n", f"n = 3\n{line}\n")), sentence)
+
+
+def test_weibull_sizes_have_a_shape_of_their_own(write, problems):
+    """``shape`` is a number of the sizes, or the table of the particles beside weibull_shape."""
+    sizes = ('"truncated-gaussian"', '"weibull"'), ('mean = "300 nm"', 'scale = "300 nm"')
+    line, number = 'std = "24 nm"\nn = 3\n', "shape = 4.0\n"
+    plain = load_study(write(*sizes, (line, number))).contact.particles
+    assert (plain.diameter.shape, plain.shape) == (4.0, tb.Sphere())
+    both = load_study(write(*sizes, (line, f"weibull_{number}{ANGULAR}\n"))).contact.particles
+    assert both.diameter == plain.diameter
+    assert both.shape == tb.Angular(roundness=0.25, angle="30 deg")
+    only(problems(*sizes, (line, f"{ANGULAR}\n")), "particles.weibull_shape is missing")
+
+
+def test_an_angle_may_be_swept(write):
+    varied = '[sweep.vary]\nparticles.shape.angle = ["20 deg", "40 deg"]\n'
+    study = load_study(write(("n = 3\n", f"n = 3\n{ANGULAR}\n"), ("[load]", f"{varied}[load]")))
+    (angles,) = [dim.values for dim in study.sweep.dims if dim.name == "particles.shape.angle"]
+    np.testing.assert_allclose(angles["particles.shape.angle"], np.radians([20, 40]))
+
+
 def test_files_that_cannot_be_read(tmp_path):
     def told(path):
         with pytest.raises(tb.InvalidValue) as caught:
@@ -982,7 +1041,11 @@ def test_examples_are_sensible(path):
     result = run_study(study)
     states = result["states"]
     assert set(states["status"]) == {"ok"}
-    known = ("sit deeper than their radius", "strengths are extrapolated by a factor")
+    known = (
+        "sit deeper than their radius",
+        "strengths are extrapolated by a factor",
+        "soft particles squashed to contacts",
+    )
     assert [text for text in result["warnings"] if not any(each in text for each in known)] == []
     assert max(states["residual"]) < 1e-9
     order = np.argsort(states["F_star"])
@@ -1001,6 +1064,29 @@ def test_examples_are_sensible(path):
 def example(name):
     (path,) = (path for path in EXAMPLES if path.stem == name)
     return path
+
+
+def test_what_the_example_of_an_abrasive_says():
+    round_ = ["particles.shape.roundness=1", "particles.shape.angle=60 deg"]
+    sharp, sphere = (
+        run_study(load_study(example("angular_abrasive"), settings))["states"]
+        for settings in ([], round_)
+    )
+    ratio = {name: sharp[name][-1] / sphere[name][-1] for name in ("mu_sa", "wear")}
+    assert ratio == pytest.approx({"mu_sa": 2.7, "wear": 2.0}, abs=0.05)
+    assert sphere["d"][-1] - sharp["d"][-1] == pytest.approx(0.5e-6, abs=0.05e-6)
+
+
+def test_what_the_example_of_debris_in_a_film_says():
+    soft = ["particle_law.name=series", "particle_law.soft=sphere"]
+    squashed, sphere = (
+        run_study(load_study(example("steel_debris_in_film"), settings))["states"]
+        for settings in ([], soft)
+    )
+    ratio = np.array(squashed["pressure"]) / sphere["pressure"]
+    assert ratio[[0, 3, 4]] == pytest.approx([0.57, 4.83, 11.9], abs=0.05)
+    assert squashed["dent_width_1"][3] == pytest.approx(13e-6, abs=0.5e-6)
+    assert sphere["pressure"][-1] == pytest.approx(sphere["pressure"][2], rel=1e-3)
 
 
 def test_what_the_examples_say():

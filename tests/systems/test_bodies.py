@@ -5,6 +5,8 @@ import tomllib
 
 import numpy as np
 import pytest
+from steel_and_dust import DUSTY, STEEL
+from steel_and_dust import TWO_BODY as CLEAN
 
 import thirdbody as tb
 from thirdbody.errors import InvalidValue
@@ -23,17 +25,6 @@ from thirdbody.systems.bodies import (
 )
 from thirdbody.systems.rough_body import rough_cylinder, rough_sphere
 
-STEEL = tb.materials["S45C"]
-CLEAN = tb.Contact(
-    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
-)
-DUSTY = CLEAN.replace(
-    particles=tb.Particles(
-        material=tb.materials["SiO2"],
-        areal_density=1e11,
-        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
-    )
-)
 E = CLEAN.E_ss
 STUDY = """
 [surfaces]

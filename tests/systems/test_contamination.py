@@ -8,11 +8,12 @@ from pathlib import Path
 import mpmath
 import numpy as np
 import pytest
-from scipy import integrate
+from scipy import integrate, optimize
 
 import thirdbody as tb
 from thirdbody.effects.single import dent as co
 from thirdbody.effects.single.ploughing import residual_depth
+from thirdbody.laws.particle.tension import tension
 from thirdbody.systems import oil_particles
 
 SHARED = Path(__file__).parents[2].parent / "shared" / "reference" / "outputs.json"
@@ -258,4 +259,132 @@ def test_entry_has_no_default():
     with pytest.raises(TypeError, match="entry"):
         oil_particles.FilmParticles.from_iso4406(
             "18/16/13", surfaces=PAIR, material=SILICA, film=1e-6
+        )
+
+
+def test_the_embedded_share_is_that_of_the_sizes():
+    """Whoever is larger than the size that sits half its radius deep."""
+    sizes = tb.TruncatedGaussian(mean=0.8e-6, std=0.15e-6)
+    film = oil_particles.FilmParticles(diameter=sizes, number=1e15, **ONE)
+
+    def deep(x):
+        return 2 * film.single(x).depths[0][0, 0] - 0.5 * x
+
+    size = optimize.brentq(deep, 1.01 * film.film, 3e-6, xtol=1e-18)
+    first = optimize.brentq(
+        lambda x: film.single(x).depths[0][0, 0] / x - film.single(x).yields[0], 0.5001e-6, 0.7e-6
+    )
+    share = sizes.partial_moment(0, size, 9e-6) / sizes.partial_moment(0, first, 9e-6)
+    assert film.dents().embedded == pytest.approx(float(share), rel=1e-9)
+
+
+# ------------------------------------------------------------------ particles that break
+QUARTZ = tb.materials["quartz"]
+BEARING = tb.Material(E=206e9, nu=0.29, H=7.37e9)
+HARD = dict(surfaces=tb.MaterialPair(BEARING, BEARING), material=QUARTZ, film=1e-6, entry=1.0)
+
+
+def strong(fragments="footprint", **changes):
+    numbers = dict(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=0.96e-6)
+    return tb.WeibullStrength(**numbers | changes, fragments=fragments)
+
+
+def breaking(sizes, strength, **options):
+    with pytest.warns(tb.RangeWarning, match="strengths are extrapolated by a factor"):
+        return oil_particles.FilmParticles(
+            diameter=sizes, number=1e12, strength=strength, **(HARD | options)
+        )
+
+
+@pytest.mark.parametrize("fragments", ["gone", "footprint", "all"])
+def test_particles_of_one_size_break_in_the_film(fragments):
+    """Generation by generation: N_k S_k P_k whole pieces of κ^k x."""
+    strength, x, kept = strong(fragments), 20e-6, {"gone": 0.0, "footprint": 0.5, "all": 1.0}
+    film = breaking(tb.Monodisperse(mean=x), strength)
+    one = tb.particle.Series(soft="sphere").one(surfaces=film.surfaces, particle=QUARTZ)
+    met = tension(one, QUARTZ.nu, "sphere")
+    number, arrived, y, whole = 0.0, 1.0, x, []
+    while y > film.film and arrived > 0:
+        stress = float(met.met(np.array([1 - film.film / y]))[0])
+        survival = 1.0 if y <= strength.x_c else math.exp(-((stress / strength.of_size(y)) ** 3))
+        whole.append((y, arrived * survival))
+        arrived *= kept[fragments] * 8 * (1 - survival)
+        y /= 2
+    number = sum(n for _, n in whole)
+    dents = film.dents()
+    assert dents.number == pytest.approx(film.columns_of_oil * number, rel=1e-6)
+    volume = sum(
+        n * co.dent_of(film.single(size), side=0, particle=QUARTZ).volume[0, 0] for size, n in whole
+    )
+    assert dents.volume == pytest.approx(film.columns_of_oil * volume, rel=1e-6)
+    assert film.broken_share == pytest.approx(1 - whole[0][1], rel=1e-6)
+
+
+def test_particles_of_many_sizes_break_in_the_film():
+    """Against grains that break one by one, each with its own luck."""
+    strength, sizes = strong("all"), tb.LogNormal(median=4e-6, gsd=1.5)
+    film = breaking(sizes, strength)
+    dents = film.dents()
+    one = tb.particle.Series(soft="sphere").one(surfaces=film.surfaces, particle=QUARTZ)
+    met = tension(one, QUARTZ.nu, "sphere")
+    rng = np.random.default_rng(3)
+    n = 40_000
+    x, whole, broken = sizes.sample(rng, n), [], []
+    while np.any(x > film.film):
+        x = x[x > film.film]
+        stress = met(1 - film.film / x)
+        stays = rng.random(len(x)) < np.exp(-((stress / strength.of_size(x)) ** strength.m))
+        stays |= x <= strength.x_c
+        whole.append(x[stays])
+        broken.append(1 - np.mean(stays))
+        x = np.repeat(x[~stays] / 2, 8)
+    sizes_there = np.concatenate(whole)
+    error = 5 / math.sqrt(len(sizes_there) / 8)
+    assert dents.number / film.columns_of_oil == pytest.approx(len(sizes_there) / n, rel=error)
+    depth = co.dent_of(film.single(sizes_there), side=0, particle=QUARTZ).depth
+    assert dents.depth == pytest.approx(depth.mean(), rel=error)
+    assert np.mean(depth > dents.depth_p95) == pytest.approx(0.05, rel=5 * error)
+    assert film.broken_share == pytest.approx(broken[0], abs=0.01)
+
+
+def test_a_strength_that_breaks_nothing():
+    """All that dents is as without a strength."""
+    sizes = tb.TruncatedGaussian(mean=3e-6, std=0.6e-6)
+    plain = oil_particles.FilmParticles(diameter=sizes, number=1e12, **HARD)
+    never = breaking(sizes, strong(sigma_0=1e15))
+    assert never.broken_share == 0
+    for found in ("dents", "severity_index"):
+        one, other = (getattr(film, found)() for film in (plain, never))
+        assert tuple(other) == pytest.approx(tuple(one), rel=1e-9), found
+    assert tuple(never.largest(1e-4)) == pytest.approx(tuple(plain.largest(1e-4)), rel=1e-9)
+    assert plain.broken_share == 0
+
+
+def test_broken_grains_leave_smaller_dents_and_more():
+    sizes = tb.LogNormal(median=10e-6, gsd=1.3)
+    whole = oil_particles.FilmParticles(diameter=sizes, number=1e12, **HARD).dents()
+    gone, some, all_ = (breaking(sizes, strong(name)).dents() for name in FRAGMENTS)
+    assert gone.number < whole.number < all_.number
+    assert gone.number < some.number < all_.number
+    assert all_.depth < whole.depth
+    assert all_.depth_p95 < whole.depth_p95
+
+
+FRAGMENTS = ("gone", "footprint", "all")
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"strength": "strong"}, "must be a WeibullStrength"),
+        (
+            {"strength": strong(), "debris": "brittle", "fragment": 1e-6},
+            "would break the particles twice; remove one",
+        ),
+    ],
+)
+def test_mistakes_in_a_strength(fields, words):
+    with pytest.raises(tb.InvalidValue, match=words):
+        oil_particles.FilmParticles(
+            diameter=tb.Monodisperse(mean=5e-6), number=1.0, **(HARD | fields)
         )

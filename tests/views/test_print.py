@@ -15,10 +15,7 @@ sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright t
 sys.path.insert(0, str(Path(__file__).parents[1] / "app"))
 from browser import chromium  # noqa: E402
 
-SLOW = {"quartz_in_bearing"}
-"""Elasticities of particles that break take minutes: every change of an input has own tables."""
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
-EXAMPLES = [file for file in EXAMPLES if file.stem not in SLOW]
 pytestmark = [pytest.mark.check, pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")]
 LONGEST, LEAST = 8, 0.5
 """Pages of a report; how far down a page is filled before the next one begins."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -17,12 +17,13 @@ from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..quantities.say import value_of
 from ..quantities.value import problem_with
-from .assessment import COARSE, FAR, FINE, SHOWN, Assessment, Change, _nominal, _unit
+from .assessment import COARSE, EACH, FAR, FINER, SHOWN, Assessment, Change, _nominal, _unit
 from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
 from .sensitivity import sensitivity
 from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
-from .uncertainty.propagation import Propagation, certain, columns_at, propagate, swing
+from .uncertainty.propagation import Propagation, certain, propagate, swing
+from .uncertainty.samples import columns_at
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -106,13 +107,7 @@ def assess(
     if vary is None:
         vary = stated_ranges(contact)
         none = not vary
-        for source, finished in (
-            ("the materials library", False),
-            ("the finishing process, from memory", True),
-        ):
-            named = [words_of(contact, k) for k in vary if k.startswith("roughness.") == finished]
-            if named:
-                notes.append(f"Ranges of {source}: {'; '.join(named)}.")
+        notes += _whence(contact, vary)
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, **{load: given[load]})  # type: ignore[arg-type]
@@ -124,14 +119,7 @@ def assess(
         found = propagate(contact, vary=vary, **{load: given[load]}, samples=samples, seed=seed)  # type: ignore[arg-type]
     if found.solved == 0:
         raise NoEquilibrium("no sample has an equilibrium; check the unit of the load")
-    for label, one_input in found.inputs.items():
-        if not TINY < one_input.cdf(_nominal(found, label)) < 1 - TINY:
-            unit = _unit(contact, label)
-            notes.append(
-                f"The value {value_of(_nominal(found, label), unit)} of the "
-                f"{words_of(contact, label)} lies outside what "
-                "its range says; nominal results and bands do not belong together."
-            )
+    notes += _outside(found)
     progress(PARTS[1])
     decisive = _decisive(found)
     others = [name for name in SHOWN[:4] if name in found.bands and name != decisive]
@@ -157,6 +145,30 @@ PARTS = ("error bars", "what decides", "what would change the mode")
 """What an assessment does one after the other."""
 TINY = 1e-3
 """Probability beyond which a nominal value no longer belongs to its distribution."""
+
+
+def _whence(contact: Contact, vary: Iterable[str]) -> list[str]:
+    """Where ranges come from that the caller has not given."""
+    out = []
+    for source, finished in (
+        ("the materials library", False),
+        ("the finishing process, from memory", True),
+    ):
+        named = [words_of(contact, k) for k in vary if k.startswith("roughness.") == finished]
+        if named:
+            out.append(f"Ranges of {source}: {'; '.join(named)}.")
+    return out
+
+
+def _outside(found: Propagation) -> list[str]:
+    """Inputs whose own value their range does not allow."""
+    return [
+        f"The value {value_of(_nominal(found, label), _unit(found.contact, label))} of the "
+        f"{words_of(found.contact, label)} lies outside what its range says; nominal results and "
+        "bands do not belong together."
+        for label, known in found.inputs.items()
+        if not TINY < known.cdf(_nominal(found, label)) < 1 - TINY
+    ]
 
 
 def _decisive(found: Propagation) -> str:
@@ -216,10 +228,13 @@ def _changes(found: Propagation, mode: str) -> tuple[Change, ...]:
             for side in (-1, 1):
                 ways[label, side] = drawn, _path(found.contact, drawn, known, side)
     steps = _departures(found, ways, mode)
-    finer = {
-        way: (ways[way][0], np.linspace(low, high, FINE)) for way, (low, high, _) in steps.items()
-    }
-    for (label, side), (low, high, other) in _departures(found, finer, mode).items():
+    for count in FINER:
+        within = {
+            way: (ways[way][0], np.linspace(low, high, count))
+            for way, (low, high, _) in steps.items()
+        }
+        steps = _departures(found, within, mode)
+    for (label, side), (low, high, other) in steps.items():
         value, beyond = 0.5 * (low + high), math.nan
         if found.inputs:
             known = found.inputs[label]
@@ -273,7 +288,9 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int) -> Array:
         )
 
     good = [fits(float(value)) for value in values]
-    return values[: good.index(False)] if False in good else values
+    open_way = values[: good.index(False)] if False in good else values
+    last = len(open_way) - 1
+    return open_way[np.unique(np.append(np.arange(0, last, EACH), last))]
 
 
 def _departures(

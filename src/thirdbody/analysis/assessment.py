@@ -32,8 +32,10 @@ __all__ = ["Assessment", "Change"]
 SHOWN = ("particle_load_share", "particle_area_share", "plastic_share", "A_t", "d", "h")
 """What the page tells of the state."""
 BAND = (0.05, 0.5, 0.95)
-FAR, COARSE, FINE = 10.0, 41, 81
-"""Factor within which a change of mode is sought in an input, and the values tried."""
+FAR, COARSE, FINER = 10.0, 41, (18, 18)
+"""Factor within which a change of mode is sought in an input, values on the way to it of which
+every EACH-th is tried, and values tried within the step in which it lies, and within that."""
+EACH = 4
 RARE = 1e-4
 """Probability below which a value counts as outside the range of an input."""
 

@@ -12,16 +12,15 @@ theirs.
 
 from __future__ import annotations
 
-import csv
 import dataclasses
 import difflib
-import io
 import json
 import math
 import re
 import warnings
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -32,6 +31,7 @@ from ..equilibrium.columns import COLUMNS, Equilibrium
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, RangeWarning
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
+from ..quantities.files import csv_of, with_units
 from ..quantities.say import percent
 
 if TYPE_CHECKING:
@@ -60,8 +60,37 @@ DERIVED = {
 """Symbol, unit and meaning of what a comparison adds."""
 TELLING = 0.01
 """Share of the area beyond a law's range from which a comparison says so."""
+NO_PARTICLES = "knows no particles: ask it of the contact without them"
 ATOMIC = 0.2e-9
 """Distance z_0 of atomic planes in the Tabor number [m]."""
+
+
+class Persson:
+    r"""A second opinion on the area, of no asperities at all.
+
+    .. math:: A_t = \operatorname{erf}\frac{\sqrt2\,p}{E^*g}, \qquad
+              g^2 = 2m_2 = \frac{3\sqrt\pi}{4}\,\frac{\sigma}{R\sqrt\alpha}
+
+    with the RMS slope g of the roughness. It knows neither yielding nor a separation.
+    """
+
+    name = "persson"
+    title = "Area after Persson: elastic, without asperities"
+    year = 2001
+    citation = "Persson 2001, J. Chem. Phys. 115, 3840 (recalled), doi:10.1063/1.1388626"
+
+    @staticmethod
+    def state(contact: Contact, pressure: Array) -> SimpleNamespace:
+        """What stands in the columns of a comparison; NaN where it says nothing."""
+        rough = contact.roughness
+        m_2 = 3 * math.sqrt(math.pi) / 8 * rough.sigma / (rough.R * math.sqrt(rough.alpha))
+        slope = math.sqrt(2 * m_2)
+        area = np.vectorize(math.erf)(math.sqrt(2) * pressure / (contact.E_ss * slope))
+        none, unknown = np.zeros_like(area), np.full_like(area, np.nan)
+        known = {"F_ss_star": pressure / contact.E_ss, "mode": "s-s", "status": "ok"}
+        known |= dict.fromkeys(("A_t", "A_ss", "A_e"), area)
+        known |= dict.fromkeys(("A_sa", "A_ep", "A_p", "particle_load_share"), none)
+        return SimpleNamespace(**dict.fromkeys(KEPT, unknown) | known)
 
 
 # -------------------------------------------------------------------------- comparing
@@ -84,7 +113,9 @@ def compare(
         Words of the registry, which mean the law with its default options, or laws. When left
         out: every registered law but the adhesive ones, which need a work of adhesion, the coated
         one, which needs the coating, and the elliptic ones, which equal their circular ones at a
-        ratio of 1. The contact's own law is always there and comes first.
+        ratio of 1. The contact's own law is always there and comes first. ``persson``, the last
+        row where nothing is asked and no particles lie between, is no law of asperities but a
+        second opinion on the elastic area, erf(√2 p/E*g) with the RMS slope g.
 
     Returns
     -------
@@ -173,52 +204,28 @@ def compared(
     from ..version import __version__
 
     load, values, _ = given_load(contact, pressure, F_star, None)
-    given = values / contact.E_ss if load == "F_star" else values
     if load == "F_star":
         given = np.atleast_1d(np.asarray(F_star, dtype=float))
+        loads = {"F_star": given, "pressure": values}
+    else:
+        given = values
+        loads = {"pressure": values, "F_star": values / contact.E_ss}
     rows = _rows(contact, laws)
-    names = list(rows)
-    shape = (len(names), len(given))
-    data: dict[str, Array] = {}
-    notes: list[list[str]] = []
-    sentences: list[tuple[str, ...]] = []
-    for i, law in enumerate(rows.values()):
-        state, note, heard = _solved(contact, law, {load: given})
-        for name in KEPT:
-            words = name in ("mode", "status")
-            column = data.setdefault(
-                name, np.full(shape, "", dtype=object) if words else np.full(shape, np.nan)
-            )
-            if state is not None:
-                column[i] = getattr(state, name)
-            elif name == "status":
-                column[i] = note[0]
-        notes.append(note)
-        sentences.append(heard)
-    # what the own law is told already, with other numbers, is not told again of the others
-    common = sentences[0]
-    known = {_numberless(text) for text in common}
-    for note, heard in zip(notes, sentences, strict=True):
-        note += [text for text in heard if _numberless(text) not in known]
-    data |= _derived(data, values)
-    if contact.two_body:
-        for name in ("particle_load_share", "particle_load_share_difference"):
-            data.pop(name)
-    for name in ("mode", "status"):
-        data[name] = data[name].astype(str)
-    other = "pressure" if load == "F_star" else "F_star"
-    scale = 1.0 if other == "pressure" else contact.E_ss
-    used = [_under(contact, law) for law in rows.values() if not isinstance(law, type)]
+    solved = [_solved(contact, law, {load: given}) for law in rows.values()]
+    notes, common = _without_repeats(solved)
+    used = [_under(contact, law) for law in rows.values() if isinstance(law, AbstractAsperityLaw)]
     cited = "\n".join(cite(each) for each in used)
+    if any(isinstance(law, Persson) for law in rows.values()):
+        cited += f"\n{Persson.citation}"
     return Comparison(
         load=load,
-        loads={load: given, other: values / scale},
+        loads=loads,
         laws={name: _title(law) for name, law in rows.items()},
         options=[_options(law) for law in rows.values()],
         notes=["; ".join(note) for note in notes],
-        columns=data,
+        columns=_columns(contact, solved, values),
         attrs={
-            "own_law": names[0],
+            "own_law": next(iter(rows)),
             "hardness": contact.surfaces.H,
             "inputs": json.dumps(contact.to_dict(), ensure_ascii=False),
             "version": __version__,
@@ -228,17 +235,62 @@ def compared(
     )
 
 
+class _Solved(NamedTuple):
+    """One law: its states, or None; what to say of the row; warnings of the states."""
+
+    state: Equilibrium | SimpleNamespace | None
+    note: list[str]
+    heard: tuple[str, ...] = ()
+
+
+def _columns(contact: Contact, solved: list[_Solved], load: Array) -> dict[str, Array]:
+    """Numbers and words (laws, N) of the states; a law without states has NaN, and says why."""
+    shape = len(solved), len(load)
+    data: dict[str, Array] = {}
+    for name in KEPT:
+        words = name in ("mode", "status")
+        column = np.full(shape, "", dtype=object) if words else np.full(shape, np.nan)
+        for i, (state, note, _) in enumerate(solved):
+            if state is not None:
+                column[i] = getattr(state, name)
+            elif name == "status":
+                column[i] = note[0]
+        data[name] = column
+    data |= _derived(data, load)
+    if contact.two_body:
+        for name in ("particle_load_share", "particle_load_share_difference"):
+            data.pop(name)
+    for name in ("mode", "status"):
+        data[name] = data[name].astype(str)
+    return data
+
+
+def _without_repeats(solved: list[_Solved]) -> tuple[list[list[str]], tuple[str, ...]]:
+    """Notes of each law, and what the states of the own law, the first, are warned of.
+
+    What is told of the own law, with other numbers, is not told again of the others.
+    """
+    common = solved[0].heard
+    known = {_numberless(text) for text in common}
+    notes = [
+        note + [text for text in heard if _numberless(text) not in known]
+        for _, note, heard in solved
+    ]
+    return notes, common
+
+
 def _numberless(sentence: str) -> str:
     """A sentence without its numbers."""
     return re.sub(r"-?\d+(\.\d*)?(e[+-]?\d+)?", "#", sentence)
 
 
-def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | type]:
+def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persson | type]:
     """The laws to compare by label, the contact's own first; a class where no law can be made."""
     own = contact.asperity_law
     by_year = sorted(REGISTRY.values(), key=lambda law: (law.year, law.name))
     if laws is None:
         asked: list[Any] = [law.name for law in by_year if not _special(law)]
+        asked += [Persson.name] if contact.two_body else []
     elif isinstance(laws, (str, AbstractAsperityLaw)):
         asked = [laws]
     else:
@@ -248,12 +300,14 @@ def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | type]:
     for item in asked:
         if isinstance(item, AbstractAsperityLaw):
             found.append(item)
+        elif item == Persson.name:
+            found.append(Persson())
         elif isinstance(item, str) and item in REGISTRY:
             found.append(own if item == own.name else _usual(REGISTRY[item]))
         else:
             near = difflib.get_close_matches(str(item), REGISTRY, n=1, cutoff=0.4)
             guess = f"; did you mean {near[0]!r}?" if near else ""
-            known = ", ".join(law.name for law in by_year)
+            known = ", ".join([*(law.name for law in by_year), Persson.name])
             problems.append(f"laws: {item!r} names no asperity law ({known}){guess}")
     if not asked:
         problems.append("laws is empty; give at least one law, or leave it out for all")
@@ -276,7 +330,7 @@ def _usual(law: type) -> Any:
 
 def _label(law: Any) -> str:
     """The law's word, with the options that are not its usual ones."""
-    if isinstance(law, type) or isinstance(usual := _usual(type(law)), type):
+    if isinstance(law, type | Persson) or isinstance(usual := _usual(type(law)), type):
         return law.name
     changed = [
         f"{item.name}={getattr(law, item.name)!r}".replace("'", "")
@@ -290,8 +344,8 @@ def _title(law: Any) -> str:
     return f"{law.title} ({law.year})"
 
 
-def _options(law: AbstractAsperityLaw | type) -> str:
-    return "" if isinstance(law, type) else json.dumps(law.to_dict(), ensure_ascii=False)
+def _options(law: AbstractAsperityLaw | Persson | type) -> str:
+    return "" if isinstance(law, type | Persson) else json.dumps(law.to_dict(), ensure_ascii=False)
 
 
 def _under(contact: Contact, law: AbstractAsperityLaw) -> Contact:
@@ -303,11 +357,15 @@ def _under(contact: Contact, law: AbstractAsperityLaw) -> Contact:
 
 
 def _solved(
-    contact: Contact, law: AbstractAsperityLaw | type, load: dict[str, Any]
-) -> tuple[Equilibrium | None, list[str], tuple[str, ...]]:
-    """The states under one law, or None; what to say of the row; warnings of the states."""
+    contact: Contact, law: AbstractAsperityLaw | Persson | type, load: dict[str, Any]
+) -> _Solved:
+    if isinstance(law, Persson):
+        if not contact.two_body:
+            return _Solved(None, [NO_PARTICLES])
+        _, pressure, _ = given_load(contact, load.get("pressure"), load.get("F_star"), None)
+        return _Solved(law.state(contact, pressure), ["a second opinion on the elastic area"])
     if isinstance(law, type):
-        return None, ["has options without a usual value: give the law itself"], ()
+        return _Solved(None, ["has options without a usual value: give the law itself"])
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore", RangeWarning)
@@ -316,7 +374,7 @@ def _solved(
             note = _outside(changed, state)
     except Exception as error:  # a law can be anybody's: whatever it does, the others stand
         why = str(error).strip().splitlines() or [type(error).__name__]
-        return None, [f"failed: {why[0]}"], ()
+        return _Solved(None, [f"failed: {why[0]}"])
     status = np.asarray(state.status)
     bad = status[status != "ok"]
     if len(bad):
@@ -324,7 +382,7 @@ def _solved(
         note.insert(0, f"{count} solved: {bad[0]}")
     # the note tells of the range already, in parts of the area
     heard = tuple(text for text in state.warnings if not (law.beyond and law.beyond in text))
-    return state, note, heard
+    return _Solved(state, note, heard)
 
 
 def _derived(data: dict[str, Array], load: Array) -> dict[str, Array]:
@@ -413,11 +471,7 @@ def csv_text(table: xarray.Dataset) -> str:
     }
     plain = flat(table.law.values.tolist(), columns, table.note.values.tolist())
     units = {name: table[name].attrs["units"] for name in columns}
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(f"{name} [{units[name]}]" if units.get(name) else name for name in plain)
-    writer.writerows(zip(*plain.values(), strict=True))
-    return text.getvalue()
+    return csv_of(with_units(plain, units))
 
 
 def flat(laws: list[str], columns: dict[str, Any], notes: list[str]) -> dict[str, list[Any]]:

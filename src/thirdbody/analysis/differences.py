@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..equilibrium.states import state_columns
-from .inputs import CENTRAL, DOWN, UP, Input, _room
+from ..equilibrium.states import direct_columns, state_columns
+from .inputs import FULL_REACH, Input, _room, places_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -18,44 +19,66 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Offsets = NDArray[np.intp]
 
-STEPS = (1e-2, 2e-3, 2e-4)
-"""Relative changes of an input between neighbouring states; the later ones where the first fail."""
-STEPS_OF_D = (3e-2, 3e-3, 3e-4)
-"""Changes of d, over the length σ_s²/|d| in which the load changes (or σ_s)."""
-GOOD = 1e-9
-"""Estimated error, as that of an elasticity, with which no smaller step is tried."""
+
+class Rule(NamedTuple):
+    """How derivatives are taken: from which states, and when they are good."""
+
+    reach: int
+    """States on either side of an input."""
+    steps: tuple[float, ...]
+    """Relative changes of an input between neighbours; the later ones where the first fail."""
+    steps_of_d: tuple[float, ...]
+    """Changes of d, over the length σ_s²/|d| in which the load changes (or σ_s)."""
+    good: float
+    """Estimated error, as that of an elasticity, with which no smaller step is tried."""
+    doubtful: float
+    """Estimated error from which `Sensitivity.status` says so."""
+    follows: bool
+    """An input moves on a path on which what is held stays nearly, found from two more states."""
+    direct: bool
+    """States come from quadrature at their own d, without tables."""
+
+
+FULL = Rule(FULL_REACH, (1e-2, 2e-3, 2e-4), (3e-2, 3e-3, 3e-4), 1e-9, 1e-6, True, False)
+"""All digits."""
+QUICK = Rule(2, (5e-4, 2e-5), (1e-3, 1e-4), 1e-4, 1e-2, False, True)
+"""Three digits at least; the estimated error is that of second order, far above their own."""
 JUMPS = 1e-7
 """Jump of an elasticity from which `Sensitivity.status` gives the slopes of both sides."""
 FAR = 1e-3
 """Jump of a slope, over the slope, from which there is no derivative."""
-DOUBTFUL = 1e-6
-"""Estimated error from which `Sensitivity.status` says so."""
-MIDDLE = 4
 
 
-def _slope_weights(offsets: Offsets) -> Array:
-    """Weights of f′(0) from f at all offsets, and from all but the two farthest: (2, 9)."""
-    near = np.argsort(np.abs(offsets), kind="stable")[:-2]
-    out = np.zeros((2, len(offsets)))
-    for row, which in zip(out, (np.arange(len(offsets)), near), strict=True):
-        powers = np.vander(offsets[which].astype(float), increasing=True).T
-        row[which] = np.linalg.solve(powers, np.eye(len(which))[1])
+def _exact(offsets: Offsets) -> Array:
+    """Weights of f′(0) from f at these offsets, exact for polynomials through them all."""
+    powers = np.vander(offsets.astype(float), increasing=True).T
+    return np.linalg.solve(powers, np.eye(len(offsets))[1])
+
+
+@lru_cache
+def _weights(offsets: tuple[int, ...]) -> Array:
+    """Weights of f′(0) from f at all offsets, and from all but the two farthest: (2, n)."""
+    places = np.array(offsets)
+    near = np.argsort(np.abs(places), kind="stable")[:-2]
+    out = np.zeros((2, len(places)))
+    out[0], out[1, near] = _exact(places), _exact(places[near])
     return out
 
 
-def _jump_weights() -> Array:
-    """Weights of f′(+0) − f′(−0) from f at the central offsets, exact through |t|⁷ (t⁶): (9,)."""
-    k = np.arange(1.0, 5.0)
-    half = np.linalg.solve(np.stack([k, k**2, k**4, k**6]), [1.0, 0.0, 0.0, 0.0])
-    return np.concatenate([half[::-1], [-2 * half.sum()], half])
+@lru_cache
+def _sides(reach: int) -> Array:
+    """Weights, at the central offsets, of the jump of f′, and of f′(−0) and f′(+0): (3, n).
 
-
-WEIGHTS = {tuple(offsets): _slope_weights(offsets) for offsets in (CENTRAL, UP, DOWN)}
-SIDES = np.zeros((3, 9))
-"""Weights, at the central offsets, of the jump of f′, and of f′(−0) and f′(+0)."""
-SIDES[0] = _jump_weights()
-SIDES[1, MIDDLE::-1] = _slope_weights(-np.arange(5))[0]
-SIDES[2, MIDDLE:] = _slope_weights(np.arange(5))[0]
+    That of the jump is exact for all even powers below 2 reach, and for |t|.
+    """
+    k = np.arange(1.0, reach + 1)
+    powers = np.stack([k, *(k ** (2 * i) for i in range(1, reach))])
+    half = np.linalg.solve(powers, np.eye(reach)[0])
+    out = np.zeros((3, 2 * reach + 1))
+    out[0] = np.concatenate([half[::-1], [-2 * half.sum()], half])
+    out[1, reach::-1] = _exact(-np.arange(reach + 1))
+    out[2, reach:] = _exact(np.arange(reach + 1))
+    return out
 
 
 class Slope(NamedTuple):
@@ -81,12 +104,12 @@ class Slope(NamedTuple):
 
 def _slope(values: Array, offsets: Offsets, step: float) -> Slope:
     """Derivatives of values (M, 9, C) at the offsets."""
-    fine, coarse = np.einsum("wk,mkc->wmc", WEIGHTS[tuple(offsets)], values) / step
+    fine, coarse = np.einsum("wk,mkc->wmc", _weights(tuple(offsets.tolist())), values) / step
     # no difference knows more than the digits of its values
     rounding = 2 * np.finfo(float).eps * np.max(np.abs(values), axis=1) / step
     sides = np.zeros_like(fine), fine, fine
-    if offsets is CENTRAL:
-        sides = tuple(np.einsum("wk,mkc->wmc", SIDES, values) / step)
+    if offsets[0] < 0 < offsets[-1]:
+        sides = tuple(np.einsum("wk,mkc->wmc", _sides(int(offsets[-1])), values) / step)
     return Slope(fine, np.abs(fine - coarse) + rounding, *sides)
 
 
@@ -98,14 +121,14 @@ class Entry(NamedTuple):
     status: NDArray[Any]
 
 
-def _entries(total: Slope, size: Array, scale: Any) -> list[Entry]:
+def _entries(total: Slope, size: Array, scale: Any, doubtful: float) -> list[Entry]:
     """What to tell of derivatives (M, C) over ``scale``, with columns of this size."""
     value, error, _, below, above = (part / scale for part in total)
     error = np.abs(error)
     status = np.full(value.shape, "ok", dtype=object)
     worst = np.divide(total.error, size, out=np.zeros_like(size), where=size > 0)
     broken = (np.abs(total.jump) > JUMPS * size) & (np.abs(total.jump) > 1e3 * total.error)
-    for at in zip(*np.nonzero((worst > DOUBTFUL) & ~broken), strict=True):
+    for at in zip(*np.nonzero((worst > doubtful) & ~broken), strict=True):
         status[at] = (
             f"uncertain: the elasticity is known to {worst[at]:.1g} only, because the result is "
             "not smooth around this input"
@@ -139,9 +162,11 @@ class Places:
         columns: Sequence[str],
         *,
         peak: bool = False,
+        rule: Rule = FULL,
     ):
         self.contact, self.d, self.held, self.columns = contact, d, held, tuple(columns)
-        self.peak = peak
+        self.peak, self.rule = peak, rule
+        self.around = places_of(rule.reach)[0]
         asperities = interface(contact).asperities
         h = (d - asperities.centre) / asperities.sigma_s
         self.length = asperities.sigma_s / np.maximum(1.0, np.abs(h))
@@ -152,59 +177,66 @@ class Places:
         step = 0.0 * d
         if self.peak:
             step = np.broadcast_to(self.length.reshape(-1, *(1,) * (d.ndim - 1)), d.shape)
-            step = STEPS_OF_D[0] * step
-            d = d[..., None] + step[..., None] * CENTRAL
+            step = self.rule.steps_of_d[0] * step
+            d = d[..., None] + step[..., None] * self.around
             changes = {name: np.broadcast_to(v[..., None], d.shape) for name, v in changes.items()}
         vary = {name: values.ravel() for name, values in changes.items()}
-        states = state_columns(self.contact, d=d.ravel(), vary=vary or None)
+        states = self._states(d.ravel(), vary)
         columns = [states[name].astype(float).reshape(d.shape) for name in self.columns]
         held = np.zeros(d.shape)
         if self.held:
             held = states[self.held].astype(float).reshape(d.shape)
         if self.peak:
-            columns = [values[..., MIDDLE] for values in columns]
-            held = held @ WEIGHTS[tuple(CENTRAL)][0] / step
+            columns = [values[..., self.rule.reach] for values in columns]
+            held = held @ _weights(tuple(self.around.tolist()))[0] / step
         return np.stack([*columns, held], axis=-1)
+
+    def _states(self, d: Array, vary: dict[str, Array]) -> Mapping[str, NDArray[Any]]:
+        """Every column at separations (N,) with inputs (N,)."""
+        if self.rule.direct and not self.contact.outputs:
+            return direct_columns(self.contact, d, vary)
+        return state_columns(self.contact, d=d, vary=vary or None)
 
     def along_d(self) -> tuple[Array, Slope]:
         """Values (M, C), and their derivatives with d over `length`."""
         best = None
-        for step in STEPS_OF_D:
-            values = self.values(self.d[:, None] + step * CENTRAL * self.length[:, None], {})
-            slope = _slope(values, CENTRAL, step)
+        for step in self.rule.steps_of_d:
+            values = self.values(self.d[:, None] + step * self.around * self.length[:, None], {})
+            slope = _slope(values, self.around, step)
             best = slope if best is None else best.better(slope)
-            if _good(best, values[:, MIDDLE]):
+            if _good(best, values[:, self.rule.reach], self.rule):
                 break
         assert best is not None
-        return values[:, MIDDLE], best
+        return values[:, self.rule.reach], best
 
     def along(self, moved: Sequence[Input], slope_of_held: Array) -> list[Slope]:
         """Derivatives with every input moved on a path on which what is held stays nearly."""
         found: dict[int, Slope] = {}
         pending = list(range(len(moved)))
         paths = self._paths(moved, slope_of_held) if pending else np.empty((len(self.d), 0))
-        for step in STEPS:
+        for step in self.rule.steps:
             inputs = [moved[j] for j in pending]
-            offsets = [_room(self.contact, each, step) for each in inputs]
+            offsets = [_room(self.contact, each, step, self.rule.reach) for each in inputs]
             if inputs:
                 values = self._on_paths(inputs, paths[:, pending], offsets, step)
             left = []
             for i, j in enumerate(pending):
                 slope = _slope(values[:, i], offsets[i], step)
                 found[j] = found[j].better(slope) if j in found else slope
-                if not _good(found[j], values[:, i, np.flatnonzero(offsets[i] == 0)[0]]):
+                centre = values[:, i, np.flatnonzero(offsets[i] == 0)[0]]
+                if not _good(found[j], centre, self.rule):
                     left.append(j)
             pending = left
         return [found[j] for j in range(len(moved))]
 
     def _paths(self, moved: Sequence[Input], slope_of_held: Array) -> Array:
         """dd/dt of every input (M, J) on its path, from two states each."""
-        if self.held is None:
+        if self.held is None or not self.rule.follows:
             return np.zeros((len(self.d), len(moved)))
-        step = STEPS[0]
-        rooms = [_room(self.contact, each, step) for each in moved]
+        step, reach = self.rule.steps[0], self.rule.reach
+        rooms = [_room(self.contact, each, step, reach) for each in moved]
         pairs = [
-            room[MIDDLE - 1 : MIDDLE + 2 : 2] if room is CENTRAL else room[:2] for room in rooms
+            room[reach - 1 : reach + 2 : 2] if room[reach] == 0 else room[:2] for room in rooms
         ]
         still = np.zeros((len(self.d), len(moved)))
         low, high = np.moveaxis(self._on_paths(moved, still, pairs, step)[..., -1], -1, 0)
@@ -242,15 +274,18 @@ class Places:
         partial = self.along(moved, slope.value[:, -1])
         for each, (of_columns, of_held) in zip(moved, map(_last_apart, partial), strict=True):
             total = of_columns.less(ratio, of_held)
-            out[each.label] = _entries(total, size, each.scales[0])
+            out[each.label] = self._told(total, size, each.scales[0])
         if load == self.held:
             level = centre[:, -1:]
-            out[load] = _entries(Slope(*(level * part for part in ratio)), size, level)
+            out[load] = self._told(Slope(*(level * part for part in ratio)), size, level)
         elif load == "d" and self.held is None:
-            out[load] = _entries(columns, size, self.length[:, None])
+            out[load] = self._told(columns, size, self.length[:, None])
         elif load:
-            out[load] = _entries(Slope(*(0 * part for part in columns)), size, 1.0)
+            out[load] = self._told(Slope(*(0 * part for part in columns)), size, 1.0)
         return out
+
+    def _told(self, total: Slope, size: Array, scale: Any) -> list[Entry]:
+        return _entries(total, size, scale, self.rule.doubtful)
 
 
 def _last_apart(slope: Slope) -> tuple[Slope, Slope]:
@@ -258,6 +293,6 @@ def _last_apart(slope: Slope) -> tuple[Slope, Slope]:
     return Slope(*(part[:, :-1] for part in slope)), Slope(*(part[:, -1:] for part in slope))
 
 
-def _good(slope: Slope, centre: Array) -> bool:
+def _good(slope: Slope, centre: Array, rule: Rule) -> bool:
     """Whether every error is small, as that of an elasticity."""
-    return bool(np.all(slope.error <= GOOD * (np.abs(centre) + np.abs(slope.value))))
+    return bool(np.all(slope.error <= rule.good * (np.abs(centre) + np.abs(slope.value))))

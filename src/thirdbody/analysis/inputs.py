@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -192,14 +193,21 @@ def _no_input(contact: Contact, name: str, known: Iterable[str]) -> str:
 
 
 # -------------------------------------------------------------------------- differences
-CENTRAL, UP, DOWN = np.arange(-4, 5), np.arange(9), -np.arange(9)
-"""Where the states of a difference lie, in steps; on one side at the end of an input's range."""
+FULL_REACH = 4
+"""Steps to either side of a difference with all its digits."""
 
 
-def _room(contact: Contact, moved: Input, step: float) -> Offsets:
+@lru_cache
+def places_of(reach: int) -> tuple[Offsets, ...]:
+    """Where the states of a difference lie, in steps: around an input, above it, and below it."""
+    count = 2 * reach + 1
+    return np.arange(-reach, reach + 1), np.arange(count), -np.arange(count)
+
+
+def _room(contact: Contact, moved: Input, step: float, reach: int = FULL_REACH) -> Offsets:
     """Offsets of a difference on both sides, or on the side to which the input may go."""
     why = ""
-    for offsets in (CENTRAL, UP, DOWN):
+    for offsets in places_of(reach):
         try:
             for end in (offsets[0], offsets[-1]):
                 varied(contact, moved.at(float(step * end)))

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -28,7 +28,7 @@ from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue
 from ..quantities import notebook
-from .differences import STEPS, Entry, Places
+from .differences import FULL, QUICK, Entry, Places, Rule
 from .inputs import NUMBERS, Input, _room, input_of, inputs
 
 if TYPE_CHECKING:
@@ -172,7 +172,7 @@ def _default_inputs(contact: Contact) -> list[str]:
 def _moves(contact: Contact, label: str) -> bool:
     """Whether an input may change: not so the height of a seat that has none."""
     try:
-        _room(contact, input_of(contact, label), STEPS[0])
+        _room(contact, input_of(contact, label), FULL.steps[0])
     except InvalidValue:
         return False
     return True
@@ -187,6 +187,7 @@ def sensitivity(
     pressure: ArrayLike | None = None,
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
+    quick: bool = False,
 ) -> Sensitivity:
     r"""Derivatives of columns and critical loads with respect to inputs of the contact.
 
@@ -209,6 +210,10 @@ def sensitivity(
     pressure, F_star, d : float or array (N,)
         The load as in `solve`, held while an input moves; at most one, none for critical loads
         alone. F* is held in units of E_ss, which moves with the moduli.
+    quick : bool, optional
+        Elasticities to three digits at least, by fourth-order differences from a third of the
+        states, each by quadrature: no table is made for a changed input. ``error`` is then that
+        of second order, and ``status`` doubts from 1e-2.
 
     Returns
     -------
@@ -259,24 +264,10 @@ def sensitivity(
     load = ""
     if given or plain:
         load, _, _ = given_load(contact, pressure, F_star, d)
-    labels = [to] if isinstance(to, str) else list(to if to is not None else ())
-    if to is None:
-        labels = _default_inputs(contact) + [load] * bool(load)
-    for name in labels:
-        if name in loads and name != load:
-            raise InvalidValue(f"to = {name!r} needs {name} as the given load")
+    labels = _labels(contact, to, load)
     moved = [input_of(contact, name) for name in dict.fromkeys(labels) if name != load]
 
-    value: dict[str, Array] = {}
-    entries: dict[str, dict[str, Entry]] = {}
-    if plain:
-        state = solve(contact, **given)  # type: ignore[arg-type]
-        columns = state.columns()
-        value = {name: columns[name] for name in plain}
-        entries = _of_columns(contact, state, moved, load, plain)
-    for name in results:
-        if name in CRITICAL:
-            value[name], entries[name] = _of_critical(contact, name, moved, load)
+    value, entries = _derived(contact, results, given, moved, load, QUICK if quick else FULL)
 
     start: dict[str, Any] = {each.label: each.values[0] for each in moved}
     if load in labels:
@@ -308,6 +299,17 @@ def sensitivity(
     )
 
 
+def _labels(contact: Contact, to: str | Sequence[str] | None, load: str) -> list[str]:
+    """What is moved: the names of ``to``, or every input and the load."""
+    if to is None:
+        return _default_inputs(contact) + [load] * bool(load)
+    labels = [to] if isinstance(to, str) else list(to)
+    for name in labels:
+        if name in ("F_star", "pressure", "d") and name != load:
+            raise InvalidValue(f"to = {name!r} needs {name} as the given load")
+    return labels
+
+
 def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
     """The names of ``of``, each once."""
     known = (*NUMBERS, *(name for each in contact.outputs for name in each.columns), *CRITICAL)
@@ -323,8 +325,35 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
     return names
 
 
+def _derived(
+    contact: Contact,
+    results: Sequence[str],
+    given: Mapping[str, Any],
+    moved: Sequence[Input],
+    load: str,
+    rule: Rule,
+) -> tuple[dict[str, Array], dict[str, dict[str, Entry]]]:
+    """Values of the results, and their derivatives with every input."""
+    value: dict[str, Array] = {}
+    entries: dict[str, dict[str, Entry]] = {}
+    if plain := [name for name in results if name not in CRITICAL]:
+        state = solve(contact, **given)
+        columns = state.columns()
+        value = {name: columns[name] for name in plain}
+        entries = _of_columns(contact, state, moved, load, plain, rule)
+    for name in results:
+        if name in CRITICAL:
+            value[name], entries[name] = _of_critical(contact, name, moved, load, rule)
+    return value, entries
+
+
 def _of_columns(
-    contact: Contact, state: Equilibrium, moved: Sequence[Input], load: str, columns: Sequence[str]
+    contact: Contact,
+    state: Equilibrium,
+    moved: Sequence[Input],
+    load: str,
+    columns: Sequence[str],
+    rule: Rule,
 ) -> dict[str, dict[str, Entry]]:
     """Derivatives of columns at solved states; NaN with the reason where there is none."""
     d, words = np.atleast_1d(state.d), np.atleast_1d(state.status)
@@ -339,7 +368,7 @@ def _of_columns(
     known = np.flatnonzero(np.isfinite(d))
     for start in range(0, len(known), AT_ONCE):
         here = known[start : start + AT_ONCE]
-        places = Places(contact, d[here], None if load == "d" else load, columns)
+        places = Places(contact, d[here], None if load == "d" else load, columns, rule=rule)
         for label, entries in places.entries(moved, load).items():
             for name, entry in zip(columns, entries, strict=True):
                 for whole, part in zip(out[name][label], entry, strict=True):
@@ -348,7 +377,7 @@ def _of_columns(
 
 
 def _of_critical(
-    contact: Contact, name: str, moved: Sequence[Input], load: str
+    contact: Contact, name: str, moved: Sequence[Input], load: str, rule: Rule
 ) -> tuple[Array, dict[str, Entry]]:
     """A critical load to rounding, and its derivatives: there the share keeps its value."""
     share, level = CRITICAL[name]
@@ -364,7 +393,7 @@ def _of_critical(
         return np.array([value]), dict.fromkeys((*(each.label for each in moved), load), none)
     d = np.atleast_1d(solve(contact, F_star=found.value).d)
     for _ in range(8):
-        places = Places(contact, d, share, ["F_star"], peak=level is None)
+        places = Places(contact, d, share, ["F_star"], peak=level is None, rule=rule)
         centre, slope = places.along_d()
         step = ((level or 0.0) - centre[:, -1]) / slope.value[:, -1]
         if abs(step[0]) < 1e-13:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import json
 from typing import Any
 
 from ..equilibrium.columns import about
+from ..quantities.files import csv_of, with_units
 from ..study import Study, run_study
 from ..views import plot
 from .state import Answer
@@ -32,11 +32,7 @@ def to_csv(study: Study) -> str:
         mine = {f"{part['name']}: {key}": part[key] for key in part if key != "name"}
         columns |= mine
         units |= dict.fromkeys(mine, "1")
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(f"{name} [{units[name]}]" if units[name] else name for name in columns)
-    writer.writerows(zip(*columns.values(), strict=True))
-    return text.getvalue()
+    return csv_of(with_units(columns, units))
 
 
 def figure_of(answer: Answer, name: str, suffix: str) -> bytes:

@@ -19,6 +19,7 @@ from ..study import DISTRIBUTIONS, HEIGHTS, LOADS, filled_in
 from ..study.concentration import AMOUNT
 from ..study.counted import COUNTED
 from ..study.reader import Reader
+from ..study.shape import SHAPES
 from ..study.tables import FIELDS, TABLES
 from ..study.toml import value_of
 from .bounds import refuse_long_names
@@ -186,6 +187,7 @@ COUNTED_FIELDS: dict[str, tuple[Field, ...]] = {
 
 VARIANTS = {
     "distribution": DISTRIBUTIONS,
+    "shape": SHAPES,
     "heights": HEIGHTS,
     "asperity": tb.asperity.REGISTRY,
     "particle": tb.particle.REGISTRY,

@@ -75,6 +75,9 @@ class ParticleInputs(Entries):
         if not isinstance(table.get("strength"), dict):  # a table stands in the file alone
             about = "material: that of the library; empty: never break"
             self.field(place, Field(name="strength", kind="string", label="strength", about=about))
+        if kind != "weibull":  # whose own shape has the name
+            label = "shape of these particles"
+            self.variant((*place, "shape"), VARIANTS["shape"], "sphere", label, tag="kind")
         self.variant(
             (*place, "law"), VARIANTS["particle"], "", "law of these particles", blank="as below"
         )
@@ -112,6 +115,8 @@ class ParticleInputs(Entries):
         table = self.table(*place)
         own = ("material", "name", "law", "strength")
         kept = {key: table[key] for key in own if key in table}
+        if isinstance(shape := table.get("shape"), dict) and word != "weibull":
+            kept["shape"] = shape
         amounts = {key: table[key] for key in ("areal_density", *AMOUNTS) if key in table}
         starts: dict[str, dict[str, Any]] = {
             "iso4406": {"iso4406": "18/16/13", "gap": table.get("gap", "1 um")},

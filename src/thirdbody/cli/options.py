@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 import os
 from collections.abc import Callable, Iterable
 from importlib.metadata import entry_points
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ..errors import InvalidValue
 from .streams import warn
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ __all__ = [
     "StudyFile",
     "XlsxFile",
     "load_own_code",
+    "metres",
     "not_a_folder",
     "read_study",
     "with_own_code",
@@ -103,3 +106,14 @@ def not_a_folder(out: Path | None) -> list[str]:
     if out is not None and out.exists() and not out.is_dir():
         return [f"--out {out} must be a folder, and a file of that name exists"]
     return []
+
+
+def metres(option: str, text: str, problems: list[str]) -> float:
+    """The length that an option says [m]; NaN, and one problem more, where it says none."""
+    from ..quantities.units import to_si
+
+    try:
+        return to_si(text, "m")
+    except InvalidValue as error:
+        problems += [f"{option}: {sentence}" for sentence in error.problems]
+        return math.nan

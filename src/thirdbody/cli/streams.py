@@ -7,13 +7,12 @@ error. Exit status: 0 done, 2 bad input, 3 no equilibrium or no transition in th
 
 from __future__ import annotations
 
-import csv
 import importlib.util
 import io
 import os
 import sys
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -107,31 +106,21 @@ class TableFiles(NamedTuple):
 
     def write(self, columns: Mapping[str, list[Any]], units: Mapping[str, str]) -> None:
         """A column each, its unit in its name, a row a state; the same bytes every time."""
-        named = {f"{n} [{units[n]}]" if units[n] else n: values for n, values in columns.items()}
+        from ..quantities.files import csv_of, whole, with_units, write_text
+
+        named = with_units(columns, units)
         if self.csv is not None:
-            _write_csv(self.csv, named)
+            write_text(self.csv, csv_of(named))
         if self.xlsx is not None:
             _write_xlsx(self.xlsx, named)
         if self.parquet is not None:
             import pandas
 
-            from ..quantities.files import whole
-
             with whole(self.parquet) as part:
                 pandas.DataFrame(named).to_parquet(part, engine="pyarrow", index=False)
 
 
-def _write_csv(path: Path, columns: Mapping[str, list[Any]]) -> None:
-    from ..quantities.files import write_text
-
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(zip(*columns.values(), strict=True))
-    write_text(path, text.getvalue())
-
-
-def _write_xlsx(path: Path, columns: Mapping[str, list[Any]]) -> None:
+def _write_xlsx(path: Path, columns: Mapping[str, Sequence[Any]]) -> None:
     """A workbook of one sheet; when it was made stands nowhere in it."""
     import re
     import zipfile

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ..errors import InvalidValue
 from ..laws.asperity import ZMC, AbstractAsperityLaw
 from ..laws.particle import AbstractParticleLaw, Series
 from ..populations.materials import MaterialPair
@@ -107,9 +108,15 @@ class Contact(Value):
                     f"Particles.law = {each.law!r} must be a particle law, e.g. "
                     "particle.Series(seat='plane')"
                 )
-            elif each.strength is not None and not self.law_of(each).breakable:
+                continue
+            try:
+                law = self.law_of(each)
+            except InvalidValue as error:
+                out += error.problems
+                continue
+            if each.strength is not None and not law.breakable:
                 out.append(
-                    f"Particles.strength: particles of the law {self.law_of(each).name} do not "
+                    f"Particles.strength: particles of the law {law.name} do not "
                     "break; use particle.Series, or remove strength"
                 )
         if not out and len({self.law_of(each).centre for each in self.populations}) > 1:
@@ -128,9 +135,10 @@ class Contact(Value):
         return tuple(each for each in given if each.areal_density > 0)
 
     def law_of(self, particles: Particles) -> AbstractParticleLaw:
-        """The law that a population follows."""
+        """The law that a population follows, for particles of its shape."""
         law = particles.law
-        return law if isinstance(law, AbstractParticleLaw) else self.particle_law
+        law = law if isinstance(law, AbstractParticleLaw) else self.particle_law
+        return law.of_shape(particles.shape)
 
     @property
     def E_ss(self) -> float:

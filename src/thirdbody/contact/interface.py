@@ -60,11 +60,18 @@ class Interface:
 
     def fields(self, d: Array) -> dict[str, Array]:
         """Pressures [Pa] and areas per nominal area at d."""
+        return self._fields(d, None if self.particles is None else self.particles.fields(d))
+
+    def direct_fields(self, d: Array) -> dict[str, Array]:
+        """As `fields`, of particles by quadrature at these d; no table is made for few of them."""
+        return self._fields(d, None if self.particles is None else self.particles.direct_fields(d))
+
+    def _fields(self, d: Array, of_particles: dict[str, Array] | None) -> dict[str, Array]:
         F, *areas = self.asperities.fields(d).T
         zero = np.zeros_like(d)
         part = dict.fromkeys(("F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow"), zero)
-        if self.particles is not None:
-            part = self.particles.fields(d)
+        if of_particles is not None:
+            part = of_particles
             part["shadow"] = np.minimum(part["shadow"], 1.0)
         return together(F, areas, part)
 

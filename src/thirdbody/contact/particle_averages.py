@@ -162,6 +162,28 @@ class SizeAverage:
         values[gaps >= self.top] = 0.0
         return values
 
+    def direct(self, gaps: Array) -> Array:
+        """P(g) by quadrature, without tables: (N, 7)."""
+        out = np.zeros((len(gaps), len(COLUMNS)))
+        out[gaps < self.bottom] = self.floor
+        here = (gaps >= self.bottom) & (gaps < self.top)
+        if here.any():
+            out[here] = np.maximum(self.average(gaps[here], self.top - gaps[here]), 0.0)
+        return out
+
+    @property
+    def particles(self) -> SizeAverage:
+        """The average over sizes itself, of one over seats too."""
+        return self
+
+    def load_in_gaps(self, gaps: Array, narrow: float) -> Array:
+        """The load of P(g) where the gap is narrower than this, else 0: (N,)."""
+        return np.where(gaps < narrow, self(gaps)[:, 0], 0.0)
+
+    def part_in_gaps(self, gaps: Array, narrow: float) -> Array:
+        """Part of the particles in gaps narrower than this: (N,)."""
+        return np.where(gaps < narrow, 1.0, 0.0)
+
     def derivatives(self, gaps: Array, columns: tuple[int, ...]) -> Array:
         """P, P′ and P″ of some columns: (N, len(columns), 3)."""
         u = np.sqrt(np.maximum(self.top - gaps, 0.0))
@@ -346,6 +368,36 @@ class SeatAverage:
         out[gap > high] = 0.0
         out[gap < low] = self.floor
         return out
+
+    def direct(self, mean_gap: Array) -> Array:
+        """Every column by quadrature over sizes and seats, without tables: (N, 7)."""
+        average, reach = self.average, NORMAL_REACH * self.width
+        out = special.ndtr((average.bottom - mean_gap) / self.width)[:, None] * self.floor
+        gaps, rise, weights = average.gaps(self.width)
+        near = slice(*np.searchsorted(gaps, [mean_gap.min() - reach, mean_gap.max() + reach]))
+        gaps, rise, weights = gaps[near], rise[near], weights[near]
+        if not len(gaps):
+            return out
+        values = weights[:, None] * average.average(gaps, rise)
+        z = (mean_gap[:, None] - gaps) / self.width
+        return out + np.exp(-0.5 * z * z) @ values / (self.width * math.sqrt(2 * math.pi))
+
+    @property
+    def particles(self) -> SizeAverage:
+        """The average over sizes of which this is the average over seats."""
+        return self.average
+
+    def load_in_gaps(self, mean_gap: Array, narrow: float) -> Array:
+        """The load at mean gaps from those seats alone in which the gap is narrower: (N,)."""
+        gaps, weights = self.nodes
+        out = self.floor[0] * self.part_in_gaps(mean_gap, min(narrow, self.average.bottom))
+        below = gaps < narrow
+        z = (mean_gap[:, None] - gaps[below]) / self.width
+        return out + np.exp(-0.5 * z * z) @ weights[below, 0]
+
+    def part_in_gaps(self, mean_gap: Array, narrow: float) -> Array:
+        """Part of the seats in which the gap is narrower than this: (N,)."""
+        return special.ndtr((narrow - mean_gap) / self.width)
 
     def spots(self, mean_gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         """Every squeezed particle at mean gaps (N,)."""

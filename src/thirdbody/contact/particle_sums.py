@@ -53,7 +53,8 @@ def particle_sum(
 def _over_sizes_and_seats(
     law: SeatedLaw, surfaces: MaterialPair, roughness: Roughness, particles: Particles
 ) -> ParticleSum:
-    one = law.one(surfaces=surfaces, particle=particles.material)
+    of_shape = law.of_shape(particles.shape)
+    one = of_shape.one(surfaces=surfaces, particle=particles.material)
     if (coverage := one.breadth * particles.coverage) >= 1:
         raise InvalidValue(law.jammed(coverage))
     parts = []
@@ -122,6 +123,10 @@ class ParticleSum(ABC):
     def fields(self, d: Array) -> dict[str, Array]:
         """F_sa [Pa], A_e, A_ep, A_p on surface 1, A_sa2 on surface 2, and the shadow ς."""
 
+    def direct_fields(self, d: Array) -> dict[str, Array]:
+        """As `fields`, by quadrature at these d, where that spares tables."""
+        return self.fields(d)
+
     @abstractmethod
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
         """Every loaded particle at d (N,), in groups.
@@ -150,7 +155,13 @@ class ParticlesTogether(ParticleSum):
         return np.sum(loads, axis=0), np.sum(shadows, axis=0)
 
     def fields(self, d: Array) -> dict[str, Array]:
-        parts = [each.fields(d) for each in self.sums]
+        return self._added([each.fields(d) for each in self.sums])
+
+    def direct_fields(self, d: Array) -> dict[str, Array]:
+        return self._added([each.direct_fields(d) for each in self.sums])
+
+    @staticmethod
+    def _added(parts: Sequence[dict[str, Array]]) -> dict[str, Array]:
         return {name: np.sum([part[name] for part in parts], axis=0) for name in parts[0]}
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
@@ -198,6 +209,24 @@ class Part:
     def columns(self, d: Array) -> Array:
         return self.factor * self.average((d + self.offset) / self.scale)
 
+    def direct_columns(self, d: Array) -> Array:
+        """As `columns`, by quadrature instead of tables."""
+        return self.factor * self.average.direct((d + self.offset) / self.scale)
+
+    def load_in_gaps(self, d: Array, squeeze: float) -> Array:
+        """Pressure [Pa] at d on particles where the gap squeezes the largest one beyond ε: (N,)."""
+        narrow = self._gap_under_largest(squeeze)
+        return self.factor * self.average.load_in_gaps((d + self.offset) / self.scale, narrow)
+
+    def most_in_gaps(self, d: Array, squeeze: float) -> Array:
+        """As `load_in_gaps`, if each bore what it bears without a gap: no table is asked."""
+        most = self.factor * self.average.floor[0]
+        narrow = self._gap_under_largest(squeeze)
+        return most * self.average.part_in_gaps((d + self.offset) / self.scale, narrow)
+
+    def _gap_under_largest(self, squeeze: float) -> float:
+        return (1 - squeeze) * self.average.particles.top
+
     def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         found = self.average.spots((d + self.offset) / self.scale, splits)
         return found.of_size(self.scale, self.density)
@@ -238,7 +267,12 @@ class SeatedParticles(ParticleSum):
         return fixed
 
     def fields(self, d: Array) -> dict[str, Array]:
-        total = np.sum([part.columns(d) for part in self.parts], axis=0)
+        return self._named(np.sum([part.columns(d) for part in self.parts], axis=0))
+
+    def direct_fields(self, d: Array) -> dict[str, Array]:
+        return self._named(np.sum([part.direct_columns(d) for part in self.parts], axis=0))
+
+    def _named(self, total: Array) -> dict[str, Array]:
         total = np.maximum(total, 0.0)  # rounding of the other regimes
         return {
             "F_sa": total[:, 0],

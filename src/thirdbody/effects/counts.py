@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
+from ..quantities.say import percent
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from ..contact.evaluation import Solved
@@ -17,6 +20,10 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 __all__ = ["Counts"]
+
+MERGED = 0.01
+"""Real area of asperities from which they merge; most spots were measured at P/M = 7.5e-3
+(O'Callaghan and Probert 1970)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,3 +74,12 @@ class Counts(AbstractOutput):
                 "p_ss": F_ss / A_ss,
                 "p_sa": F_sa / A_sa,
             }
+
+    def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
+        most = float(np.nanmax(state.total(lambda spots: spots.area), initial=0.0))
+        if most <= MERGED:
+            return []
+        return [
+            f"asperities are counted one by one, and they cover {percent(most, digits=2)} of the "
+            f"surface: beyond some {percent(MERGED, digits=1)} spots merge, and fewer are found"
+        ]

@@ -134,7 +134,7 @@ class Dents(AbstractOutput):
                 "them twice; remove one"
             ]
         laws = [contact.law_of(each) for each in contact.populations]
-        if all(type(law) is Series for law in laws):
+        if all(isinstance(law, Series) and law.breakable for law in laws):
             return []
         return ["outputs.dents: fragments of brittle particles need particle.Series"]
 
@@ -180,7 +180,7 @@ class Dents(AbstractOutput):
             dent = self._left(spots, side, state.contact)
             counts = (dent.diameter > 0) & (dent.depth >= self.shallowest)
             dents.append((spots, dent, counts))
-            deep = counts & (2 * spots.depths[side] > spots.radius) & (self.debris != "ductile")
+            deep = counts & (2 * spots.depths[side] > spots.half) & (self.debris != "ductile")
             for name, q in (
                 ("n", counts.astype(float)),
                 ("depth", counts * dent.depth),
@@ -229,7 +229,7 @@ class Dents(AbstractOutput):
 
         def half(eps: float, side: int) -> float:
             spots = probe(np.array([eps]))
-            return float((2 * spots.depths[side] - spots.radius)[0, 0])
+            return float((2 * spots.depths[side] - spots.half)[0, 0])
 
         return [
             float(brentq(half, 1e-9, 3.0, args=(side,), xtol=1e-15))

@@ -10,8 +10,9 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column
+from ..populations.shape import CUTS
 from ..quantities.value import choice, quantity
-from .single.ploughing import coefficient, rear_support
+from .single.ploughing import coefficient, coefficient_of_faces, rear_support
 from .single.severity import severity, threshold
 
 if TYPE_CHECKING:
@@ -150,8 +151,13 @@ class Friction(AbstractOutput):
         specimen.
     aspect : float, optional
         Longest axis of a particle over its size x, 1 for spheres [1]. A longer one rolls only if
-        it can turn over besides: longest axis over gap below 1.74 (Williams and Hyncica; from
-        memory: not confirmed in a source).
+        it can turn over besides: longest axis over gap below 1.74 (Williams and Hyncica;
+        recalled: no source was found, and a body that spans the gap would have to be held with a
+        coefficient of 1.42).
+    offset : float, optional
+        e/x, how far apart along the motion a grain touches the two surfaces, over its size [1]; 0
+        for spheres. A grain with an offset rolls if it turns over before it slides, which in a
+        gap g is where :math:`\min_i(\mu_{pi}+\tau_{sa}a_i/f) \ge e/g`.
 
     Notes
     -----
@@ -209,6 +215,7 @@ class Friction(AbstractOutput):
         "what decides that a particle rolls", "moment", "severity", default="moment"
     )
     aspect: float = quantity("D_l/x", "1", "longest axis over size", default=1.0, ge=1)
+    offset: float = quantity("e/x", "1", "offset of both contacts over size", default=0.0, ge=0)
 
     name = "friction"
     title = "Friction"
@@ -248,6 +255,11 @@ class Friction(AbstractOutput):
                     f"Friction.rear = {self.rear!r} must be 'recovery', 'rigid', or a number from "
                     "0 to 1"
                 )
+        if self.offset > 0 and self.rolling != "moment":
+            out.append(
+                f"Friction.offset = {self.offset:g} needs rolling = 'moment', whose balance it "
+                f"enters, not {self.rolling!r}"
+            )
         return out
 
     def problems(self, contact: Contact) -> list[str]:
@@ -313,17 +325,31 @@ class Friction(AbstractOutput):
         reached = self._law(kind, H)[2] * area
         return np.maximum(1.0, np.divide(load, reached, out=np.ones_like(load), where=reached > 0))
 
+    def _support(self, depth: Array, yielding: Any) -> Any:
+        """κ of a contact; ``yielding`` is its depth at first yield [m]."""
+        if self.rear == "recovery":
+            return rear_support(np.divide(depth, yielding, where=depth > 0, out=0.0 * depth))
+        return 0.0 if self.rear == "rigid" else self.rear
+
     def _plough(self, depth: Array, radius: Array | float, area: Array, yielding: Any) -> Array:
         """μ_p of a tip; ``yielding`` is its depth at first yield [m]."""
-        kappa: Any = self.rear
-        if kappa == "recovery":
-            kappa = rear_support(np.divide(depth, yielding, where=depth > 0, out=0.0 * depth))
-        elif kappa == "rigid":
-            kappa = 0.0
+        kappa = self._support(depth, yielding)
         if self.angle == "area":
             part = np.minimum(area / (np.pi * np.square(radius)), 1.0)
             depth = radius * part / (1 + np.sqrt(1 - part))
         return coefficient(depth, radius=radius, rear=kappa)
+
+    def _plough_by(self, spots: ParticleSpots, depth: Array, area: Array, yielding: Any) -> Array:
+        """μ_p of particles on one side."""
+        shape = spots.shape
+        if shape is None or shape.round:
+            return self._plough(depth, spots.radius, area, yielding)
+        return coefficient_of_faces(
+            np.sqrt(area / np.pi),
+            edge=shape.edge * spots.x,
+            angle=shape.angle,
+            rear=self._support(depth, yielding),
+        )
 
     def ratio(self, contact: Contact) -> float:
         """Hardness of the harder surface over that of the softer."""
@@ -368,22 +394,24 @@ class Friction(AbstractOutput):
         acting = self.indents(spots)
         sides = list(zip(spots.depths, spots.areas, spots.yields, spots.hardness, strict=True))
         deform = [
-            self._plough(depth, spots.radius, area, first * spots.x)
-            for depth, area, first, _ in sides
+            self._plough_by(spots, depth, area, first * spots.x) for depth, area, first, _ in sides
         ]
         one, two = (mu * acts for mu, acts in zip(deform, acting, strict=True))
         resistance = 0.5 * (deform[0] + deform[1])
         shear = [self.shear_force("sa", area=area, load=spots.load, H=H) for _, area, _, H in sides]
         slide = (one * spots.load + shear[0], two * spots.load + shear[1])
         side = (slide[1] < slide[0] * (1 - TIE)).astype(np.intp)
-        if self.rolling == "moment":
+        gap = spots.x - spots.depths[0] - spots.depths[1]
+        if self.offset > 0:
+            held = np.minimum(*slide) * np.maximum(gap, 0.0)
+            rolls = (held >= self.offset * spots.x * spots.load) & (spots.load > 0)
+        elif self.rolling == "moment":
             rolls = resistance * spots.load < np.minimum(*slide) * (1 - TIE)
         else:
             softer, harder = sorted(spots.hardness)
             S = severity(spots.load, x=spots.x, H_1=softer, H_2=harder)
             rolls = (threshold(softer, H_b=harder) > S) & (spots.load > 0)
         if self.aspect > 1:
-            gap = spots.x - spots.depths[0] - spots.depths[1]
             rolls &= self.aspect * spots.x < TUMBLES * gap
         return Motion(rolls, side, np.where(side, shear[1], shear[0]), (one, two), resistance)
 
@@ -446,13 +474,24 @@ class Friction(AbstractOutput):
                 "rolling_share": force["rolling"] / F_sa,
             }
 
+    def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
+        shapes = (spots.shape for spots in state.particles)
+        steep = [each.angle for each in shapes if each and each.faced and each.angle > CUTS]
+        if not steep:
+            return []
+        return [
+            f"outputs.friction: faces at {math.degrees(max(steep)):.3g}° cut rather than plough "
+            "(critical angles from 45° are quoted for copper): grooves and the ploughing force are "
+            "those of a plough that displaces"
+        ]
+
     def splits(self, probe: Probe) -> Sequence[float]:
         def kind(spots: ParticleSpots) -> NDArray[np.intp]:
             motion = self.motion(spots)
             out = np.where(motion.rolls, 2, motion.side)
             for depth, area, H in zip(spots.depths, spots.areas, spots.hardness, strict=True):
                 grown = self._growth("sa", area, spots.load, H) > 1.0
-                out = 4 * out + 2 * grown + (depth > spots.radius)
+                out = 4 * out + 2 * grown + (depth > spots.half)
             return out
 
         return changes(probe, kind)

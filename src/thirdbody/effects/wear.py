@@ -12,7 +12,7 @@ from ..contact.output import AbstractOutput, Column
 from ..errors import InvalidValue
 from ..laws.base import REGIMES
 from ..quantities.value import quantity
-from .single.ploughing import groove_area
+from .single.ploughing import groove_of
 from .single.severity import severity, threshold
 
 if TYPE_CHECKING:
@@ -173,8 +173,7 @@ class Wear(AbstractOutput):
         out: dict[str, list[Array]] = {"sa": [], "groove": [], "roll": [], "cut": []}
         for side, acts in enumerate(friction.indents(spots)):
             slides = np.where(even, 0.5, motion.side == side) * ~rolls
-            depth = spots.depths[side]
-            groove = acts * groove_area(depth, radius=spots.radius)
+            groove = acts * groove_of(spots, side)
             touch = self._archard("sa", spots.regimes[side], spots.areas[side])
             b = np.sqrt(spots.areas[side] / np.pi)
             out["sa"].append(slides * touch)

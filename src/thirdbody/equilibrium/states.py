@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from itertools import chain
@@ -13,13 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..contact.contact import Contact
 from ..contact.evaluation import evaluate
-from ..contact.interface import interface
-from ..errors import InvalidValue, NotCompiled, RangeWarning
+from ..contact.interface import Interface, interface
+from ..errors import InvalidValue, NotCompiled
 from ..populations.materials import BULK
 from ..quantities.value import warn_of_slip
-from .columns import COLUMNS, dataset, quantity_of
+from .columns import COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
-from .solve import TOO_DEEP, given_load, solve
+from .solve import TOO_DEEP, given_load, solve_untold
 
 if TYPE_CHECKING:
     import xarray
@@ -91,6 +90,33 @@ def state_columns(
     return _columns(contact, arrays, load, loads)
 
 
+def direct_columns(
+    contact: Contact, d: NDArray[np.float64], vary: Mapping[str, NDArray[Any]]
+) -> Columns:
+    """Columns at separations d (N,) with inputs (N,), by quadrature at each: no table is made.
+
+    What a few states of contacts are found by that no other state shares; outputs are left out.
+    """
+    out: Columns = {}
+    for which in _alike(vary, len(d)):
+        own = varied(contact, {name: values[which[0]].item() for name, values in vary.items()})
+        bound = Interface(own)
+        places, back = np.unique(d[which], return_inverse=True)
+        raw = {name: column[back] for name, column in bound.direct_fields(places).items()}
+        rough = own.roughness
+        found = as_columns(raw, d[which], bound.mean_plane, rough.sigma, own.E_ss, target=None)
+        for name, column in found.items():
+            out.setdefault(name, np.empty(len(d), dtype=column.dtype))[which] = column
+    return out
+
+
+def _alike(arrays: Arrays, count: int) -> list[NDArray[np.intp]]:
+    """Which states have equal inputs."""
+    groups = _groups(arrays, count)
+    order = np.argsort(groups, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(groups[order])) + 1)
+
+
 def _given(
     contact: Contact,
     pressure: ArrayLike | None,
@@ -144,7 +170,10 @@ def _columns(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.floa
 DENSITY = "particles.areal_density"
 ABSENT = ("particles.diameter.mean", DENSITY)
 """Inputs that are zero where there are no particles."""
-DEMANDING = ("asperity_law.", "particle_law.law.", "particles.diameter.", *engine.MATERIALS)
+DEMANDING = (
+    *("asperity_law.", "particle_law.law.", "particles.diameter.", engine.SHAPES),
+    *engine.MATERIALS,
+)
 """Inputs that change the contact of one asperity or particle, which nodes may share."""
 FEWEST = 20
 """Different states for which nodes are quicker than tables of each."""
@@ -202,9 +231,7 @@ def _with_outputs(
     # states of one contact share their spots; those of one surface share its tables, and those
     # that differ in the number of particles alone share the spots of one particle
     count = arrays.get(DENSITY, np.ones(len(loads)))
-    groups = _groups({**arrays, DENSITY: count == 0}, len(loads))
-    order = np.argsort(groups, kind="stable")
-    for which in np.split(order, np.flatnonzero(np.diff(groups[order])) + 1):
+    for which in _alike({**arrays, DENSITY: count == 0}, len(loads)):
         own = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
         crowd = count[which] / (count[which[0]] or 1.0)
         values, _ = evaluate(own, interface(own), _taken(out, which), crowd)
@@ -294,14 +321,10 @@ def _by_groups(
     contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64], why: str = ""
 ) -> Columns:
     """Every column, one contact after another; ``why`` not by nodes."""
-    groups = _groups(arrays, len(loads))
-    order = np.argsort(groups, kind="stable")
     parts = []
-    for which in np.split(order, np.flatnonzero(np.diff(groups[order])) + 1):
+    for which in _alike(arrays, len(loads)):
         state = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RangeWarning)
-            result = solve(state, **{load: loads[which]})  # type: ignore[arg-type]
+        result = solve_untold(state, load, loads[which])
         path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
         parts.append((which, result.columns() | {"engine": _all(len(which), path)}))
     return _joined(len(loads), parts)

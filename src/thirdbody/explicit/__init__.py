@@ -1,9 +1,9 @@
 """The interface point by point: one height map, and every particle at its place.
 
 `solve` presses one surface, measured or synthetic; `ensemble` many, against the statistical
-model. What they do without, against the statistical
-model: asperities that are paraboloids with heights of one distribution, particles at independent
-places, a surface that is flat for each contact, contacts that do not feel each other.
+model. What they do without, against the statistical model: asperities that are paraboloids with
+heights of one distribution, particles at independent places, a surface that is flat for each
+contact, contacts that do not feel each other.
 """
 
 from .ensemble import Ensemble, ensemble, surface_of

@@ -34,19 +34,11 @@ from ..quantities.progress import reporting
 from ..quantities.say import number, percent, plural
 from ..quantities.value import Value
 from ..version import __version__
-from .interface import Interface, Map, interface_of, law_tables, map_of
-from .press import Pressed
-from .seats import (
-    AbstractSeats,
-    GivenSeats,
-    RandomSeats,
-    SeatHeights,
-    height_at,
-    placed_apart,
-    seat_heights,
-    seats_named,
-)
-from .solve import TOL, curve, numbers_of
+from .interface import Map, map_of
+from .pooling import COMPARED, RATIOS, Pool, pooled_seats
+from .seats import AbstractSeats, GivenSeats, SeatHeights, seat_heights, seats_named
+from .solve import TOL
+from .sums import one_surface, places
 
 if TYPE_CHECKING:
     import xarray
@@ -60,27 +52,7 @@ STEP = 0.15
 """Distance of separations [σ]."""
 BELOW, ABOVE = 0.35, 0.6
 """How far separations go beyond those of the statistical model [σ]."""
-PLACES = 20_000
-"""Places drawn on each map to know the heights of a seat."""
-QUANTILES = 64
 HURST = 0.8
-
-COMPARED = {
-    "h": ("m", "separation of the mean planes"),
-    "A_t": ("1", "real contact area"),
-    "particle_load_share": ("1", "load share of particles"),
-    "particle_area_share": ("1", "area share of particles"),
-}
-"""What is compared at each load: unit and meaning."""
-RATIOS = {
-    "bare_over_bearing": "load without particles over hardness times bearing area",
-    "particles_over_sum": "load of the particles over the sum of their law at their seats",
-    "asperities_with_over_without": "load of the asperities with over that without particles",
-    "bearing_over_gaussian": "bearing area over that of Gaussian heights",
-}
-"""Why explicit and statistical answers differ, at equal separation."""
-SUMS = ("asperities", "particles", "area", "particle_area", "bearing", "law", "law_area", "bare")
-"""What each surface gives at each separation: loads [N] and areas [m²]."""
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
@@ -272,7 +244,7 @@ def ensemble(
             record = None if kept is None else _read(kept, i, key)
             if record is None:
                 surface = first if i == 0 else map_number(i)
-                record = _one_surface(
+                record = one_surface(
                     contact, surface, rule, grid, seed + i, cap=cap, tol=tol,
                     max_iterations=max_iterations, workers=workers, gaussian=given is None,
                 )  # fmt: skip
@@ -281,132 +253,14 @@ def ensemble(
                     write_text(_file(kept, i), json.dumps(record | {"key": key}))
             records.append(record)
             report(i + 1)
-    return _ensemble(contact, records, loads, grid, sigma, gaussian=given is None)
+    return _ensemble(contact, records, loads, grid, gaussian=given is None)
 
 
-# -------------------------------------------------------------------------- one surface
-def _one_surface(
-    contact: Contact,
-    surface: Map,
-    rule: AbstractSeats,
-    grid: Array,
-    seed: int,
-    *,
-    cap: str | float | None,
-    tol: float,
-    max_iterations: int,
-    workers: int,
-    gaussian: bool,
-) -> dict[str, Any]:
-    """The sums of one surface at every separation, as plain data."""
-    rng = np.random.default_rng(seed)
-    inside = interface_of(contact, surface, seats=rule, cap=cap, rng=rng)
-    how: dict[str, Any] = {"tol": tol, "max_iterations": max_iterations, "workers": workers}
-    states, _ = curve(inside, "h", grid, **how)
-    bare = curve(inside.bare(), "h", grid, **how)[0] if len(inside.bodies) else states
-    out: dict[str, Any] = {name: [] for name in SUMS}
-    columns = [numbers_of(inside, state) for state in states]
-    pixel = surface.spacing**2
-    for h, state, alone in zip(grid.tolist(), states, bare, strict=True):
-        told = _sums(inside, h, state, alone, pixel)
-        for name in SUMS:
-            out[name].append(told[name])
-    zeta = _places(surface, rule, contact, np.random.default_rng([seed, 1]))
-    return {
-        **out,
-        "nominal": surface.area,
-        "sigma": surface.sigma,
-        "converged": [a.converged and b.converged for a, b in zip(states, bare, strict=True)],
-        "columns": {name: [each[name] for each in columns] for name in columns[0]},
-        "zeta": [float(np.sum(zeta)), float(np.sum(zeta**2)), int(np.sum(zeta > 2.5)), len(zeta)],
-        "warnings": list(inside.warnings),
-        "expected": _expected(contact, surface, rule, zeta, grid, gaussian),
-    }
-
-
-def _sums(inside: Interface, h: float, state: Pressed, alone: Pressed, pixel: float) -> dict[str, float]:  # fmt: skip  # noqa: E501
-    bodies, area = inside.bodies, inside.map.area
-    told = numbers_of(inside, state)
-    squeeze = bodies.diameter + inside.zeta - h
-    law_area = 0.0
-    for i, law in enumerate(bodies.laws):
-        here = (bodies.kind == i) & (squeeze > 0)
-        x = bodies.diameter[here]
-        law_area += float(np.sum(x**2 * law.area(squeeze[here] / x)))
-    return {
-        "asperities": float(np.sum(state.p)) * pixel,
-        "particles": float(np.sum(state.f)),
-        "area": told["A_ss"] * area,
-        "particle_area": told["A_sa"] * area,
-        "bearing": float(np.sum(inside.map.z > h)) * pixel,
-        "law": float(np.sum(bodies.force(squeeze))),
-        "law_area": law_area,
-        "bare": float(np.sum(alone.p)) * pixel,
-    }
-
-
-def _places(surface: Map, rule: AbstractSeats, contact: Contact, rng: np.random.Generator) -> Array:
-    """ζ/σ of many places of the rule."""
-    if not contact.populations or isinstance(rule, GivenSeats):
-        return np.empty(0)
-    size = contact.populations[0].diameter.sample(rng, PLACES)
-    try:
-        seated = rule.draw(surface.z, surface.spacing, size, rng)
-    except InvalidValue:  # fewer summits than that
-        few = size[: max(1, round(0.01 * surface.z.size))]
-        seated = placed_apart(RandomSeats(), surface.z, surface.spacing, few, rng)[0]
-    heights = height_at(surface.z, surface.spacing, seated.x, seated.y) + seated.lift
-    return heights / (surface.sigma or 1.0)
-
-
-def _expected(
-    contact: Contact,
-    surface: Map,
-    rule: AbstractSeats,
-    zeta: Array,
-    grid: Array,
-    gaussian: bool,
-) -> dict[str, list[float]]:
-    """What the draw gives on average: bearing area, sums of the law [m², N, m²]."""
-    sigma = surface.sigma
-    if not gaussian:
-        bearing = np.array([np.mean(surface.z > h) for h in grid])
-    else:
-        bearing = np.array([0.5 * math.erfc(h / (sigma * math.sqrt(2))) for h in grid])
-    if gaussian and isinstance(rule, RandomSeats):
-        mean, std = 0.0, 1.0
-    elif len(zeta):
-        mean, std = float(np.mean(zeta)), float(np.std(zeta))
-    else:
-        mean, std = math.nan, math.nan
-    # dense heights for the sum over seats: a Gaussian of their mean and width, or the seats drawn
-    if gaussian or isinstance(rule, GivenSeats):
-        t = np.linspace(-7, 7, 1401)
-        weight = np.exp(-(t**2) / 2)
-        seats, weight = (mean + std * t) * sigma, weight / weight.sum()
-    else:
-        seats, weight = np.sort(zeta) * sigma, np.full(len(zeta), 1 / max(len(zeta), 1))
-    force, area = np.zeros(len(grid)), np.zeros(len(grid))
-    q = (np.arange(QUANTILES) + 0.5) / QUANTILES
-    for each, law in zip(contact.populations, law_tables(contact), strict=True):
-        sizes = np.unique(each.diameter.ppf(q), return_counts=True)
-        for x, count in zip(*sizes, strict=True):
-            share = each.areal_density * surface.area * count / QUANTILES
-            for i, h in enumerate(grid):
-                eps = (x + seats - h) / x
-                force[i] += share * x**2 * float(np.sum(weight * law.force(eps)))
-                area[i] += share * x**2 * float(np.sum(weight * law.area(eps)))
-    return {
-        "bearing": (bearing * surface.area).tolist(),
-        "law": force.tolist(),
-        "law_area": area.tolist(),
-    }
-
-
+# -------------------------------------------------------------------------- its seats
 def _heights_of_seats(
     contact: Contact, rule: AbstractSeats, maps: list[Map], seed: int
 ) -> SeatHeights:
-    drawn = [_places(each, rule, contact, np.random.default_rng([seed, 1])) for each in maps]
+    drawn = [places(each, rule, contact, np.random.default_rng([seed, 1])) for each in maps]
     return seat_heights(np.concatenate(drawn))
 
 
@@ -435,85 +289,35 @@ def _ensemble(
     records: list[dict[str, Any]],
     loads: Array,
     grid: Array,
-    sigma: float,
     *,
     gaussian: bool,
 ) -> Ensemble:
     import xarray
 
-    area = np.array([each["nominal"] for each in records])
-    good = np.array([each["converged"] for each in records])
-    sums = {name: np.array([each[name] for each in records]) for name in SUMS}
-    hopes = {
-        name: np.array([each["expected"][name] for each in records])
-        for name in ("bearing", "law", "law_area")
-    }
-    seats = _pooled_seats([each["zeta"] for each in records])
+    pool = Pool.of(records, grid)
+    seats = pooled_seats([each["zeta"] for each in records])
     model = counterpart(contact, seats)
     state = statistical(model, F_star=loads)
-    target = loads * contact.E_ss
-    table: dict[str, Any] = {}
-    for kind in ("raw", "cv"):
-        everything = np.ones(len(records), bool)
-        found = _at_loads(sums, hopes, area, good, grid, target, everything, kind)
-        without = np.array([
-            _at_loads(sums, hopes, area, good, grid, target, np.arange(len(records)) != i, kind)
-            for i in range(len(records))
-        ])  # fmt: skip
-        n = len(records)
-        spread = without - without.mean(axis=0)
-        error = np.sqrt((n - 1) / n * np.sum(spread**2, axis=0)) if n > 1 else np.full_like(
-            found, math.nan
-        )  # fmt: skip
-        for row, name in enumerate(COMPARED):
-            table[f"{name}_{kind}"] = found[row]
-            table[f"{name}_{kind}_error"] = error[row]
-    for name in COMPARED:
-        table[f"{name}_statistical"] = np.asarray(getattr(state, name))
-        kind = "cv" if gaussian else "raw"
-        with np.errstate(invalid="ignore", divide="ignore"):
-            table[f"{name}_difference"] = (
-                table[f"{name}_{kind}"] - table[f"{name}_statistical"]
-            ) / table[f"{name}_{kind}_error"]
-    units = {name: unit for name, (unit, _) in COMPARED.items()}
-    data = {
-        name: ("F_star", values, {"units": "1" if name.endswith("difference") else next(
-            units[each] for each in COMPARED if name.startswith(f"{each}_"))})
-        for name, values in table.items()
-    }  # fmt: skip
-    pooled = {name: np.sum(values * good, axis=0) for name, values in sums.items()}
-    hoped = {name: np.sum(values * good, axis=0) for name, values in hopes.items()}
-    hardness = contact.surfaces.H
-    with np.errstate(invalid="ignore", divide="ignore"):
-        ratios = {
-            "bare_over_bearing": pooled["bare"] / (hardness * pooled["bearing"]),
-            "particles_over_sum": pooled["particles"] / pooled["law"],
-            "asperities_with_over_without": pooled["asperities"] / pooled["bare"],
-            "bearing_over_gaussian": pooled["bearing"] / hoped["bearing"],
-        }
-    at_h = {
-        **{name: ("h", values, {}) for name, values in pooled.items()},
-        **{
-            name: ("h", np.where(np.isfinite(values), values, np.nan), {"long_name": RATIOS[name]})
-            for name, values in ratios.items()
-        },
-    }
-    left_out = int(np.sum(~good))
+    at_h: dict[str, Any] = {name: ("h", values, {}) for name, values in pool.totals().items()}
+    for name, values in pool.ratios(contact.surfaces.H).items():
+        at_h[name] = ("h", values, {"long_name": RATIOS[name]})
+    left_out = int(np.sum(~pool.good))
     told = list(dict.fromkeys(sentence for each in records for sentence in each["warnings"]))
     if left_out:
         told.append(
-            f"{plural(left_out, 'state')} of {good.size} did not converge and count nowhere"
+            f"{plural(left_out, 'state')} of {pool.good.size} did not converge and count nowhere"
         )
-    columns: dict[str, list[Any]] = {
-        "surface": [i for i in range(len(records)) for _ in grid],
-    }
+    columns: dict[str, list[Any]] = {"surface": [i for i in range(len(records)) for _ in grid]}
     for name in records[0]["columns"]:
         columns[name] = [value for each in records for value in each["columns"][name]]
     return Ensemble(
         contact=contact,
         model=model,
         statistical=state,
-        table=xarray.Dataset(data, coords={"F_star": ("F_star", loads, {"units": "1"})}),
+        table=xarray.Dataset(
+            _columns(pool, state, loads * contact.E_ss, gaussian),
+            coords={"F_star": ("F_star", loads, {"units": "1"})},
+        ),
         at_h=xarray.Dataset(at_h, coords={"h": ("h", grid, {"units": "m"})}),
         seats=seats,
         states=columns,
@@ -523,85 +327,23 @@ def _ensemble(
     )
 
 
-def _at_loads(
-    sums: dict[str, Array],
-    hopes: dict[str, Array],
-    area: Array,
-    good: NDArray[np.bool_],
-    grid: Array,
-    target: Array,
-    which: NDArray[np.bool_],
-    kind: str,
-) -> Array:
-    """h, A_t and the two shares at each nominal pressure (4, loads), of some of the surfaces."""
-    counts = good[which]
-    nominal = np.sum(counts * area[which][:, None], axis=0)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        now = {name: np.sum(v[which] * counts, axis=0) / nominal for name, v in sums.items()}
-        hoped = {name: np.sum(v[which] * counts, axis=0) / nominal for name, v in hopes.items()}
-    if kind == "cv":
-        factor = {
-            name: _held(hoped[name], now[name], grid) for name in ("bearing", "law", "law_area")
-        }
-        now["asperities"] = now["asperities"] * factor["bearing"]
-        now["area"] = now["area"] * factor["bearing"]
-        now["particles"] = now["particles"] * factor["law"]
-        now["particle_area"] = now["particle_area"] * factor["law_area"]
-    load = now["asperities"] + now["particles"]
-    out = np.full((len(COMPARED), len(target)), np.nan)
-    usable = np.isfinite(load) & (load > 0)
-    h, log = grid[usable], np.log(load[usable])
-    order = np.argsort(log)
-    if len(h) < 2:
-        return out
-    log, h = log[order], h[order]
-    inside = (np.log(target) >= log[0]) & (np.log(target) <= log[-1])
-    at = np.log(target)
-    from scipy.interpolate import PchipInterpolator
-
-    out[0] = np.where(inside, PchipInterpolator(log, h)(at), np.nan)
-
-    def interpolated(name: str) -> Array:
-        values = now[name][usable][order]
-        with np.errstate(divide="ignore"):
-            logs = np.log(values)
-        some = np.isfinite(logs)
-        if not np.any(some):
-            return np.zeros(len(target))
-        if np.sum(some) < 2:
-            return np.where(at < log[some][0], 0.0, values[some][0])
-        found = np.exp(PchipInterpolator(log[some], logs[some])(np.minimum(at, log[-1])))
-        return np.where(at < log[some][0], 0.0, found)
-
-    particles, asperities = interpolated("particles"), interpolated("asperities")
-    touched, dented = interpolated("area"), interpolated("particle_area")
-    with np.errstate(invalid="ignore", divide="ignore"):
-        out[1] = touched + dented
-        out[2] = particles / (particles + asperities)
-        out[3] = dented / (touched + dented)
-    out[:, ~inside] = np.nan
-    return out
-
-
-def _held(hoped: Array, drawn: Array, grid: Array) -> Array:
-    """hoped/drawn; where nothing is drawn the ratio of the next lower h that has."""
-    order = np.argsort(grid)
-    out, last = np.ones(len(grid)), 1.0
-    for i in order:
-        if drawn[i] > 0 and hoped[i] > 0:
-            last = hoped[i] / drawn[i]
-        out[i] = last
-    return out
-
-
-def _pooled_seats(parts: list[list[float]]) -> SeatHeights:
-    first, second, high, count = np.sum(np.array(parts, dtype=float), axis=0).tolist()
-    if not count:
-        return seat_heights(np.empty(0))
-    mean = first / count
-    std = math.sqrt(max(second / count - mean**2, 0.0))
-    gauss = 0.5 * math.erfc((2.5 - mean) / (std * math.sqrt(2))) if std > 0 else 0.0
-    return SeatHeights(mean, std, high / count, gauss)
+def _columns(pool: Pool, state: Equilibrium, pressure: Array, gaussian: bool) -> dict[str, Any]:
+    """Along F*: raw, fair and statistical numbers, their errors and how they differ."""
+    table: dict[str, Any] = {}
+    for kind in ("raw", "cv"):
+        for name, found, error in pool.at_loads(pressure, fair=kind == "cv"):
+            about = {"units": COMPARED[name][0]}
+            table[f"{name}_{kind}"] = ("F_star", found, about)
+            table[f"{name}_{kind}_error"] = ("F_star", error, about)
+    best = "cv" if gaussian else "raw"
+    for name, (unit, _) in COMPARED.items():
+        model = np.asarray(getattr(state, name))
+        found, error = (table[f"{name}_{best}{what}"][1] for what in ("", "_error"))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            difference = (found - model) / error
+        table[f"{name}_statistical"] = ("F_star", model, {"units": unit})
+        table[f"{name}_difference"] = ("F_star", difference, {"units": "1"})
+    return table
 
 
 # -------------------------------------------------------------------------- what is asked

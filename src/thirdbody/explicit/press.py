@@ -9,6 +9,7 @@ by projected conjugate gradients with one convolution a step, until a bound of t
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -98,159 +99,281 @@ def press(
     start : (array, array), optional
         p and f to begin with.
     """
+
+    def every(stride: int) -> _Programme:
+        return _Programme(
+            np.ascontiguousarray(z[::stride, ::stride]) if stride > 1 else z,
+            spacing * stride, E_star, c=c[::stride, ::stride], bodies=bodies, load=load, h=h,
+            single=single, workers=workers,
+        )  # fmt: skip
+
     coarse = 0
     n, m = z.shape
     if start is None and min(n, m) >= NESTED_FROM and n % 4 == 0 and m % 4 == 0:
-        for step in (4, 2):
-            found = _press(
-                np.ascontiguousarray(z[::step, ::step]), spacing * step, E_star,
-                c=np.ascontiguousarray(c[::step, ::step]), bodies=bodies, load=load, h=h,
-                tol=max(tol, ROUGH), max_iterations=60, start=start, single=single,
-                workers=workers,
-            )  # fmt: skip
+        for stride in (4, 2):
+            found = _press(every(stride), start, max(tol, ROUGH), max_iterations=60)
             coarse += found.iterations
-            fine = z.shape if step == 2 else (n // 2, m // 2)
-            start = found.p.repeat(2, axis=0).repeat(2, axis=1)[: fine[0], : fine[1]], found.f
-    return _press(
-        z, spacing, E_star, c=c, bodies=bodies, load=load, h=h, tol=tol,
-        max_iterations=max_iterations, start=start, single=single, workers=workers, coarse=coarse,
-    )  # fmt: skip
+            start = found.p.repeat(2, axis=0).repeat(2, axis=1), found.f
+    return dataclasses.replace(_press(every(1), start, tol, max_iterations), coarse=coarse)
 
 
 def _press(
-    z: Array,
-    spacing: float,
-    E_star: float,
-    *,
-    c: Array,
-    bodies: Bodies,
-    load: float | None,
-    h: float | None,
-    tol: float,
-    max_iterations: int,
-    start: tuple[Array, Array] | None,
-    single: bool,
-    workers: int,
-    coarse: int = 0,
+    programme: _Programme, start: tuple[Array, Array] | None, tol: float, max_iterations: int
 ) -> Pressed:
-    space = HalfSpace(z.shape, spacing, E_star, single=single, workers=workers)
-    area = spacing**2
-    placed = Placed(bodies, z.shape, spacing)
-    own = placed.own(space.green(), space.lattice) if len(bodies) else np.empty(0)
-    sigma = float(np.std(z)) or float(np.ptp(z)) or spacing
-    top = placed.at(z) + bodies.lift + bodies.diameter if len(bodies) else np.empty(0)
-    most = bodies.limit / area
-    z, c = np.ascontiguousarray(z), np.ascontiguousarray(c)
-
-    total = None if load is None else load / area
-    if start is None:
-        p, phi = _guess(z, c, bodies, top, most, total, area, E_star, spacing)
-    else:
-        p, phi = np.clip(start[0], 0, c), np.clip(start[1] / area, 0, most)
-    if total is not None:
-        p, phi = _rescaled(p, phi, c, most, total)
-
-    exact = HalfSpace(z.shape, spacing, E_star, workers=workers) if single else space
-
-    def displaced(p: Array, phi: Array) -> Array:
-        return exact.displacement(placed.spread(phi, p) if len(bodies) else p)
-
-    u = displaced(p, phi)
-    level = -h if h is not None else _first_level(p, c, u - z)
-    step = 1.0
-    s = np.zeros_like(p)  # the last clipped step and what it does
-    Ks = np.zeros_like(p)
-    s_k = np.zeros_like(phi)
-    Hs_k = np.zeros_like(phi)
-    sHs = 0.0
-    certificate, iteration, fresh = math.inf, 0, 0
-
+    """The iteration; a is the trial step along d, θ the exact one along s, the clipped a d."""
+    x = programme.first(start)
+    a, last, iterations, judged = 1.0, None, 0, False
     while True:
-        squeeze = bodies.squeeze(phi * area)
-        v = placed.at(u) - own * phi if len(bodies) else phi
-        for last in range(3) if total is not None else range(2, 3):
-            # working set: pixels, then particles
-            where, r, inner, outer, sum_p = _working_set(p, c, u, z, level)
-            available = top + level - v
-            reached = bodies.force(available) / area
-            r_k = available - squeeze
-            can = ((phi > 0) | (reached > 0)) & ~((phi >= most) & (r_k >= 0))
-            M = _secant(bodies, reached - phi, r_k, squeeze, area)
-            y, w = space.sharpen(r, where)
-            y_k, w_k = np.where(can, M * r_k, 0.0), np.where(can, M, 0.0)
-            bottom = float(np.sum(w) + np.sum(w_k))
-            mu = (float(np.sum(y) + np.sum(y_k)) / bottom) if total is not None and bottom else 0.0
-            if last < 2:
-                level -= mu
-        miss = float(np.sum(np.abs(reached - phi) * np.abs(r_k)))
-        weight = sum_p + float(np.sum(phi))
-        excess = inner + outer + miss
-        certificate = excess / (sigma * weight) if weight > 0 else math.inf if excess else 0.0
-        if certificate < tol or iteration >= max_iterations:
-            if fresh or iteration == 0:
+        squeeze = programme.squeeze(x)
+        for levelling in (True, True, False) if programme.total is not None else (False,):
+            A = programme.working_set(x, squeeze)  # no convolution
+            if levelling:
+                x.level -= A.mu
+        certificate = A.certificate(programme.sigma)
+        if certificate < tol or iterations >= max_iterations:
+            if judged or iterations == 0:
                 break
-            fresh, u = 1, displaced(p, phi)  # the answer is judged by displacements of its own
+            judged, x.u = True, programme.displaced(x.p, x.phi)  # the answer has a u of its own
             continue
-        fresh = 0
+        judged = False
 
-        # direction, conjugate to the last clipped step
-        y, y_k = y - mu * w, y_k - mu * w_k
-        Hs = Ks.ravel()[where]
-        beta = 0.0
-        if sHs > 0:
-            beta = max(0.0, -(_dot(y, Hs) + float(np.sum(y_k * Hs_k))) / sHs)
-        r_A = r.ravel()[where]
-        d, d_k = y, y_k
-        if beta > 0:
-            d = y + beta * s.ravel()[where]
-            d_k = np.where(can, y_k + beta * s_k, 0.0)
-            if _dot(d, r_A - mu) + float(np.sum(d_k * np.where(can, r_k - mu, 0.0))) <= 0:
-                d, d_k = y, y_k
-
-        # step, clipped before it is convolved
-        X = np.concatenate([p.ravel()[where], phi])
-        cap = np.concatenate([c.ravel()[where], most])
-        every, tilt = np.concatenate([d, d_k]), np.concatenate([w, w_k])
-        moved = X + step * every
-        if total is not None:
-            moved = _balanced(moved, tilt, cap, float(np.sum(X)))
-        new = np.clip(moved, 0.0, cap)
-        clipped = bool(np.any(new != moved))
-        s = np.zeros_like(p)
-        s.reshape(-1)[where] = new[: len(where)] - X[: len(where)]
-        s_k = new[len(where) :] - phi
-        Ks = space.displacement(placed.spread(s_k, s) if len(bodies) else s)
-        linear = placed.at(Ks) - own * s_k if len(bodies) else s_k
-        Hs_k = linear + np.divide(s_k, M, out=np.zeros_like(M), where=M > 0)
-        quadratic = _dot(s, Ks) + float(np.sum(s_k * linear))
-        sHs = quadratic + float(np.sum(s_k * (Hs_k - linear)))
-        rs = _dot(r, s) + float(np.sum(r_k * s_k))
-        iteration += 1
-        if not (rs > 0 and sHs > 0):
-            if step < 1e-9:
+        s = programme.clipped_step(x, A, _direction(A, last), a)  # the one convolution
+        iterations += 1
+        if not (s.rs > 0 and s.sHs > 0):
+            if a < 1e-9:
                 break
-            step, sHs = step / 2, 0.0
+            a, last = a / 2, None
             continue
-        theta = min(rs / sHs, LONGEST, _room(X, new - X, cap))
-        moving = s_k != 0
-        if np.any(moving):  # the law of a particle is no line: Φ must not rise
-            for _ in range(40):
-                bent = bodies.squeeze((phi + theta * s_k) * area) - squeeze
-                if rs - theta * quadratic - float(np.sum(bent * s_k)) >= -rs:
-                    break
-                theta /= 2
-        p += theta * s
-        np.clip(p, 0.0, c, out=p)
-        phi = np.clip(phi + theta * s_k, 0.0, most)
-        u += theta * Ks
-        step *= float(np.clip(theta, 0.3, 3) if clipped else np.clip(theta, 0.1, 10))
-        if iteration % AFRESH == 0:
-            u = displaced(p, phi)
+        theta = programme.exact_step(x, s, squeeze)
+        programme.move(x, s, theta)
+        a *= float(np.clip(theta, 0.3, 3) if s.clipped else np.clip(theta, 0.1, 10))
+        last = s
+        if iterations % AFRESH == 0:
+            x.u = programme.displaced(x.p, x.phi)
 
     return Pressed(
-        p=p, f=phi * area, squeeze=available, u=u, h=-level, certificate=certificate,
-        iterations=iteration, converged=certificate < tol, coarse=coarse,
+        p=x.p, f=x.phi * programme.area, squeeze=A.available, u=x.u, h=-x.level,
+        certificate=certificate, iterations=iterations, converged=certificate < tol,
     )  # fmt: skip
+
+
+@dataclass(slots=True)
+class _Iterate:
+    """Where the iteration stands: p [Pa] and φ = f/Δ² [Pa], u [m], and λ [m]."""
+
+    p: Array
+    phi: Array
+    u: Array
+    level: float
+
+
+@dataclass(slots=True)
+class _WorkingSet:
+    """Pixels and particles (…_k) that may move, what they lack, and the measure of the error."""
+
+    where: Index
+    """Pixels of the set, flat."""
+    can: NDArray[np.bool_]
+    """Particles of the set."""
+    r: Array
+    """λ − g (n, m) on the set, 0 elsewhere [m]."""
+    r_k: Array
+    available: Array
+    """How far the flat has come below the top of each particle [m]."""
+    M: Array
+    """Secant stiffness of each particle over Δ² [Pa/m]."""
+    y: Array
+    """r, sharpened, on ``where`` [Pa]."""
+    y_k: Array
+    w: Array
+    """1, sharpened [Pa/m]."""
+    w_k: Array
+    mu: float
+    """Σy/Σw where the load is given, else 0 [m]."""
+    excess: float
+    """What is carried times what is lacking, summed [Pa m]."""
+    weight: float
+    """Sum of all pressures [Pa]."""
+
+    def certificate(self, sigma: float) -> float:
+        """ε of `Pressed` [1]."""
+        if self.weight > 0:
+            return self.excess / (sigma * self.weight)
+        return math.inf if self.excess else 0.0
+
+
+@dataclass(slots=True)
+class _Step:
+    """s, clipped before it is convolved, with H s and the slopes of Φ along it."""
+
+    s: Array
+    s_k: Array
+    Ks: Array
+    Hs_k: Array
+    rs: float
+    """r·s, with that of the particles [Pa m]."""
+    sHs: float
+    quadratic: float
+    """s·Hs without the particles' own laws."""
+    room: float
+    """Times s that stays inside the box."""
+    clipped: bool
+
+
+class _Programme:
+    """What is pressed, and the steps of the iteration on it; arguments as those of `press`."""
+
+    def __init__(
+        self,
+        z: Array,
+        spacing: float,
+        E_star: float,
+        *,
+        c: Array,
+        bodies: Bodies,
+        load: float | None,
+        h: float | None,
+        single: bool,
+        workers: int,
+    ):
+        self.bodies, self.h = bodies, h
+        self.area = spacing**2
+        self.total = None if load is None else load / self.area
+        self.sigma = float(np.std(z)) or float(np.ptp(z)) or spacing
+        self.z, self.c = np.ascontiguousarray(z), np.ascontiguousarray(c)
+        self.space = HalfSpace(z.shape, spacing, E_star, single=single, workers=workers)
+        self.exact = HalfSpace(z.shape, spacing, E_star, workers=workers) if single else self.space
+        self.placed = Placed(bodies, z.shape, spacing)
+        self.most = bodies.limit / self.area
+        self.own = self.top = np.empty(0)
+        if len(bodies):
+            self.own = self.placed.own(self.space.green(), self.space.lattice)
+            self.top = self.placed.at(self.z) + bodies.lift + bodies.diameter
+
+    def first(self, start: tuple[Array, Array] | None) -> _Iterate:
+        """A guess, or the start that is given, with the load wanted."""
+        if start is None:
+            p, phi = self._guess()
+        else:
+            p, phi = np.clip(start[0], 0, self.c), np.clip(start[1] / self.area, 0, self.most)
+        if self.total is not None:
+            p, phi = _rescaled(p, phi, self.c, self.most, self.total)
+        u = self.displaced(p, phi)
+        level = -self.h if self.h is not None else _first_level(p, self.c, u - self.z)
+        return _Iterate(p, phi, u, level)
+
+    def _guess(self) -> tuple[Array, Array]:
+        """Where the load may be: in proportion to what stands out above a level."""
+        z, c, E_star, spacing = self.z, self.c, self.space.E_star, self.space.spacing
+        if self.total is None:
+            return np.zeros_like(z), np.zeros(len(self.bodies))
+        along, across = np.mean(np.diff(z, axis=0) ** 2), np.mean(np.diff(z, axis=1) ** 2)
+        slope = math.sqrt(along + across) / spacing
+        firm = min(float(np.max(c)), 0.3 * E_star * max(slope, 1e-12))
+        count = int(min(max(3 * self.total / firm if firm > 0 else 1, 1), 0.5 * z.size))
+        free = np.where(c > 0, z, -math.inf)
+        level = float(np.partition(free.ravel(), z.size - count)[z.size - count])
+        level = max(level, float(np.min(z)))
+        p = np.maximum(free - level, 0.0)
+        p[~np.isfinite(p)] = 0.0
+        if not np.any(p):
+            p[free >= level] = 1.0
+        p *= firm / max(float(np.max(p)), 1e-300)
+        above = np.maximum(self.top - level, 0.0)
+        phi = np.minimum(self.bodies.force(above) / self.area, self.most)
+        return np.minimum(p, c), phi
+
+    def _with_particles(self, p: Array, phi: Array) -> Array:
+        """p + Dφ [Pa]."""
+        return self.placed.spread(phi, p) if len(self.bodies) else p
+
+    def displaced(self, p: Array, phi: Array) -> Array:
+        """u = K(p + Dφ) [m], in float64."""
+        return self.exact.displacement(self._with_particles(p, phi))
+
+    def _beneath(self, u: Array, phi: Array) -> Array:
+        """Displacement under each particle, without the dent that its law counts already [m]."""
+        return self.placed.at(u) - self.own * phi if len(self.bodies) else phi
+
+    def squeeze(self, x: _Iterate) -> Array:
+        """δ of each particle under its force [m]."""
+        return self.bodies.squeeze(x.phi * self.area)
+
+    def working_set(self, x: _Iterate, squeeze: Array) -> _WorkingSet:
+        """What may move at the level λ, pixels and then particles."""
+        phi = x.phi
+        where, r, inner, outer, sum_p = _working_set(x.p, self.c, x.u, self.z, x.level)
+        available = self.top + x.level - self._beneath(x.u, phi)
+        reached = self.bodies.force(available) / self.area
+        r_k = available - squeeze
+        can = ((phi > 0) | (reached > 0)) & ~((phi >= self.most) & (r_k >= 0))
+        M = _secant(self.bodies, reached - phi, r_k, squeeze, self.area)
+        y, w = self.space.sharpen(r, where)
+        y_k, w_k = np.where(can, M * r_k, 0.0), np.where(can, M, 0.0)
+        mu, bottom = 0.0, float(np.sum(w) + np.sum(w_k))
+        if self.total is not None and bottom:
+            mu = float(np.sum(y) + np.sum(y_k)) / bottom
+        miss = float(np.sum(np.abs(reached - phi) * np.abs(r_k)))
+        return _WorkingSet(
+            where=where, can=can, r=r, r_k=r_k, available=available, M=M, y=y, y_k=y_k, w=w,
+            w_k=w_k, mu=mu, excess=inner + outer + miss, weight=sum_p + float(np.sum(phi)),
+        )  # fmt: skip
+
+    def clipped_step(self, x: _Iterate, A: _WorkingSet, d: tuple[Array, Array], a: float) -> _Step:
+        """s = clip(X + a d + ν w, 0, c) − X, ν such that Σs = 0 under a load; and what it does."""
+        count = len(A.where)
+        X = np.concatenate([x.p.ravel()[A.where], x.phi])
+        cap = np.concatenate([self.c.ravel()[A.where], self.most])
+        moved = X + a * np.concatenate(d)
+        if self.total is not None:
+            moved = _balanced(moved, np.concatenate([A.w, A.w_k]), cap, float(np.sum(X)))
+        new = np.clip(moved, 0.0, cap)
+        along = new - X
+        s, s_k = np.zeros_like(x.p), along[count:]
+        s.reshape(-1)[A.where] = along[:count]
+        Ks = self.space.displacement(self._with_particles(s, s_k))
+        linear = self._beneath(Ks, s_k)
+        Hs_k = linear + np.divide(s_k, A.M, out=np.zeros_like(A.M), where=A.M > 0)
+        quadratic = _dot(s, Ks) + _dot(s_k, linear)
+        return _Step(
+            s=s, s_k=s_k, Ks=Ks, Hs_k=Hs_k, rs=_dot(A.r, s) + _dot(A.r_k, s_k),
+            sHs=quadratic + _dot(s_k, Hs_k - linear), quadratic=quadratic,
+            room=_room(X, along, cap), clipped=bool(np.any(new != moved)),
+        )  # fmt: skip
+
+    def exact_step(self, x: _Iterate, s: _Step, squeeze: Array) -> float:
+        """θ = r·s / s·Hs, no further than the box, halved until Φ does not rise."""
+        theta = min(s.rs / s.sHs, LONGEST, s.room)
+        if np.any(s.s_k != 0):  # the law of a particle is no line
+            for _ in range(40):
+                bent = self.bodies.squeeze((x.phi + theta * s.s_k) * self.area) - squeeze
+                if s.rs - theta * s.quadratic - _dot(bent, s.s_k) >= -s.rs:
+                    break
+                theta /= 2
+        return theta
+
+    def move(self, x: _Iterate, s: _Step, theta: float) -> None:
+        """X += θ s and u += θ K s."""
+        x.p += theta * s.s
+        np.clip(x.p, 0.0, self.c, out=x.p)
+        x.phi = np.clip(x.phi + theta * s.s_k, 0.0, self.most)
+        x.u += theta * s.Ks
+
+
+def _direction(A: _WorkingSet, last: _Step | None) -> tuple[Array, Array]:
+    """d = y − μw + β s, conjugate to the last clipped step; without β where it does not descend."""
+    y, y_k = A.y - A.mu * A.w, A.y_k - A.mu * A.w_k
+    if last is None:
+        return y, y_k
+    Hs = last.Ks.ravel()[A.where]
+    beta = max(0.0, -(_dot(y, Hs) + _dot(y_k, last.Hs_k)) / last.sHs)
+    if beta > 0:
+        d = y + beta * last.s.ravel()[A.where]
+        d_k = np.where(A.can, y_k + beta * last.s_k, 0.0)
+        r, r_k = A.r.ravel()[A.where] - A.mu, np.where(A.can, A.r_k - A.mu, 0.0)
+        if _dot(d, r) + _dot(d_k, r_k) > 0:
+            return d, d_k
+    return y, y_k
 
 
 @njit(cache=True)
@@ -375,32 +498,3 @@ def _rescaled(p: Array, phi: Array, c: Array, most: Array, total: float) -> tupl
         room = np.minimum(cap - now, total)
         now = now + lack * room / float(np.sum(room)) if lack > 0 else now * (1 + lack / sum_now)
     return now[: p.size].reshape(p.shape), now[p.size :]
-
-
-def _guess(
-    z: Array,
-    c: Array,
-    bodies: Bodies,
-    top: Array,
-    most: Array,
-    total: float | None,
-    area: float,
-    E_star: float,
-    spacing: float,
-) -> tuple[Array, Array]:
-    """Where the load may be: in proportion to what stands out above a level."""
-    if total is None:
-        return np.zeros_like(z), np.zeros(len(bodies))
-    slope = math.sqrt(np.mean(np.diff(z, axis=0) ** 2) + np.mean(np.diff(z, axis=1) ** 2)) / spacing
-    firm = min(float(np.max(c)), 0.3 * E_star * max(slope, 1e-12))
-    count = int(min(max(3 * total / firm if firm > 0 else 1, 1), 0.5 * z.size))
-    free = np.where(c > 0, z, -math.inf)
-    level = float(np.partition(free.ravel(), z.size - count)[z.size - count])
-    level = max(level, float(np.min(z)))
-    p = np.maximum(free - level, 0.0)
-    p[~np.isfinite(p)] = 0.0
-    if not np.any(p):
-        p[free >= level] = 1.0
-    p *= firm / max(float(np.max(p)), 1e-300)
-    phi = np.minimum(bodies.force(np.maximum(top - level, 0.0)) / area, most)
-    return np.minimum(p, c), phi

@@ -13,6 +13,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..equilibrium.columns import _mode
 from ..equilibrium.modes import EPS_1, EPS_2
+from ..equilibrium.solve import only_one
 from ..errors import InvalidValue, RangeWarning
 from ..laws.base import REGIMES
 from ..quantities.say import number, percent, plural
@@ -287,15 +288,7 @@ def _asked(
     pressure: ArrayLike | None, F_star: ArrayLike | None, h: ArrayLike | None
 ) -> tuple[str, Array, bool]:
     """Which quantity is given, its values, and whether it was one number."""
-    given = {
-        name: value
-        for name, value in (("pressure", pressure), ("F_star", F_star), ("h", h))
-        if value is not None
-    }
-    if len(given) != 1:
-        names = ", ".join(given) or "none"
-        raise InvalidValue(f"give exactly one of pressure, F_star, h; got {names}")
-    ((name, value),) = given.items()
+    name, value = only_one(pressure=pressure, F_star=F_star, h=h)
     try:
         if np.asarray(value).dtype.kind in "USOb":
             raise TypeError

@@ -23,7 +23,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
+from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule
+from ..populations.shape import Sphere
 from ..quantities.value import Value, choice, quantity
 from .spots import ParticleSpots
 
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
     from ..populations.materials import Material, MaterialPair
     from ..populations.particles import Particles
     from ..populations.roughness import Roughness
+    from ..populations.shape import Angular, Shape
 
     Array = NDArray[np.float64]
     Number = float | Array
@@ -331,6 +334,8 @@ class OneParticle(ABC):
         Indentation of first yield over x, on each side [1].
     hardness : (float, float)
         Of the softer body of each side [Pa].
+    shape : Angular, optional
+        Of particles that are not round.
     """
 
     kinks: Sequence[float] | Array
@@ -339,6 +344,7 @@ class OneParticle(ABC):
     tip_radius: float = 0.5
     yields: tuple[float, float]
     hardness: tuple[float, float]
+    shape: Angular | None = None
 
     @abstractmethod
     def at(self, eps: Array) -> Squeezed:
@@ -391,6 +397,7 @@ class OneParticle(ABC):
             regimes=(regimes[0], regimes[1]),
             yields=self.yields,
             hardness=self.hardness,
+            shape=self.shape,
         )
 
 
@@ -421,6 +428,15 @@ class AbstractParticleLaw(Law):
     @abstractmethod
     def one(self, *, surfaces: MaterialPair, particle: Material) -> OneParticle:
         """One particle of unit size of this material between these surfaces."""
+
+    def of_shape(self, shape: Shape) -> AbstractParticleLaw:
+        """This law for particles of a shape; those of a `Sphere` are what it is written for."""
+        if isinstance(shape, Sphere):
+            return self
+        raise InvalidValue(
+            f"Particles.shape: particles of the law {self.name} have a shape of their own; use "
+            "particle.Series, or remove shape"
+        )
 
     def single(
         self, x: ArrayLike, gap: ArrayLike, *, surfaces: MaterialPair, particle: Material

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from ..populations.materials import Material
     from ..populations.particles import Particles
+    from ..populations.shape import Angular
 
     Array = NDArray[np.float64]
 
@@ -77,6 +78,8 @@ class ParticleSpots(Spots):
         Indentation of first yield over the diameter.
     hardness : two floats
         Of the softer body of each contact [Pa].
+    shape : Angular or None
+        Of particles that are not round.
     material : Material
         Of the particles.
     population : Particles
@@ -93,10 +96,16 @@ class ParticleSpots(Spots):
     regimes: tuple[NDArray[np.intp], NDArray[np.intp]]
     yields: tuple[float, float]
     hardness: tuple[float, float]
+    shape: Angular | None = None
     material: Material | None = None
     population: Particles | None = None
     parents: Array | None = None
     survival: Array | None = None
+
+    @property
+    def half(self) -> Array:
+        """Depth at which a side of a particle has sunk in (M, n) [m]: its radius if it is round."""
+        return self.radius if self.shape is None else 0.5 * self.x
 
     def thinned(self, factor: Array) -> Self:
         """A part of the spots of each state: factor (N,)."""

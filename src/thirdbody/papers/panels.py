@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..quantities.files import whole
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 __all__ = ["Line", "Panel", "draw", "save", "table_of"]
@@ -56,12 +57,6 @@ class Panel:
 def draw(panel: Panel) -> Figure:
     """The panel as a matplotlib figure, without any global state."""
     from matplotlib.figure import Figure
-    from matplotlib.ticker import (
-        FormatStrFormatter,
-        LogFormatterMathtext,
-        LogLocator,
-        NullFormatter,
-    )
 
     from ..views.plot.style import OKABE_ITO
 
@@ -82,6 +77,33 @@ def draw(panel: Panel) -> Figure:
             label=line.label,
             zorder=2 if bare else 3,
         )
+    _dress(ax, panel)
+    tall = figure.get_figheight()
+    figure.text(
+        0.02, 1 - 0.17 / tall, f"Fig. {panel.name}: {panel.about}", fontsize=10, va="center"
+    )
+    figure.text(0.02, 0.07 / tall, panel.note, va="bottom", fontsize=7.5, color="0.3")
+    figure.legend(
+        *ax.get_legend_handles_labels(),
+        loc="upper left",
+        bbox_to_anchor=(0.64, 0.92),
+        frameon=False,
+        fontsize=7.8,
+        handlelength=2.6,
+        labelspacing=0.6,
+    )
+    return figure
+
+
+def _dress(ax: Axes, panel: Panel) -> None:
+    """Scales, limits, names and grid."""
+    from matplotlib.ticker import (
+        FormatStrFormatter,
+        LogFormatterMathtext,
+        LogLocator,
+        NullFormatter,
+    )
+
     if panel.xlog:
         ax.set_xscale("log")
         ax.xaxis.set_major_formatter(LogFormatterMathtext())
@@ -101,21 +123,6 @@ def draw(panel: Panel) -> Figure:
     ax.tick_params(which="both", direction="in", top=True, right=True)
     ax.grid(visible=True, which="major", color="0.92", linewidth=0.6)
     ax.set_axisbelow(True)
-    tall = figure.get_figheight()
-    figure.text(
-        0.02, 1 - 0.17 / tall, f"Fig. {panel.name}: {panel.about}", fontsize=10, va="center"
-    )
-    figure.text(0.02, 0.07 / tall, panel.note, va="bottom", fontsize=7.5, color="0.3")
-    figure.legend(
-        *ax.get_legend_handles_labels(),
-        loc="upper left",
-        bbox_to_anchor=(0.64, 0.92),
-        frameon=False,
-        fontsize=7.8,
-        handlelength=2.6,
-        labelspacing=0.6,
-    )
-    return figure
 
 
 def table_of(panel: Panel) -> str:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterator
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -21,6 +22,7 @@ import numpy as np
 import thirdbody as tb
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 __all__ = ["STATED_AGREEMENT", "contact", "explicit_particles", "figure", "main"]
@@ -111,94 +113,98 @@ def figure(*, h_0: float = 2.5, loads: np.ndarray | None = None) -> Figure:
     3
     """
     from matplotlib.figure import Figure
-    from matplotlib.ticker import FuncFormatter
 
-    from ..views.plot.style import AXIS_LABELS, OKABE_ITO
+    from ..views.plot.style import AXIS_LABELS
 
     loads = np.geomspace(5e-7, 6e-4, 160) if loads is None else loads
     sigma = explicit_particles()["parameters"]["sigma"]
-    lines = {
-        "rough": ("at a random place on the rough surface", OKABE_ITO["blue"], "-", 2.2),
-        "plane": ("on the mean asperity plane", OKABE_ITO["vermilion"], "--", 1.4),
-        "offset": (
-            rf"on the asperity tops ($h_0$ = {h_0:g} $\sigma$)",
-            OKABE_ITO["green"],
-            "-.",
-            1.4,
-        ),
-    }
     out = Figure(figsize=(7.6, 3.2), dpi=150, layout="constrained")
     panels = out.subplots(1, 3, sharey=True)
-    handles = []
+    handles: list[Any] = []
     for ax, diameter in zip(panels, STATED_AGREEMENT, strict=True):
-        for seat, (words, colour, dash, width) in lines.items():
-            height = h_0 * sigma if seat == "offset" else 0.0
-            share = tb.solve(contact(diameter, seat, height), F_star=loads).particle_load_share
-            share = np.where(np.asarray(share) > 0, share, np.nan)
-            if np.all(np.isnan(share)):
-                ax.text(
-                    0.97,
-                    0.035,
-                    "on the mean asperity plane: no load at all",
-                    color=colour,
-                    fontsize="x-small",
-                    transform=ax.transAxes,
-                    ha="right",
-                )
-            (line,) = ax.plot(
-                loads,
-                share,
-                color=colour,
-                linestyle=dash,
-                linewidth=width,
-                label=f"model, particles {words}",
-            )
-            if ax is panels[0]:
-                handles.append(line)
-        points = [p for p in explicit_particles()["points"] if p["diameter"] == diameter]
-        for key, words, style in (
-            (
-                "raw",
-                "explicit particles, as computed",
-                dict(color="0.55", marker="s", markersize=4, markerfacecolor="white", zorder=4),
-            ),
-            (
-                "control_variate",
-                "explicit particles, sampling luck removed",
-                dict(color="black", marker="o", markersize=5, zorder=5),
-            ),
-        ):
-            given = [p for p in points if p[key] is not None]
-            bars = ax.errorbar(
-                [p["F_star"] for p in given],
-                [p[key]["load_share"] for p in given],
-                yerr=[p[key]["load_share_error"] for p in given],
-                linestyle="none",
-                capsize=2.5,
-                elinewidth=1.0,
-                label=words,
-                **style,
-            )
-            if ax is panels[0]:
-                handles.append(bars)
-        ax.set_xscale("log")
-        ax.set_yscale("log")
-        ax.set_ylim(0.007, 1.4)
-        ax.set_xlim(loads[0], loads[-1])
+        shown = [*_draw_model(ax, diameter, loads, h_0), *_draw_explicit(ax, diameter)]
+        handles = handles or shown
         ax.set_title(
             rf"$x/\sigma$ = {diameter / sigma:.2g}   ($x$ = {diameter * 1e9:.0f} nm)",
             fontsize="medium",
         )
-        ax.grid(visible=True, color="0.9", linewidth=0.6)
-        ax.set_axisbelow(True)
-        ax.tick_params(which="both", direction="in", top=True, right=True)
-        ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}"))
+        _dress(ax, loads)
     panels[0].set_ylabel(AXIS_LABELS["particle_load_share"])
     panels[1].set_xlabel(AXIS_LABELS["F_star"])
     out.legend(
         handles=handles, loc="outside lower center", ncols=2, frameon=False, fontsize="small"
     )
     return out
+
+
+def _draw_model(ax: Axes, diameter: float, loads: np.ndarray, h_0: float) -> Iterator[Any]:
+    """A line a seat; ``h_0`` is over σ."""
+    from ..views.plot.style import OKABE_ITO
+
+    sigma = explicit_particles()["parameters"]["sigma"]
+    blue, vermilion, green = (OKABE_ITO[name] for name in ("blue", "vermilion", "green"))
+    for seat, words, colour, dash, width in (
+        ("rough", "at a random place on the rough surface", blue, "-", 2.2),
+        ("plane", "on the mean asperity plane", vermilion, "--", 1.4),
+        ("offset", rf"on the asperity tops ($h_0$ = {h_0:g} $\sigma$)", green, "-.", 1.4),
+    ):
+        height = h_0 * sigma if seat == "offset" else 0.0
+        share = tb.solve(contact(diameter, seat, height), F_star=loads).particle_load_share
+        share = np.where(np.asarray(share) > 0, share, np.nan)
+        if np.all(np.isnan(share)):
+            ax.text(
+                0.97,
+                0.035,
+                "on the mean asperity plane: no load at all",
+                color=colour,
+                fontsize="x-small",
+                transform=ax.transAxes,
+                ha="right",
+            )
+        (line,) = ax.plot(
+            loads,
+            share,
+            color=colour,
+            linestyle=dash,
+            linewidth=width,
+            label=f"model, particles {words}",
+        )
+        yield line
+
+
+def _draw_explicit(ax: Axes, diameter: float) -> Iterator[Any]:
+    """The stored runs with their errors, as computed and without the luck of sampling."""
+    points = [p for p in explicit_particles()["points"] if p["diameter"] == diameter]
+    raw: dict[str, Any] = dict(color="0.55", marker="s", markersize=4, zorder=4)
+    fair: dict[str, Any] = dict(color="black", marker="o", markersize=5, zorder=5)
+    for key, words, style in (
+        ("raw", "explicit particles, as computed", raw | {"markerfacecolor": "white"}),
+        ("control_variate", "explicit particles, sampling luck removed", fair),
+    ):
+        given = [p for p in points if p[key] is not None]
+        yield ax.errorbar(
+            [p["F_star"] for p in given],
+            [p[key]["load_share"] for p in given],
+            yerr=[p[key]["load_share_error"] for p in given],
+            linestyle="none",
+            capsize=2.5,
+            elinewidth=1.0,
+            label=words,
+            **style,
+        )
+
+
+def _dress(ax: Axes, loads: np.ndarray) -> None:
+    from matplotlib.ticker import FuncFormatter
+
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_ylim(0.007, 1.4)
+    ax.set_xlim(loads[0], loads[-1])
+    ax.grid(visible=True, color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
+    ax.tick_params(which="both", direction="in", top=True, right=True)
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}"))
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -12,6 +12,7 @@ from ..quantities.value import Value, quantity
 from .distributions import Distribution
 from .materials import Material
 from .measured import cleanliness
+from .shape import SPHERE, Angular, Sphere
 from .strength import WeibullStrength
 
 __all__ = ["Particles"]
@@ -19,7 +20,7 @@ __all__ = ["Particles"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Particles(Value):
-    """A population of spherical particles in the interface.
+    """A population of particles in the interface.
 
     Parameters
     ----------
@@ -35,6 +36,8 @@ class Particles(Value):
         What one of these particles does; without it the particle law of the contact.
     strength : WeibullStrength, optional
         How strong the particles are: they break as the gap closes. Without it they never do.
+    shape : Sphere or Angular, optional
+        Round, the default, or a rounded tip and faces on each side.
 
     Raises
     ------
@@ -59,6 +62,7 @@ class Particles(Value):
     name: str = ""
     law: Value | None = None
     strength: WeibullStrength | None = None
+    shape: Sphere | Angular = SPHERE
 
     def _problems(self) -> list[str]:
         out: list[str] = []
@@ -70,6 +74,11 @@ class Particles(Value):
             out.append(
                 f"Particles.strength = {self.strength!r} must be a WeibullStrength, e.g. "
                 "WeibullStrength.of(material), or None"
+            )
+        if not isinstance(self.shape, Sphere | Angular):
+            out.append(
+                f"Particles.shape = {self.shape!r} must be Sphere() or "
+                "Angular(roundness=..., angle=...)"
             )
         if not out and self.coverage >= 1:
             out.append(
@@ -121,7 +130,7 @@ class Particles(Value):
         particle_density, oil_density : float or str, optional
             ρ_p, by default that of the material, needed for a mass; ρ_f, 870 by default [kg/m³].
         **others
-            ``name`` and ``law``, as in the class.
+            ``name``, ``law``, ``strength`` and ``shape``, as in the class.
 
         Raises
         ------
@@ -182,7 +191,7 @@ class Particles(Value):
         smallest, largest : float or str, optional
             Ends of the sizes [m]: 4 µm and 70 µm by default.
         **others
-            ``name`` and ``law``, as in the class.
+            ``name``, ``law``, ``strength`` and ``shape``, as in the class.
 
         Raises
         ------

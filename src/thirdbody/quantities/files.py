@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import os
 import secrets
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from ..errors import InvalidValue
 
-__all__ = ["whole", "write_text"]
+__all__ = ["csv_of", "need_folders", "whole", "with_units", "write_text"]
 
 
 @contextmanager
@@ -106,3 +109,36 @@ def _why(error: OSError, target: Path) -> str:
     if isinstance(error, (FileNotFoundError, NotADirectoryError)):
         return f"there is no folder {target.parent}; make it first"
     return (error.strerror or str(error)).lower()
+
+
+def with_units(
+    columns: Mapping[str, Sequence[Any]], units: Mapping[str, str]
+) -> dict[str, Sequence[Any]]:
+    """The same columns with their unit in their names, where they have one.
+
+    Examples
+    --------
+    >>> list(with_units({"d": [1e-7], "mode": ["s-s"]}, {"d": "m"}))
+    ['d [m]', 'mode']
+    """
+    return {
+        f"{name} [{units[name]}]" if units.get(name) else name: values
+        for name, values in columns.items()
+    }
+
+
+def csv_of(columns: Mapping[str, Sequence[Any]]) -> str:
+    """Columns as comma-separated values; None is an empty cell.
+
+    Examples
+    --------
+    >>> print(csv_of({"d [m]": [1e-7, None], "mode": ["s-s", "p-s"]}), end="")
+    d [m],mode
+    1e-07,s-s
+    ,p-s
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(zip(*columns.values(), strict=True))
+    return text.getvalue()

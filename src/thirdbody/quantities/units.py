@@ -28,6 +28,7 @@ EXAMPLES = {
     "J/kg/K": '"460 J/kg/K"',
     "ohm*m": '"2e-7 ohm*m"',
     "Pa m^0.5": '"1.2 MPa m^0.5"',
+    "rad": '"25 deg"',
     "N": '"20 N"',
     "m/s": '"0.5 m/s"',
     "Pa s": '"20 mPa s"',
@@ -63,6 +64,7 @@ _KINDS = {
     "Pa*s": "a viscosity",
     "Pa s": "a viscosity",
     "Pa m**0.5": "a fracture toughness",
+    "rad": "an angle",
     "1/Pa": "one over a pressure",
     "A": "an electric current (angstrom is written angstrom)",
 }

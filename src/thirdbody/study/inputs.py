@@ -17,6 +17,7 @@ from .fields import filled_in, idle
 from .laws import class_of
 from .particles import populations
 from .reader import get
+from .shape import SHAPES
 from .vocabulary import DISTRIBUTIONS
 
 __all__ = ["Input", "field_of", "inputs_of"]
@@ -46,7 +47,7 @@ class Input:
 
 def field_of(table: str, key: str) -> str:
     """The dotted name of a field: sizes stand beside the other keys of [particles] in a file."""
-    own = {item.name for item in dataclasses.fields(Particles)}
+    own = {item.name for item in dataclasses.fields(Particles)} - {"shape"}  # a number of sizes
     if re.fullmatch(r"particles(\.\d+)?", table) and key not in own:
         return f"{table}.diameter.{key}"
     return f"{table}.{key}"
@@ -87,6 +88,8 @@ def _kinds(whole: dict[str, Any]) -> list[tuple[str, type]]:
         found += [(path, Particles), (path, sizes), (f"{path}.material", Material)]
         if get(table, "strength") is not None:
             found.append((f"{path}.strength", WeibullStrength))
+        if isinstance(word := get(get(table, "shape"), "kind"), str):
+            found.append((f"{path}.shape", SHAPES.get(word)))
         if get(table, "law") is not None:
             found.append((f"{path}.law", class_of(table["law"], particle.REGISTRY)))
     if any(get(table, "law") is None for table in tables.values()):

@@ -13,6 +13,7 @@ from .concentration import amount, laden
 from .counted import COUNTED, counted
 from .laws import particle_law
 from .reader import Key, Reader, Table, get
+from .shape import OF_SIZES, shape
 from .strength import strength
 from .vocabulary import DISTRIBUTIONS
 
@@ -55,6 +56,7 @@ def _population(reader: Reader, path: str, data: Any) -> Any:
         about=f'{own["areal_density"].about}, or concentration = "0.1 wt%" with gap = "1 um"'
     )
     complete = strength(reader, path, get(data, "strength"), own)
+    shape(reader, path, data, own)
     own["law"] = Key(_law(reader, f"{path}.law", get(data, "law")), False, LAW)
     given = [key for key in ("distribution", *COUNTED) if get(data, key) is not None]
     kind = given[0] if given else "distribution"
@@ -71,6 +73,8 @@ def _population(reader: Reader, path: str, data: Any) -> Any:
         if wrong:
             raise InvalidValue(*wrong)
         mine = {key: values.pop(key) for key in own if key in values}
+        if OF_SIZES in mine:
+            values["shape"] = mine.pop(OF_SIZES)
         diameter = reader.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
         return laden(reader, path, mine, diameter)
 

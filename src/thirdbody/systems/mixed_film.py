@@ -30,7 +30,7 @@ from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import solve
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
-from ..populations.heights import GaussianHeights, Heights
+from ..populations.heights import GaussianHeights
 from .film_formulas import AbstractFilm, Line, Oil, Point, full_range
 
 if TYPE_CHECKING:
@@ -306,47 +306,22 @@ def mixed_film(
     ([0.01, 0.535], ['boundary', 'mixed'])
     """
     w, u, scalar = _given(load, speed)
-    film = film or full_range(getattr(conjunction, "shape", "point"))
-    _check(contact, conjunction, oil, film, slide_roll, hertz, (few, most))
-    bound = interface(contact)
-    sigma, E = contact.roughness.sigma, 2 * contact.E_ss
-    dry = conjunction.hertz(w, E=E)
-    p = dry.mean if hertz == "mean" else dry.maximum
-
-    def thickness(x: Array) -> Array:
-        return _thickness(film, conjunction, oil, w, u, E, np.exp(x))
-
-    # deeper than this every asperity is crushed: more load than any film leaves to the solids
-    floor = bound.asperities.centre + DEEPEST * sigma
+    bodies = lubricated(contact, conjunction, oil, w, film, slide_roll, hertz, (few, most))
+    sigma, p = contact.roughness.sigma, bodies.p
 
     def excess(x: Array) -> Array:
-        d = np.maximum(height_of(thickness(x), sigma=sigma) - bound.mean_plane, floor)
-        return bound.load(d)[:, 0] / p + np.expm1(-x)
+        h = height_of(bodies.thickness(u, np.exp(x)), sigma=sigma)
+        return bodies.solid_share(h) + np.expm1(-x)
 
     x = _root(excess, len(w), u)
-    h_T = thickness(x)
+    h_T = bodies.thickness(u, np.exp(x))
     h = height_of(h_T, sigma=sigma)
-    with warnings.catch_warnings(record=True) as heard:
-        warnings.simplefilter("always", RangeWarning)
-        state = solve(contact, d=h - bound.mean_plane)
-    notes = [str(each.message) for each in heard if issubclass(each.category, RangeWarning)]
-    notes += _ranges(
-        film,
-        conjunction,
-        oil,
-        w,
-        u,
-        E,
-        h_T / sigma,
-        load_scan(bound).monotone,
-        contact.roughness.heights,
-    )
+    d = h - interface(contact).mean_plane
+    state, notes = _solve_heard(contact, d)
+    notes += _ranges(bodies, u, h_T / sigma)
 
     film_share = np.exp(-x)
     ss, sa = (np.asarray(part) * contact.E_ss / p for part in (state.F_ss_star, state.F_sa_star))
-    solids = ss + sa
-    viscosity = oil.at(p * film_share)
-    traction = _traction(oil, state, slide_roll, u, h_T, p * film_share, p, (ss, sa))
     sizes = [each.diameter.mean_diameter for each in contact.populations]
     columns: dict[str, Any] = {
         "speed": u,
@@ -354,7 +329,7 @@ def mixed_film(
         "pressure": p,
         "h": h,
         "h_T": h_T,
-        "h_smooth": thickness(np.zeros_like(x)),
+        "h_smooth": bodies.thickness(u, np.ones_like(x)),
         "lambda_ratio": h_T / sigma,
         "H": h / sigma,
         "h_over_x": h / max(sizes) if sizes else np.full_like(h, np.nan),
@@ -365,41 +340,89 @@ def mixed_film(
         "A_t": state.A_t,
         "A_ss": state.A_ss,
         "A_sa": state.A_sa,
-        **traction,
-        "viscosity": viscosity,
-        "regime": _regimes(solids, few, most),
-        "residual": np.abs(film_share + solids - 1),
+        **_traction(oil, state, slide_roll, u, h_T, p * film_share, p, (ss, sa)),
+        "viscosity": oil.at(p * film_share),
+        "regime": _regimes(ss + sa, few, most),
+        "residual": np.abs(film_share + (ss + sa) - 1),
     }
     for sentence in notes:
         warnings.warn(sentence, RangeWarning, stacklevel=2)
     if scalar:
         columns = {name: np.asarray(values)[0].item() for name, values in columns.items()}
-        state = solve_quietly(contact, float(h[0] - bound.mean_plane))
+        state, _ = _solve_heard(contact, float(d[0]))
     return MixedFilm(**columns, state=state, warnings=tuple(dict.fromkeys(notes)))
 
 
-def _thickness(
-    film: AbstractFilm, conjunction: Point | Line, oil: Oil, w: Any, u: Any, E: float, gamma: Any
-) -> Array:
-    """The film as if load and modulus were γ times smaller [m]."""
-    return np.asarray(
-        film.central(
-            load=conjunction.intensity(w) / gamma,
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Lubricated:
+    """Bodies, oil and loads, at any speed.
+
+    Attributes
+    ----------
+    w : array (N,)
+        Load [N].
+    p : array (N,)
+        Nominal pressure of film and solids [Pa].
+    """
+
+    contact: Contact
+    conjunction: Point | Line
+    oil: Oil
+    film: AbstractFilm
+    w: Array
+    p: Array
+
+    def operation(self, u: Array, gamma: Any = 1.0) -> dict[str, Any]:
+        """What a film formula asks for, as if load and modulus were γ times smaller."""
+        return dict(
+            load=self.conjunction.intensity(self.w) / gamma,
             speed=u,
-            eta=oil.eta,
-            alpha=oil.alpha,
-            R=conjunction.R,
-            E=E / gamma,
-            ratio=conjunction.ratio,
+            eta=self.oil.eta,
+            alpha=self.oil.alpha,
+            R=self.conjunction.R,
+            E=2 * self.contact.E_ss / gamma,
+            ratio=self.conjunction.ratio,
         )
-    )
+
+    def thickness(self, u: Array, gamma: Array) -> Array:
+        """The film as if load and modulus were γ times smaller [m]."""
+        return np.asarray(self.film.central(**self.operation(u, gamma)))
+
+    @property
+    def floor(self) -> float:
+        """Separation d below which all asperities are crushed, which no film asks for [m]."""
+        return interface(self.contact).asperities.centre + DEEPEST * self.contact.roughness.sigma
+
+    def solid_share(self, h: Array) -> Array:
+        """Load of asperities and particles at h above the mean plane [m], over the load."""
+        bound = interface(self.contact)
+        return bound.load(np.maximum(h - bound.mean_plane, self.floor))[:, 0] / self.p
 
 
-def solve_quietly(contact: Contact, d: float) -> Equilibrium:
-    """One state whose warnings were given already."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)
-        return solve(contact, d=d)
+def lubricated(
+    contact: Contact,
+    conjunction: Point | Line,
+    oil: Oil,
+    w: Array,
+    film: AbstractFilm | None,
+    slide_roll: float | None,
+    hertz: str,
+    shares: tuple[float, float],
+) -> Lubricated:
+    """Arguments of `mixed_film`, checked, with loads (N,)."""
+    film = film or full_range(getattr(conjunction, "shape", "point"))
+    _check(contact, conjunction, oil, film, slide_roll, hertz, shares)
+    dry = conjunction.hertz(w, E=2 * contact.E_ss)
+    p = dry.mean if hertz == "mean" else dry.maximum
+    return Lubricated(contact=contact, conjunction=conjunction, oil=oil, film=film, w=w, p=p)
+
+
+def _solve_heard(contact: Contact, d: float | Array) -> tuple[Equilibrium, list[str]]:
+    """States at separations d [m], and what they warn of."""
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", RangeWarning)
+        state = solve(contact, d=d)
+    return state, [str(each.message) for each in heard if issubclass(each.category, RangeWarning)]
 
 
 def _given(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, bool]:
@@ -492,28 +515,11 @@ def _root(excess: Any, count: int, speed: Array) -> Array:
     return 0.5 * (low + high)
 
 
-def _ranges(
-    film: AbstractFilm,
-    conjunction: Point | Line,
-    oil: Oil,
-    w: Array,
-    u: Array,
-    E: float,
-    ratio: Array,
-    monotone: bool,
-    heights: Heights,
-) -> list[str]:
-    """Where the model is extrapolated, one sentence each."""
-    at = full_range(conjunction.shape).asymptotes(
-        load=conjunction.intensity(w),
-        speed=u,
-        eta=oil.eta,
-        alpha=oil.alpha,
-        R=conjunction.R,
-        E=E,
-        ratio=conjunction.ratio,
-    )
-    out = film.warnings(at.regime, conjunction.ratio)
+def _ranges(bodies: Lubricated, u: Array, ratio: Array) -> list[str]:
+    """Where the model is extrapolated, one sentence each; the ratio is that of film and σ."""
+    conjunction, heights = bodies.conjunction, bodies.contact.roughness.heights
+    at = full_range(conjunction.shape).asymptotes(**bodies.operation(u))
+    out = bodies.film.warnings(at.regime, conjunction.ratio)
     if np.any(ratio < 1):
         out.append(
             f"mixed_film: the film is down to {float(ratio.min()):.2g} sigma; below 1 sigma "
@@ -524,7 +530,7 @@ def _ranges(
             "mixed_film: the mean gap is that of a Gaussian surface, and the asperities here have "
             f"{type(heights).__name__}"
         )
-    if not monotone:
+    if not load_scan(interface(bodies.contact)).monotone:
         out.append(
             "mixed_film: the load of these particles does not fall with the separation, so "
             "another balance may exist"

@@ -13,22 +13,27 @@ makes depths upper bounds.
 from __future__ import annotations
 
 import math
+import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 
+from ..contact.broken_averages import broken_average
 from ..effects.single.dent import Dent, dent_of, dents_after, flattened_diameter
-from ..effects.single.ploughing import groove_area
+from ..effects.single.ploughing import groove_of
 from ..effects.single.severity import severity, threshold
-from ..errors import InvalidValue
+from ..errors import InvalidValue, RangeWarning
 from ..laws.asperity.hermite import Hermite
 from ..laws.base import AbstractAsperityLaw
+from ..laws.particle.breakage import Breakage, about_strength
 from ..laws.particle.one_particle import contact_sides, squeezed_particle
 from ..numerics.quadrature import panel_rule, subdivide
 from ..populations.distributions import Distribution
 from ..populations.materials import Material, MaterialPair
 from ..populations.measured.cleanliness import suspension_of_iso4406
+from ..populations.strength import WeibullStrength
 from ..quantities.units import to_si
 from ..quantities.value import Value, choice, quantity
 
@@ -146,6 +151,15 @@ class FilmParticles(Value):
         Removed fraction of a groove [1]; needed with slip.
     law : AbstractAsperityLaw, optional
         Of each contact of a particle.
+    strength : WeibullStrength, optional
+        How strong the particles are: what breaks on the way down to the film leaves pieces there,
+        which may break again. Dents, footprints and the index are then of what is whole.
+
+    Warns
+    -----
+    RangeWarning
+        Sizes outside those of the strength data, and what else `thirdbody.solve` says of a
+        strength.
 
     Examples
     --------
@@ -170,6 +184,12 @@ class FilmParticles(Value):
     slip: float = quantity("s", "m", "sliding distance under a passing particle", default=0, ge=0)
     f_ab: float | None = quantity("f_ab", "1", "removed part of a groove", default=None, ge=0, le=1)
     law: AbstractAsperityLaw = field(default_factory=Hermite)
+    strength: WeibullStrength | None = None
+
+    def __post_init__(self) -> None:
+        Value.__post_init__(self)
+        for text in about_strength(self, self.surfaces):
+            warnings.warn(text, RangeWarning, stacklevel=3)
 
     def _problems(self) -> list[str]:
         out = [
@@ -186,6 +206,16 @@ class FilmParticles(Value):
             out.append(
                 f"FilmParticles.fragment = {self.fragment!r} with debris = {self.debris!r}: "
                 "brittle particles, and only those, need the size of their fragments [m]"
+            )
+        if not isinstance(self.strength, WeibullStrength | None):
+            out.append(
+                f"FilmParticles.strength = {self.strength!r} must be a WeibullStrength, e.g. "
+                "WeibullStrength.of(material), or None"
+            )
+        elif self.strength is not None and self.fragment is not None:
+            out.append(
+                f"FilmParticles.strength and fragment = {self.fragment:g} would break the "
+                "particles twice; remove one"
             )
         if self.slip > 0 and self.f_ab is None:
             out.append(
@@ -234,6 +264,9 @@ class FilmParticles(Value):
 
     def _pressed(self, x: float) -> float:
         """Particles or fragments larger than x per particle of the oil."""
+        if self.strength is not None:
+            sizes, number, _ = self._pieces([x])
+            return float(number[sizes > x].sum())
         x, size = max(x, self.film), self.fragment
         if size is None:
             return self._share(x, 0)
@@ -251,6 +284,41 @@ class FilmParticles(Value):
         return float(
             brentq(lambda x: self._pressed(x) - count, lowest, top, xtol=1e-16, rtol=1e-13)
         )
+
+    def _pieces(self, ends: Sequence[float]) -> tuple[Array, Array, tuple[float, float]]:
+        """Whole particles and pieces in the film, for sums whose panels end at sizes [m].
+
+        Sizes, numbers per particle of the oil, and of the particles that were pressed how many
+        there were and how many broke.
+        """
+        assert self.strength is not None
+        size, number, pressed, broken = [np.empty(0)], [np.empty(0)], 0.0, 0.0
+        eps = [1 - self.film / end for end in ends if end > self.film]
+        for share, part in self.diameter.components:
+            scale, shape = part.standardised()
+            gap, top = self.film / scale, shape.support[1]
+            if gap >= top:
+                continue
+            breakage = Breakage.of(self.strength, self.material, scale)
+            average = broken_average(self._particle(), shape, breakage)
+            found = average.pieces(
+                np.array([[gap]]), np.array([[top - gap]]), eps,
+                nodes=NODES, squeezes=average.squeezes,
+            )  # fmt: skip
+            here = found.delta > 0
+            size.append(scale * found.x[here])
+            number.append(share * found.number[here])
+            pressed += share * float(found.parents[here].sum())
+            broken += share * float((found.parents * (1 - found.survival))[here].sum())
+        return np.concatenate(size), np.concatenate(number), (pressed, broken)
+
+    @property
+    def broken_share(self) -> float:
+        """Broken ones of the particles larger than the film, by number; 0 without a strength."""
+        if self.strength is None:
+            return 0.0
+        pressed, broken = self._pieces([])[2]
+        return broken / pressed if pressed else 0.0
 
     # -------------------------------------------------------------------------- dents
     def single(self, x: ArrayLike) -> ParticleSpots:
@@ -270,17 +338,25 @@ class FilmParticles(Value):
         particle = self._particle()
         if not self.material.H > particle.sides[side].H:
             return math.inf
+        return self._sunk(side, float(particle.sides[side].delta_1))
+
+    def _sunk(self, side: int, depth: float) -> float:
+        """Smallest size that sits so deep in a side, over its size; infinite for none."""
         from scipy.optimize import brentq
 
-        first = float(particle.sides[side].delta_1)
-        eps = float(
-            brentq(
-                lambda e: float(particle.indentations(np.array([e]))[side][0]) / first - 1,
-                *(particle.kinks[0] * 1e-9, particle.kinks[-1]),
-                xtol=1e-16,
-            )
-        )
+        particle = self._particle()
+
+        def excess(eps: float) -> float:
+            return float(particle.indentations(np.array([eps]))[side][0]) / depth - 1
+
+        if excess(particle.kinks[-1]) <= 0:
+            return math.inf
+        eps = float(brentq(excess, particle.kinks[0] * 1e-9, particle.kinks[-1], xtol=1e-16))
         return self.film / (1 - eps) if eps < 1 else math.inf
+
+    def _half(self, side: int) -> float:
+        """Smallest size that sits half its radius deep in a side."""
+        return self._sunk(side, 0.25)
 
     def _nodes(self) -> tuple[Array, Array]:
         """Sizes of what is pressed, and how many of each per particle of the oil."""
@@ -288,7 +364,9 @@ class FilmParticles(Value):
         particle = self._particle()
         inner = particle.kinks[particle.kinks < 1]
         # first yield and half a radius are kinks of the dents, not all of the load
-        sides = [self._first(side) for side in (0, 1)]
+        sides = [where(side) for side in (0, 1) for where in (self._first, self._half)]
+        if self.strength is not None:
+            return self._pieces([size for size in sides if math.isfinite(size)])[:2]
         cuts = np.array([*(self.film / (1 - inner)), *(s for s in sides if math.isfinite(s))])
         for share, part in self.diameter.components:
             low, high = max(part.support[0], self.film), part.support[1]
@@ -332,7 +410,7 @@ class FilmParticles(Value):
         x, w = self._nodes()
         spots = self._spots(x[None, :], w[None, :])
         dent = dent_of(spots, side=side - 1, particle=self.material)
-        sunk = (dent.depth > 0) & (2 * spots.depths[side - 1] > spots.radius)
+        sunk = (dent.depth > 0) & (2 * spots.depths[side - 1] > spots.half)
         top = self.single(self._size(0.05 * count, lowest))
         deep = dent_of(top, side=side - 1, particle=self.material)
         return FilmDents(
@@ -410,7 +488,7 @@ class FilmParticles(Value):
             dent = dent_of(spots, side=side, particle=self.material)
             volumes.append(per_area * float(spots.total(dent.volume)[0]))
             share = np.where(even, 0.5, here < there) * (self.material.H > spots.hardness[side])
-            cut = share * groove_area(here, radius=spots.radius)
+            cut = share * groove_of(spots, side)
             removed = self.slip * (self.f_ab or 0.0)
             grooves.append(per_area * removed * float(spots.total(cut)[0]))
         softer, harder = sorted(spots.hardness)

@@ -10,16 +10,14 @@ import numpy as np
 from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import RangeWarning
-from .film_formulas import AbstractFilm, Line, Oil, Point, full_range
+from .film_formulas import AbstractFilm, Line, Oil, Point
 from .mixed_film import (
     COLUMNS,
-    DEEPEST,
     FEW,
     MOST,
     STEPS,
-    _check,
     _given,
-    _thickness,
+    lubricated,
     mean_gap,
     mixed_film,
 )
@@ -206,17 +204,12 @@ def regime_speeds(
     0.01
     """
     w, _, _ = _given(load, 1.0)
-    film = film or full_range(getattr(conjunction, "shape", "point"))
-    _check(contact, conjunction, oil, film, None, hertz, (few, most))
-    bound = interface(contact)
-    sigma, E = contact.roughness.sigma, 2 * contact.E_ss
-    dry = conjunction.hertz(w, E=E)
-    p = float((dry.mean if hertz == "mean" else dry.maximum)[0])
-    floor = bound.asperities.centre + DEEPEST * sigma
+    bodies = lubricated(contact, conjunction, oil, w, film, None, hertz, (few, most))
+    bound, floor, sigma = interface(contact), bodies.floor, contact.roughness.sigma
 
     def carried(t: Array) -> Array:
         """Share of the solids at a separation d = floor + σe^t."""
-        return bound.load(floor + sigma * np.exp(t))[:, 0] / p
+        return bound.load(floor + sigma * np.exp(t))[:, 0] / bodies.p
 
     shares = np.array([most, few])
     known = (shares > 0) & (shares < 1) & (carried(np.full(2, -40.0)) > shares)
@@ -227,7 +220,7 @@ def regime_speeds(
     ends = np.log([[SLOWEST] * 2, [FASTEST] * 2])
 
     def short(v: Array) -> Array:
-        return gap / _thickness(film, conjunction, oil, w, np.exp(v), E, gamma) - 1
+        return gap / bodies.thickness(np.exp(v), gamma) - 1
 
     known &= (short(ends[0]) > 0) & (short(ends[1]) < 0)
     speeds = np.exp(_falling(short, *ends))

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...contact.contact import Contact
-from ...contact.pressed import buried
+from ...contact.pressed import buried, most_buried
 from ...equilibrium.states import state_columns
 from ...errors import InvalidValue
 from ...numerics.sampling import Span, sobol
@@ -42,6 +42,8 @@ AT_ONCE = 200_000
 MOST_AREA, MOST_COVERED, MOST_BURIED = 0.2, 0.3, 0.05
 """Real area, projected particle area, and share of the whole load on particles that sit deeper
 than their radius, above which the model is not meant."""
+NOTHING = 1e-9
+"""Share of the whole load that counts as none."""
 CLOSE = 0.01
 """A limit is active when so little of it is left."""
 
@@ -236,8 +238,15 @@ class Task:
         for which in alike.values():
             own = contact.replace(**{name: float(v[which[0]]) for name, v in vary.items()})
             known = np.isfinite(d[which])
+            most = np.zeros(known.shape)
+            most[known] = most_buried(own, d[which][known])
+            if DENSITY in vary:
+                most *= (vary[DENSITY][which] / vary[DENSITY][which[0]])[:, None]
+            pressure = self.loads * (own.E_ss if self.load == "F_star" else 1.0)
+            known &= most > NOTHING * pressure
             part = np.zeros(known.shape)
-            part[known] = buried(own, d[which][known])
+            if known.any():
+                part[known] = buried(own, d[which][known])
             out[which] += np.nan_to_num(part * share[which])
         return out
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...contact.contact import Contact
 from ...equilibrium.columns import columns_of, quantity_of
-from ...equilibrium.solve import given_load
+from ...equilibrium.solve import given_load, only_one
 from ...errors import InvalidValue
 from ...numerics.sampling import DESIGNS, Span
 from ...quantities.value import Value, problem_with
@@ -40,19 +40,49 @@ def make_plan(
     chunk: int = CHUNK,
 ) -> Plan:
     """The plan that these arguments describe; see `sweep`."""
-    given = {"pressure": pressure, "F_star": F_star, "d": d}
-    given = {name: value for name, value in given.items() if value is not None}
-    if len(given) != 1:
-        names = ", ".join(given) or "none"
-        raise InvalidValue(f"give exactly one of pressure, F_star, d; got {names}")
-    ((load, loads),) = given.items()
-    problems = _not_known("design", design, ("grid", "zip", *DESIGNS))
+    load, loads = only_one(pressure=pressure, F_star=F_star, d=d)
     entries: dict[str, Any] = dict(vary or {})
+    problems = _not_known("design", design, ("grid", "zip", *DESIGNS))
     if load in entries:
         raise InvalidValue(f"vary[{load!r}] is the load, which is given already")
-    entries[load] = loads
-    spans: dict[str, Span] = {}
+    listed, spans, slips = _inputs(contact, load, entries | {load: loads}, design)
+    problems += slips
+    if design in DESIGNS and not spans and not problems:
+        problems.append(
+            f"design = {design!r} samples ranges and none is given; a range is (low, high) or "
+            "{'low': ..., 'high': ..., 'scale': 'log'}"
+        )
+    problems += _sampling_problems(design, samples, seed)
+    if isinstance(chunk, bool) or not isinstance(chunk, int) or chunk < 1:
+        problems.append(f"chunk = {chunk!r} must be a whole number of states, at least 1")
+    problems += _unequal_lengths(listed) if design == "zip" else []
+    known = columns_of(contact)
+    problems += [p for name in columns or () for p in _not_known("column", name, known)]
+    if problems:
+        raise InvalidValue(*problems)
+
+    dims = _zipped(listed) if design == "zip" else _grid(listed)
+    if spans:
+        assert samples is not None
+        dims.append(Sampled(spans, design, samples, seed, 0, samples))
+    kept = tuple(name for name in known if name != load and name in (columns or known))
+    if reduce is None:
+        return Plan(contact, load, tuple(dims), kept, None, chunk)
+    words = ("mode", "status", "iterations", *(() if columns else ("residual",)))
+    kept = tuple(name for name in kept if name not in words)
+    reduction = Reduction.read(reduce, {dim.name: dim.names for dim in dims}, kept)
+    dims.sort(key=lambda dim: dim.name in reduction.over)
+    plan = Plan(contact, load, tuple(dims), kept, reduction, chunk)
+    return _with_whole_cells(plan) if reduction.quantiles else plan
+
+
+def _inputs(
+    contact: Contact, load: str, entries: Mapping[str, Any], design: str
+) -> tuple[Arrays, dict[str, Span], list[str]]:
+    """Lists of values and ranges to be sampled, the load among them, and what is wrong."""
     listed: Arrays = {}
+    spans: dict[str, Span] = {}
+    problems: list[str] = []
     for name, entry in entries.items():
         label = load if name == load else f"vary[{name!r}]"
         if isinstance(entry, Mapping) or (design in DESIGNS and isinstance(entry, tuple)):
@@ -71,51 +101,31 @@ def make_plan(
             if not len(values):
                 problems.append(f"{label} is empty; give at least one value")
             listed[name] = values
-        problems += _refused(contact, label, name, values) if name != load else []
-        if name == load and len(values) and values.dtype != object:
-            try:
-                given_load(contact, **{"pressure": None, "F_star": None, "d": None, load: values})
-            except InvalidValue as error:
-                problems += error.problems
-        elif name == load and len(values):
-            problems.append(f"{load} = {entry!r} must be a number or an array of numbers")
-    if design in DESIGNS and not spans and not problems:
-        problems.append(
-            f"design = {design!r} samples ranges and none is given; a range is (low, high) or "
-            "{'low': ..., 'high': ..., 'scale': 'log'}"
-        )
-    problems += _sampling_problems(design, samples, seed)
-    if isinstance(chunk, bool) or not isinstance(chunk, int) or chunk < 1:
-        problems.append(f"chunk = {chunk!r} must be a whole number of states, at least 1")
-    sizes = {name: len(values) for name, values in listed.items()}
-    if design == "zip" and len({size for size in sizes.values() if size != 1}) > 1:
-        shown = ", ".join(f"{name} {size}" for name, size in sizes.items())
-        problems.append(f"design = 'zip' needs inputs of one length, and got {shown}")
-    known = columns_of(contact)
-    if columns is not None:
-        problems += [p for name in columns for p in _not_known("column", name, known)]
-    if problems:
-        raise InvalidValue(*problems)
+        if name == load:
+            problems += _refused_loads(contact, load, entry, values)
+        else:
+            problems += _refused(contact, label, name, values)
+    return listed, spans, problems
 
-    dims: list[Listed | Sampled]
-    if design == "zip":
-        length = max(sizes.values())
-        together = {name: np.broadcast_to(v, (length,)) for name, v in listed.items()}
-        dims = [Listed("state", together)]
-    else:
-        dims = [Listed(name, {name: values}) for name, values in listed.items()]
-        if spans:
-            assert samples is not None
-            dims.append(Sampled(spans, design, samples, seed, 0, samples))
-    kept = tuple(name for name in known if name != load and name in (columns or known))
-    if reduce is None:
-        return Plan(contact, load, tuple(dims), kept, None, chunk)
-    words = ("mode", "status", "iterations", *(() if columns else ("residual",)))
-    kept = tuple(name for name in kept if name not in words)
-    reduction = Reduction.read(reduce, {dim.name: dim.names for dim in dims}, kept)
-    dims.sort(key=lambda dim: dim.name in reduction.over)
-    plan = Plan(contact, load, tuple(dims), kept, reduction, chunk)
-    return _with_whole_cells(plan) if reduction.quantiles else plan
+
+def _grid(listed: Arrays) -> list[Listed | Sampled]:
+    """A dimension for each input."""
+    return [Listed(name, {name: values}) for name, values in listed.items()]
+
+
+def _zipped(listed: Arrays) -> list[Listed | Sampled]:
+    """One dimension of all inputs; a single value goes with every state."""
+    length = max(map(len, listed.values()))
+    return [Listed("state", {name: np.broadcast_to(v, (length,)) for name, v in listed.items()})]
+
+
+def _unequal_lengths(listed: Arrays) -> list[str]:
+    """Why these inputs cannot be zipped."""
+    sizes = {name: len(values) for name, values in listed.items()}
+    if len({size for size in sizes.values() if size != 1}) <= 1:
+        return []
+    shown = ", ".join(f"{name} {size}" for name, size in sizes.items())
+    return [f"design = 'zip' needs inputs of one length, and got {shown}"]
 
 
 def _with_whole_cells(plan: Plan) -> Plan:
@@ -198,3 +208,16 @@ def _refused(contact: Contact, label: str, name: str, values: NDArray[Any]) -> l
     ends = [] if not len(some) else [some.min(), some.max()]
     bad = [value for value in ends if problem_with(about, value)]
     return [f"{label}: {value:g} {problem_with(about, value)}" for value in bad[:1]]
+
+
+def _refused_loads(contact: Contact, load: str, entry: Any, values: NDArray[Any]) -> list[str]:
+    """Why these cannot be loads; none is told of elsewhere."""
+    if not len(values):
+        return []
+    if values.dtype == object:
+        return [f"{load} = {entry!r} must be a number or an array of numbers"]
+    try:
+        given_load(contact, **{"pressure": None, "F_star": None, "d": None, load: values})
+    except InvalidValue as error:
+        return list(error.problems)
+    return []

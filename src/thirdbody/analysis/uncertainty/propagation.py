@@ -14,24 +14,39 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ...contact.citations import cite
 from ...contact.contact import Contact
-from ...equilibrium.columns import COLUMNS, about
-from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, load_falls
+from ...equilibrium.critical_loads import CRITICAL, critical_loads
 from ...equilibrium.solve import given_load
-from ...equilibrium.states import FEWEST, state_columns
+from ...equilibrium.states import FEWEST
 from ...errors import InvalidValue
-from ...numerics.sampling import sobol
 from ...quantities import notebook
 from ...quantities.say import percent
-from ..inputs import NUMBERS
 from .inputs import Drawn, Uncertain, drawn_inputs
+from .samples import (
+    LEAST,
+    MARGINS,
+    MODES,
+    MOST_CRITICAL,
+    MOST_OUTPUTS,
+    OUTPUTS,
+    PROBABILITIES,
+    REPLICATES,
+    about_result,
+    columns_at,
+    evaluated,
+    output_of,
+    outputs_of,
+    points_of,
+    power_of_two,
+    quantiles_of,
+)
 
 if TYPE_CHECKING:
     import xarray
@@ -40,28 +55,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Arrays = dict[str, NDArray[Any]]
 
-__all__ = ["OUTPUTS", "Propagation", "propagate"]
-
-REPLICATES = 8
-"""Scramblings of the sequence."""
-LEAST, MOST_CRITICAL = 64, 2_048
-"""Fewest samples, and samples for which critical loads are sought unless more are asked for."""
-PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
-MARGINS = {"F/F_cr1": "F_cr1", "F/F_cr2": "F_cr2"}
-MODES = ("p-s", "hybrid", "s-s", "none")
-OUTPUTS: dict[str, dict[str, str]] = {
-    **{name: COLUMNS[name] for name in NUMBERS},
-    "plastic_share": {"symbol": "A_p/A_t", "unit": "1", "meaning": "plastic part of the real area"},
-    "F_cr1": {"symbol": "F_cr1*", "unit": "1", "meaning": "critical load, p-s to hybrid"},
-    "F_cr2": {"symbol": "F_cr2*", "unit": "1", "meaning": "critical load, hybrid to s-s"},
-    "F_tpca.A": {"symbol": "F_tpca,A*", "unit": "1", "meaning": "load of the largest area share"},
-    "F_tpca.B": {"symbol": "F_tpca,B*", "unit": "1", "meaning": "load of equal load shares"},
-    "F/F_cr1": {"symbol": "F/F_cr1", "unit": "1", "meaning": "load over the first critical load"},
-    "F/F_cr2": {"symbol": "F/F_cr2", "unit": "1", "meaning": "load over the second critical load"},
-}
-"""Symbol, unit and meaning of everything that gets a band, beside the outputs of the contact."""
-MOST_OUTPUTS = 512
-"""Samples of outputs: each is a contact of its own, with spots of its own."""
+__all__ = ["OUTPUTS", "Propagation", "about_result", "propagate"]
 
 
 # -------------------------------------------------------------------------- result
@@ -191,7 +185,7 @@ class Propagation:
             ``tornado[of][input]``: the output at the low and at the high end of the input; the
             strongest input of the first output comes first.
         """
-        names = _outputs([of] if isinstance(of, str) else of, self.contact)
+        names = outputs_of([of] if isinstance(of, str) else of, self.contact)
         problem = self._problem()
         rows: list[list[float]] = []
         for j, known in enumerate(problem.known):
@@ -203,12 +197,12 @@ class Propagation:
         load = float(np.atleast_1d(self.loads)[at])
         values[np.isnan(values)] = load
         # the compiled engine takes no fewer states
-        spare = problem.points(_points(FEWEST, len(self.inputs), 0, 0))
+        spare = problem.points(points_of(FEWEST, len(self.inputs), 0, 0))
         vary = {
             name: np.append(column, spare[name])
             for name, column in problem.at(list(values.T)).items()
         }
-        solved = _evaluated(self.contact, self.load, load, vary, len(values) + FEWEST, names)
+        solved = evaluated(self.contact, self.load, load, vary, len(values) + FEWEST, names)
         out = {
             name: {
                 label: (float(solved[name][2 * j]), float(solved[name][2 * j + 1]))
@@ -268,13 +262,13 @@ class Propagation:
             ) from None
         if samples < 2 or samples & (samples - 1):
             raise InvalidValue(f"samples = {samples} must be a power of two")
-        names = _outputs([of] if isinstance(of, str) else of, self.contact)
+        names = outputs_of([of] if isinstance(of, str) else of, self.contact)
         width = len(self.inputs)
         cube = {"num_vars": width, "names": list(self.inputs), "bounds": [[0.0, 1.0]] * width}
         u = sample.sample(cube, samples, calc_second_order=False, seed=self.seed)
         load = float(np.atleast_1d(self.loads)[at])
         vary = self._problem().points(u)
-        solved = _evaluated(self.contact, self.load, load, vary, len(u), names)
+        solved = evaluated(self.contact, self.load, load, vary, len(u), names)
         out: dict[str, dict[str, dict[str, float]]] = {}
         for name in names:
             values = solved[name]
@@ -409,71 +403,21 @@ def propagate(
     load, _, one = given_load(contact, pressure, F_star, d)
     loads = np.atleast_1d(np.asarray({"pressure": pressure, "F_star": F_star, "d": d}[load], float))
     drawn = drawn_inputs(contact, vary, load, loads[0] if one else loads)
-    names = _outputs(outputs, contact)
+    names = outputs_of(outputs, contact)
     probabilities = tuple(float(q) for q in quantiles)
-    problems = [f"quantiles: {q:g} must be between 0 and 1" for q in probabilities if not 0 < q < 1]
-    for name, value, least in (
-        ("samples", samples, LEAST),
-        ("critical_samples", LEAST if critical_samples is None else critical_samples, LEAST),
-        ("seed", seed, 0),
-    ):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-            problems.append(f"{name} = {value!r} must be a whole number, at least {least}")
-    if problems:
-        raise InvalidValue(*problems)
-    each = _power_of_two(samples) // REPLICATES
-    few = min(each, _power_of_two(critical_samples or MOST_CRITICAL) // REPLICATES)
-    u = _points(each, len(vary), int(seed), REPLICATES)
+    _check_counts(probabilities, samples, critical_samples, seed)
+    each = power_of_two(samples) // REPLICATES
+    few = min(each, power_of_two(critical_samples or MOST_CRITICAL) // REPLICATES)
+    u = points_of(each, len(vary), int(seed), REPLICATES)
     drawn_values = drawn.points(u)
-
-    critical: Arrays = {}
-    sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
     first_few = np.arange(len(u)).reshape(REPLICATES, each)[:, :few]
-    statuses: dict[str, dict[str, float]] = {}
-    nominal_critical: Arrays = {}
-    if sought:
-        some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
-        found = critical_loads(contact, vary=some, count=first_few.size)
-        critical = {name: found[name][0].reshape(first_few.shape) for name in CRITICAL}
-        for name in (name for name in CRITICAL if name in sought):
-            words, counts = np.unique(found[name][1], return_counts=True)
-            shares = (counts / first_few.size).tolist()
-            statuses[name] = dict(zip(map(str, words), shares, strict=True))
-        nominal_critical = {n: v[0] for n, v in critical_loads(contact, vary={}, count=1).items()}
+    sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
+    some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
+    found = _Bands(names, probabilities, first_few, _sought(contact, sought, some, first_few))
+    for value in loads:
+        found.add(*_at_load(contact, load, value, drawn_values, len(u), names, first_few))
 
-    of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
-    some_outputs = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)]
-
-    bands: dict[str, list[Array]] = {name: [] for name in names}
-    errors: dict[str, list[Array]] = {name: [] for name in names}
-    nominal: dict[str, list[float]] = {name: [] for name in names}
-    modes: dict[str, list[float]] = {mode: [] for mode in MODES}
-    mode_errors: dict[str, list[float]] = {mode: [] for mode in MODES}
-    solved: list[float] = []
     fixed = {name for name in names if name in CRITICAL}
-    for number, value in enumerate(loads):
-        state = columns_at(contact, load, value, drawn_values, len(u))
-        middle = columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs))
-        if of_outputs:
-            some = {n: v[some_outputs.ravel()] for n, v in drawn_values.items()}
-            told = columns_at(contact, load, value, some, some_outputs.size, outputs=True)
-            state |= {name: told[name] for name in of_outputs}
-        for name in names:
-            if name in fixed and number:
-                continue
-            few_of = first_few if name in CRITICAL or name in MARGINS else None
-            values = _output(name, state, critical, few_of).reshape(REPLICATES, -1)
-            band, error = _quantiles(values, probabilities)
-            bands[name].append(band)
-            errors[name].append(error)
-            own = _output(name, middle, nominal_critical, np.zeros(1, int))
-            nominal[name].append(float(own.flat[0]))
-        words = np.asarray(state["mode"]).reshape(REPLICATES, -1)
-        for mode in MODES:
-            share = np.mean(words == ("" if mode == "none" else mode), axis=1)
-            modes[mode].append(float(share.mean()))
-            mode_errors[mode].append(float(share.std(ddof=1) / math.sqrt(REPLICATES)))
-        solved.append(float(np.mean(state["status"] == "ok")))
 
     def shaped(table: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
         flat = {n for n in table if one or n in fixed}
@@ -488,19 +432,117 @@ def propagate(
         critical_samples=first_few.size if sought else 0,
         seed=int(seed),
         probabilities=probabilities,
-        nominal=shaped(nominal),
-        bands=shaped(bands),
-        error=shaped(errors),
-        mode_probability=shaped(modes),
-        mode_error=shaped(mode_errors),
-        critical_status=statuses,
-        solved=solved[0] if one else np.array(solved),
+        nominal=shaped(found.nominal),
+        bands=shaped(found.bands),
+        error=shaped(found.errors),
+        mode_probability=shaped(found.modes),
+        mode_error=shaped(found.mode_errors),
+        critical_status=found.critical.statuses,
+        solved=found.solved[0] if one else np.array(found.solved),
     )
+
+
+def _check_counts(
+    probabilities: Sequence[float], samples: Any, critical_samples: Any, seed: Any
+) -> None:
+    problems = [f"quantiles: {q:g} must be between 0 and 1" for q in probabilities if not 0 < q < 1]
+    for name, value, least in (
+        ("samples", samples, LEAST),
+        ("critical_samples", LEAST if critical_samples is None else critical_samples, LEAST),
+        ("seed", seed, 0),
+    ):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+            problems.append(f"{name} = {value!r} must be a whole number, at least {least}")
+    if problems:
+        raise InvalidValue(*problems)
+
+
+class _Critical(NamedTuple):
+    """Critical loads of the first few samples, the shares of their statuses, and nominal ones."""
+
+    loads: Arrays
+    statuses: dict[str, dict[str, float]]
+    nominal: Arrays
+
+
+def _sought(
+    contact: Contact, sought: set[str], some: Arrays, first_few: NDArray[np.intp]
+) -> _Critical:
+    if not sought:
+        return _Critical({}, {}, {})
+    found = critical_loads(contact, vary=some, count=first_few.size)
+    loads = {name: found[name][0].reshape(first_few.shape) for name in CRITICAL}
+    statuses = {}
+    for name in (name for name in CRITICAL if name in sought):
+        words, counts = np.unique(found[name][1], return_counts=True)
+        shares = (counts / first_few.size).tolist()
+        statuses[name] = dict(zip(map(str, words), shares, strict=True))
+    nominal = {n: v[0] for n, v in critical_loads(contact, vary={}, count=1).items()}
+    return _Critical(loads, statuses, nominal)
+
+
+def _at_load(
+    contact: Contact,
+    load: str,
+    value: float,
+    drawn: Arrays,
+    count: int,
+    names: Sequence[str],
+    first_few: NDArray[np.intp],
+) -> tuple[Arrays, Arrays]:
+    """States of all samples at one load, outputs of a few of them, and the nominal state."""
+    of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
+    state = columns_at(contact, load, value, drawn, count)
+    middle = columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs))
+    if of_outputs:
+        which = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)]
+        some = {n: v[which.ravel()] for n, v in drawn.items()}
+        told = columns_at(contact, load, value, some, which.size, outputs=True)
+        state |= {name: told[name] for name in of_outputs}
+    return state, middle
+
+
+class _Bands:
+    """Bands, load after load; critical loads have theirs once."""
+
+    def __init__(
+        self,
+        names: Sequence[str],
+        probabilities: Sequence[float],
+        first_few: NDArray[np.intp],
+        critical: _Critical,
+    ):
+        self.probabilities, self.first_few, self.critical = probabilities, first_few, critical
+        self.bands: dict[str, list[Array]] = {name: [] for name in names}
+        self.errors: dict[str, list[Array]] = {name: [] for name in names}
+        self.nominal: dict[str, list[float]] = {name: [] for name in names}
+        self.modes: dict[str, list[float]] = {mode: [] for mode in MODES}
+        self.mode_errors: dict[str, list[float]] = {mode: [] for mode in MODES}
+        self.solved: list[float] = []
+
+    def add(self, state: Arrays, middle: Arrays) -> None:
+        """One more load: states of the samples, and the nominal one."""
+        for name, bands in self.bands.items():
+            if name in CRITICAL and bands:
+                continue
+            few_of = self.first_few if name in CRITICAL or name in MARGINS else None
+            values = output_of(name, state, self.critical.loads, few_of).reshape(REPLICATES, -1)
+            band, error = quantiles_of(values, self.probabilities)
+            bands.append(band)
+            self.errors[name].append(error)
+            own = output_of(name, middle, self.critical.nominal, np.zeros(1, int))
+            self.nominal[name].append(float(own.flat[0]))
+        words = np.asarray(state["mode"]).reshape(REPLICATES, -1)
+        for mode in MODES:
+            share = np.mean(words == ("" if mode == "none" else mode), axis=1)
+            self.modes[mode].append(float(share.mean()))
+            self.mode_errors[mode].append(float(share.std(ddof=1) / math.sqrt(REPLICATES)))
+        self.solved.append(float(np.mean(state["status"] == "ok")))
 
 
 def certain(contact: Contact, load: str, value: float) -> Propagation:
     """What a `Propagation` is where nothing is uncertain: every quantile is the value itself."""
-    names = _outputs(None, contact)
+    names = outputs_of(None, contact)
     critical: Arrays = {}
     statuses: dict[str, dict[str, float]] = {}
     if set(names) & set(CRITICAL):
@@ -509,7 +551,7 @@ def certain(contact: Contact, load: str, value: float) -> Propagation:
         statuses = {name: {str(words[0]): 1.0} for name, (_, words) in found.items()}
     state = columns_at(contact, load, value, {}, 1, outputs=bool(contact.outputs))
     few = np.zeros(1, int)
-    nominal = {name: float(_output(name, state, critical, few).flat[0]) for name in names}
+    nominal = {name: float(output_of(name, state, critical, few).flat[0]) for name in names}
     mode = str(state["mode"][0]) or "none"
     return Propagation(
         contact=contact,
@@ -528,103 +570,3 @@ def certain(contact: Contact, load: str, value: float) -> Propagation:
         critical_status=statuses,
         solved=1.0,
     )
-
-
-def about_result(name: str) -> dict[str, str]:
-    """Symbol, unit and meaning of what has a band."""
-    return OUTPUTS[name] if name in OUTPUTS else about(name)
-
-
-def _outputs(asked: Sequence[str] | None, contact: Contact) -> list[str]:
-    """The outputs, each once, that the contact has."""
-    about_loads = (*CRITICAL, *MARGINS)
-    without = contact.two_body or not load_falls(contact)
-    known = [*OUTPUTS, *(name for each in contact.outputs for name in each.columns)]
-    if asked is None:
-        return [name for name in known if not (without and name in about_loads)]
-    names = list(dict.fromkeys(asked))
-    problems = [
-        f"{name!r} has no band; it must be one of {', '.join(known)}"
-        for name in names
-        if name not in known
-    ]
-    if not names:
-        problems.append("outputs is empty; name a column of Equilibrium or a critical load")
-    if contact.two_body:
-        problems += [
-            f"{name!r} needs particles: a two-body contact is always s-s"
-            for name in names
-            if name in about_loads
-        ]
-    if problems:
-        raise InvalidValue(*problems)
-    return names
-
-
-def _power_of_two(count: int) -> int:
-    return 1 << (int(count) - 1).bit_length()
-
-
-def _points(each: int, width: int, seed: int, replicates: int) -> Array:
-    """Scramblings of the Sobol sequence, one after another; a short one of its own for none."""
-    rows: Iterator[int] = iter(range(replicates)) if replicates else iter([REPLICATES])
-    seeds = [int(np.random.SeedSequence([seed, r]).generate_state(1)[0]) for r in rows]
-    return np.concatenate([sobol(each, width, one, 0, each) for one in seeds])
-
-
-def columns_at(
-    contact: Contact, load: str, value: float, vary: Arrays, count: int, *, outputs: bool = False
-) -> Arrays:
-    """States at one load, bare unless outputs are asked; the load may be among what varies."""
-    if outputs:
-        vary = dict(vary)
-    else:
-        contact, vary = carrying(contact, vary)
-    loads = vary.pop(load, np.full(count, value))
-    return state_columns(contact, **{load: loads}, vary=vary or None)
-
-
-def _evaluated(
-    contact: Contact, load: str, value: float, vary: Arrays, count: int, names: Sequence[str]
-) -> dict[str, Array]:
-    """Outputs (N,) of samples at one load."""
-    critical: Arrays = {}
-    if any(name in CRITICAL or name in MARGINS for name in names):
-        rest = {n: v for n, v in vary.items() if n != load}
-        critical = {
-            name: v[0] for name, v in critical_loads(contact, vary=rest, count=count).items()
-        }
-    asked = any(name in each.columns for each in contact.outputs for name in names)
-    state = columns_at(contact, load, value, vary, count, outputs=asked)
-    return {name: _output(name, state, critical, np.arange(count)) for name in names}
-
-
-def _output(
-    name: str, state: Arrays, critical: Mapping[str, Array], few: NDArray[np.intp] | None
-) -> Array:
-    """One output of every sample; critical loads and margins of a few of them."""
-    if name in CRITICAL:
-        return critical[name]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        if name in MARGINS:
-            return state["F_star"][few] / critical[MARGINS[name]]
-        if name == "plastic_share":
-            return state["A_p"] / state["A_t"]
-    return state[name]
-
-
-def _quantiles(values: Array, probabilities: Sequence[float]) -> tuple[Array, Array]:
-    """Quantiles (Q,) of all samples (R, n), and their standard errors from the replicates."""
-    apart = np.array([_quantile(row, probabilities) for row in values])
-    with np.errstate(invalid="ignore"):
-        error = apart.std(axis=0, ddof=1) / math.sqrt(len(values))
-    return _quantile(values.ravel(), probabilities), error
-
-
-def _quantile(values: Array, probabilities: Sequence[float]) -> Array:
-    known = values[~np.isnan(values)]
-    if not len(known):
-        return np.full(len(probabilities), np.nan)
-    # N points in N equal cells: the i-th smallest stands in the middle of its cell
-    method = "hazen" if np.isfinite(known).all() else "inverted_cdf"
-    return np.quantile(known, probabilities, method=method)  # type: ignore[call-overload]

@@ -62,8 +62,7 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The interface of a study under every asperity law, against the law the study names."""
-    from ...analysis.compare import compared
-    from ...laws import asperity
+    from ...analysis.compare import Persson, compared
 
     problems = []
     if at not in PLACES:
@@ -74,22 +73,12 @@ def command(
     files = TableFiles(csv_file, xlsx_file, parquet_file)
     files.need()
     asked = read_study(study, settings)
-    words: list[str] | None = None
-    if names is not None:
-        words = [word.strip() for word in names.split(",") if word.strip()]
-        words = list(asperity.REGISTRY) if words == ["all"] else words
-    load: dict[str, Any] = {asked.load: asked.values}
-    if asked.load == "separation":
-        load = {"F_star": _loads_at(asked)}
-        warn(
-            f"laws are compared at equal loads: those of {asked.contact.asperity_law.name} at the "
-            "separations of the study"
-        )
-    found = compared(asked.contact, **load, laws=words)
+    found = compared(asked.contact, **_equal_loads(asked), laws=_words(names))
     for sentence in filter(None, found.attrs["warnings"].splitlines()):
         warn(sentence)
     reasons = found.columns["status"]
-    if not (reasons == "ok").any():
+    of_laws = [law != Persson.name for law in found.laws]
+    if not (reasons[of_laws] == "ok").any():
         raise NoEquilibrium(f"{reasons[0, 0]} (and so under every law)")
     order = found.loads["F_star"].argsort()
     index = int(order[{"start": 0, "middle": len(order) // 2, "end": -1}[at]])
@@ -106,15 +95,31 @@ def command(
         print(f"written: {path}", file=sys.stderr)
 
 
-def _loads_at(asked: Any) -> Any:
-    """The loads F* of a study that gives separations."""
+def _words(names: str | None) -> list[str] | None:
+    """The laws of ``--laws``."""
+    from ...laws import asperity
+
+    if names is None:
+        return None
+    words = [word.strip() for word in names.split(",") if word.strip()]
+    return list(asperity.REGISTRY) if words == ["all"] else words
+
+
+def _equal_loads(asked: Any) -> dict[str, Any]:
+    """The loads of a study; F* under its own law where it gives separations."""
     import numpy as np
 
+    if asked.load != "separation":
+        return {asked.load: asked.values}
     loads = np.asarray(asked.solve().F_star)
     loads = loads[np.isfinite(loads) & (loads > 0)]
     if not len(loads):
         raise NoEquilibrium("no load at the separations of the study, so there is none to compare")
-    return loads
+    warn(
+        f"laws are compared at equal loads: those of {asked.contact.asperity_law.name} at the "
+        "separations of the study"
+    )
+    return {"F_star": loads}
 
 
 def _show_comparison(title: str, found: Comparison, index: int) -> None:

@@ -12,7 +12,7 @@ import typer
 from ...errors import InvalidValue
 from ...quantities.say import number, signed, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, ParquetFile, XlsxFile, not_a_folder
+from ..options import AsJson, ParquetFile, XlsxFile, metres, not_a_folder
 from ..show import ALL, finite, terminal
 from ..streams import TableFiles, warn
 
@@ -71,41 +71,40 @@ def command(
 ) -> None:
     """Moments and asperities of a measured surface, and what they owe to the cut-off."""
     from ...populations.measured.topography import from_topography
-    from ...quantities.units import to_si
 
     problems: list[str] = []
-
-    def metres(option: str, text: str) -> float:
-        try:
-            return to_si(text, "m")
-        except InvalidValue as error:
-            problems.extend(f"{option}: {sentence}" for sentence in error.problems)
-            return 1.0
-
     files = TableFiles(csv_file, xlsx_file, parquet_file)
     files.need()
-    given: dict[str, Any] = {"detrend": detrend, "unit": unit, "channel": channel}
-    for name, text in (("cutoff", cutoff), ("resolution", resolution)):
-        given[name] = None if text is None else metres(f"--{name}", text)
-    if spacing is not None:
-        given["spacing"] = tuple(metres("--spacing", part) for part in spacing.split(","))
+    lengths = _lengths(cutoff, resolution, spacing, problems)
     problems += not_a_folder(out)
     if problems:
         raise InvalidValue(*problems)
-    found = from_topography(file, **given)
+    found = from_topography(file, detrend=detrend, unit=unit, channel=channel, **lengths)
     result = found.to_dict()
     for sentence in found.warnings:
         warn(sentence)
     files.write(finite(result["curve"]), result["units"])
-    written = files.asked
-    if out is not None:
-        written += _write_surface(out, found, result)
+    written = files.asked + ([] if out is None else _write_surface(out, found, result))
     if as_json:
         print(json.dumps(finite(result), indent=1, allow_nan=False))
     else:
         _show_surface(found, result)
     for path in written:
         print(f"written: {path}", file=sys.stderr)
+
+
+def _lengths(
+    cutoff: str | None, resolution: str | None, spacing: str | None, problems: list[str]
+) -> dict[str, Any]:
+    """Lengths as `from_topography` takes them [m]."""
+    lengths: dict[str, Any] = {
+        name: None if text is None else metres(f"--{name}", text, problems)
+        for name, text in (("cutoff", cutoff), ("resolution", resolution))
+    }
+    if spacing is not None:
+        parts = spacing.split(",")
+        lengths["spacing"] = tuple(metres("--spacing", part, problems) for part in parts)
+    return lengths
 
 
 def _write_surface(folder: Path, found: Any, result: dict[str, Any]) -> list[Path]:
@@ -128,53 +127,70 @@ def _write_surface(folder: Path, found: Any, result: dict[str, Any]) -> list[Pat
 def _show_surface(found: Any, result: dict[str, Any]) -> None:
     """What was read, the answer at the cut-off used, and its course with the cut-off."""
     console = terminal()
+    for line in _what_was_read(found, result):
+        console.print(line)
+    console.print()
+    console.print(_answer(found, result["cutoff"]["used"]))
+    console.print(_course(found, finite(result["curve"])))
+    console.print(
+        f"skewness {number(result['skewness'], 3)}, kurtosis {number(result['kurtosis'], 3)}, "
+        "mean square slopes "
+        f"{number(result['anisotropy'])} : 1 along and across"
+    )
+
+
+def _what_was_read(found: Any, result: dict[str, Any]) -> list[str]:
+    """Points, moments as sampled, the limit of the instrument and the cut-off recommended."""
     points = " x ".join(map(str, result["points"]))
     sides = " x ".join(value_of(side, "m") for side in result["size"])
     kind = "map" if found.dim == 2 else "profile"
-    console.print(f"{found.source}: {kind} of {points} points, {sides}")
     sampled, used = result["as_sampled"], result["cutoff"]
-    console.print(
-        f"as sampled: RMS height {value_of(sampled['rms_height'], 'm')}, RMS "
-        f"{'gradient' if found.dim == 2 else 'slope'} {number(sampled['rms_slope'])}, RMS "
-        f"curvature {value_of(sampled['rms_curvature'], '1/m')}"
-    )
     limit = (
         "" if used["instrument_limit"] is None else value_of(used["instrument_limit"], "m") + ", "
     )
-    console.print(f"limit of the instrument: {limit}{used['instrument_limit_reason']}")
-    console.print(f"recommended cut-off: {value_of(used['recommended'], 'm')}: {used['reason']}")
-    console.print()
-    at = "as sampled" if used["used"] == 0 else f"at {value_of(used['used'], 'm')}"
+    return [
+        f"{found.source}: {kind} of {points} points, {sides}",
+        f"as sampled: RMS height {value_of(sampled['rms_height'], 'm')}, RMS "
+        f"{'gradient' if found.dim == 2 else 'slope'} {number(sampled['rms_slope'])}, RMS "
+        f"curvature {value_of(sampled['rms_curvature'], '1/m')}",
+        f"limit of the instrument: {limit}{used['instrument_limit_reason']}",
+        f"recommended cut-off: {value_of(used['recommended'], 'm')}: {used['reason']}",
+    ]
+
+
+def _answer(found: Any, cutoff: float) -> Table:
+    """Moments and asperities at the cut-off, by differences, spectrum and counted summits."""
+    at = "as sampled" if cutoff == 0 else f"at {value_of(cutoff, 'm')}"
     drop = ("eta R sigma", "y_s", "alpha")
     answer = Table(
         (at, *MEANS), right=True, words=[at], drop=drop, more="--json tells all", legend=MEANS
     )
-    spectral = found.moments_at(method="spectrum")
-    for label, one in (("differences", found.moments), ("spectrum", spectral)):
+
+    def add(label: str, one: Any, sigma: float, eta: float, alpha: str) -> None:
         answer.add_row(
             label,
-            value_of(one.sigma, "m"),
+            value_of(sigma, "m"),
             value_of(one.R, "m"),
-            value_of(one.eta, "1/m^2"),
-            number(one.eta * one.R * one.sigma),
-            number(one.alpha),
+            value_of(eta, "1/m^2"),
+            number(eta * one.R * sigma),
+            alpha,
             value_of(one.sigma_s, "m"),
             value_of(one.y_s, "m"),
         )
+
+    for label, one in (
+        ("differences", found.moments),
+        ("spectrum", found.moments_at(method="spectrum")),
+    ):
+        add(label, one, one.sigma, one.eta, number(one.alpha))
     if found.dim == 2 and found.summits.count > 1:
         counted = found.summits
-        answer.add_row(
-            f"{counted.count} summits",
-            value_of(found.moments.sigma, "m"),
-            value_of(counted.R, "m"),
-            value_of(counted.density, "1/m^2"),
-            number(counted.density * counted.R * found.moments.sigma),
-            "-",
-            value_of(counted.sigma_s, "m"),
-            value_of(counted.y_s, "m"),
-        )
-    console.print(answer)
-    curve = finite(result["curve"])
+        add(f"{counted.count} summits", counted, found.moments.sigma, counted.density, "-")
+    return answer
+
+
+def _course(found: Any, curve: dict[str, Any]) -> Table:
+    """The same against the cut-off."""
     heads = ["cut-off", "sigma", "gradient", "alpha", "R", "R counted", "eta", "eta counted"]
     heads.append("R per octave")
     gone = ("eta counted", "R counted", "alpha", "gradient")
@@ -197,9 +213,4 @@ def _show_surface(found: Any, result: dict[str, Any]) -> None:
             value_of(curve["eta_counted"][i], "1/m^2"),
             signed(100 * change[i], 0, "%"),
         )
-    console.print(course)
-    console.print(
-        f"skewness {number(result['skewness'], 3)}, kurtosis {number(result['kurtosis'], 3)}, "
-        "mean square slopes "
-        f"{number(result['anisotropy'])} : 1 along and across"
-    )
+    return course

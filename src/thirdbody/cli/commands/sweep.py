@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,6 +12,10 @@ from ...errors import InvalidValue, NoEquilibrium
 from ..interrupt import INTERRUPTED
 from ..options import Settings
 from ..streams import complain, warn
+
+if TYPE_CHECKING:
+    from ...analysis.sweep.plan import Plan
+    from ...analysis.sweep.streaming import Folder
 
 __all__ = ["command"]
 
@@ -41,7 +45,29 @@ def command(
     settings: Settings = None,
 ) -> None:
     """Many states, in a folder: on a grid, in pairs or sampled; resumable."""
-    from ...analysis.sweep.streaming import FORMATS, run
+    from ...analysis.sweep.streaming import run
+
+    plan = _read_plan(study, settings, format, workers)
+    client = None
+    if scheduler is not None:
+        from ...analysis.sweep.cluster import connected
+
+        client = connected(scheduler)
+    try:
+        folder = run(plan, out, format=format, workers=workers, client=client, progress=True)
+    except KeyboardInterrupt:
+        done = len(list((out / "done").glob("*.json")))
+        complain([f"interrupted after {done} of {plan.count} blocks; the same command goes on"])
+        raise typer.Exit(INTERRUPTED) from None
+    finally:
+        if client is not None:
+            client.close()
+    _tell(folder)
+
+
+def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Plan:
+    """The sweep of a study; every slip of the command and of the file is told at once."""
+    from ...analysis.sweep.streaming import FORMATS
     from ...study import load_study
 
     problems = []
@@ -62,22 +88,12 @@ def command(
         raise InvalidValue(*problems)
     for sentence in asked.notes:
         warn(sentence)
-    plan = asked.sweep
-    assert plan is not None
-    client = None
-    if scheduler is not None:
-        from ...analysis.sweep.cluster import connected
+    assert asked.sweep is not None
+    return asked.sweep
 
-        client = connected(scheduler)
-    try:
-        folder = run(plan, out, format=format, workers=workers, client=client, progress=True)
-    except KeyboardInterrupt:
-        done = len(list((out / "done").glob("*.json")))
-        complain([f"interrupted after {done} of {plan.count} blocks; the same command goes on"])
-        raise typer.Exit(INTERRUPTED) from None
-    finally:
-        if client is not None:
-            client.close()
+
+def _tell(folder: Folder) -> None:
+    """What a finished sweep warns of, and how many states it has."""
     summary = folder.finished
     assert summary is not None
     with folder.open() as data:

@@ -10,7 +10,7 @@ import typer
 
 from ...errors import InvalidValue
 from ...quantities.say import value_of
-from ..options import Settings, StudyFile, read_study
+from ..options import Settings, StudyFile, metres, read_study
 
 __all__ = ["command"]
 
@@ -49,37 +49,16 @@ def command(
     """Pressure and real area of a study's contact against separation, for other solvers."""
     from ...equilibrium.table.make import table
     from ...equilibrium.table.writers import FORMATS, rounded_up
-    from ...quantities.units import to_si
 
-    suffixes = {suffix: name for name, (_, suffix) in FORMATS.items()}
-    name = form or suffixes.get(out.suffix.lower())
-    problems = []
-    if name is None:
-        problems.append(
-            f"--out {out}: the suffix does not say which format; add --format "
-            f"{', '.join(FORMATS)}, or use one of {', '.join(suffixes)}"
-        )
-    elif name not in FORMATS:
-        problems.append(f"--format {name} must be one of {', '.join(FORMATS)}")
-    elif units is not None and name not in ("abaqus", "avl"):
-        problems.append(f"--units {units} has no meaning for {name}, which is in SI units")
-    ends: dict[str, float | None] = {"low": None, "high": None}
-    for key, option, text in (("low", "--from", low), ("high", "--to", high)):
-        if text is not None:
-            try:
-                ends[key] = to_si(text, "m")
-            except InvalidValue as error:
-                problems += [f"{option}: {sentence}" for sentence in error.problems]
-    if problems or name is None:
+    name, problems = _format(form, out, units)
+    ends = [
+        None if text is None else metres(option, text, problems)
+        for option, text in (("--from", low), ("--to", high))
+    ]
+    if problems:
         raise InvalidValue(*problems)
-    asked = read_study(study, settings)
-    made = table(
-        asked.contact,
-        low=ends["low"],
-        high=ends["high"],
-        tolerance=tolerance,
-        coordinate=coordinate,
-    )
+    contact = read_study(study, settings).contact
+    made = table(contact, low=ends[0], high=ends[1], tolerance=tolerance, coordinate=coordinate)
     write, _ = FORMATS[name]
     write(made, out, **({} if units is None else {"units": units}))
     first, last = (value_of(float(made.p(end)), "Pa") for end in made.h[[0, -1]])
@@ -90,3 +69,21 @@ def command(
         f"{rounded_up(made.error.dp_dh)} of dp/d{coordinate}",
         file=sys.stderr,
     )
+
+
+def _format(form: str | None, out: Path, units: str | None) -> tuple[str, list[str]]:
+    """The format by its name or the suffix of the file, and what is wrong with it."""
+    from ...equilibrium.table.writers import FORMATS
+
+    suffixes = {suffix: name for name, (_, suffix) in FORMATS.items()}
+    name = form or suffixes.get(out.suffix.lower(), "")
+    if not name:
+        return name, [
+            f"--out {out}: the suffix does not say which format; add --format "
+            f"{', '.join(FORMATS)}, or use one of {', '.join(suffixes)}"
+        ]
+    if name not in FORMATS:
+        return name, [f"--format {name} must be one of {', '.join(FORMATS)}"]
+    if units is not None and name not in ("abaqus", "avl"):
+        return name, [f"--units {units} has no meaning for {name}, which is in SI units"]
+    return name, []

@@ -208,7 +208,8 @@ def dent_of(spots: ParticleSpots, *, side: int, particle: Material) -> Dent:
     Notes
     -----
     Depth left by `thirdbody.effects.single.ploughing.residual_depth`, where the source stands; the
-    width is that under load.
+    width is that under load. Angular particles leave dents as wide as their contact: up to the end
+    of their rounded tip a cap, from there on a cone, V = πa²δ_res/3.
 
     Examples
     --------
@@ -226,8 +227,11 @@ def dent_of(spots: ParticleSpots, *, side: int, particle: Material) -> Dent:
     ratio = np.divide(depth, first, out=np.zeros_like(depth), where=first > 0)
     left = residual_depth(depth, depth_over_yield=ratio) * (particle.H > spots.hardness[side])
     there = left > 0
-    return Dent(
-        left,
-        there * dent_diameter(depth, radius=spots.radius),
-        there * dent_volume(left, depth=depth, radius=spots.radius),
-    )
+    volume = dent_volume(left, depth=depth, radius=spots.radius)
+    shape = spots.shape
+    if shape is None or shape.round:
+        return Dent(left, there * dent_diameter(depth, radius=spots.radius), there * volume)
+    area = spots.areas[side]
+    a = np.sqrt(area / np.pi)
+    volume = np.where(a < shape.edge * spots.x, volume, area * left / 3)
+    return Dent(left, there * (2.0 * a), there * volume)

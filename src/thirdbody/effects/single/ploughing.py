@@ -18,9 +18,19 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
+    from ...laws.spots import ParticleSpots
+
     Array = NDArray[np.float64]
 
-__all__ = ["coefficient", "groove_area", "rear_support", "residual_depth"]
+__all__ = [
+    "coefficient",
+    "coefficient_of_faces",
+    "groove_area",
+    "groove_area_of_faces",
+    "groove_of",
+    "rear_support",
+    "residual_depth",
+]
 
 SMALL = 0.04
 """Depth over radius below which θ − sin θ cos θ is summed as a series: it would lose digits."""
@@ -118,6 +128,86 @@ def coefficient(depth: ArrayLike, *, radius: ArrayLike, rear: ArrayLike = 0.0) -
     front = np.divide(_segment(w), sine_squared, out=np.zeros_like(w), where=w > 0)
     kappa = np.asarray(rear)
     return 2 / np.pi * front * (1 - kappa) / (1 + kappa)
+
+
+def groove_area_of_faces(a: ArrayLike, *, edge: ArrayLike, angle: float) -> Array:
+    r"""Cross-section of the groove that a rounded cone leaves.
+
+    .. math:: A_g = \tan\beta\,(a^2-b^2/3)\quad(a\ge b), \qquad
+              A_g = \tfrac23\tan\beta\,a^3/b\quad(a\le b)
+
+    Parameters
+    ----------
+    a : array_like
+        Contact radius [m].
+    edge : array_like
+        Contact radius b where the rounded tip ends and the faces begin [m].
+    angle : float
+        β between the faces and the surface [rad].
+
+    Returns
+    -------
+    array
+        A_g [m²].
+
+    Notes
+    -----
+    Derived, the tip as a paraboloid.
+
+    Examples
+    --------
+    >>> round(float(groove_area_of_faces(3.0, edge=3.0, angle=np.pi / 4)), 12)
+    6.0
+    """
+    a, edge = np.asarray(a, dtype=float), np.asarray(edge, dtype=float)
+    return np.tan(angle) * np.where(a > edge, a**2 - edge**2 / 3, 2 / 3 * a**3 / edge)
+
+
+def coefficient_of_faces(
+    a: ArrayLike, *, edge: ArrayLike, angle: float, rear: ArrayLike = 0.0
+) -> Array:
+    r"""Ploughing force of a rounded cone over its load.
+
+    .. math:: \mu_p = \frac2\pi\tan\beta\left[1-\frac{b^2}{3a^2}\right]
+              \frac{1-\kappa}{1+\kappa}\quad(a\ge b), \qquad
+              \mu_p = \frac4{3\pi}\frac ab\tan\beta\,\frac{1-\kappa}{1+\kappa}\quad(a\le b)
+
+    Parameters
+    ----------
+    a, edge, angle
+        As in `groove_area_of_faces`.
+    rear : array_like, optional
+        Support κ of the rear half [1].
+
+    Returns
+    -------
+    array
+        μ_p [1].
+
+    Notes
+    -----
+    Derived as `coefficient`; of a sharp cone it is (2/π) tan β, in textbooks (2/π) cot θ. Faces
+    above 45° cut rather than plough.
+
+    Examples
+    --------
+    >>> print(coefficient_of_faces([0.1, 10.0], edge=0.1, angle=0.5).round(6))
+    [0.231859 0.347776]
+    """
+    a = np.asarray(a, dtype=float)
+    groove = groove_area_of_faces(a, edge=edge, angle=angle)
+    front = np.divide(groove, a**2, out=np.zeros_like(groove), where=a > 0)
+    kappa = np.asarray(rear)
+    return 2 / np.pi * front * (1 - kappa) / (1 + kappa)
+
+
+def groove_of(spots: ParticleSpots, side: int) -> Array:
+    """Cross-section of the groove of each particle in surface 1 (side 0) or 2 [m²]: (M, n)."""
+    shape = spots.shape
+    if shape is None or shape.round:
+        return groove_area(spots.depths[side], radius=spots.radius)
+    a = np.sqrt(spots.areas[side] / np.pi)
+    return groove_area_of_faces(a, edge=shape.edge * spots.x, angle=shape.angle)
 
 
 def rear_support(depth_over_yield: ArrayLike) -> Array:

@@ -35,6 +35,7 @@ from ...populations.heights import GaussianHeights
 from ...populations.materials import MaterialPair, reduced_modulus, softer_hardness
 from ...populations.particles import Particles
 from ...populations.roughness import Roughness
+from ...populations.shape import Angular
 from ..load_scan import load_scan
 from .squeeze_rules import NEAR, SharedRules, near_rule, squeeze_rules
 
@@ -447,6 +448,8 @@ class States(_Batch):
             return np.zeros(len(target), bool)
         if law.shadow == "projected":
             return self.steepest * rough.sigma_s <= 0.3 * (1 - c)
+        if isinstance(varied.particles.shape, Angular):  # type: ignore[union-attr]
+            return np.zeros(len(target), bool)
         body = varied.particles.material  # type: ignore[union-attr]
         pair = varied.surfaces.first, varied.surfaces.second
         sides = [(reduced_modulus(s, body), softer_hardness(s, body)) for s in pair]
@@ -510,6 +513,8 @@ class States(_Batch):
             raise NotCompiled("particles that are not Series")
         if any(name.startswith("particle_law.law") for name in arrays):
             raise NotCompiled("the law of the particles varies")
+        if any(name.startswith(SHAPES) for name in arrays):
+            raise NotCompiled("the shape of the particles varies")
         if "particle_law.friction_factor" in arrays:
             raise NotCompiled("the friction of squashed particles varies")
         if "particle_law.aspect" in arrays:
@@ -527,7 +532,8 @@ class States(_Batch):
             self._set_values(k.VALUES + p * k.PART_VALUES, part)
         if np.any(coverage >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
-        self.covered = 2 * law.tip_radius * coverage
+        one = contact.law_of(particles).one(surfaces=contact.surfaces, particle=particles.material)
+        self.covered = one.breadth * coverage
         self.most = np.maximum(self.most, self.covered)
         if law.shadow == "covered":
             self.values[:, k.COVERAGE] = self.covered
@@ -544,7 +550,7 @@ class States(_Batch):
         assert isinstance(changed, Particles)
         if any(name.startswith(MATERIALS) for name in arrays):
             raise NotCompiled("the materials of the particles vary")
-        one = law.one(surfaces=contact.surfaces, particle=particles.material)
+        one = contact.law_of(particles).one(surfaces=contact.surfaces, particle=particles.material)
         shadow = self.kinds[0, k.SHADOW]
         rough = law.seat == "rough"
         ratio = size_factor(particles.diameter, arrays)
@@ -557,7 +563,7 @@ class States(_Batch):
             factor = changed.areal_density * share * size**2
             width = law.zeta_std * varied.roughness.sigma / size if rough else 0.0 * size
             if not rough:
-                self.steepest += 0.5 * math.pi * law.tip_radius * factor / size * _densest(shape)
+                self.steepest += 0.25 * math.pi * one.breadth * factor / size * _densest(shape)
             if getattr(one, "spreads", False):
                 self.spreads = True
                 self.most = self.most + factor * average.floor[-2:].max()
@@ -604,6 +610,8 @@ class States(_Batch):
             return np.broadcast_to(values, count)[:, None]
 
         body = changed.material
+        if isinstance(particles.shape, Angular):
+            raise NotCompiled("angular particles whose material or shape of sizes varies")
         if squashed(contact, arrays, count).any():
             raise NotCompiled("squashed particles whose material or shape of sizes varies")
         sides = [
@@ -682,6 +690,7 @@ class States(_Batch):
 
 MATERIALS = ("surfaces.", "particles.material.")
 """Inputs on which the contact of a particle depends."""
+SHAPES = "particles.shape."
 
 
 def bare(contact: Contact, arrays: Mapping[str, Array]) -> bool:
@@ -704,6 +713,8 @@ def squashed(contact: Contact, arrays: Mapping[str, Array], count: int) -> NDArr
         return out
     if law.onset == "hermite" and not law.law.breakpoints:
         return out  # it never yields
+    if isinstance(contact.particles, Particles) and isinstance(contact.particles.shape, Angular):
+        return out
     varied = contact.with_arrays({k: v for k, v in arrays.items() if k.startswith(MATERIALS)})
     if isinstance(varied.particles, Particles):
         for surface in (varied.surfaces.first, varied.surfaces.second):

@@ -695,6 +695,14 @@ def _step(f, slope, bend):
 
 
 @inlined
+def _balances(state, h, target, row, sure):
+    """Columns at h, into ``row``, and whether they carry the load; less is asked of a sure h."""
+    _contact(state, h, YES, NO, row)
+    error = abs((1 - row[9]) * row[0] + row[4] - target) / target
+    return error < RESIDUAL or (sure and error < WORST)
+
+
+@inlined
 def _root(state, target, h, row):
     """Separation h from a first guess, evaluations by all nodes, fate and columns of one state.
 
@@ -754,9 +762,7 @@ def _root(state, target, h, row):
             # so this step leaves K size³
             small = not bisected and size < 1e-3 and bend * size * size * size <= ROUNDING
             if pinched or explained or small or size <= ULP * unit:
-                _contact(state, h, YES, NO, row)
-                error = abs((1 - row[9]) * row[0] + row[4] - target) / target
-                if error < RESIDUAL or ((pinched or explained) and error < WORST):
+                if _balances(state, h, target, row, pinched or explained):
                     fate = TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
                     return h, count, fate
                 if pinched:

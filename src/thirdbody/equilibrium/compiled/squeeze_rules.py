@@ -242,9 +242,7 @@ def squeeze_rule(
     top = A.kinks[:, -1:]
     kinks = A.kinks
     if not np.all(equal):
-        # where the stronger side changes its formula, or its inverse bends sharply
-        bends = np.broadcast_to(inverse.bends, (len(kinks), len(inverse.bends)))
-        points = np.concatenate([B.kinks, np.minimum(bends, B.kinks[:, -1:])], axis=1)
+        points = _kinks_and_bends(B, inverse)
         met = np.empty_like(points)
         carrying(*laid[:3], B.unit / A.unit * B.reduced_force(points), met)
         kinks = np.concatenate([kinks, np.minimum(met, top)], axis=1)
@@ -442,6 +440,12 @@ class _Sides(Side):
 
     def _cap(self) -> Array:
         return self.inverse.of_area(np.asarray(self.full, dtype=float))
+
+
+def _kinks_and_bends(side: Side, inverse: InverseLaw) -> Array:
+    """y at which a side changes its formula, or its inverse bends sharply."""
+    bends = np.broadcast_to(inverse.bends, (len(side.kinks), len(inverse.bends)))
+    return np.concatenate([side.kinks, np.minimum(bends, side.kinks[:, -1:])], axis=1)
 
 
 def _numbers(side: Side) -> Array:

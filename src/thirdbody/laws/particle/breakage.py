@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
 
@@ -13,8 +13,8 @@ from .tension import Tension, tension
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ...populations.distributions import Distribution
     from ...populations.materials import Material, MaterialPair
-    from ...populations.particles import Particles
     from ...populations.strength import WeibullStrength
     from ..base import OneParticle
 
@@ -89,13 +89,29 @@ def crush_embed_size(particle: OneParticle, breakage: Breakage) -> float:
     return float(ratio ** (1 / breakage.b))
 
 
-def about_strength(particles: Particles, surfaces: MaterialPair) -> list[str]:
+class Grains(Protocol):
+    """What has a strength: particles of a contact, or of an oil."""
+
+    @property
+    def strength(self) -> WeibullStrength | None:
+        """How strong they are."""
+
+    @property
+    def material(self) -> Material:
+        """What they are made of."""
+
+    @property
+    def diameter(self) -> Distribution:
+        """Their sizes [m]."""
+
+
+def about_strength(particles: Grains, surfaces: MaterialPair) -> list[str]:
     """Where the strength of these particles leaves its range, one sentence each."""
     strength, material = particles.strength, particles.material
     if strength is None:
         return []
     out = []
-    name = particles.name or material.name or "the particles"
+    name = getattr(particles, "name", "") or material.name or "the particles"
     if strength.x_c is None and material.K_c is None:
         out.append(
             f"the strength of {name}: without x_c, and without K_c of the material, x_c is 0 and "
@@ -104,7 +120,7 @@ def about_strength(particles: Particles, surfaces: MaterialPair) -> list[str]:
     low, high = particles.diameter.support
     low = max(low, strength.least(material), 1e-3 * high)
     p, q = strength.tested
-    if high > low and (low < p or high > q):
+    if high >= low and (low < p or high > q):
         tested = f"{p:.3g}" if p == q else f"{p:.3g} to {q:.3g}"
         factor = max((p / low) ** strength.b, (high / q) ** strength.b)
         out.append(

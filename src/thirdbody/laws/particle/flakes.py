@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
 
 from ...quantities.value import choice, quantity
+from ..base import AbstractParticleLaw
 from .series import Series
+
+if TYPE_CHECKING:
+    from ...populations.shape import Shape
 
 __all__ = ["Flakes"]
 
@@ -71,6 +76,10 @@ class Flakes(Series):
 
     soft: str = choice("flakes softer than a surface", "sphere", default="sphere")
     aspect: float = quantity("D/τ", "1", "diameter over thickness", default=1.0, ge=1)
+
+    def of_shape(self, shape: Shape) -> Self:
+        AbstractParticleLaw.of_shape(self, shape)  # theirs is in the law
+        return self
 
     @property
     def tip_radius(self) -> float:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ...populations.materials import Material, MaterialPair
+    from ...populations.shape import Angular
 
     Array = NDArray[np.float64]
     Number = float | Array
@@ -41,8 +42,9 @@ class Side:
     """One contact of a particle of unit size: load and area against indentation.
 
     Lengths are in units of the size x, loads in x²·Pa, areas in x². The tip radius is R. The
-    area stops at the great circle, πR/2 (π/4 for a sphere); from there on the load is mean
-    pressure × great circle, and constant where the law has no plastic pressure to go on to.
+    area stops at the great circle, πR/2 (π/4 for a sphere) or ``breadth`` π/4; from there on the
+    load is mean pressure × great circle, and constant where the law has no plastic pressure to go
+    on to.
 
     E* and H may be arrays (M, 1), one row a material, for a law that all bind alike.
 
@@ -57,11 +59,19 @@ class Side:
     spreads = False
 
     def __init__(
-        self, law: AbstractAsperityLaw, E_star: Number, H: Number, nu: float, R: float = 0.5
+        self,
+        law: AbstractAsperityLaw,
+        E_star: Number,
+        H: Number,
+        nu: float,
+        R: float = 0.5,
+        breadth: float | None = None,
     ):
         self.law, self.H, self.R = law.bound(R=R, E_star=E_star, H=H, nu=nu), H, R
         self.delta_1 = self.law.yield_interference(R=R, E_star=E_star, H=H)
-        self.full = 0.5 / self.delta_1  # reduced area of the great circle
+        # reduced area of the great circle, that is of breadth π/4
+        part = 0.5 if breadth is None else 0.25 * breadth / R
+        self.full = part / self.delta_1
         self.cap = self._cap()
         self.unit = self.R * math.pi * self.delta_1 * self.H
         self.plateau = self.law.branches[-1].regime == "plastic"
@@ -76,7 +86,11 @@ class Side:
 
     def _cap(self) -> Array:
         """Reduced interference at which the area reaches the great circle."""
-        full = np.asarray(self.full, dtype=float)
+        return self._indented(self.full)
+
+    def _indented(self, area: Number) -> Array:
+        """Reduced interference at which the law reaches a reduced area."""
+        full = np.asarray(area, dtype=float)
 
         def excess(y: Array, full: Array) -> Array:
             return self.law.reduced("area", y) - full
@@ -188,16 +202,19 @@ class SqueezedParticle(OneParticle):
         second: Body,
         R: float = 0.5,
         forms: tuple[SideForm | None, SideForm | None] = (None, None),
+        shape: Angular | None = None,
     ):
-        self.key = (law, first, second, R, forms)
+        self.key = (law, first, second, R, forms, shape)
         self.sides = (
             (forms[0] and forms[0].side(law, *first, R)) or Side(law, *first, R),
             (forms[1] and forms[1].side(law, *second, R)) or Side(law, *second, R),
         )
-        self.tip_radius, self.breadth = R, 2 * R
+        self.tip_radius, self.breadth, self.shape = R, 2 * R, shape
+        if shape is not None:
+            self.breadth = shape.breadth
         self.yields = (float(self.sides[0].delta_1), float(self.sides[1].delta_1))
         self.hardness = (float(self.sides[0].H), float(self.sides[1].H))
-        self.great_circle = R * math.pi / 2
+        self.great_circle = self.breadth * math.pi / 4
         self.spreads = any(side.spreads for side in self.sides)
         self.equal = first == second and forms[0] == forms[1]
         one, two = self.sides
@@ -351,9 +368,10 @@ def squeezed_particle(
     second: Body,
     R: float = 0.5,
     forms: tuple[SideForm | None, SideForm | None] = (None, None),
+    shape: Angular | None = None,
 ) -> SqueezedParticle:
     """The cached response of one particle; sides are (E*, H, ν), and what is no sphere there."""
-    return SqueezedParticle(law, first, second, R, forms)
+    return SqueezedParticle(law, first, second, R, forms, shape)
 
 
 def contact_sides(surfaces: MaterialPair, particle: Material) -> tuple[Body, Body]:

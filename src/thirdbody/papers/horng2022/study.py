@@ -13,7 +13,8 @@ from ...quantities.files import write_text
 from ..ledger import Verdict
 from ..panels import save
 from .claims import claims, study_data
-from .figures import PANELS, draw, table
+from .drawing import draw
+from .figures import PANELS, table
 from .ledger import score
 from .page import page
 from .readings import READINGS, Curves, Reading

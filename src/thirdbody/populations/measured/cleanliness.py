@@ -20,13 +20,14 @@ import re
 import tomllib
 from functools import cache
 from importlib import resources
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ...errors import InvalidValue
-from ...quantities.units import say, to_si
+from ...quantities.units import say
 from ..distributions import Distribution, PowerLaw
+from .concentration import OIL_DENSITY, Concentration, concentration, particles_in
 
 __all__ = [
     "CLASSES",
@@ -43,9 +44,6 @@ __all__ = [
     "suspension_of_class",
     "suspension_of_iso4406",
 ]
-
-OIL_DENSITY = 870.0
-"""Density of a mineral lubricating oil [kg/m³], where none is given; they lie around 850 to 900."""
 
 TAIL_SLOPE = 3.34
 """Fall of N(>x) ∝ x^(−s) from 14 to 70 µm(c) in every class of SAE AS4059."""
@@ -70,152 +68,6 @@ LIMITS = ("coarse", "middle", "fine")
 def _table(name: str) -> dict[str, Any]:
     text = resources.files("thirdbody").joinpath(f"data/{name}.toml").read_text("utf-8")
     return tomllib.loads(text)
-
-
-# ------------------------------------------------------------------------------ concentration
-class Concentration(NamedTuple):
-    """How much of the fluid is particles; made by `concentration`.
-
-    Examples
-    --------
-    >>> concentration("50 ppm")
-    Concentration(amount=5e-05, by='mass')
-    """
-
-    amount: float
-    """n [1/m³], w [1], φ [1] or c [kg/m³]."""
-    by: str
-    """Which of them: "number", "mass", "volume" or "mass per volume"."""
-
-
-_KINDS = {
-    "mass": r"(?:wt|mass|m|w)[ .-]?%|%[ ]?(?:wt|w/w|by (?:mass|weight)|mass)",
-    "volume": r"(?:vol|v)[ .-]?%|%[ ]?(?:vol|v/v|by volume|volume)",
-    "mass ppm": r"ppm(?:[ ]?(?:wt|w|m|mass|by mass))?|mg/kg",
-    "volume ppm": r"ppm[ ]?(?:vol|v|by volume)|ppmv",
-}
-_SAID = '"0.1 wt%", "0.02 vol%", "50 ppm" (by mass), "10 mg/L" or "1e6 / mL"'
-
-
-def concentration(value: float | str, by: str = "number") -> Concentration:
-    """A concentration as it is written: "0.1 wt%", "50 ppm", "1e6 / mL".
-
-    Parameters
-    ----------
-    value : float or str
-        A number is in SI: n [1/m³], a fraction [1], or kg/m³, after ``by``. A string says itself
-        what it is; ppm alone is by mass (mg/kg), as oil laboratories use it.
-    by : {"number", "mass", "volume", "mass per volume"}, optional
-        What a plain number is.
-
-    Returns
-    -------
-    Concentration
-
-    Raises
-    ------
-    InvalidValue
-        One sentence that begins with the value.
-
-    Examples
-    --------
-    >>> concentration("0.1 wt%"), concentration("5000 / mL")
-    (Concentration(amount=0.001, by='mass'), Concentration(amount=5000000000.0, by='number'))
-    """
-    kinds = ("number", "mass", "volume", "mass per volume")
-    if by not in kinds:
-        raise InvalidValue(f"by = {say(by)} must be one of {', '.join(map(say, kinds))}")
-    if isinstance(value, str):
-        amount, by = _read(value)
-    else:
-        amount = to_si(value, "1")
-    if not (math.isfinite(amount) and amount >= 0):
-        raise InvalidValue(f"{say(value)} must be a finite amount of particles, 0 or more")
-    if by in ("mass", "volume") and amount >= 1:
-        raise InvalidValue(
-            f"{say(value)} is {amount:g} of the whole {by}; a fraction must stay below 1 "
-            "(100 %), e.g. 0.1 wt% is 0.001"
-        )
-    return Concentration(amount, by)
-
-
-def _read(text: str) -> tuple[float, str]:
-    number = re.match(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*?)\s*$", text)
-    if not number or not number[2]:
-        cause = "" if number is None else " has no unit:"
-        raise InvalidValue(f"{say(text)}{cause} must be a concentration, {_SAID}")
-    amount, unit = float(number[1]), number[2]
-    for kind, pattern in _KINDS.items():
-        if re.fullmatch(pattern, unit, re.IGNORECASE):
-            name, _, ppm = kind.partition(" ")
-            return amount / (1e6 if ppm else 100), name
-    if unit == "%":
-        raise InvalidValue(f'{say(text)} is of mass or of volume? write "wt%" or "vol%"')
-    for kind, si in (("number", "1/m^3"), ("mass per volume", "kg/m^3")):
-        try:
-            return to_si(text, si), kind
-        except InvalidValue:
-            continue
-    raise InvalidValue(f"{say(text)} is not a concentration; it must be written {_SAID}")
-
-
-def particles_in(
-    found: Concentration,
-    diameter: Distribution,
-    *,
-    particle_density: float | None = None,
-    oil_density: float = OIL_DENSITY,
-) -> float:
-    r"""Particles per volume of fluid n [1/m³].
-
-    .. math:: \phi = \frac{w/\rho_p}{w/\rho_p + (1-w)/\rho_f} = \frac{c}{\rho_p}, \qquad
-              n = \frac{\phi}{\langle \pi x^3/6 \rangle}
-
-    Parameters
-    ----------
-    found : Concentration
-        w [1], c [kg/m³], φ [1] or n itself.
-    diameter : Distribution
-        Sizes x by number [m].
-    particle_density, oil_density : float, optional
-        ρ_p, ρ_f [kg/m³]; ρ_p is needed for a mass.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    InvalidValue
-        A mass without ρ_p, or a density that is not positive.
-
-    Examples
-    --------
-    >>> from thirdbody import Monodisperse
-    >>> n = particles_in(concentration("0.1 wt%"), Monodisperse(mean=1e-6), particle_density=2650)
-    >>> f"{n:.4g}"
-    '6.274e+14'
-    """
-    for name, density in (("particle_density", particle_density), ("oil_density", oil_density)):
-        if density is not None and not (math.isfinite(density) and density > 0):
-            raise InvalidValue(f"{name} = {density!r} must be > 0 [kg/m^3]; water is 1000")
-    amount, by = found
-    if by == "number":
-        return amount
-    if by in ("mass", "mass per volume"):
-        if particle_density is None:
-            raise InvalidValue(
-                "particle_density is missing: a concentration by mass needs the density of the "
-                "particles or of their material [kg/m^3], e.g. 2650 or '2.65 g/cm^3' for quartz"
-            )
-        if by == "mass":
-            solid = amount / particle_density
-            amount = solid / (solid + (1 - amount) / oil_density)
-        else:
-            amount /= particle_density
-    if amount >= 1:
-        raise InvalidValue(f"the particles would fill {amount:.3g} of the volume of the fluid")
-    return amount / (math.pi / 6 * diameter.moment(3))
 
 
 # ------------------------------------------------------------------------------ codes

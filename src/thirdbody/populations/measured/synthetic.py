@@ -135,53 +135,11 @@ def from_moments(
     >>> round(found.m4 / asked.m4, 9), round(found.alpha / asked.alpha, 9)
     (1.0, 1.0)
     """
-    from scipy.optimize import brentq
-
     _checked(points, seed, spacing=spacing)
     if not 0 <= hurst <= 1:
         raise InvalidValue(f"hurst = {hurst!r} must be from 0 to 1")
-    grid = _wavenumbers(points, spacing)
-    q2, count = np.unique(
-        np.round((grid * points * spacing / (2 * math.pi)) ** 2), return_counts=True
-    )
-    q2, count = q2[1:] * (2 * math.pi / (points * spacing)) ** 2, count[1:]
-    step, highest = 2 * math.pi / (points * spacing), math.pi / spacing
-    q = np.sqrt(q2)
-
-    def density(q: Array, q_s: float, ratio: float) -> Array:
-        edge = np.clip((q_s - q) / step + 0.5, 0.0, 1.0)
-        return edge * (1 + (q / (ratio * q_s)) ** 2) ** (-1 - hurst)
-
-    def ratios(q_s: float, ratio: float) -> tuple[float, float]:
-        """⟨q²⟩ and ⟨q⁴⟩/⟨q²⟩²."""
-        power = count * density(q, q_s, ratio)
-        m0, m2, m4 = power.sum(), power @ q2, power @ q2**2
-        return m2 / m0, m4 * m0 / m2**2
-
-    wanted = 2 * moments.m2 / moments.m0
-    lowest, top = 2 * step, highest - 0.5 * step
-
-    def shortest(ratio: float) -> float:
-        low, high = (ratios(end, ratio)[0] - wanted for end in (lowest, top))
-        if not low < 0 < high:
-            return lowest if low >= 0 else top
-        return float(brentq(lambda s: ratios(s, ratio)[0] - wanted, lowest, top, xtol=1e-9 * step))
-
-    def miss(log_ratio: float) -> float:
-        ratio = math.exp(log_ratio)
-        return ratios(shortest(ratio), ratio)[1] * 1.5 - moments.alpha
-
-    ends = [math.log(1e-3), math.log(1e3)]
-    low, high = map(miss, ends)
-    found = None
-    if low > 0 > high:
-        ratio = math.exp(float(brentq(miss, *ends, xtol=1e-13, rtol=1e-13)))
-        q_s = shortest(ratio)
-        mean, bandwidth = ratios(q_s, ratio)
-        if math.isclose(mean, wanted, rel_tol=1e-8) and math.isclose(
-            bandwidth * 1.5, moments.alpha, rel_tol=1e-8
-        ):
-            found = q_s, ratio
+    shape = _RolledOff(points, spacing, hurst)
+    found = _matching(shape, 2 * moments.m2 / moments.m0, moments.alpha)
     if found is None:
         raise InvalidValue(
             f"no spectrum on {points} x {points} points {spacing:g} m apart has α = "
@@ -189,8 +147,66 @@ def from_moments(
             f"{moments.sigma:.4g} m; α must be above 2, and a larger α takes more points or "
             "another spacing"
         )
-    spectrum = np.where(grid > 0, density(grid, *found), 0.0)
+    grid = _wavenumbers(points, spacing)
+    spectrum = np.where(grid > 0, shape.density(grid, *found), 0.0)
     return _with_phases(spectrum, moments.sigma, spacing, points, seed)
+
+
+class _RolledOff:
+    """Spectra on a grid that roll off at ``ratio`` q_s and end at q_s, sharp to one wave."""
+
+    def __init__(self, points: int, spacing: float, hurst: float):
+        self.hurst = hurst
+        self.step, self.highest = 2 * math.pi / (points * spacing), math.pi / spacing
+        grid = _wavenumbers(points, spacing)
+        q2, count = np.unique(
+            np.round((grid * points * spacing / (2 * math.pi)) ** 2), return_counts=True
+        )
+        self.q2, self.count = q2[1:] * (2 * math.pi / (points * spacing)) ** 2, count[1:]
+        self.q = np.sqrt(self.q2)
+
+    def density(self, q: Array, q_s: float, ratio: float) -> Array:
+        """Up to a factor."""
+        edge = np.clip((q_s - q) / self.step + 0.5, 0.0, 1.0)
+        return edge * (1 + (q / (ratio * q_s)) ** 2) ** (-1 - self.hurst)
+
+    def moments(self, q_s: float, ratio: float) -> tuple[float, float]:
+        """⟨q²⟩ and ⟨q⁴⟩/⟨q²⟩²."""
+        power = self.count * self.density(self.q, q_s, ratio)
+        m0, m2, m4 = power.sum(), power @ self.q2, power @ self.q2**2
+        return m2 / m0, m4 * m0 / m2**2
+
+
+def _matching(shape: _RolledOff, wanted: float, alpha: float) -> tuple[float, float] | None:
+    """q_s and ratio of the spectrum with this ⟨q²⟩ [1/m²] and bandwidth α, if there is one."""
+    from scipy.optimize import brentq
+
+    step, lowest, top = shape.step, 2 * shape.step, shape.highest - 0.5 * shape.step
+
+    def shortest(ratio: float) -> float:
+        def miss(q_s: float) -> float:
+            return shape.moments(q_s, ratio)[0] - wanted
+
+        low, high = miss(lowest), miss(top)
+        if not low < 0 < high:
+            return lowest if low >= 0 else top
+        return float(brentq(miss, lowest, top, xtol=1e-9 * step))
+
+    def miss(log_ratio: float) -> float:
+        ratio = math.exp(log_ratio)
+        return shape.moments(shortest(ratio), ratio)[1] * 1.5 - alpha
+
+    ends = [math.log(1e-3), math.log(1e3)]
+    low, high = map(miss, ends)
+    if not low > 0 > high:
+        return None
+    ratio = math.exp(float(brentq(miss, *ends, xtol=1e-13, rtol=1e-13)))
+    q_s = shortest(ratio)
+    mean, bandwidth = shape.moments(q_s, ratio)
+    close = math.isclose(mean, wanted, rel_tol=1e-8)
+    if not (close and math.isclose(bandwidth * 1.5, alpha, rel_tol=1e-8)):
+        return None
+    return q_s, ratio
 
 
 def _checked(points: int, seed: int, **lengths: float) -> None:

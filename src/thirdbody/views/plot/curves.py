@@ -44,6 +44,7 @@ from .style import (
     _column,
     _curves,
     _dress,
+    _legend_above,
     _share_axis,
     _styles,
     _tint,
@@ -356,19 +357,6 @@ def modes(
     ax = _axes(ax)
     x = _column(curve, against)
     runs = _mode_runs(x, np.asarray(curve.columns["mode"]))
-    marks: list[tuple[float, str]] = []
-    if transitions is None:
-        borders = [(left[1], left[2], right[2]) for left, right in itertools.pairwise(runs)]
-        for load, before, after in borders:
-            if (before, after) == ("p-s", "hybrid"):
-                marks.append((load, r"$F^*_{cr1}$"))
-            elif (before, after) == ("hybrid", "s-s"):
-                marks.append((load, r"$F^*_{cr2}$"))
-    else:
-        found = (("$F^*_{cr1}$", transitions.F_cr1), ("$F^*_{cr2}$", transitions.F_cr2))
-        for name, critical in found:
-            if critical.value is not None and x.min() <= critical.value <= x.max():
-                marks.append((critical.value, name))
     _dress(ax, against, "particle_area_share")
     ax.grid(visible=False)
     for start, end, mode in runs:
@@ -382,33 +370,53 @@ def modes(
     ax.plot(
         x, 1 - share, color="black", linewidth=1.6, linestyle="--", label=r"asperities $A_{ss}/A_t$"
     )
-    for load, name in marks:
-        ax.axvline(load, color="0.25", linewidth=0.8, linestyle=":")
-        # the side on which both curves lie at 0 or 100 %
-        side = -1 if "cr1" in name else 1
-        ax.annotate(
-            f"{name} = {number(load, 2)}" if against == "F_star" else name,
-            (load, 0.5),
-            xytext=(3 * side, 0),
-            textcoords="offset points",
-            rotation=90,
-            va="center",
-            ha="right" if side < 0 else "left",
-            fontsize="small",
-        )
+    for load, name in _critical_loads(x, runs, transitions):
+        _mark_load(ax, load, name, value=against == "F_star")
     ax.set_ylabel("Part of the real area [%]")
     _share_axis(ax)
     ax.set_xlim(x.min(), x.max())
     drawn = [name for name in MODES if name in {mode for _, _, mode in runs}]
-    ax.legend(
-        handles=[*ax.get_legend_handles_labels()[0], *_mode_key(drawn)],
-        fontsize="small",
-        frameon=False,
-        ncols=1 + (len(drawn) + 1) // 2,
-        loc="lower center",
-        bbox_to_anchor=(0.5, 1.08),
-    )
+    handles = [*ax.get_legend_handles_labels()[0], *_mode_key(drawn)]
+    _legend_above(ax, handles, ncols=1 + (len(drawn) + 1) // 2, y=1.08)
     return ax
+
+
+def _critical_loads(
+    x: NDArray[np.float64],
+    runs: Sequence[tuple[float, float, str]],
+    transitions: Transitions | None,
+) -> list[tuple[float, str]]:
+    """Critical loads inside the figure, as they were found or where the modes meet."""
+    marks: list[tuple[float, str]] = []
+    if transitions is None:
+        borders = [(left[1], left[2], right[2]) for left, right in itertools.pairwise(runs)]
+        for load, before, after in borders:
+            if (before, after) == ("p-s", "hybrid"):
+                marks.append((load, r"$F^*_{cr1}$"))
+            elif (before, after) == ("hybrid", "s-s"):
+                marks.append((load, r"$F^*_{cr2}$"))
+        return marks
+    found = (("$F^*_{cr1}$", transitions.F_cr1), ("$F^*_{cr2}$", transitions.F_cr2))
+    for name, critical in found:
+        if critical.value is not None and x.min() <= critical.value <= x.max():
+            marks.append((critical.value, name))
+    return marks
+
+
+def _mark_load(ax: Axes, load: float, name: str, *, value: bool) -> None:
+    """A critical load, on the side on which both curves lie at 0 or 100 %."""
+    ax.axvline(load, color="0.25", linewidth=0.8, linestyle=":")
+    side = -1 if "cr1" in name else 1
+    ax.annotate(
+        f"{name} = {number(load, 2)}" if value else name,
+        (load, 0.5),
+        xytext=(3 * side, 0),
+        textcoords="offset points",
+        rotation=90,
+        va="center",
+        ha="right" if side < 0 else "left",
+        fontsize="small",
+    )
 
 
 def _mode_key(names: Sequence[str]) -> list[Patch]:
@@ -437,12 +445,5 @@ def _mode_chart(curves: Sequence[Curve], ax: Axes, against: str) -> Axes:
     ax.tick_params(axis="y", length=0)
     every = np.concatenate([_column(curve, against) for curve in curves])
     ax.set_xlim(np.nanmin(every), np.nanmax(every))
-    ax.legend(
-        handles=_mode_key(MODES),
-        ncols=3,
-        fontsize="small",
-        frameon=False,
-        loc="lower center",
-        bbox_to_anchor=(0.5, 1.0),
-    )
+    _legend_above(ax, _mode_key(MODES), ncols=3)
     return ax

@@ -14,7 +14,7 @@ from ...equilibrium.solve import solve
 from ...equilibrium.words import MODES
 from ...errors import InvalidValue
 from ...populations.particles import Particles
-from .style import MODE_COLOURS, _axes, _dress
+from .style import MODE_COLOURS, _axes, _dress, _legend_above
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -109,15 +109,9 @@ def mode_map(
             text.set_path_effects([withStroke(linewidth=4, foreground=MODE_COLOURS[name])])
     if np.nanmin(share) < 0.5 < np.nanmax(share):
         ax.contour(sizes, loads, share.T, [0.5], colors="black", linestyles="--", linewidths=1.2)
-        line = Line2D([], [], color="black", linestyle="--", linewidth=1.2)
-        ax.legend(
-            [line],
-            ["equal load on particles and asperities"],
-            fontsize="small",
-            loc="lower center",
-            bbox_to_anchor=(0.5, 1.0),
-            frameon=False,
-        )
+        words = "equal load on particles and asperities"
+        line = Line2D([], [], color="black", linestyle="--", linewidth=1.2, label=words)
+        _legend_above(ax, [line])
     _dress(ax, "ratio", "F_star", ylog=True)
     ax.grid(visible=False)
     ax.set_xlabel(r"Particle size over roughness $x_a/\sigma$ [1]")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +12,7 @@ from matplotlib.ticker import EngFormatter, PercentFormatter
 
 from ...errors import InvalidValue
 from ...quantities.say import percent, value_of
-from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _share_axis, _tint
+from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _legend_above, _share_axis, _tint
 
 if TYPE_CHECKING:
     from ...analysis.uncertainty.propagation import Propagation
@@ -154,38 +154,8 @@ def tornado(
         raise InvalidValue(f"plot.tornado: {of!r} does not exist for the contact itself")
     log = bool(known.min() > 0 and known.max() > 3 * known.min())
     ax = _axes(ax, (5.4, 1.3 + 0.36 * len(rows)))
-    styles = (
-        ("low end of the input", _tint(OKABE_ITO["blue"], 0.8), ""),
-        ("high end of the input", _tint(OKABE_ITO["orange"], 0.8), "////"),
-    )
-    for row, (label, (low, high)) in enumerate(rows.items()):
-        input_ends = [data.inputs[label].at(p) for p in (0.05, 0.95)]
-        # where both ends lie on one side, the first stands left and the second right all the same
-        sides = [-1, 1] if low < high or low == high else [1, -1]
-        each = zip((low, high), input_ends, styles, sides, strict=True)
-        for value, end, (_, colour, hatch), side in each:
-            if not np.isfinite(value):
-                continue
-            ax.barh(
-                row,
-                value - middle,
-                left=middle,
-                height=0.62,
-                color=colour,
-                edgecolor="white",
-                hatch=hatch,
-                linewidth=0.0,
-            )
-            outer = max(value, middle) if side > 0 else min(value, middle)
-            ax.annotate(
-                value_of(end, _unit_of(data, label)),
-                (outer, row),
-                xytext=(3 * side, 0),
-                textcoords="offset points",
-                ha="left" if side > 0 else "right",
-                va="center",
-                fontsize="x-small",
-            )
+    for row, (label, changed) in enumerate(rows.items()):
+        _bar(ax, row, changed, middle, _ends_of_input(data, label))
     ax.axvline(middle, color="black", linewidth=1.0)
     _dress(ax, of, "", xlog=log)
     ax.set_xlabel(AXIS_LABELS.get(of, _output_label(of)))
@@ -198,7 +168,6 @@ def tornado(
     ax.tick_params(axis="y", length=0)
     ax.grid(visible=False, axis="y")
     ax.set_ylim(len(rows) - 0.4, -0.6)
-    # room for what stands beside the bars
     first, last = known.min(), known.max()
     if log:
         ax.set_xlim(first * (first / last) ** ROOM, last * (last / first) ** ROOM)
@@ -206,17 +175,56 @@ def tornado(
         ax.set_xlim(first - ROOM * (last - first), last + ROOM * (last - first))
     handles = [
         Patch(facecolor=colour, edgecolor="white", hatch=hatch, label=name)
-        for name, colour, hatch in styles
+        for name, colour, hatch in _ends()
     ]
-    ax.legend(
-        handles=handles,
-        ncols=2,
-        fontsize="small",
-        frameon=False,
-        loc="lower center",
-        bbox_to_anchor=(0.5, 1.0),
-    )
+    _legend_above(ax, handles, ncols=2)
     return ax
+
+
+def _ends() -> tuple[tuple[str, Any, str], ...]:
+    """Name, colour and hatch of the part of a bar towards each end of its input."""
+    return (
+        ("low end of the input", _tint(OKABE_ITO["blue"], 0.8), ""),
+        ("high end of the input", _tint(OKABE_ITO["orange"], 0.8), "////"),
+    )
+
+
+def _ends_of_input(data: Propagation, label: str) -> list[str]:
+    """The 5th and the 95th percentile of an input in words."""
+    unit = _unit_of(data, label)
+    return [value_of(data.inputs[label].at(p), unit) for p in (0.05, 0.95)]
+
+
+def _bar(
+    ax: Axes, row: int, ends: tuple[float, float], middle: float, words: Sequence[str]
+) -> None:
+    """One input: from the middle to the result at each of its ends, which stand beside."""
+    low, high = ends
+    # where both ends lie on one side, the first stands left and the second right all the same
+    sides = [-1, 1] if low < high or low == high else [1, -1]
+    for value, word, (_, colour, hatch), side in zip(ends, words, _ends(), sides, strict=True):
+        if not np.isfinite(value):
+            continue
+        ax.barh(
+            row,
+            value - middle,
+            left=middle,
+            height=0.62,
+            color=colour,
+            edgecolor="white",
+            hatch=hatch,
+            linewidth=0.0,
+        )
+        outer = max(value, middle) if side > 0 else min(value, middle)
+        ax.annotate(
+            word,
+            (outer, row),
+            xytext=(3 * side, 0),
+            textcoords="offset points",
+            ha="left" if side > 0 else "right",
+            va="center",
+            fontsize="x-small",
+        )
 
 
 ROOM = 0.45

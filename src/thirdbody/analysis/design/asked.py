@@ -1,0 +1,198 @@
+"""What a design is asked, with every mistake in it told."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...contact.contact import Contact
+from ...equilibrium.columns import columns_of
+from ...equilibrium.solve import given_load
+from ...errors import InvalidValue
+from ...numerics.sampling import Span, latin
+from ...populations.materials import Material
+from ..inputs import input_of as moved_input
+from ..uncertainty.inputs import drawn_inputs
+from .problem import Limit, Objective, Suspension
+from .search import AMOUNT, DENSITY, Task, Variable
+
+__all__ = ["NOT_SMOOTH", "asked"]
+
+Array = NDArray[np.float64]
+
+NOT_SMOOTH = {"mode", "status", "residual", "iterations"}
+CASES = 32
+"""Load cases of a range."""
+
+
+def _load_cases(
+    contact: Contact, F_star: Any, pressure: Any, weights: ArrayLike | None
+) -> tuple[str, Array, Array]:
+    """Which load, its values, and their weights."""
+    cases = {
+        name: np.geomspace(v.low, v.high, CASES) if isinstance(v, Span) else v
+        for name, v in (("F_star", F_star), ("pressure", pressure))
+    }
+    load, _, _ = given_load(contact, cases["pressure"], cases["F_star"], None)
+    loads = np.atleast_1d(np.asarray(cases[load], float))
+    share = np.ones(len(loads)) if weights is None else np.asarray(weights, float)
+    if share.shape != loads.shape or not (np.all(share >= 0) and share.sum() > 0):
+        raise InvalidValue(f"weights must be {len(loads)} numbers >= 0, one a load")
+    return load, loads, share / share.sum()
+
+
+def asked(
+    contact: Contact,
+    *,
+    vary: Mapping[str, Any],
+    objectives: list[Objective],
+    limits: list[Limit],
+    F_star: Any,
+    pressure: Any,
+    weights: ArrayLike | None,
+    scatter: Mapping[str, Any] | None,
+    samples: int,
+    seed: int,
+    suspension: Suspension | None,
+) -> Task:
+    """What `design` is to do, every mistake in it told."""
+    problems: list[str] = []
+    load, loads, share = "F_star", np.ones(1), np.ones(1)
+    try:
+        load, loads, share = _load_cases(contact, F_star, pressure, weights)
+    except InvalidValue as error:
+        problems += error.problems
+    variables, materials, wrong = _choices(contact, vary)
+    problems += wrong + _unknown(contact, objectives, limits)
+    moving = {name for label in (*vary, *(scatter or {})) for name in label.split("+")}
+    problems += _suspension_problems(contact, suspension, moving, variables, materials)
+    drawn = None
+    if scatter and not problems:
+        try:
+            moved = drawn_inputs(contact, scatter, load, loads)
+            drawn = moved, latin(samples, len(moved.known), seed, 0, samples)
+        except InvalidValue as error:
+            problems += [text.replace("vary[", "scatter[") for text in error.problems]
+    if problems:
+        raise InvalidValue(*problems)
+    return Task(
+        contact=contact,
+        variables=variables,
+        materials=materials,
+        objectives=objectives,
+        limits=limits,
+        load=load,
+        loads=loads,
+        weights=share,
+        scatter=drawn,
+        suspension=suspension,
+        seed=seed,
+    )
+
+
+def _choices(
+    contact: Contact, vary: Mapping[str, Any]
+) -> tuple[dict[str, Variable], dict[str, list[Material]], list[str]]:
+    """Numbers and materials that may be chosen, and what is wrong with them."""
+    variables: dict[str, Variable] = {}
+    materials: dict[str, list[Material]] = {}
+    problems: list[str] = []
+    for name, allowed in vary.items():
+        try:
+            if _is_materials(allowed):
+                if not isinstance(contact.part(name), Material):
+                    raise InvalidValue(f"vary[{name!r}] lists materials, but {name} is not one")
+                materials[name] = list(allowed)
+            else:
+                variables[name] = _variable(contact, name, allowed)
+        except InvalidValue as error:
+            problems += [text.replace("to = ", "vary: ") for text in error.problems]
+    if not vary:
+        problems.append(
+            'vary is empty; say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}'
+        )
+    return variables, materials, problems
+
+
+def _unknown(
+    contact: Contact, objectives: Sequence[Objective], limits: Sequence[Limit]
+) -> list[str]:
+    """What objectives and limits name that is no number of a state, or name twice."""
+    problems = []
+    if not objectives:
+        problems.append("objective is empty; say what should be small or large")
+    known = {*columns_of(contact), "plastic_share"} - NOT_SMOOTH
+    both: list[Objective | Limit] = [*objectives, *limits]
+    problems += [
+        f"{type(each).__name__} of {each.of!r}: no such number; the states of this contact have "
+        f"{', '.join(sorted(known))}"
+        for each in both
+        if each.of not in known
+    ]
+    if len({each.label for each in objectives}) < len(objectives):
+        problems.append("two objectives are the same")
+    return problems
+
+
+def _suspension_problems(
+    contact: Contact,
+    suspension: Suspension | None,
+    moving: set[str],
+    variables: Mapping[str, Variable],
+    materials: Mapping[str, list[Material]],
+) -> list[str]:
+    """What does not fit the fluid that brings the particles."""
+    if suspension is None:
+        if AMOUNT in moving:
+            return [f"vary[{AMOUNT!r}] needs suspension=Suspension(gap=...), which says of what"]
+        return []
+    if len(contact.populations) != 1:
+        return ["suspension needs exactly one population of particles"]
+    out = []
+    if DENSITY in moving:
+        out.append(f"{DENSITY} follows from the suspension: vary {AMOUNT} instead")
+    if AMOUNT not in variables and suspension.concentration is None:
+        out.append(f"Suspension.concentration is missing, and vary has no {AMOUNT!r}")
+    if suspension.by not in ("mass", "mass per volume"):
+        return out
+    listed = materials.get("particles.material", [])
+    if listed and suspension.particle_density is not None:
+        out.append(
+            "Suspension.particle_density cannot hold for several materials; give each its own, "
+            "material.replace(density=...)"
+        )
+    every = listed or [contact.populations[0].material]
+    out += [
+        f"a concentration by mass needs the density of {each.name or 'the particles'} [kg/m^3]; "
+        "give it with the material, or for one material as Suspension.particle_density"
+        for each in every
+        if each.density is None and suspension.particle_density is None
+    ]
+    return out
+
+
+def _is_materials(allowed: Any) -> bool:
+    return isinstance(allowed, (list, tuple)) and any(isinstance(v, Material) for v in allowed)
+
+
+def _variable(contact: Contact, name: str, allowed: Any) -> Variable:
+    try:
+        low, high = (float(end) for end in allowed)
+    except (TypeError, ValueError):
+        raise InvalidValue(f"vary[{name!r}] = {allowed!r} must be (low, high)") from None
+    if not low < high:
+        raise InvalidValue(f"vary[{name!r}]: low = {low:g} must be below high = {high:g}")
+    if name == AMOUNT:
+        if low <= 0:
+            raise InvalidValue(f"vary[{name!r}]: low = {low:g} must be > 0")
+        return Variable(name, low, high, None)
+    found = Variable(name, low, high, moved_input(contact, name))
+    for end in (low, high):
+        # of itself each end must be allowed; that particles jam depends on the others
+        changes = {k: float(v) for k, v in found.changes(end).items()}
+        sparse = {DENSITY: 0.0} if name.startswith("particles.diameter.") else {}
+        contact.replace(**(sparse | changes))
+    return found

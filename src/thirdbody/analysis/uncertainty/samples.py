@@ -1,0 +1,146 @@
+"""Outputs of samples, and their quantiles with errors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...contact.contact import Contact
+from ...equilibrium.columns import COLUMNS, about
+from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, load_falls
+from ...equilibrium.states import state_columns
+from ...errors import InvalidValue
+from ...numerics.sampling import sobol
+from ..inputs import NUMBERS
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Arrays = dict[str, NDArray[Any]]
+
+__all__ = ["OUTPUTS", "about_result", "columns_at"]
+
+REPLICATES = 8
+"""Scramblings of the sequence."""
+LEAST, MOST_CRITICAL = 64, 2_048
+"""Fewest samples, and samples for which critical loads are sought unless more are asked for."""
+PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
+MARGINS = {"F/F_cr1": "F_cr1", "F/F_cr2": "F_cr2"}
+MODES = ("p-s", "hybrid", "s-s", "none")
+OUTPUTS: dict[str, dict[str, str]] = {
+    **{name: COLUMNS[name] for name in NUMBERS},
+    "plastic_share": {"symbol": "A_p/A_t", "unit": "1", "meaning": "plastic part of the real area"},
+    "F_cr1": {"symbol": "F_cr1*", "unit": "1", "meaning": "critical load, p-s to hybrid"},
+    "F_cr2": {"symbol": "F_cr2*", "unit": "1", "meaning": "critical load, hybrid to s-s"},
+    "F_tpca.A": {"symbol": "F_tpca,A*", "unit": "1", "meaning": "load of the largest area share"},
+    "F_tpca.B": {"symbol": "F_tpca,B*", "unit": "1", "meaning": "load of equal load shares"},
+    "F/F_cr1": {"symbol": "F/F_cr1", "unit": "1", "meaning": "load over the first critical load"},
+    "F/F_cr2": {"symbol": "F/F_cr2", "unit": "1", "meaning": "load over the second critical load"},
+}
+"""Symbol, unit and meaning of everything that gets a band, beside the outputs of the contact."""
+MOST_OUTPUTS = 512
+"""Samples of outputs: each is a contact of its own, with spots of its own."""
+
+
+def about_result(name: str) -> dict[str, str]:
+    """Symbol, unit and meaning of what has a band."""
+    return OUTPUTS[name] if name in OUTPUTS else about(name)
+
+
+def outputs_of(asked: Sequence[str] | None, contact: Contact) -> list[str]:
+    """The outputs, each once, that the contact has."""
+    about_loads = (*CRITICAL, *MARGINS)
+    without = contact.two_body or not load_falls(contact)
+    known = [*OUTPUTS, *(name for each in contact.outputs for name in each.columns)]
+    if asked is None:
+        return [name for name in known if not (without and name in about_loads)]
+    names = list(dict.fromkeys(asked))
+    problems = [
+        f"{name!r} has no band; it must be one of {', '.join(known)}"
+        for name in names
+        if name not in known
+    ]
+    if not names:
+        problems.append("outputs is empty; name a column of Equilibrium or a critical load")
+    if contact.two_body:
+        problems += [
+            f"{name!r} needs particles: a two-body contact is always s-s"
+            for name in names
+            if name in about_loads
+        ]
+    if problems:
+        raise InvalidValue(*problems)
+    return names
+
+
+def power_of_two(count: int) -> int:
+    return 1 << (int(count) - 1).bit_length()
+
+
+def points_of(each: int, width: int, seed: int, replicates: int) -> Array:
+    """Scramblings of the Sobol sequence, one after another; a short one of its own for none."""
+    rows: Iterator[int] = iter(range(replicates)) if replicates else iter([REPLICATES])
+    seeds = [int(np.random.SeedSequence([seed, r]).generate_state(1)[0]) for r in rows]
+    return np.concatenate([sobol(each, width, one, 0, each) for one in seeds])
+
+
+def columns_at(
+    contact: Contact, load: str, value: float, vary: Arrays, count: int, *, outputs: bool = False
+) -> Arrays:
+    """States at one load, bare unless outputs are asked; the load may be among what varies."""
+    if outputs:
+        vary = dict(vary)
+    else:
+        contact, vary = carrying(contact, vary)
+    loads = vary.pop(load, np.full(count, value))
+    return state_columns(contact, **{load: loads}, vary=vary or None)
+
+
+def evaluated(
+    contact: Contact, load: str, value: float, vary: Arrays, count: int, names: Sequence[str]
+) -> dict[str, Array]:
+    """Outputs (N,) of samples at one load."""
+    critical: Arrays = {}
+    if any(name in CRITICAL or name in MARGINS for name in names):
+        rest = {n: v for n, v in vary.items() if n != load}
+        critical = {
+            name: v[0] for name, v in critical_loads(contact, vary=rest, count=count).items()
+        }
+    asked = any(name in each.columns for each in contact.outputs for name in names)
+    state = columns_at(contact, load, value, vary, count, outputs=asked)
+    return {name: output_of(name, state, critical, np.arange(count)) for name in names}
+
+
+def output_of(
+    name: str, state: Arrays, critical: Mapping[str, Array], few: NDArray[np.intp] | None
+) -> Array:
+    """One output of every sample; critical loads and margins of a few of them."""
+    if name in CRITICAL:
+        return critical[name]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if name in MARGINS:
+            return state["F_star"][few] / critical[MARGINS[name]]
+        if name == "plastic_share":
+            return state["A_p"] / state["A_t"]
+    return state[name]
+
+
+def quantiles_of(values: Array, probabilities: Sequence[float]) -> tuple[Array, Array]:
+    """Quantiles (Q,) of all samples (R, n), and their standard errors from the replicates."""
+    apart = np.array([_quantile(row, probabilities) for row in values])
+    with np.errstate(invalid="ignore"):
+        error = apart.std(axis=0, ddof=1) / math.sqrt(len(values))
+    return _quantile(values.ravel(), probabilities), error
+
+
+def _quantile(values: Array, probabilities: Sequence[float]) -> Array:
+    known = values[~np.isnan(values)]
+    if not len(known):
+        return np.full(len(probabilities), np.nan)
+    # N points in N equal cells: the i-th smallest stands in the middle of its cell
+    method = "hazen" if np.isfinite(known).all() else "inverted_cdf"
+    return np.quantile(known, probabilities, method=method)  # type: ignore[call-overload]

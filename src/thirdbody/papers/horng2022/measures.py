@@ -1,0 +1,165 @@
+"""What a curve says, and the measures by the names that the data file calls them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise, product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..ledger import Measurement
+from .claims import study_data
+from .readings import RANGE, SEARCH_TO, Curve, Curves
+
+__all__ = [
+    "ALWAYS_P_S",
+    "MEASURES",
+    "NEVER_P_S",
+    "NEVER_S_S",
+    "NO_PEAK",
+    "critical_load_1",
+    "critical_load_2",
+    "extreme",
+    "first_load",
+    "inside",
+    "interior_peak_of",
+    "largest_over_two_body",
+    "measure",
+    "ratios",
+    "second_load",
+    "slope",
+    "tpca",
+]
+
+Array = NDArray[np.float64]
+Measure = Callable[..., Measurement]
+MEASURES: dict[str, Measure] = {}
+
+
+def measure(function: Measure) -> Measure:
+    """Make a function known to the data file by its name."""
+    MEASURES[function.__name__] = function
+    return function
+
+
+def inside(curve: Curve, loads: Sequence[float] = RANGE) -> NDArray[np.bool_]:
+    """Grid points between two loads, both included."""
+    low, high = loads
+    return (curve.F >= low * (1 - 1e-9)) & (curve.F <= high * (1 + 1e-9))
+
+
+def slope(curve: Curve, values: Array, loads: Sequence[float]) -> float:
+    """Least-squares slope of ln(values) over ln F*."""
+    part = inside(curve, loads) & (values > 0)
+    if part.sum() < 2:
+        return math.nan
+    return float(np.polyfit(np.log(curve.F[part]), np.log(values[part]), 1)[0])
+
+
+def critical_load_1(curve: Curve) -> float:
+    """F_cr1*: NaN when the particles do not hold the contact at first, inf when always."""
+    threshold = study_data()["definitions"]["first_share"]
+    share = curve.particle_share
+    if not share[0] >= threshold:
+        return math.nan
+    below = np.flatnonzero(share < threshold)
+    return math.inf if not len(below) else _crossing(curve.F, share, below[0] - 1, threshold)
+
+
+def critical_load_2(curve: Curve) -> float:
+    """F_cr2*: inf when the asperities never take over, the lowest load when they always hold."""
+    threshold = 1 - study_data()["definitions"]["second_share"]
+    share = curve.particle_share
+    above = np.flatnonzero(~(share <= threshold))
+    if not len(above):
+        return float(curve.F[0])
+    last = above[-1]
+    return math.inf if last == len(share) - 1 else _crossing(curve.F, share, last, threshold)
+
+
+def _crossing(F: Array, share: Array, i: int, threshold: float) -> float:
+    """Load between grid points i and i + 1 at which the share passes the threshold."""
+    part = (threshold - share[i]) / (share[i + 1] - share[i])
+    return float(F[i] * (F[i + 1] / F[i]) ** part)
+
+
+def interior_peak_of(curve: Curve, *, turns: bool) -> tuple[float, float] | None:
+    """Load and height of the largest particle share, when it lies inside the load range.
+
+    With ``turns`` the share must fall below a stated part of its maximum on both sides, as in
+    `thirdbody.transitions`; without, any maximum counts that is not at an end.
+    """
+    part = inside(curve)
+    F, share = curve.F[part], curve.particle_share[part]
+    top = int(np.argmax(share))
+    limit = study_data()["definitions"]["turn_share"] if turns else 1 - 1e-6
+    if not max(share[: top + 1].min(), share[top:].min()) < limit * share[top]:
+        return None
+    if not 0 < top < len(F) - 1:
+        return None
+    # the top of the parabola through three points
+    log_F = np.log(F[top - 1 : top + 2])
+    a, b, _ = np.polyfit(log_F - log_F[1], share[top - 1 : top + 2], 2)
+    step = float(np.clip(-b / (2 * a), log_F[0] - log_F[1], log_F[2] - log_F[1]))
+    return float(F[top]) * math.exp(step), float(share[top])
+
+
+def tpca(curves: Curves, material: str, sigma: float, x_a: float) -> float:
+    """F_tpca*, NaN when there is none."""
+    peak = interior_peak_of(curves(material, sigma, x_a), turns=False)
+    return peak[0] if peak else math.nan
+
+
+def ratios(values: Iterable[float]) -> list[float]:
+    """Each value over the one before; NaN where either is missing or both are out of range."""
+    out = []
+    for before, after in pairwise(values):
+        known = not (math.isnan(before) or math.isnan(after))
+        out.append(after / before if known and not math.isinf(before) else math.nan)
+        if known and math.isinf(before) and math.isfinite(after):
+            out[-1] = 0.0
+    return out
+
+
+NEVER_P_S = "never p-s: the asperities touch at the lowest load already"
+ALWAYS_P_S = f"p-s up to {SEARCH_TO:g}"
+NEVER_S_S = f"never s-s up to {SEARCH_TO:g}"
+NO_PEAK = "the particle share has no maximum inside the load range"
+
+
+def extreme(values: Sequence[float], largest: bool, what: str = "") -> Measurement:
+    """The largest or smallest of several ratios, absent when one of them is."""
+    if any(math.isnan(value) for value in values):
+        return Measurement.absent(what or "one of the values does not exist")
+    value = max(values) if largest else min(values)
+    if math.isinf(value):
+        return Measurement((1e9,), "one of the loads lies beyond the range")
+    return Measurement.of(value)
+
+
+def first_load(curves: Curves, material: str, sigma: float, x_a: float) -> float:
+    return critical_load_1(curves(material, sigma, x_a))
+
+
+def second_load(curves: Curves, material: str, sigma: float, x_a: float) -> float:
+    return critical_load_2(curves(material, sigma, x_a))
+
+
+def largest_over_two_body(
+    curves: Curves,
+    materials: list[str],
+    sigma: float,
+    x_a: list[float],
+    value: Callable[[Curve], Array],
+) -> Measurement:
+    """The largest value over that without particles, of all materials and sizes."""
+    bare = curves.two_body(sigma)
+    part = inside(bare)
+    return Measurement.of(
+        max(
+            np.max((value(curves(material, sigma, x)) / value(bare))[part])
+            for material, x in product(materials, x_a)
+        )
+    )

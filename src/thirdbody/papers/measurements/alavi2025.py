@@ -1,0 +1,79 @@
+"""Strip drawing with wear particles: friction over pressure."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import thirdbody as tb
+
+from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+
+__all__ = ["ROW", "friction"]
+
+DENSITIES = (0.0, 1e9, 1e10, 1e11)
+PRESSURES = (5e6, 100e6)
+SHEARED = (30e6, 100e6, 300e6)
+"""Shear strength of asperities and of particles [Pa]."""
+
+
+def friction(density: float, sheared: float = 100e6) -> tuple[float, float]:
+    """Coefficient of friction at both of ``PRESSURES`` with so many particles [1/m²].
+
+    Examples
+    --------
+    >>> light, heavy = friction(0.0)
+    >>> round(heavy / light, 2)
+    1.15
+    """
+    strip = tb.Material(E=70e9, nu=0.33, H=1.2e9)
+    tool = tb.materials["100Cr6"]
+    particles = tb.Particles(
+        material=tb.materials["Al2O3"],
+        areal_density=density or 1.0,
+        diameter=tb.TruncatedGaussian(mean=1e-6, std=2e-7),
+    )
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(tool, strip),
+        roughness=tb.Roughness(sigma=0.5e-6, R=10e-6),
+        particles=particles if density > 0 else None,
+        outputs=(tb.outputs.Friction(tau_ss=sheared, tau_sa=sheared),),
+    )
+    light, heavy = np.asarray(tb.solve(contact, pressure=np.array(PRESSURES)).outputs["mu"])
+    return float(light), float(heavy)
+
+
+def _change() -> Band:
+    ratios = {
+        density: [heavy / light for light, heavy in (friction(density, tau) for tau in SHEARED)]
+        for density in DENSITIES
+    }
+    words = ", ".join(f"{density:g} per m²: {Band.of(one).text}" for density, one in ratios.items())
+    return Band.of(list(ratios.values()), words)
+
+
+ROW = Row(
+    "alavi2025",
+    "Friction over pressure with wear particles",
+    "Alavi, Rocchi, Leppin, Molinari, Anciaux 2025, arXiv:2510.13470",
+    "Strip drawing of aluminium; friction over normal pressure and size of the tool pads.",
+    (
+        Input("strip", "E = 70 GPa, H = 1.2 GPa", CHOSEN),
+        Input("tool", "100Cr6", CHOSEN),
+        Input("roughness", "σ = 0.5 µm, R = 10 µm", CHOSEN),
+        Input("particles", "alumina of 1 µm, none to 1e11 per m²", CHOSEN),
+        Input("shear strengths", "30 to 300 MPa, of both alike", CHOSEN),
+        Input("pressure", "5 and 100 MPa", CHOSEN),
+    ),
+    (
+        statement(
+            "falls",
+            "The coefficient of friction falls as the pressure rises",
+            ABSTRACT,
+            "friction at 100 MPa over that at 5 MPa",
+            {"kind": "below", "value": 1.0},
+            _change,
+            remark="Their own particles come from wear and change with pressure",
+        ),
+    ),
+    "Whether friction falls or rises with pressure depends on how many particles there are.",
+)

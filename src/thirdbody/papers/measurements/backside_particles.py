@@ -1,0 +1,85 @@
+"""A wafer held on a flat chuck over a particle."""
+
+from __future__ import annotations
+
+import thirdbody as tb
+from thirdbody.systems.plate_over_particle import PlateOverParticle
+
+from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+
+__all__ = ["ROW", "chuck"]
+
+THICKNESSES, PRESSURES = (675e-6, 725e-6, 775e-6), (0.5e5, 0.8e5, 1e5)
+SIZES = (1e-6, 5e-6, 10e-6, 20e-6)
+PARTICLES = ("SiO2", "Al2O3")
+
+
+def chuck(thickness: float = 725e-6, pressure: float = 1e5) -> PlateOverParticle:
+    """A silicon wafer of this thickness [m] under this pressure [Pa] on steel.
+
+    Examples
+    --------
+    >>> round(chuck().rigidity, 2)
+    5.34
+    """
+    return PlateOverParticle(
+        plate=tb.Material(E=160e9, nu=0.22, H=12e9),
+        flat=tb.materials["S45C"],
+        thickness=thickness,
+        pressure=pressure,
+    )
+
+
+def _width() -> Band:
+    return Band.of([2 * chuck(t, p).bump(100e-9).radius for t in THICKNESSES for p in PRESSURES])
+
+
+def _height() -> Band:
+    return Band.of(
+        [
+            chuck(t, p).over(x, tb.materials[name]).height / x
+            for t in THICKNESSES
+            for p in PRESSURES
+            for x in SIZES
+            for name in PARTICLES
+        ],
+        "particles of 1 to 20 µm",
+    )
+
+
+ROW = Row(
+    "backside_particles",
+    "A wafer over a particle",
+    "The effect of backside particles on substrate topography (abstract; authors, year and DOI "
+    "were not on the page seen)",
+    "A wafer held on a flat by a pressure difference, a particle under it; height of its face.",
+    (
+        Input("wafer", "silicon, 675 to 775 µm, E = 160 GPa, ν = 0.22, H = 12 GPa", CHOSEN),
+        Input("pressure difference", "0.5 to 1 bar", CHOSEN),
+        Input("flat", "steel, H = 5 GPa", CHOSEN),
+        Input("particle", "silica or alumina of 1 to 20 µm", CHOSEN),
+    ),
+    (
+        statement(
+            "width",
+            "Height variations of 100 nm extend over several millimetres",
+            ABSTRACT,
+            "diameter of the bump 100 nm high [m]",
+            {"kind": "range", "value": [2e-3, 15e-3]},
+            _width,
+            remark="Tests the plate alone",
+        ),
+        statement(
+            "height",
+            "Indentation and plastic deformation make the height orders of magnitude smaller than "
+            "was predicted",
+            ABSTRACT,
+            "height of the bump over the diameter of the particle",
+            {"kind": "at_most", "value": 0.01},
+            _height,
+            remark="Read against a particle that does not yield; what was predicted before is not "
+            "in the abstract",
+        ),
+    ),
+    "A hard particle of 10 µm lifts a wafer by nanometres: the height goes with x⁴H².",
+)

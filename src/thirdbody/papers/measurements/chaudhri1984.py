@@ -1,0 +1,141 @@
+"""Metal spheres squashed between hard platens: how hard the contact presses."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+import thirdbody as tb
+
+from ..panels import Line, Panel
+from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+
+__all__ = ["ROW", "pressure"]
+
+Array = NDArray[np.float64]
+
+VICKERS = 0.927
+"""Load over the facets of a Vickers indent, the hardness HV, over the mean pressure H."""
+HARD, STIFF = (1e9, 1.5e9, 2e9), (70e9, 95e9, 120e9)
+"""H [Pa] and E [Pa] of work-hardened metals."""
+PLATEN = tb.Material(E=1e15, nu=0.3, H=1e13)
+LAWS = {
+    "squashed (default)": tb.particle.Series(),
+    "sphere": tb.particle.Series(soft="sphere"),
+    "Jackson–Green": tb.particle.Series(law=tb.asperity.JG(), soft="sphere"),
+}
+
+
+def pressure(name: str, H: float, E: float) -> tuple[Array, Array]:
+    """Contact radius over R, and mean pressure over HV, of a sphere between rigid platens.
+
+    Parameters
+    ----------
+    name : str
+        One of ``LAWS``.
+    H, E : float
+        Hardness and modulus of the sphere [Pa].
+
+    Returns
+    -------
+    tuple of array
+        a/R and p/HV, from the first touch on.
+
+    Examples
+    --------
+    >>> wide, hard = pressure("sphere", 1e9, 70e9)
+    >>> round(float(hard[-1]), 4)
+    1.0787
+    """
+    sphere = tb.Material(E=E, nu=0.33, H=H)
+    one = LAWS[name].one(surfaces=tb.MaterialPair(PLATEN, PLATEN), particle=sphere)
+    squeezed = one.at(np.linspace(1e-3, 0.9, 4000))
+    area = squeezed.areas[0]
+    return 2 * np.sqrt(area / np.pi), squeezed.load / area / (VICKERS * H)
+
+
+def _over_materials(name: str, what: str) -> list[float]:
+    found = []
+    for H in HARD:
+        for E in STIFF:
+            wide, hard = pressure(name, H, E)
+            most = int(np.argmax(hard))
+            value = {
+                "most": hard[most],
+                "where": wide[most],
+                # from the maximum, or from where it was measured, to half the radius
+                "fall": np.interp(0.5, wide, hard) / np.interp(0.28, wide, hard),
+            }[what]
+            found.append(float(value))
+    return found
+
+
+def _band(what: str) -> Band:
+    others = "; ".join(
+        f"{name}: {Band.of(_over_materials(name, what)).text}" for name in list(LAWS)[1:]
+    )
+    return Band.of(_over_materials("squashed (default)", what), others)
+
+
+def _panel() -> Panel:
+    lines = []
+    for i, name in enumerate(LAWS):
+        wide, hard = pressure(name, HARD[1], STIFF[1])
+        shown = wide <= 0.8
+        lines.append(Line(name, wide[shown][::8], hard[shown][::8], colour=i, dash=i))
+    return Panel(
+        "spheres",
+        "mean pressure on a sphere squashed between hard platens",
+        "contact radius over that of the sphere $a/R$",
+        "mean pressure over Vickers hardness $p/HV$",
+        ("a_over_R", "p_over_HV"),
+        tuple(lines),
+        xlog=False,
+        ylim=(0.4, 1.15),
+        levels=((0.7, "largest measured: 0.7"), (0.8, "to 0.8, at a/R = 0.20 to 0.28")),
+        note="H = 1.5 GPa, E = 95 GPa.",
+    )
+
+
+ROW = Row(
+    "chaudhri1984",
+    "Metal spheres squashed between hard platens",
+    "Chaudhri, Hutchings, Makin 1984, Phil. Mag. A 49, 493, doi:10.1080/01418618408236551",
+    "Work-hardened metal spheres compressed between smooth parallel platens; mean contact "
+    "pressure over the radius of the contact.",
+    (
+        Input("hardness of the sphere", "1 to 2 GPa", CHOSEN),
+        Input("modulus of the sphere", "70 to 120 GPa, ν = 0.33", CHOSEN),
+        Input("platens", "rigid, and harder than the sphere", ABSTRACT),
+    ),
+    (
+        statement(
+            "pressure",
+            "The mean pressure rises to 0.7 to 0.8 of the Vickers hardness",
+            ABSTRACT,
+            "largest p/HV",
+            {"kind": "range", "value": [0.7, 0.8]},
+            lambda: _band("most"),
+            remark="HV is a load over facets: 0.927 of the mean pressure H of the model",
+        ),
+        statement(
+            "where",
+            "It does so at a/R = 0.20 to 0.28",
+            ABSTRACT,
+            "a/R of the largest p/HV",
+            {"kind": "range", "value": [0.20, 0.28]},
+            lambda: _band("where"),
+        ),
+        statement(
+            "falls",
+            "Beyond, it falls steadily",
+            ABSTRACT,
+            "p at a/R = 0.5 over p at 0.28",
+            {"kind": "below", "value": 1.0},
+            lambda: _band("fall"),
+        ),
+    ),
+    "A soft particle is given some 20 to 50 % too much load at a/R of 0.1 to 0.3; beyond, the "
+    "squashed law falls as the spheres did, and the law of a sphere that stays one does not.",
+    (_panel,),
+)

@@ -1,0 +1,150 @@
+"""What every comparison with a measurement is made of: conditions, statements, predictions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ..ledger import Claim, number
+from ..panels import Panel
+
+__all__ = [
+    "ABSTRACT",
+    "CAPTION",
+    "CHOSEN",
+    "COMPUTED",
+    "STANDINGS",
+    "WORDS",
+    "Band",
+    "Input",
+    "Row",
+    "Statement",
+    "Verdict",
+    "statement",
+]
+
+ABSTRACT, CAPTION = "abstract seen", "figure caption seen"
+"""Standing of what was read in the authors' abstract, or under one of their figures."""
+COMPUTED = "computed here"
+"""Standing of a number from a computation that shares nothing with the model."""
+CHOSEN = "chosen here"
+"""Standing of an input that the source seen does not give: a range of what it can have been."""
+STANDINGS = (ABSTRACT, CAPTION, COMPUTED, CHOSEN)
+
+WORDS = ("lost", "undecided", "met")
+"""Every verdict there is, in the order in which a page shows them."""
+
+
+@dataclass(frozen=True)
+class Band:
+    """A prediction: the number, and the least and largest over the inputs that are not known.
+
+    Examples
+    --------
+    >>> Band.of([0.9, 0.95, 1.0]).text
+    '0.95 (0.9 … 1)'
+    """
+
+    low: float
+    best: float
+    high: float
+    note: str = ""
+
+    @classmethod
+    def of(cls, values: object, note: str = "") -> Band:
+        """From predictions over the corners of the inputs; the middle one is the number."""
+        import numpy as np
+
+        found = np.sort(np.ravel(np.asarray(values, dtype=float)).round(12))
+        return cls(float(found[0]), float(found[len(found) // 2]), float(found[-1]), note)
+
+    @property
+    def text(self) -> str:
+        """For a table."""
+        ends = f" ({number(self.low)} … {number(self.high)})" if self.low < self.high else ""
+        return number(self.best) + ends
+
+
+@dataclass(frozen=True)
+class Input:
+    """One input of a prediction: what, its value or range with unit, and where that is from."""
+
+    what: str
+    value: str
+    standing: str
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A statement judged: one of `WORDS`, and why."""
+
+    word: str
+    why: str
+    band: Band | None
+
+
+@dataclass(frozen=True)
+class Statement:
+    """What was measured, how well that is known, and what the model says of it.
+
+    ``undecided`` is the reason why even a number within the limits would decide nothing.
+    """
+
+    claim: Claim
+    predict: Callable[[], Band | None]
+    undecided: str = ""
+
+    def judge(self) -> Verdict:
+        """Met: the whole band lies within the limits. Lost: none of it does."""
+        band = self.predict()
+        if self.undecided or band is None:
+            return Verdict("undecided", self.undecided or "no prediction", band)
+        low, high = self.claim.interval()
+        if low <= band.low and band.high <= high:
+            return Verdict("met", f"allowed {self.claim.allowed}", band)
+        if band.high < low or band.low > high:
+            return Verdict("lost", f"allowed {self.claim.allowed}", band)
+        why = f"allowed {self.claim.allowed}: the inputs that are not known decide"
+        return Verdict("undecided", why, band)
+
+
+def statement(
+    id: str,
+    measured: str,
+    standing: str,
+    quantity: str,
+    rule: dict[str, object],
+    predict: Callable[[], Band | None],
+    *,
+    remark: str = "",
+    undecided: str = "",
+) -> Statement:
+    """A statement; ``rule`` as in `Claim`, {} where nothing can be judged."""
+    claim = Claim(id, "", measured, quantity, "", {}, "", rule, remark, (), standing)
+    return Statement(claim, predict, undecided)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One measurement: what was done, what is known of it, and what the model says."""
+
+    name: str
+    title: str
+    source: str
+    """Citation with DOI."""
+    conditions: str
+    inputs: tuple[Input, ...]
+    statements: tuple[Statement, ...]
+    means: str
+    """What follows for who uses the model."""
+    panels: tuple[Callable[[], Panel], ...] = ()
+
+    def judge(self) -> dict[str, Verdict]:
+        """Every statement's verdict, by its id."""
+        return {one.claim.id: one.judge() for one in self.statements}
+
+
+def word_of(verdicts: dict[str, Verdict]) -> str:
+    """The row's own: lost if any statement is, met if all are."""
+    words = {one.word for one in verdicts.values()}
+    return next(word for word in WORDS if word in words)

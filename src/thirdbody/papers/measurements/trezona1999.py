@@ -1,0 +1,184 @@
+"""Ball cratering: wear over the amount of abrasive, rolling and grooving."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+import thirdbody as tb
+
+from ..ledger import number
+from ..panels import Line, Panel
+from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+
+__all__ = ["ROW", "worn"]
+
+Array = NDArray[np.float64]
+
+DENSITIES = np.geomspace(1e8, 1e12, 25)
+"""Particles per area [1/m²]."""
+PRESSURES = (1e6, 1e7)
+"""Nominal pressure [Pa]."""
+COEFFICIENTS = ((0.1, 0.001, 1e-5), (0.5, 0.01, 0.0), (0.2, 0.001, 1e-3))
+"""f_ab, f_roll, K_ss [1]."""
+
+
+@cache
+def worn(pressure: float, coefficients: tuple[float, float, float]) -> dict[str, Array]:
+    """Wear, rolling share and load share of the particles over `DENSITIES`.
+
+    Parameters
+    ----------
+    pressure : float
+        Nominal pressure [Pa].
+    coefficients : tuple of float
+        f_ab, f_roll, K_ss [1].
+
+    Examples
+    --------
+    >>> found = worn(1e6, (0.1, 0.001, 1e-5))
+    >>> bool(found["wear"].max() > 1.5 * found["wear"][-1])
+    True
+    """
+    steel = tb.materials["S45C"]
+    f_ab, f_roll, K_ss = coefficients
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel.replace(H=2.5e9)),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=tb.Particles(
+            material=tb.materials["SiC"],
+            areal_density=float(DENSITIES[0]),
+            diameter=tb.TruncatedGaussian(mean=500e-9, std=100e-9),
+        ),
+        outputs=(
+            tb.outputs.Friction(tau_ss=580e6, tau_sa=200e6),
+            tb.outputs.Wear(K_ss=K_ss, K_sa=0.0, f_ab=f_ab, f_roll=f_roll, renewal=100.0),
+        ),
+    )
+    states = [
+        tb.solve(
+            contact.replace(particles=contact.populations[0].replace(areal_density=float(each))),
+            pressure=pressure,
+        )
+        for each in DENSITIES
+    ]
+    return {
+        "wear": np.array([each.outputs["wear"] for each in states], dtype=float),
+        "rolling": np.array([each.outputs["rolling_share"] for each in states], dtype=float),
+        "share": np.array([each.particle_load_share for each in states], dtype=float),
+    }
+
+
+def _every() -> list[dict[str, Array]]:
+    return [worn(p, given) for p in PRESSURES for given in COEFFICIENTS]
+
+
+def _maximum() -> Band:
+    """Largest wear over that at the nearer end of the densities."""
+    found = [max(each["wear"]) / max(each["wear"][0], each["wear"][-1]) for each in _every()]
+    place = [DENSITIES[int(np.argmax(each["wear"]))] for each in _every()]
+    share = [each["share"][int(np.argmax(each["wear"]))] for each in _every()]
+    return Band.of(
+        found,
+        f"at {min(place):.1e} to {max(place):.1e} particles per m², where particles carry "
+        f"{min(share):.2f} to {max(share):.2f} of the load",
+    )
+
+
+def _rolling() -> Band:
+    """Rolling share at the most particles, less that at the fewest."""
+    return Band.of([each["rolling"][-1] - each["rolling"][0] for each in _every()])
+
+
+def _line() -> Band:
+    """Load over density where a tenth rolls: at the highest pressure over the lowest."""
+    found = []
+    for given in COEFFICIENTS:
+        ratios = []
+        for pressure in PRESSURES:
+            rolling = worn(pressure, given)["rolling"]
+            first = int(np.argmax(rolling > 0.1))
+            ends = slice(first - 1, first + 1)
+            at = np.exp(np.interp(0.1, rolling[ends], np.log(DENSITIES[ends])))
+            ratios.append(pressure / float(at))
+        found.append(ratios[1] / ratios[0])
+    return Band.of(found)
+
+
+def _panel() -> Panel:
+    lines = [
+        Line(
+            f"{pressure / 1e6:g} MPa, $f_{{ab}}$ = {given[0]:g}, $K_{{ss}}$ = {number(given[2])}",
+            DENSITIES,
+            worn(pressure, given)["wear"],
+            colour=i,
+            dash=j,
+        )
+        for j, pressure in enumerate(PRESSURES)
+        for i, given in enumerate(COEFFICIENTS)
+    ]
+    return Panel(
+        "wear",
+        "wear over the number of particles",
+        "particles per area [1/m²]",
+        "worn volume per area and sliding length",
+        ("areal_density", "wear"),
+        tuple(lines),
+        ylog=True,
+        note="SiC of 0.5 µm on σ = 0.1 µm; largest where particles take the whole load over.",
+    )
+
+
+ROW = Row(
+    "trezona1999",
+    "Wear over the amount of abrasive",
+    "Trezona, Allsopp, Hutchings 1999, Wear 225–229, 205, doi:10.1016/S0043-1648(98)00358-5",
+    "Ball cratering with slurries of SiC, alumina and diamond, loads of 0.1 to 5 N, volume "
+    "fractions of 3.1e-5 to 0.24.",
+    (
+        Input("abrasive", "SiC, mean 0.5 µm, on σ = 0.1 µm, R = 2.8 µm", CHOSEN),
+        Input("surfaces", "steel of 5 and 2.5 GPa", CHOSEN),
+        Input("nominal pressure", "1 and 10 MPa", CHOSEN),
+        Input("particles per area", "1e8 to 1e12 per m², for the volume fraction", CHOSEN),
+        Input("removed part of grooves and tracks", "0.1 to 0.5; 0.001 to 0.01", CHOSEN),
+        Input("wear coefficient of asperities", "0 to 1e-3", CHOSEN),
+        Input("shear strengths", "580 MPa of asperities, 200 MPa of particles", CHOSEN),
+    ),
+    (
+        statement(
+            "maximum",
+            "The wear rate has a maximum at an intermediate concentration",
+            ABSTRACT,
+            "largest wear over the larger of both ends",
+            {"kind": "above", "value": 1.0},
+            _maximum,
+            remark="Place and cause are open: here it is where particles take the load over, there "
+            "it may be the change from grooving to rolling",
+        ),
+        statement(
+            "rolling",
+            "Grooving turns into rolling where the load over the concentration is low",
+            ABSTRACT,
+            "rolling share at the most particles less that at the fewest",
+            {"kind": "above", "value": 0.0},
+            _rolling,
+            remark="By the balance of moments of spheres; the critical ratio itself is not in the "
+            "abstract",
+        ),
+        statement(
+            "line",
+            "Grooving turns into rolling at a critical ratio of load to concentration",
+            ABSTRACT,
+            "pressure over particles per area where a tenth rolls, at 10 MPa over that at 1 MPa",
+            {"kind": "relative", "value": 1.0, "of": 0.2},
+            _line,
+            undecided="any law of the load of one particle gives a constant ratio; its number "
+            "would decide, and is not in the abstract",
+        ),
+    ),
+    "More abrasive is not always more wear: beyond the density at which particles carry all, each "
+    "presses less deep.",
+    (_panel,),
+)

@@ -1,0 +1,183 @@
+"""Dust between two solids: how often they touch."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+import thirdbody as tb
+from thirdbody.systems.contact_probability import ContactProbability
+
+from ..panels import Line, Panel
+from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+
+__all__ = ["ROW", "closing", "share"]
+
+Array = NDArray[np.float64]
+
+SIZE = 10e-6
+NUMBERS = (0.25, 1.0, 3.0)
+SPREADS = (1.0, 1.2)
+STEEL = tb.materials["S45C"]
+PAIR = tb.MaterialPair(STEEL, STEEL)
+LOADS = np.geomspace(0.1, 8, 121)
+"""Loads over that of a fully embedded particle."""
+LEVELS = (1e-6, 1e-5, 1e-4)
+"""F*."""
+
+
+def closing(number: float, spread: float = 1.0) -> ContactProbability:
+    """Dust of which so many particles are in the way on average.
+
+    Parameters
+    ----------
+    number : float
+        N [1].
+    spread : float, optional
+        Geometric standard deviation of the diameters [1]; their mean is 10 µm.
+
+    Examples
+    --------
+    >>> round(closing(1.0).in_the_way, 6)
+    1.0
+    """
+    sizes = (
+        tb.Monodisperse(mean=SIZE)
+        if spread == 1
+        else tb.LogNormal(median=SIZE * float(np.exp(-0.5 * np.log(spread) ** 2)), gsd=spread)
+    )
+    radius = 5e-3
+    return ContactProbability(
+        radius=radius,
+        surfaces=PAIR,
+        particles=tb.Particles(
+            material=tb.materials["Al2O3"],
+            diameter=sizes,
+            areal_density=number / (2 * np.pi * radius * sizes.moment(1)),
+        ),
+    )
+
+
+@cache
+def _curve(number: float, spread: float) -> Array:
+    found = closing(number, spread)
+    out: Array = found.probability(LOADS * found.threshold)
+    return out
+
+
+def _sharpest() -> Band:
+    """Area W/H over πx²/4 where the probability changes most with ln W."""
+    found = []
+    for spread in SPREADS:
+        for number in NUMBERS:
+            steps = np.diff(_curve(number, spread))
+            most = int(np.argmax(steps))
+            dust = closing(number, spread)
+            load = float(np.sqrt(LOADS[most] * LOADS[most + 1])) * dust.threshold
+            found.append(load / STEEL.H / (np.pi * SIZE**2 / 4))
+    return Band.of(found, "N of 0.25 to 3, equal sizes to a geometric deviation of 1.2")
+
+
+def share(level: float, ratio: Array) -> Array:
+    """Share of the load on hard particles at F* = ``level`` over x/σ.
+
+    Examples
+    --------
+    >>> bool(share(1e-5, np.array([2.0])) > 0.5)
+    True
+    """
+    sigma = 0.3e-6
+    contact = tb.Contact(
+        surfaces=PAIR,
+        roughness=tb.Roughness(sigma=sigma, R=3e-6, alpha=5.0, eta_R_sigma=0.045),
+        particles=tb.Particles(
+            material=tb.materials["Al2O3"],
+            diameter=tb.Monodisperse(mean=sigma),
+            areal_density=1e11,
+        ),
+    )
+    states = tb.solve_states(contact, F_star=level, vary={"particles.diameter.mean": sigma * ratio})
+    return np.asarray(states.particle_load_share, dtype=float)
+
+
+def _roughness() -> Band:
+    """σ/x at which the particles' share falls most with ln σ."""
+    ratio = np.geomspace(0.3, 6.0, 61)
+    found = []
+    for level in LEVELS:
+        fall = np.diff(share(level, ratio))
+        most = int(np.argmax(fall))
+        found.append(1 / float(np.sqrt(ratio[most] * ratio[most + 1])))
+    return Band.of(found, "F* of 1e-6 to 1e-4")
+
+
+def _panel() -> Panel:
+    lines = [
+        Line(f"$N$ = {number:g}, {words}", LOADS, _curve(number, spread), colour=i, dash=j)
+        for i, number in enumerate(NUMBERS)
+        for j, (spread, words) in enumerate(((1.0, "one size"), (1.2, "spread 1.2")))
+    ]
+    return Panel(
+        "dust",
+        "probability that two solids touch through dust",
+        "area $W/H$ of the solids over the cross-section of a particle",
+        "probability of contact $P$",
+        ("W_over_f_max", "P"),
+        tuple(lines),
+        ylim=(0.0, 1.02),
+        note="Over the load that embeds a particle of mean size; N particles in the way.",
+    )
+
+
+ROW = Row(
+    "williamson1956",
+    "Dust between two solids",
+    "Williamson, Greenwood, Harris 1956, Proc. R. Soc. A 237, 560, doi:10.1098/rspa.1956.0197",
+    "Two solids closed on dust, many times; whether they touch.",
+    (
+        Input("solids", "steel, H = 5 GPa, smooth or σ = 0.3 µm", CHOSEN),
+        Input(
+            "dust",
+            "alumina, mean 10 µm, equal or spread by a factor 1.2; 0.25, 1 or 3 in the way",
+            CHOSEN,
+        ),
+        Input("radius of the solids", "5 mm; enters through the number in the way alone", CHOSEN),
+        Input("particles per area on rough solids", "1e11 per m²", CHOSEN),
+    ),
+    (
+        statement(
+            "threshold",
+            "The probability changes sharply when the area of contact of the solids is made "
+            "comparable with the cross-section of a particle",
+            ABSTRACT,
+            "area W/H over πx²/4 of the sharpest change",
+            {"kind": "range", "value": [0.5, 2.0]},
+            _sharpest,
+            remark="“Comparable” is read as within a factor 2. The authors' own reason may be "
+            "another; here it is the load of an embedded particle",
+        ),
+        statement(
+            "roughness",
+            "The effect of dust falls off rapidly once the roughness is comparable in height with "
+            "the particles",
+            ABSTRACT,
+            "σ/x of the steepest fall of the particles' share",
+            {"kind": "range", "value": [0.3, 1.0]},
+            _roughness,
+            remark="Height of the irregularities is read as σ to 3σ",
+        ),
+        statement(
+            "manner",
+            "The probability is related in a simple manner to number and size of the particles",
+            ABSTRACT,
+            "−ln P over the number in the way, under no load",
+            {},
+            lambda: Band.of([-np.log(closing(N).probability(0.0)) / N for N in NUMBERS]),
+            undecided="the abstract does not say which manner; here P = exp(−2πR η x)",
+        ),
+    ),
+    "Solids touch through dust once their load exceeds that of an embedded particle, πx²H/4.",
+    (_panel,),
+)

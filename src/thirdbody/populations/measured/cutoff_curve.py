@@ -1,0 +1,76 @@
+"""Moments and asperities of a surface against the cut-off."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["COLUMNS", "Curve"]
+
+COLUMNS: dict[str, tuple[str, str]] = {
+    "cutoff": ("m", "cut-off wavelength, of which the Gaussian filter passes one half"),
+    "m0": ("m^2", "mean square height"),
+    "m2": ("1", "mean square slope of profiles, by differences"),
+    "m4": ("1/m^2", "mean square second derivative of profiles, by differences"),
+    "sigma": ("m", "RMS height"),
+    "rms_gradient": ("1", "RMS of the gradient"),
+    "alpha": ("1", "Nayak's bandwidth"),
+    "R": ("m", "mean asperity radius (Nayak, McCool)"),
+    "eta": ("1/m^2", "asperity density (Nayak, McCool)"),
+    "sigma_s": ("m", "standard deviation of asperity heights (Nayak, McCool)"),
+    "y_s": ("m", "mean asperity height above the mean plane (Nayak, McCool)"),
+    "m0_spectrum": ("m^2", "mean square height, by the power spectrum"),
+    "m2_spectrum": ("1", "mean square slope of profiles, by the power spectrum"),
+    "m4_spectrum": ("1/m^2", "mean square second derivative, by the power spectrum"),
+    "summits": ("", "summits counted"),
+    "eta_counted": ("1/m^2", "density of summits counted"),
+    "R_counted": ("m", "one over the mean curvature of summits counted"),
+    "sigma_s_counted": ("m", "standard deviation of heights of summits counted"),
+    "y_s_counted": ("m", "mean height of summits counted above the mean plane"),
+    "skewness": ("1", "skewness of the surface heights"),
+    "kurtosis": ("1", "kurtosis of the surface heights, 3 for a Gaussian"),
+}
+"""Columns of a `Curve`: unit and meaning."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Curve:
+    """Moments and asperities of one surface against the cut-off.
+
+    Parameters
+    ----------
+    columns : dict of array (N,)
+        One array for every name in `COLUMNS`, in SI; NaN where there is none.
+
+    Examples
+    --------
+    >>> from thirdbody.populations.measured.topography import from_topography
+    >>> curve = from_topography("example").curve()
+    >>> bool(np.all(np.diff(curve["R"]) > 0))
+    True
+    """
+
+    columns: dict[str, Array]
+
+    def __getitem__(self, name: str) -> Array:
+        return self.columns[name]
+
+    def per_octave(self, name: str) -> Array:
+        """Relative change of a column when the cut-off doubles, at each cut-off.
+
+        Examples
+        --------
+        >>> from thirdbody.populations.measured.topography import from_topography
+        >>> curve = from_topography("example").curve()
+        >>> bool(np.all(curve.per_octave("R") > 0.1))
+        True
+        """
+        octaves = np.log2(self["cutoff"])
+        return np.exp(np.gradient(np.log(self[name]), octaves)) - 1

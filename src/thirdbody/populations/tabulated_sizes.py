@@ -1,0 +1,347 @@
+"""Size distributions as they are measured: by classes, by counts above sizes, and mixed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy import special
+
+from ..errors import InvalidValue
+from ..quantities.value import Value
+from .size_base import (
+    ONE_SIZE,
+    Distribution,
+    _clip,
+    _ratios,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Histogram", "Mixture", "PowerLaw"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Histogram(Distribution):
+    """Measured sizes: number fractions in bins, uniform inside each bin.
+
+    Parameters
+    ----------
+    edges : tuple of float
+        Increasing bin edges [m], the first >= 0.
+    counts : tuple of float
+        Particles per bin, in any unit; at least one positive.
+
+    Examples
+    --------
+    >>> sizes = Histogram(edges=(0.0, 1e-7, 3e-7), counts=(1, 1))
+    >>> round(sizes.mean_diameter * 1e9, 6)
+    125.0
+    """
+
+    edges: tuple[float, ...]
+    counts: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        for name in ("edges", "counts"):
+            try:
+                values = tuple(float(item) for item in getattr(self, name))
+            except (TypeError, ValueError):
+                raise InvalidValue(f"Histogram.{name} must be a sequence of numbers") from None
+            object.__setattr__(self, name, values)
+        Value.__post_init__(self)
+
+    def _problems(self) -> list[str]:
+        e, c = self.edges, self.counts
+        out = []
+        if not all(math.isfinite(v) for v in (*e, *c)):
+            return ["Histogram.edges and Histogram.counts must be finite numbers"]
+        if len(e) != len(c) + 1 or not c:
+            out.append(f"Histogram has {len(e)} edges and {len(c)} counts; n bins have n + 1 edges")
+        if any(b <= a for a, b in zip(e, e[1:], strict=False)) or (e and e[0] < 0):
+            out.append("Histogram.edges must increase and start at or above 0 [m]")
+        if any(v < 0 for v in c) or not any(v > 0 for v in c):
+            out.append("Histogram.counts must be >= 0 with at least one above 0")
+        return out
+
+    @property
+    def _bins(self) -> tuple[Array, Array, Array]:
+        """Lower edges, upper edges and densities of the bins between the first and last filled."""
+        e, c = np.array(self.edges), np.array(self.counts)
+        filled = np.flatnonzero(c)
+        part = slice(filled[0], filled[-1] + 1)
+        lo, hi = e[:-1][part], e[1:][part]
+        return lo, hi, c[part] / c.sum() / (hi - lo)
+
+    @property
+    def support(self) -> tuple[float, float]:
+        lo, hi, _ = self._bins
+        return (float(lo[0]), float(hi[-1]))
+
+    @property
+    def pieces(self) -> tuple[float, ...]:
+        lo, hi, _ = self._bins
+        return (*lo, float(hi[-1]))
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        return self.pieces
+
+    def pdf(self, x: ArrayLike) -> Array:
+        x = np.asarray(x, dtype=float)
+        lo, hi, density = self._bins
+        i = np.clip(np.searchsorted(lo, x, side="right") - 1, 0, len(lo) - 1)
+        return np.where((x >= lo[0]) & (x <= hi[-1]), density[i], 0.0)
+
+    def ppf(self, q: ArrayLike) -> Array:
+        lo, hi, density = self._bins
+        mass = np.concatenate([[0.0], np.cumsum(density * (hi - lo))])
+        return np.interp(np.asarray(q, dtype=float), mass, np.append(lo, hi[-1]))
+
+    def partial_moment(self, n: int, a: ArrayLike, b: ArrayLike) -> Array:
+        low, high = _clip(a, b, self.support)
+        lo, hi, density = self._bins
+        left = np.clip(low[..., None], lo, hi)
+        right = np.clip(high[..., None], lo, hi)
+        # x^(n+1) differences without cancellation over a short stretch
+        total = sum(right ** (n - k) * left**k for k in range(n + 1))
+        return np.sum(density * (right - left) * total, axis=-1) / (n + 1)
+
+    def scaled(self, factor: float) -> Histogram:
+        return Histogram(edges=tuple(factor * e for e in self.edges), counts=self.counts)
+
+    def standardised(self) -> tuple[float, Distribution]:
+        edges = _ratios(self.edges)
+        if len(edges) == 1:
+            return self.edges[-1], ONE_SIZE
+        return self.edges[-1], Histogram(edges=edges, counts=self.counts)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PowerLaw(Distribution):
+    r"""Counts per section of sizes, with a power law inside each section.
+
+    .. math:: \varphi_a(x) \propto x^{-s_i-1}, \qquad e_i \le x \le e_{i+1}
+
+    A cumulative count that falls as :math:`N(>x)\propto x^{-s}` has slope s. Volume spread evenly
+    over ln x has s = 3, evenly over x has s = 2: tables by volume become numbers without loss.
+
+    Parameters
+    ----------
+    edges : tuple of float
+        Increasing sizes e_i [m], all above 0; n + 1 of them.
+    counts : tuple of float
+        Particles per section, in any unit; at least one positive.
+    slopes : tuple of float
+        s_i [1], one per section; 0 spreads numbers evenly over ln x, -1 evenly over x.
+
+    Examples
+    --------
+    >>> sizes = PowerLaw(edges=(4e-6, 6e-6, 14e-6), counts=(3, 1), slopes=(3.4, 2.5))
+    >>> round(sizes.mean_diameter * 1e6, 4)
+    5.5787
+    """
+
+    edges: tuple[float, ...]
+    counts: tuple[float, ...]
+    slopes: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        for name in ("edges", "counts", "slopes"):
+            try:
+                values = tuple(float(item) for item in getattr(self, name))
+            except (TypeError, ValueError):
+                raise InvalidValue(f"PowerLaw.{name} must be a sequence of numbers") from None
+            object.__setattr__(self, name, values)
+        Value.__post_init__(self)
+
+    def _problems(self) -> list[str]:
+        e, c, s = self.edges, self.counts, self.slopes
+        if not all(math.isfinite(v) for v in (*e, *c, *s)):
+            return ["PowerLaw.edges, counts and slopes must be finite numbers"]
+        out = []
+        if not len(e) - 1 == len(c) == len(s) or not c:
+            out.append(
+                f"PowerLaw has {len(e)} edges, {len(c)} counts and {len(s)} slopes; "
+                "n sections have n + 1 edges"
+            )
+        if any(b <= a for a, b in zip(e, e[1:], strict=False)) or (e and e[0] <= 0):
+            out.append("PowerLaw.edges must increase and start above 0 [m]")
+        if any(v < 0 for v in c) or not any(v > 0 for v in c):
+            out.append("PowerLaw.counts must be >= 0 with at least one above 0")
+        if not out and any(
+            abs(v) * math.log(b / a) > 500 for v, a, b in zip(s, e, e[1:], strict=False)
+        ):
+            out.append("PowerLaw.slopes are too steep for the width of their sections")
+        return out
+
+    @property
+    def _sections(self) -> tuple[Array, Array, Array, Array]:
+        """Edges below and above, slopes and shares, from the first to the last filled section."""
+        filled = np.flatnonzero(self.counts)
+        part = slice(filled[0], filled[-1] + 1)
+        e, c = np.array(self.edges), np.array(self.counts)
+        return e[:-1][part], e[1:][part], np.array(self.slopes)[part], c[part] / c.sum()
+
+    @property
+    def support(self) -> tuple[float, float]:
+        lo, hi, _, _ = self._sections
+        return (float(lo[0]), float(hi[-1]))
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        lo, hi, _, _ = self._sections
+        return (*lo, float(hi[-1]))
+
+    @property
+    def pieces(self) -> tuple[float, ...]:
+        lo, hi, slope, _ = self._sections
+        out = [np.array([lo[0]])]
+        for a, b, s in zip(lo, hi, slope, strict=True):
+            count = math.ceil(math.log(b / a) * max(1.0, abs(s + 1) / 5))
+            out.append(np.geomspace(a, b, count + 1)[1:])
+        return tuple(np.concatenate(out))
+
+    def pdf(self, x: ArrayLike) -> Array:
+        x = np.asarray(x, dtype=float)
+        lo, hi, s, share = self._sections
+        long = np.log(hi / lo)
+        i = np.clip(np.searchsorted(lo, x, side="right") - 1, 0, len(lo) - 1)
+        inside = (x >= lo[0]) & (x <= hi[-1])
+        u = np.where(inside, x, lo[0]) / lo[i]
+        height = share / (lo * long * special.exprel(-s * long))
+        return np.where(inside, height[i] * u ** (-s[i] - 1), 0.0)
+
+    def ppf(self, q: ArrayLike) -> Array:
+        lo, hi, s, share = self._sections
+        q = np.asarray(q, dtype=float)
+        filled = np.flatnonzero(share)
+        above = np.cumsum(share[filled])
+        i = filled[np.clip(np.searchsorted(above, q), 0, len(filled) - 1)]
+        start = (np.cumsum(share) - share)[i]
+        part = np.clip((q - start) / share[i], 0.0, 1.0)
+        long, slope = np.log(hi / lo)[i], s[i]
+        safe = np.where(slope == 0, 1.0, slope)
+        with np.errstate(divide="ignore"):
+            step = -np.log1p(part * np.expm1(-safe * long)) / safe
+        step = np.where(slope == 0, part * long, step)
+        return lo[i] * np.exp(np.clip(step, 0.0, long))
+
+    def partial_moment(self, n: int, a: ArrayLike, b: ArrayLike) -> Array:
+        low, high = _clip(a, b, self.support)
+        lo, hi, s, share = self._sections
+        left = np.clip(low[..., None], lo, hi)
+        right = np.clip(high[..., None], lo, hi)
+        long, stretch = np.log(hi / lo), np.log1p((right - left) / left)
+        power = n - s
+        start = (left / lo) ** power * stretch * special.exprel(power * stretch)
+        return np.sum(share * lo**n * start / (long * special.exprel(-s * long)), axis=-1)
+
+    def scaled(self, factor: float) -> PowerLaw:
+        edges = tuple(factor * e for e in self.edges)
+        return PowerLaw(edges=edges, counts=self.counts, slopes=self.slopes)
+
+    def standardised(self) -> tuple[float, Distribution]:
+        edges = _ratios(self.edges)
+        if len(edges) == 1:
+            return self.edges[-1], ONE_SIZE
+        return self.edges[-1], PowerLaw(edges=edges, counts=self.counts, slopes=self.slopes)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mixture(Distribution):
+    """Several kinds of sizes of the same material, by number.
+
+    Parameters
+    ----------
+    parts : tuple of Distribution
+        The components.
+    weights : tuple of float
+        Their number fractions, in any unit.
+
+    Examples
+    --------
+    >>> from thirdbody import Monodisperse
+    >>> both = Mixture(parts=(Monodisperse(mean=1e-7), Monodisperse(mean=3e-7)), weights=(3, 1))
+    >>> round(both.mean_diameter * 1e9, 6)
+    150.0
+    """
+
+    parts: tuple[Distribution, ...]
+    weights: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parts", tuple(self.parts))
+        object.__setattr__(self, "weights", tuple(float(w) for w in self.weights))
+        Value.__post_init__(self)
+
+    def _problems(self) -> list[str]:
+        out = []
+        if not self.parts or len(self.parts) != len(self.weights):
+            out.append(
+                f"Mixture has {len(self.parts)} parts and {len(self.weights)} weights; "
+                "give one weight for each part"
+            )
+        if any(not isinstance(part, Distribution) for part in self.parts):
+            out.append("Mixture.parts must all be size distributions")
+        if any(not (w > 0 and math.isfinite(w)) for w in self.weights):
+            out.append("Mixture.weights must all be > 0")
+        return out
+
+    @property
+    def components(self) -> tuple[tuple[float, Distribution], ...]:
+        total = sum(self.weights)
+        return tuple(
+            (w / total * inner, simple)
+            for w, part in zip(self.weights, self.parts, strict=True)
+            for inner, simple in part.components
+        )
+
+    @property
+    def support(self) -> tuple[float, float]:
+        ends = [part.support for _, part in self.components]
+        return (min(lo for lo, _ in ends), max(hi for _, hi in ends))
+
+    @property
+    def pieces(self) -> tuple[float, ...]:
+        return tuple(sorted({x for _, part in self.components for x in part.pieces}))
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        return tuple(sorted({x for _, part in self.components for x in part.kinks}))
+
+    @property
+    def retained_mass(self) -> float:
+        return sum(w * part.retained_mass for w, part in self.components)
+
+    def _sum(self, method: str, *args: Any) -> Array:
+        return sum(w * getattr(part, method)(*args) for w, part in self.components)
+
+    def pdf(self, x: ArrayLike) -> Array:
+        return self._sum("pdf", x)
+
+    def partial_moment(self, n: int, a: ArrayLike, b: ArrayLike) -> Array:
+        return self._sum("partial_moment", n, a, b)
+
+    def ppf(self, q: ArrayLike) -> Array:
+        q = np.asarray(q, dtype=float)
+        lo, hi = (np.full_like(q, end) for end in self.support)
+        below = self.support[0] - 1.0
+        for _ in range(80):
+            mid = 0.5 * (lo + hi)
+            left = self.partial_moment(0, below, mid) < q
+            lo, hi = np.where(left, mid, lo), np.where(left, hi, mid)
+        return hi
+
+    def scaled(self, factor: float) -> Mixture:
+        return Mixture(
+            parts=tuple(part.scaled(factor) for part in self.parts), weights=self.weights
+        )
+
+    def standardised(self) -> tuple[float, Distribution]:
+        return 1.0, self

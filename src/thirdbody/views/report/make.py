@@ -1,0 +1,150 @@
+"""Everything that the page of a study tells, found."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ...analysis.assess import assess
+from ...analysis.assessment import Assessment
+from ...analysis.sensitivity import Sensitivity, sensitivity
+from ...analysis.uncertainty.inputs import stated_ranges
+from ...contact.contact import Contact
+from ...equilibrium.columns import Equilibrium
+from ...equilibrium.solve import solve
+from ...errors import NoEquilibrium, RangeWarning, ThirdBodyError
+from ...study import Study, run_film, run_study
+from .found import FAINT
+from .page import MOST_SAMPLES, Report
+
+DRAWN, WINDOW, BEYOND = 120, (1e-8, 1e-2), 5.0
+"""Loads of the curves, F* within which they lie, and the factor beyond what is marked on them."""
+
+USUAL = 1e-5
+"""The load F* around which is drawn where the study presses nothing."""
+
+PARTS = ("states", "error bars", "which inputs matter", "figures")
+"""What is done one after the other until there is a page."""
+
+
+def report(
+    study: Study, *, file: str = "", progress: Callable[[str], None] = lambda part: None
+) -> Report:
+    """Everything that the page of a study tells.
+
+    Parameters
+    ----------
+    study : Study
+        From `load_study`.
+    file : str, optional
+        The study file, to be printed at the end.
+    progress : callable, optional
+        Gets the name of each part of the work, as it begins.
+
+    Returns
+    -------
+    Report
+        ``.html()`` is the page, ``.sentences()`` the answer in three sentences.
+
+    Raises
+    ------
+    NoEquilibrium
+        No state of the study has an equilibrium.
+
+    Notes
+    -----
+    Error bars and elasticities are those at the middle of the loads. Error bars take what the
+    table [uncertainty] says, in at most 256 samples (`assess` takes all that it asks for);
+    without it, the ranges of the materials library, where it states some, but for particles that
+    break, whose samples take a second each.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from thirdbody.study import load_study
+    >>> file = Path(tempfile.mkdtemp()) / "study.toml"
+    >>> _ = file.write_text('''
+    ... [surfaces]
+    ... first = "S45C"
+    ... second = "S45C"
+    ... [roughness]
+    ... sigma = "100 nm"
+    ... R = "2.8 um"
+    ... [load]
+    ... pressure = "5 MPa"
+    ... ''')
+    >>> print(report(load_study(file)).sentences()[0])
+    At 5 MPa (F* = 4.468×10⁻⁵) asperities carry the whole load, because there are no particles.
+    """
+    progress(PARTS[0])
+    result = run_study(study)
+    states = result["states"]
+    known = [i for i, status in enumerate(states["status"]) if status == "ok"]
+    if not known:
+        count = len(states["status"])
+        more = f" (and so for all {count} states)" if count > 1 else ""
+        raise NoEquilibrium(states["status"][0] + more)
+    known.sort(key=lambda i: states["F_star"][i])
+    loaded = [i for i in known if states["F_star"][i] >= FAINT]
+    at = (loaded or known)[len(loaded or known) // 2]
+    given = {study.load: float(study.values[at])}
+    if study.load == "separation":
+        given = {"F_star": states["F_star"][at]}
+    bare = study.contact.replace(outputs=())
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        curve = _curve(bare, result, loaded)
+        progress(PARTS[1])
+        assessment = _assessed(study, bare, given) if loaded else None
+        progress(PARTS[2])
+        return Report(
+            study=study,
+            result=result,
+            curve=curve,
+            assessment=assessment,
+            slopes=_slopes(bare, given) if loaded else None,
+            at=at,
+            file=file,
+            film=None if study.film is None else run_film(study),
+        )
+
+
+def _curve(contact: Contact, result: dict[str, Any], loaded: Sequence[int]) -> Equilibrium:
+    """States over the loads of the study, the critical ones, and somewhat beyond."""
+    loads = [result["states"]["F_star"][i] for i in loaded] or [USUAL]
+    marked = [loads[0], loads[-1]]
+    marked += [result["transitions"][name]["value"] for name in ("F_cr1", "F_cr2")]
+    marked = [F for F in marked if F]
+    low = min(max(min(marked) / BEYOND, WINDOW[0]), loads[0])
+    high = max(min(max(marked) * BEYOND, WINDOW[1]), loads[-1])
+    return solve(contact, F_star=np.geomspace(low, high, DRAWN))
+
+
+def _assessed(study: Study, contact: Contact, given: dict[str, float]) -> Assessment | None:
+    asked = study.uncertainty
+    if asked is None:
+        breaks = any(each.strength is not None for each in contact.populations)
+        if breaks or not stated_ranges(contact):
+            return None
+        return assess(contact, **given, samples=MOST_SAMPLES)  # type: ignore[arg-type]
+    loads = {"pressure", "F_star", "d"} - set(given)
+    inputs = {label: known for label, known in asked.inputs.items() if label not in loads}
+    if not inputs:
+        return None
+    samples = min(asked.samples, MOST_SAMPLES)
+    return assess(contact, vary=inputs, **given, samples=samples, seed=asked.seed)  # type: ignore[arg-type]
+
+
+def _slopes(contact: Contact, given: dict[str, float]) -> Sensitivity | None:
+    """Of the load share, the area and the separation, to every input."""
+    names = ["A_t", "h"]
+    if not contact.two_body:
+        names.insert(0, "particle_load_share")
+    try:
+        return sensitivity(contact, of=names, **given, quick=True)  # type: ignore[arg-type]
+    except ThirdBodyError:
+        return None

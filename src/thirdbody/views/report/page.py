@@ -1,0 +1,162 @@
+"""The report as one page."""
+
+from __future__ import annotations
+
+import re
+from html import escape
+
+from ...analysis.inputs import declared
+from ...analysis.uncertainty.inputs import stated_ranges
+from ...equilibrium.columns import about
+from ...equilibrium.words import unsolved
+from ...quantities.say import listed, signed, value_of
+from ..assess_page import WORDS as ASSESSMENT_WORDS
+from ..assess_page import pictures as pictures_of
+from ..html import document, figure, section, text_table, words
+from .figures import Figures
+from .found import FAINT
+from .sentences import Sentences
+from .sources import Sources, alike
+from .tables import Tables
+
+MOST_SAMPLES = 256
+"""Samples of the error bars; `assess` takes what the study asks for."""
+
+STYLE = """
+.lead p{font-size:1.05rem;max-width:52rem}.warning{border-left:.25rem solid #D55E00;
+padding:.1rem .8rem;margin:.8rem 0}
+.default{color:var(--soft);font-style:italic}
+pre{font-size:.8rem;background:var(--head);padding:.6rem .8rem;white-space:pre-wrap}
+@media print{.warning{break-inside:avoid}.lead p{font-size:1rem;max-width:none}
+header{border:solid var(--rule);border-width:1.5pt 0 .5pt;padding:.5rem 0 .3rem}
+pre{font-size:6.8pt;line-height:1.3;padding:.4rem .6rem}}
+"""
+
+
+def running(title: str) -> str:
+    """The style that puts a title below every printed page."""
+    plain = re.sub(r"[^\w .,;:()/-]", lambda m: f"\\{ord(m[0]):x} ", title)
+    box = f'@bottom-left{{content:"{plain}";font:8pt sans-serif;color:#555}}'
+    return f"@media print{{@page{{{box}}}}}\n"
+
+
+class Report(Sentences, Figures, Tables, Sources):
+    """What a study found, ready to be written down.
+
+    Attributes
+    ----------
+    study : Study
+    result : dict
+        As `run_study` gives it: states, critical loads, warnings, citations.
+    curve : Equilibrium
+        The states that are drawn, over the loads of the study and what is near them.
+    assessment : Assessment or None
+        Error bars at one load; None where nothing is known to be uncertain.
+    slopes : Sensitivity or None
+        Elasticities at that load.
+    at : int
+        Number of that state.
+    file : str
+        The study file.
+    film : dict or None
+        What `run_film` gives, where the study has a table [film].
+    """
+
+    def html(self) -> str:
+        """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
+        title = self.result["title"] or "Contact of rough surfaces"
+        parts = [
+            f"<header><h1>{escape(title)}</h1>",
+            f"<p class=soft>Report of thirdbody {escape(self.result['version'])}.</p></header>",
+            section("The answer", self._answer(), name="answer").replace(
+                "<section", "<section class=lead", 1
+            ),
+            *self._warnings(),
+            *self._film(),
+            section("Figures", self._figures(), name="figures"),
+            section("States", self._states(), name="states"),
+            *self._critical(),
+            *self._outputs(),
+            section("Error bars", self._error_bars(), name="errors"),
+            section("Which inputs matter", self._slopes(), name="inputs-that-matter"),
+            section("Inputs and their sources", self._inputs(), name="inputs"),
+            section("Which laws, and why", self._laws(), name="laws"),
+            section("To be cited", self._citations(), name="citations"),
+        ]
+        if self.file:
+            use = "<p class=lead-in>With thirdbody, this file gives the same report again.</p>"
+            text = f"<pre>{escape(self.file)}</pre>"
+            parts.append(section("The study file", [use, text], name="study"))
+        return document(title, parts, style=STYLE + running(title))
+
+    def _answer(self) -> list[str]:
+        body = self.result.get("body", {}).get("sentences", ())
+        return [f"<p>{words(sentence)}</p>" for sentence in (*body, *self.sentences())]
+
+    def _warnings(self) -> list[str]:
+        texts = [*self.result["warnings"], *(self.film or {"warnings": []})["warnings"]]
+        texts = list(dict.fromkeys(texts))
+        texts += unsolved(self.result["states"]["status"])
+        if not texts:
+            return []
+        items = "".join(f"<li>{words(text)}</li>" for text in texts)
+        return [f"<div class=warning><p><b>Warnings</b></p><ul>{items}</ul></div>"]
+
+    def _error_bars(self) -> list[str]:
+        found = self.assessment
+        if found is None:
+            if not self.result["states"]["F_star"][self.at] >= FAINT:
+                return ["<p>There are none: nothing presses the surfaces together.</p>"]
+            if self.study.uncertainty is None and stated_ranges(self.contact):
+                return [
+                    "<p>There are none: with particles that break every sample takes a second, so "
+                    "that bands are drawn only where a table [uncertainty] asks for them.</p>"
+                ]
+            names = [body.name or label for label, body in alike(self._bodies())]
+            return [
+                "<p>There are none: the study has no table [uncertainty] that says something of "
+                "this contact, and the materials library states no ranges for "
+                f"{escape(listed(list(dict.fromkeys(names))))}. Every input counts as exactly "
+                "known.</p>"
+            ]
+        whence = (
+            "The ranges are those of the table [uncertainty]."
+            if self.study.uncertainty is not None
+            else "The study has no table [uncertainty]: the ranges are those that the materials "
+            "library states, and nothing else counts as uncertain."
+        )
+        if self.study.uncertainty and self.study.uncertainty.samples > MOST_SAMPLES:
+            whence += f" {MOST_SAMPLES} samples stand here; `thirdbody assess` takes all."
+        out = [f"<p>{words(found.headline())} {words(whence)}</p>"]
+        for part in found.sections()[1:]:
+            out.append(f"<h3>{escape(part.title)}</h3>")
+            if part.rows:
+                out.append(text_table(part.head, part.rows, ASSESSMENT_WORDS))
+            out += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
+        pictures = "\n".join(figure(svg, caption) for caption, svg in pictures_of(found))
+        return [*out, f"<div class=figures>{pictures}</div>"]
+
+    def _slopes(self) -> list[str]:
+        of, order = self.ranked()
+        if self.slopes is None or not order:
+            reason = "Derivatives could not be formed for this contact."
+            if not self.result["states"]["A_t"][self.at]:
+                reason = "There is no contact, so that nothing answers to the inputs."
+            return [f"<p>{reason}</p>"]
+        others = [name for name in self.slopes.elasticity if name != of]
+        rows = []
+        for label in order[:10]:
+            value = self.slopes.inputs[label]
+            unit = {"F_star": "1", "pressure": "Pa", "d": "m"}.get(label)
+            unit = unit or declared(self.contact, label.split("+")[0])["unit"]
+            each = (float(self.slopes.elasticity[name][label]) for name in (of, *others))
+            slopes = (signed(slope, 3) for slope in each)
+            rows.append([label, value_of(float(value), unit), *slopes])
+        sentence = (
+            f"At {self._load(self.at)}, {self._strongest(of, order)}. The numbers tell by how many "
+            "per cent a result changes when an input grows by one per cent, all others held, "
+            "however well the input is known."
+        )
+        more = f"<p class=soft>{len(rows)} of {len(order)} inputs.</p>" * (len(order) > len(rows))
+        head = ["input", "value", *(about(name)["meaning"] for name in (of, *others))]
+        return [f"<p class=lead-in>{words(sentence)}</p>", text_table(head, rows), more]

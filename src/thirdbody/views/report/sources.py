@@ -1,0 +1,229 @@
+"""What a report rests on: every input, the laws, and where they come from."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+from collections.abc import Iterator
+from html import escape
+from typing import Any, NamedTuple
+
+from ...analysis.inputs import declared
+from ...analysis.inputs import inputs as numbers_of
+from ...contact.contact import Contact
+from ...contact.output import AbstractOutput
+from ...laws.base import Law
+from ...populations.materials import NUMBERS, Material, materials
+from ...quantities.say import number, span, value_of
+from ...quantities.value import Value
+from ..html import breaking, symbols, table, words
+from .found import Found
+
+STANDING = {
+    "read": "read in the source, or in a stored copy of it",
+    "abstract": "read in the abstract of the source",
+    "from memory": "from memory: the source was not at hand",
+}
+
+
+class Row(NamedTuple):
+    """One input of the contact."""
+
+    name: str
+    symbol: str
+    value: str
+    meaning: str
+    default: bool
+
+
+class Sources(Found):
+    """Inputs, laws and what is to be cited."""
+
+    def _inputs(self) -> list[str]:
+        bodies = []
+        for label, body in alike(self._bodies()):
+            source, standing = source_of(body)
+            values = [
+                f"{about['symbol']} = {value_of(getattr(body, key), about['unit'])}"
+                for key, about in NUMBERS.items()
+                if getattr(body, key) is not None
+            ]
+            bodies.append(
+                [escape(label), escape(body.name), words(", ".join(values)), source, standing]
+            )
+        head = ["body", "material", "numbers", "source", "standing of the source"]
+        rows = [
+            [
+                symbols(row.meaning),
+                symbols(row.symbol),
+                f"<td class=n>{words(row.value)}</td>",
+                "<span class=default>default</span>" if row.default else "study",
+                breaking(escape(row.name)),
+            ]
+            for row in rows_of(self.contact)
+        ]
+        told = (
+            "<p>“default” marks what the library takes where a study says nothing; everything "
+            "else is what this study says.</p>"
+        )
+        columns = ["input", "symbol", "<th class=n>value</th>", "from", "name"]
+        return [table(head, bodies), told, table(columns, rows)]
+
+    def _laws(self) -> list[str]:
+        rows = []
+        for what, law, asked in laws_of(self.contact):
+            doi = f", doi:{law.doi}" if law.doi else ""
+            rows.append(
+                [
+                    escape(what),
+                    f"<b>{escape(law.name)}</b>: {escape(law.title)}",
+                    "study" if asked else "<span class=default>default</span>",
+                    words(law.valid_range),
+                    escape(law.provenance),
+                    escape(law.citation + doi),
+                ]
+            )
+        psi = (
+            self.contact.surfaces.E_star
+            / self.contact.surfaces.H
+            * math.sqrt(self.contact.roughness.sigma_s / self.contact.roughness.R)
+        )
+        verdict = (
+            "above 1, asperities yield under nearly any load, and an elastic law would be wrong"
+            if psi > 1
+            else "below 0.6, asperities stay elastic, and laws with and without yield agree"
+            if psi < 0.6
+            else "between 0.6 and 1, the load decides whether asperities yield"
+        )
+        why = (
+            "The plasticity index of Greenwood and Williamson, ψ = (E*/H)√(σ_s/R), is "
+            f"{number(psi, 3)}: {verdict}. How laws differ, and which suits which surface, tell "
+            "the pages “Choose a law” and “Choose a seat” of the documentation; the command "
+            "compare puts other laws beside this one."
+        )
+        head = ["for", "law", "chosen by", "valid", "provenance", "source"]
+        return [
+            f"<p class=lead-in>{words(why)}</p>",
+            table(head, rows),
+            "<p class=soft>Provenance: seen means that the formulas were read in the source, "
+            "derived that they follow from what is said here, recalled that they were known "
+            "without the source at hand, reconstructed that the source left something open.</p>",
+        ]
+
+    def _citations(self) -> list[str]:
+        lines = [
+            *self.result["citations"],
+            *(self.film or {"citations": []})["citations"],
+            *(
+                output.citation + (f", doi:{output.doi}" if output.doi else "")
+                for output in self.contact.outputs
+            ),
+            f"thirdbody {self.result['version']}",
+        ]
+        items = "".join(f"<li>{escape(line)}</li>" for line in dict.fromkeys(lines))
+        return [f"<ul>{items}</ul>"]
+
+
+def source_of(body: Material) -> tuple[str, str]:
+    """Where the numbers of a body come from, and how well that is known (HTML)."""
+    entry = materials.entries().get(body.name, {})
+    own = {key: getattr(body, key) for key in NUMBERS if getattr(body, key) is not None}
+    if not entry or any(value != entry.get(key) for key, value in own.items()):
+        return escape(body.source) or "not stated", "given by the study"
+    texts = [entry["source"] + (f", doi:{entry['doi']}" if entry.get("doi") else "")]
+    texts += [
+        f"{NUMBERS[key]['symbol']}: {text}"
+        for key, text in entry.get("sources", {}).items()
+        if key in own
+    ]
+    standing = entry.get("standing", "")
+    return "<br>".join(map(symbols, texts)), escape(STANDING.get(standing, standing))
+
+
+def alike(bodies: dict[str, Material]) -> list[tuple[str, Material]]:
+    """Bodies by what they are called; two surfaces of one material are one row."""
+    out = dict(bodies)
+    first, second = (out[f"surface {i}"] for i in (1, 2))
+    if dataclasses.asdict(first) == dataclasses.asdict(second):
+        out = {"both surfaces": first} | {k: v for k, v in out.items() if "surface" not in k}
+    names = {name: name.removeprefix("the ") for name in out}
+    if "the particles 1" in out and "the particles 2" not in out:
+        names["the particles 1"] = "particles"
+    return [(names[name], body) for name, body in out.items()]
+
+
+def kind_of(part: Value) -> str:
+    """A law by its name; a distribution in words."""
+    if isinstance(part, Law):
+        return part.name
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(part).__name__).lower()
+
+
+def rows_of(contact: Contact) -> list[Row]:
+    """Every input but the materials: numbers, words, and which distribution or law."""
+    rows = list(_rows(contact, ""))
+    rough = contact.roughness
+    if rough.eta is None and rough.eta_R_sigma is None:
+        name = "roughness.eta_R_sigma"
+        told = declared(contact, name)
+        value = number(numbers_of(contact)[name])
+        row = Row(name, told["symbol"], value, told["meaning"], True)
+        place = next(i for i, each in enumerate(rows) if each.name == "roughness.alpha")
+        rows.insert(place + 1, row)
+    return rows
+
+
+def _rows(value: Value, path: str) -> Iterator[Row]:
+    for item in dataclasses.fields(value):  # type: ignore[arg-type]
+        part, name = getattr(value, item.name), f"{path}{item.name}"
+        default = _is_default(item, part)
+        if about := item.metadata.get("quantity"):
+            if part is not None:
+                text = value_of(part, about["unit"])
+                yield Row(name, about["symbol"], text, about["meaning"], default)
+        elif about := item.metadata.get("choice"):
+            yield Row(name, "", str(part), about["meaning"], default)
+        elif isinstance(part, Value) and not isinstance(part, Material):
+            if name == "particle_law" and value.two_body:  # type: ignore[attr-defined]
+                continue
+            if item.name not in ("surfaces", "roughness", "particles"):
+                yield Row(name, "", kind_of(part), item.name.replace("_", " "), default)
+                yield from _rows(part, f"{name}.")
+            elif item.name != "surfaces":
+                yield from _rows(part, f"{name}.")
+        elif isinstance(part, tuple) and part:
+            for place, each in enumerate(part):
+                if isinstance(each, Value):
+                    label = each.name if isinstance(each, AbstractOutput) else place
+                    yield from _rows(each, f"{name}.{label}.")
+            if all(isinstance(each, (int, float)) for each in part):
+                text = f"{len(part)} values, {span(min(part), max(part), '1')}"
+                yield Row(name, "", text, item.name.replace("_", " "), default)
+
+
+def _is_default(item: dataclasses.Field[Any], value: Any) -> bool:
+    if item.default is not dataclasses.MISSING:
+        return bool(item.default == value)
+    if item.default_factory is not dataclasses.MISSING:
+        return bool(item.default_factory() == value)
+    return False
+
+
+def laws_of(contact: Contact) -> list[tuple[str, Law, bool]]:
+    """What each law is for, the law, and whether the study chose it."""
+    fields = {item.name: item for item in dataclasses.fields(contact)}
+
+    def asked(name: str) -> bool:
+        return not _is_default(fields[name], getattr(contact, name))
+
+    out: list[tuple[str, Law, bool]] = [("asperities", contact.asperity_law, asked("asperity_law"))]
+    for i, each in enumerate(contact.populations):
+        law = contact.law_of(each)
+        what = "particles" + (f" ({each.name or i + 1})" if len(contact.populations) > 1 else "")
+        chosen = each.law is not None or asked("particle_law")
+        out.append((what, law, chosen))
+        if isinstance(inner := getattr(law, "law", None), Law):
+            out.append((f"{what}: one indentation", inner, chosen))
+    out += [("output", output, True) for output in contact.outputs]
+    return out

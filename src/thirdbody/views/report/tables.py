@@ -1,0 +1,126 @@
+"""The tables of a report: states, critical loads, outputs, the oil film."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import Any
+
+from ...equilibrium.columns import about
+from ...equilibrium.words import CRITICAL, critical_load, happens
+from ...quantities.say import NOT_KNOWN, percent, plural, unit_of, value_of
+from ..html import figure, section, svg_of, symbols, table, text_table, words
+from .found import Found, some_of
+
+MOST_ROWS, MOST_COLUMNS = 20, 5
+"""States in the table of states, and in that of the outputs."""
+
+CRITICAL_HEADS = ("critical load", "F*", "pressure", "status", "what happens there")
+
+STATES = ("F_star", "pressure", "h", "d_star", "A_t", "A_ss")
+
+SHARED = ("A_sa", "particle_load_share", "particle_area_share", "mode")
+"""Columns of the table of states, and those that particles add."""
+
+
+class Tables(Found):
+    """Tables of what was found."""
+
+    def _states(self) -> list[str]:
+        states = self.result["states"]
+        names = list(STATES if self.contact.two_body else (*STATES, *SHARED))
+        total = len(states["status"])
+        rows = [
+            [column_value(name, states[name][i]) for name in names]
+            for i in some_of(total, MOST_ROWS)
+        ]
+        head = [f"<th class=n>{symbols(about(name)['symbol'])}</th>" for name in names]
+        cells = [[f"<td class=n>{words(cell)}</td>" for cell in row] for row in rows]
+        meanings = "; ".join(f"{about(name)['symbol']}: {about(name)['meaning']}" for name in names)
+        out = [table(head, cells), f"<p class=soft>{symbols(meanings)}.</p>"]
+        if total > MOST_ROWS:
+            out.append(f"<p>{MOST_ROWS} of {plural(total, 'state')}, evenly spread.</p>")
+        if self.result["populations"]:
+            out += ["<h3>What each population carries</h3>", self._populations(total)]
+        return out
+
+    def _populations(self, total: int) -> str:
+        parts = self.result["populations"]
+        states = self.result["states"]
+        head = ["pressure", *(f"{part['name']}: {of}" for part in parts for of in ("load", "area"))]
+        rows = [
+            [
+                value_of(states["pressure"][i], "Pa"),
+                *(percent(part[f"{of}_share"][i]) for part in parts for of in ("load", "area")),
+            ]
+            for i in some_of(total, MOST_ROWS)
+        ]
+        return text_table(head, rows)
+
+    def _critical(self) -> list[str]:
+        if self.contact.two_body:
+            return []
+        rows = []
+        for name in CRITICAL:
+            entry = self._entry(name)
+            value, status = entry["value"], entry["status"]
+            loads = (critical_load(value, status, E_ss) for E_ss in (None, self.contact.E_ss))
+            rows.append([name, *loads, status, happens(name)])
+        text = text_table(CRITICAL_HEADS, rows, CRITICAL_HEADS[3:])
+        return [section("Critical loads", [text], name="critical")]
+
+    def _outputs(self) -> list[str]:
+        outputs = self.contact.outputs
+        if not outputs:
+            return []
+        states = self.result["states"]
+        which = some_of(len(states["status"]), MOST_COLUMNS)
+        loads = [value_of(states["pressure"][i], "Pa") for i in which]
+        head = ["", "symbol", "unit", *(f"<th class=n>{words(load)}</th>" for load in loads)]
+        out = []
+        for output in outputs:
+            rows = []
+            for name, (symbol, unit, meaning) in output.columns.items():
+                prefixed = unit in ("m", "Pa")
+                values = (value_of(states[name][i], unit if prefixed else "1") for i in which)
+                rows.append(
+                    [
+                        f"<td class=words>{words(meaning)}</td>",
+                        symbols(symbol),
+                        "" if prefixed else unit_of(unit),
+                        *(f"<td class=n>{words(value)}</td>" for value in values),
+                    ]
+                )
+            out += [f"<h3>{escape(output.title)}</h3>", table(head, rows)]
+        return [section("What else the contact does", out, name="outputs")]
+
+    def _film(self) -> list[str]:
+        """The lubricated contact: in words, over speed, and at a few speeds."""
+        if self.film is None:
+            return []
+        from ..film_words import bodies, point, summary
+        from ..plot.film import stribeck
+
+        states, given = self.film["states"], self.film["inputs"]["film"]
+        total = len(states["speed"])
+        lead = f"A {bodies(self.film)}, in oil of {value_of(given['oil']['eta'], 'Pa s')}. "
+        pressed = "the load of the study" if self.study.own_load else "this Hertz pressure"
+        lead += f"What follows after this section leaves the oil out, under {pressed}."
+        out = [f"<p>{words(text)}</p>" for text in (lead, *summary(self.film))]
+        if total > 1:
+            drawn = svg_of(stribeck(states, self.film["regime_speeds"]))
+            caption = "Friction, load shares and film thickness over speed; grey: the regimes."
+            out.append(f'<div class="figures tall">{figure(drawn, caption)}</div>')
+        which = some_of(total, MOST_COLUMNS)
+        columns = [point(self.film, i) for i in which]
+        head = ["at a speed of", *(value_of(states["speed"][i], "m/s") for i in which)]
+        rows = [[name, *(column[name] for column in columns)] for name in columns[0]]
+        return [section("The oil film", [*out, text_table(head, rows)], name="film")]
+
+
+def column_value(name: str, value: Any) -> str:
+    """A cell of the table of states."""
+    if isinstance(value, str) or value is None:
+        return value or ("-" if name == "mode" else NOT_KNOWN)
+    if name.endswith("_share"):
+        return percent(value)
+    return value_of(value, about(name)["unit"])

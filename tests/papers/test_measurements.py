@@ -1,0 +1,127 @@
+"""The page of measurements: verdicts, standings, and that nothing is fitted."""
+
+import json
+
+import pytest
+
+from thirdbody.papers import measurements
+from thirdbody.papers.measurements.row import CHOSEN, STANDINGS, WORDS, Band, statement, word_of
+
+VERDICTS = {
+    "explicit_particles": "met",
+    "williamson1956": "undecided",
+    "chaudhri1984": "lost",
+    "jamari2006": "lost",
+    "elastic_area": "lost",
+    "bennett2017": "undecided",
+    "weber2018": "lost",
+    "ocallaghan1970": "lost",
+    "thomas1972": "lost",
+    "doumouro2020": "undecided",
+    "backside_particles": "met",
+    "trezona1999": "undecided",
+    "kong2022": "undecided",
+    "alavi2025": "lost",
+}
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    return measurements.reproduce(tmp_path_factory.mktemp("measurements"))
+
+
+def test_every_measurement_has_its_verdict(done):
+    assert {name: word_of(dict(one)) for name, one in done.ledger.items()} == VERDICTS
+
+
+def test_the_lost_ones_stand_first(done):
+    words = [word_of(dict(done.ledger[row.name])) for row in done.rows]
+    assert words == sorted(words, key=WORDS.index)
+    assert words[0] == "lost"
+    page = (done.out / "index.html").read_text("utf-8")
+    places = [page.index(f"<section id='{row.name}'>") for row in done.rows]
+    assert places == sorted(places)
+
+
+def test_at_least_nine():
+    assert len(measurements.rows()) >= 9
+    assert [row.name for row in measurements.rows()] == list(measurements.NAMES)
+
+
+def test_no_number_without_its_standing():
+    """Every input of every row says where it comes from, and no other input exists."""
+    for row in measurements.rows():
+        assert all((row.source, row.conditions, row.means, row.inputs)), row.name
+        for one in row.inputs:
+            assert all((one.what, one.value)), (row.name, one)
+            assert one.standing in STANDINGS, (row.name, one)
+        for one in row.statements:
+            assert one.claim.standing in {*STANDINGS} - {CHOSEN}, row.name
+            assert one.claim.rule or one.undecided, (row.name, one.claim.id)
+
+
+@pytest.mark.parametrize(
+    ("row", "claim", "low", "high"),
+    [
+        # by hand: the limit of a fully plastic contact, a plate, a Gaussian tail, Mikic's 0.95
+        ("jamari2006", "pressure", 1.0, 1.0),
+        ("backside_particles", "width", 8.0e-3, 10.8e-3),
+        ("thomas1972", "exponent", 0.94, 0.99),
+        ("elastic_area", "area-0.01", 0.70, 0.71),
+        ("elastic_area", "area-0.1", 0.61, 0.63),
+        ("williamson1956", "manner", 1.0, 1.0),
+        # where particles carry all, one particle's load decides
+        ("trezona1999", "line", 0.99, 1.01),
+    ],
+)
+def test_predictions(done, row, claim, low, high):
+    band = done.ledger[row][claim].band
+    assert low <= band.low * (1 + 1e-9)
+    assert band.high * (1 - 1e-9) <= high
+
+
+def test_the_sharpest_change_of_one_size_is_at_its_cross_section(done):
+    assert done.ledger["williamson1956"]["threshold"].band.low == pytest.approx(1.0, abs=0.03)
+
+
+def test_a_band_is_met_lost_or_undecided():
+    def judged(*values, undecided=""):
+        one = statement(
+            "a",
+            "x",
+            STANDINGS[0],
+            "q",
+            {"kind": "range", "value": [1.0, 2.0]},
+            lambda: Band.of(values),
+            undecided=undecided,
+        )
+        return one.judge().word
+
+    assert judged(1.1, 1.9) == "met"
+    assert judged(0.5, 0.9) == "lost"
+    assert judged(2.1, 3.0) == "lost"
+    assert judged(0.9, 1.5) == "undecided"
+    assert judged(0.5, 3.0) == "undecided"
+    assert judged(1.5, undecided="circular") == "undecided"
+
+
+def test_the_ledger_is_whole(done):
+    found = json.loads((done.out / "measurements.json").read_text("utf-8"))
+    assert sum(found["totals"].values()) == len(found["measurements"]) == len(VERDICTS)
+    for row in found["measurements"]:
+        for one in row["statements"]:
+            assert one["verdict"] in WORDS
+            assert one["predicted"] is None or len(one["predicted"]) == 3
+    assert all((done.out / name).stat().st_size > 0 for name in done.files)
+
+
+def test_the_summary_counts(done):
+    text = "\n".join(done.lines())
+    assert "14 measurements: 7 lost, 5 undecided, 2 met" in text
+
+
+def test_a_preset_is_refused(tmp_path):
+    from thirdbody import InvalidValue
+
+    with pytest.raises(InvalidValue, match="no meaning for measurements"):
+        measurements.reproduce(tmp_path, preset="a")
