@@ -123,12 +123,12 @@ def figure(
 
 
 def _decades(data: list[dict[str, Any]], name: str) -> dict[str, Any]:
-    """Ticks of a logarithmic axis: powers of ten alone where the traces reach over two."""
+    """Ticks of a logarithmic axis: powers of ten alone where the traces reach over two or so."""
     known = [np.asarray(each[name], float) for each in data if each.get(name) is not None]
     every = np.concatenate([*known, [np.nan]])
     every = every[np.isfinite(every) & (every > 0)]
     wide = float(np.log10(every.max() / every.min())) if every.size else 0.0
-    return {"dtick": 1 if wide < 8 else 2} if wide >= 2 else {}
+    return {"dtick": 1 if wide < 8 else 2} if wide > 1.9 else {}
 
 
 def empty(height: int) -> dict[str, Any]:

@@ -165,10 +165,11 @@ const met = (svg) => {
     around.scrollLeft += (there.left + there.right - box.left - box.right) / 2;
 };
 new MutationObserver(() => {
-  for (const svg of document.querySelectorAll("svg.section:not([data-met])")) {
-    svg.dataset.met = "";
-    if (innerWidth < 700) met(svg);
-  }
+  if (innerWidth < 700)
+    for (const svg of document.querySelectorAll("svg.section:not([data-met])")) {
+      svg.dataset.met = "";
+      met(svg);
+    }
   for (const plot of document.querySelectorAll(".js-plotly-plot:not([data-sized])")) {
     plot.dataset.sized = "";
     sized.observe(plot);
