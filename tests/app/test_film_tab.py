@@ -29,7 +29,7 @@ def test_the_curve_is_that_of_the_library():
     assert found["states"]["mu"] == curve.mu.values.tolist()
     figures = film_figures(found, middle)
     shares = {trace["name"]: trace["y"] for trace in figures["film shares"]["data"]}
-    assert shares["on particles"] == (100 * curve.sa_share.values).tolist()
+    assert shares["particles"] == (100 * curve.sa_share.values).tolist()
     words = [note["text"] for note in figures["film shares"]["layout"]["annotations"]]
     assert words == ["boundary", "mixed", "full film"]
     # what a user waits for; benchmarks/waiting.py measures it
