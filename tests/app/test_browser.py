@@ -282,7 +282,10 @@ def test_the_map_can_be_cancelled_and_a_click_goes_there(visit):
     stale.wait_for(state="hidden")
     looked_at(page, "map")
     box = page.locator('[data-figure="map"] .nsewdrag').first.bounding_box()
-    page.mouse.click(box["x"] + 0.7 * box["width"], box["y"] + 0.3 * box["height"])
+    there = box["x"] + 0.7 * box["width"], box["y"] + 0.3 * box["height"]
+    page.mouse.move(*there)
+    page.locator('[data-figure="map"] .hovertext').first.wait_for()  # as a user sees it
+    page.mouse.click(*there)
     tab(page, "Interface")
     assert until(page, "load", before) != before
 

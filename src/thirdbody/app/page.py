@@ -145,6 +145,8 @@ class Page:
         self.state, self.told, self.start = state, told, start
         self.draws: dict[str, Callable[[], Awaitable[None] | None]] = {}
         """How each tab that was opened is drawn."""
+        self.travels = 0
+        """How often back or forward was pressed."""
         self.said: list[str] = []
         """Notes that are shown."""
         skip = self._header()
@@ -270,8 +272,10 @@ class Page:
 
     async def _travelled(self, event: events.GenericEventArguments) -> None:
         query = QueryParams(str(event.args).removeprefix("?"))
+        self.travels = mine = self.travels + 1
         read = await run.io_bound(self.start.read, query)
-        if read is None:  # as it is when the server ends
+        # None as the server ends; of several in a row the last counts, whichever is read first
+        if read is None or mine != self.travels:
             return
         state = self.state
         study, at, state.tab, wrong = read

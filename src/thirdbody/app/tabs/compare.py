@@ -53,6 +53,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     found: dict[str, Any] = {}
 
     async def ask() -> dict[str, Any] | None:
+        await state.settle()
         answer = state.answer
         if answer is None:
             return None

@@ -191,6 +191,7 @@ class Search:
         return asked
 
     async def _ask(self) -> dict[str, Any]:
+        await self.state.settle()
         own = {} if self.which.value == WRITTEN else {"design": await self._table()}
         return {"study": self.state.study | own, "folder": str(self.state.folder)}
 

@@ -233,7 +233,8 @@ class ErrorBars:
         state = self.state
         return state.answer, state.get("uncertainty"), str(self.of.value), state.at
 
-    def _ask(self) -> dict[str, Any] | None:
+    async def _ask(self) -> dict[str, Any] | None:
+        await self.state.settle()
         answer = self.state.answer
         if answer is None:
             return None

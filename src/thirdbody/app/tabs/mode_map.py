@@ -101,7 +101,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     ).classes("hint")
     found: dict[str, Any] = {}
 
-    def ask() -> dict[str, Any] | None:
+    async def ask() -> dict[str, Any] | None:
+        await state.settle()  # what is shown belongs to the study as it is asked for
         answer = state.answer
         if answer is None or len(answer.contact.populations) != 1:
             work.said.set_text("the map needs exactly one population of particles")
