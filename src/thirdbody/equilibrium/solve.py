@@ -154,6 +154,36 @@ def solve(
             "branch = 'unloading' has no meaning with particles that break (strength): what is "
             "broken does not heal; use branch = 'loading'"
         )
+    # E·F*/E is not F* to the last digit: the given values are kept
+    given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
+    result = _result(contact, name, values, scalar, given, branch)
+    if scalar and result.status != "ok":
+        raise NoEquilibrium(result.status)
+    for sentence in result.warnings:
+        warnings.warn(sentence, RangeWarning, stacklevel=2)
+    return result
+
+
+def solve_untold(contact: Contact, load: str, loads: Array) -> Equilibrium:
+    """As `solve` at loads (N,), without a look at whether the model is valid there."""
+    name, values, _ = given_load(
+        contact, **{"pressure": None, "F_star": None, "d": None, load: loads}
+    )
+    given = np.asarray(loads, dtype=float) if name == "F_star" else None
+    return _result(contact, name, values, False, given, "loading", told=False)
+
+
+def _result(
+    contact: Contact,
+    name: str,
+    values: Array,
+    scalar: bool,
+    F_star: Array | None,
+    branch: str,
+    *,
+    told: bool = True,
+) -> Equilibrium:
+    """States at the given pressures [Pa] or separations [m], as `given_load` gives them."""
     bound = interface(contact)
     raw, path = None, "compiled"
     target = None if name == "d" else values
@@ -170,9 +200,7 @@ def solve(
         except NotCompiled as why:
             path = f"numpy: {why}"
             separation, iterations, status = load_scan(bound).solve(target, branch)
-    # E·F*/E is not F* to the last digit: the given values are kept
-    given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
-    result = _state(
+    return _state(
         contact,
         bound,
         separation,
@@ -180,16 +208,12 @@ def solve(
         iterations,
         target,
         scalar,
-        given,
+        F_star,
         raw=raw,
         path=path,
         branch=branch,
+        told=told,
     )
-    if scalar and result.status != "ok":
-        raise NoEquilibrium(result.status)
-    for sentence in result.warnings:
-        warnings.warn(sentence, RangeWarning, stacklevel=2)
-    return result
 
 
 def deepest(contact: Contact) -> float:
@@ -357,6 +381,7 @@ def _state(
     raw: dict[str, Array] | None = None,
     path: str = "numpy",
     branch: str = "",
+    told: bool = True,
 ) -> Equilibrium:
     """Every column at given separations, where ``raw`` does not bring them."""
     if raw is None:
@@ -378,7 +403,9 @@ def _state(
     if scalar:
         columns = {name: values[0].item() for name, values in columns.items()}
         outputs = {name: values[0].item() for name, values in outputs.items()}
-    notes = (*_warnings(contact, bound, full, d), *_branches(bound, target, d, branch), *more)
+    notes: tuple[str, ...] = ()
+    if told:
+        notes = (*_warnings(contact, bound, full, d), *_branches(bound, target, d, branch), *more)
     return Equilibrium(
         contact=contact,
         warnings=notes,

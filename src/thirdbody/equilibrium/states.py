@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from itertools import chain
@@ -14,12 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from ..contact.contact import Contact
 from ..contact.evaluation import evaluate
 from ..contact.interface import Interface, interface
-from ..errors import InvalidValue, NotCompiled, RangeWarning
+from ..errors import InvalidValue, NotCompiled
 from ..populations.materials import BULK
 from ..quantities.value import warn_of_slip
 from .columns import COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
-from .solve import TOO_DEEP, given_load, solve
+from .solve import TOO_DEEP, given_load, solve_untold
 
 if TYPE_CHECKING:
     import xarray
@@ -325,9 +324,7 @@ def _by_groups(
     parts = []
     for which in _alike(arrays, len(loads)):
         state = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RangeWarning)
-            result = solve(state, **{load: loads[which]})  # type: ignore[arg-type]
+        result = solve_untold(state, load, loads[which])
         path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
         parts.append((which, result.columns() | {"engine": _all(len(which), path)}))
     return _joined(len(loads), parts)

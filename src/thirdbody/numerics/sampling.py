@@ -15,8 +15,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .sobol_points import WIDEST, points
-
 __all__ = ["Span", "latin", "sobol"]
 
 Array = NDArray[np.float64]
@@ -68,9 +66,6 @@ def sobol(size: int, width: int, seed: int, start: int, stop: int) -> Array:
     >>> bool(np.all(sobol(8, 2, 1, 5, 8) == whole[5:]))
     True
     """
-    bits = max(30, math.ceil(math.log2(size)))
-    if width <= WIDEST:
-        return points(width, seed, bits, start, stop)
     from scipy.stats import qmc
 
     key = (size, width, seed)
@@ -80,14 +75,14 @@ def sobol(size: int, width: int, seed: int, start: int, stop: int) -> Array:
     _last.key = None  # an interrupt may leave it between two points
     # skipping costs a few nanoseconds a point: go on where the last part ended when possible
     if engine is None or engine.num_generated > start:
-        engine = qmc.Sobol(width, rng=seed, bits=bits)
+        engine = qmc.Sobol(width, rng=seed, bits=max(30, math.ceil(math.log2(size))))
     if start > engine.num_generated:
         engine.fast_forward(start - engine.num_generated)
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="The balance properties")
-        found: Array = engine.random(stop - start)
+        points = engine.random(stop - start)
     _last.key, _last.engine = key, engine
-    return found
+    return points
 
 
 def latin(size: int, width: int, seed: int, start: int, stop: int) -> Array:

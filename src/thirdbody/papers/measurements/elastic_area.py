@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 import thirdbody as tb
+from thirdbody.reference import persson_area
 
 from ..panels import Line, Panel
 from .row import COMPUTED, Band, Input, Row, statement
 
-__all__ = ["ROW", "area", "persson"]
+__all__ = ["ROW", "area"]
 
 Array = NDArray[np.float64]
 
@@ -55,22 +56,9 @@ def area(load: Array, breadth: float = BREADTH) -> Array:
     return np.asarray(tb.solve(contact, pressure=load * contact.E_ss).A_t)
 
 
-def persson(load: Array) -> Array:
-    r"""Persson's area of the same surface, erf(√2 p/(E* g)).
-
-    Examples
-    --------
-    >>> round(float(persson(np.array([0.01]))[0]), 4)
-    0.016
-    """
-    from scipy.special import erf
-
-    return np.asarray(erf(math.sqrt(2) * np.asarray(load)))
-
-
 def _at(load: float) -> Band:
     found = float(area(np.array([load]))[0]) / COMPUTED_AREA[load]
-    other = float(persson(np.array([load]))[0]) / COMPUTED_AREA[load]
+    other = float(persson_area(load, E_star=1.0, g=1.0)) / COMPUTED_AREA[load]
     return Band(found, found, found, f"Persson: {other:.2f}")
 
 
@@ -86,7 +74,7 @@ def _panel() -> Panel:
         (
             Line("boundary elements", known, np.array(list(COMPUTED_AREA.values())), colour=-1),
             Line("asperities (model)", load, area(load)),
-            Line("Persson", load, persson(load), colour=1, dash=1),
+            Line("Persson", load, persson_area(load, E_star=1.0, g=1.0), colour=1, dash=1),
         ),
         ylog=True,
         note="Nayak's α = 11.6; three loads were computed.",

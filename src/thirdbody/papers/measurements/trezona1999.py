@@ -92,6 +92,21 @@ def _rolling() -> Band:
     return Band.of([each["rolling"][-1] - each["rolling"][0] for each in _every()])
 
 
+def _line() -> Band:
+    """Load over density where a tenth rolls: at the highest pressure over the lowest."""
+    found = []
+    for given in COEFFICIENTS:
+        ratios = []
+        for pressure in PRESSURES:
+            rolling = worn(pressure, given)["rolling"]
+            first = int(np.argmax(rolling > 0.1))
+            ends = slice(first - 1, first + 1)
+            at = np.exp(np.interp(0.1, rolling[ends], np.log(DENSITIES[ends])))
+            ratios.append(pressure / float(at))
+        found.append(ratios[1] / ratios[0])
+    return Band.of(found)
+
+
 def _panel() -> Panel:
     lines = [
         Line(
@@ -151,6 +166,16 @@ ROW = Row(
             _rolling,
             remark="By the balance of moments of spheres; the critical ratio itself is not in the "
             "abstract",
+        ),
+        statement(
+            "line",
+            "Grooving turns into rolling at a critical ratio of load to concentration",
+            ABSTRACT,
+            "pressure over particles per area where a tenth rolls, at 10 MPa over that at 1 MPa",
+            {"kind": "relative", "value": 1.0, "of": 0.2},
+            _line,
+            undecided="any law of the load of one particle gives a constant ratio; its number "
+            "would decide, and is not in the abstract",
         ),
     ),
     "More abrasive is not always more wear: beyond the density at which particles carry all, each "
