@@ -173,7 +173,7 @@ class Wear(AbstractOutput):
         out: dict[str, list[Array]] = {"sa": [], "groove": [], "roll": [], "cut": []}
         for side, acts in enumerate(friction.indents(spots)):
             slides = np.where(even, 0.5, motion.side == side) * ~rolls
-            groove = acts * groove_of(spots, side)
+            groove = acts * groove_of(spots, side=side)
             touch = self._archard("sa", spots.regimes[side], spots.areas[side])
             b = np.sqrt(spots.areas[side] / np.pi)
             out["sa"].append(slides * touch)
