@@ -207,7 +207,13 @@ BREAKING = {
 }
 
 
-@pytest.mark.parametrize("name", list(BREAKING))
+LONG = ("one size rough", "sizes plane")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in BREAKING],
+)
 def test_particles_that_break(name):
     """Tables of them are made to 1e-10, and so is the tension inside."""
     case, separations = BREAKING[name]

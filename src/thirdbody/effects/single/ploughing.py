@@ -201,7 +201,7 @@ def coefficient_of_faces(
     return 2 / np.pi * front * (1 - kappa) / (1 + kappa)
 
 
-def groove_of(spots: ParticleSpots, side: int) -> Array:
+def groove_of(spots: ParticleSpots, *, side: int) -> Array:
     """Cross-section of the groove of each particle in surface 1 (side 0) or 2 [m²]: (M, n)."""
     shape = spots.shape
     if shape is None or shape.round:
