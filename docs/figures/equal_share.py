@@ -6,10 +6,12 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import thirdbody as tb
+from thirdbody.views.plot.style import OKABE_ITO
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 LOADS = {1e6: "1 MPa", 5e6: "5 MPa", 5e7: "50 MPa"}
 NUMBERS = np.geomspace(1e-5, 1.0, 26)  # η_a σ²
+INKS = ("blue", "vermilion", "green")
 SURFACES = {(100e-9, 3.5e-6): "-", (1e-6, 3.5e-6): "--", (100e-9, 50e-6): ":"}
 
 
@@ -30,11 +32,11 @@ def ratio(number, pressure, sigma=100e-9, R=3.5e-6):
 if __name__ == "__main__":
     figure = Figure(figsize=(6.0, 4.0), layout="constrained")
     ax = figure.add_subplot()
-    for i, (pressure, label) in enumerate(LOADS.items()):
+    for (pressure, label), ink in zip(LOADS.items(), INKS, strict=True):
         for (sigma, R), style in SURFACES.items():
             curve = [ratio(n, pressure, sigma, R) for n in NUMBERS]
             name = label if style == "-" else None
-            ax.loglog(NUMBERS, curve, style, color=f"C{i}", lw=1.2, label=name)
+            ax.loglog(NUMBERS, curve, style, color=OKABE_ITO[ink], lw=1.2, label=name)
     for low, high, said in ((0.5, 0.7, "0.5 to 0.7 (2022)"), (0.8, 1.3, "0.8 to 1.3 (2024)")):
         ax.axhspan(low, high, color="0.88", zorder=0)
         ax.text(1.3e-5, np.sqrt(low * high), said, va="center", fontsize="small")

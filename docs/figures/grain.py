@@ -2,16 +2,21 @@
 
 from pathlib import Path
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
 import thirdbody as tb
 from thirdbody.contact.interface import interface
 from thirdbody.laws.particle.breakage import Breakage, crush_embed_size
+from thirdbody.views.plot.style import OKABE_ITO
 
 BEARING = tb.Material(E=206e9, nu=0.29, H=7.37e9)
 QUARTZ = tb.materials["quartz"]
 WORDS = {"gone": "pieces are gone", "footprint": "over the footprint", "all": "all pieces bear"}
+
+INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
+LOOKS = (("blue", "-"), ("vermilion", "--"), ("green", "-."))
 
 
 def load(x, gaps, fragments):
@@ -38,9 +43,10 @@ def draw_broken():
     for ax, x in zip(figure.subplots(1, 2, sharey=True), (3e-6, 20e-6), strict=True):
         eps = np.linspace(0.0, 1.0, 400)
         whole = load(x, x * (1 - eps), None)
-        ax.plot(eps, whole / whole[-1], "k--", lw=1.0, label="whole (no strength)")
-        for i, (fragments, label) in enumerate(WORDS.items()):
-            ax.plot(eps, load(x, x * (1 - eps), fragments) / whole[-1], f"C{i}", label=label)
+        ax.plot(eps, whole / whole[-1], "k:", lw=1.2, label="whole (no strength)")
+        for (fragments, label), (ink, dash) in zip(WORDS.items(), LOOKS, strict=True):
+            ratio = load(x, x * (1 - eps), fragments) / whole[-1]
+            ax.plot(eps, ratio, color=OKABE_ITO[ink], ls=dash, label=label)
         ax.set(xlabel=r"squeeze of the grain $1-g/x$", xlim=(0, 1), ylim=(0, 2))
         ax.set_title(f"quartz of {1e6 * x:g} µm between 60 HRC", fontsize="medium")
     figure.axes[0].set_ylabel("load over that of the grain swallowed whole")
@@ -108,6 +114,7 @@ def draw_map():
 
 
 if __name__ == "__main__":
+    mpl.rcParams["axes.prop_cycle"] = mpl.cycler(color=INKS)
     draw_broken()
     draw_shapes()
     draw_map()

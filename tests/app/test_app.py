@@ -558,21 +558,34 @@ def test_what_a_menu_begins_has_no_mistake_and_an_entry_for_every_key(tmp_path):
     assert missing == []
 
 
-def test_the_first_figure_may_come_after_the_empty_one_was_drawn():
-    """A busy browser tells of the empty figure before the first curves are solved."""
+@pytest.mark.parametrize(("answer", "drawn"), [(True, True), (False, False), (None, False)])
+def test_a_figure_that_the_browser_did_not_draw_is_drawn_by_the_framework(answer, drawn):
+    """Out of sight, or not there yet; and it is sent again the next time."""
     from nicegui import Client
     from nicegui.page import page as place
 
     from thirdbody.app.figures import figure, line
     from thirdbody.app.widgets import Plot
 
-    with Client(place("/test"), request=None):
+    sent = []
+
+    async def browser(code, *, timeout):
+        sent.append(code)
+        if answer is None:
+            raise TimeoutError
+        return answer
+
+    with Client(place("/test"), request=None) as client:
+        client.run_javascript = browser
         plot = Plot("area")
-        plot._drawn()
+        plot.widget.update = lambda: sent.append("update")
         made = figure([line([1.0, 2.0], [1.0, 2.0], "area", 0)], x="load", y="area", title="Area")
-        plot.show(made)
+        for _ in range(2):
+            assert asyncio.run(plot.show(made)) is drawn
         assert plot.widget.figure == made
-        assert not plot.drawn  # the browser has not told of this one yet
+    assert len(sent) == (1 if drawn else 4)
+    assert sent[0].startswith('return await redraw(["c')
+    assert '"react"' in sent[0]
 
 
 ALSO = {

@@ -27,7 +27,8 @@ from browser import chromium, ended, served  # noqa: E402
 from hostile import PAYLOADS, several, wrong  # noqa: E402
 
 from thirdbody.app.examples import example  # noqa: E402
-from thirdbody.app.sliders import STEPS, at_position  # noqa: E402
+from thirdbody.app.fields import engineering  # noqa: E402
+from thirdbody.app.sliders import REACH, STEPS, at_position  # noqa: E402
 from thirdbody.app.tabs.interface import abouts, headline  # noqa: E402
 from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
 from thirdbody.quantities import say  # noqa: E402
@@ -193,6 +194,12 @@ CUT = """() => [...document.querySelectorAll(".main-svg text")].filter(t => t.ge
 """Words of the figures that stick out of them."""
 
 
+FITS = """() => document.documentElement.scrollWidth <= innerWidth &&
+  [...document.querySelectorAll(".js-plotly-plot")].every(p => !p.offsetParent
+    || !p._fullLayout || Math.abs(p._fullLayout.width - p.clientWidth) < 2)"""
+"""Whether every figure has the width of its place, and the page that of the window."""
+
+
 def looked_at(page, name):
     """At both widths, light and dark: nothing is wider than the page, cut off or hard to read."""
     folder = os.environ.get("THIRDBODY_SCREENSHOTS")
@@ -205,12 +212,7 @@ def looked_at(page, name):
             page,
             f"document.body.classList.contains('body--dark') === {str(scheme == 'dark').lower()}",
         )
-        when(
-            page,
-            "() => document.documentElement.scrollWidth <= innerWidth &&"
-            " [...document.querySelectorAll('.js-plotly-plot')].every(p => !p.offsetParent"
-            " || !p._fullLayout || Math.abs(p._fullLayout.width - p.clientWidth) < 2)",
-        )
+        when(page, FITS)
         assert not page.evaluate(CUT), (name, width)
         if width == 1280:
             assert not page.evaluate(UNREADABLE), (name, scheme)
@@ -220,6 +222,7 @@ def looked_at(page, name):
             page.screenshot(path=Path(folder) / f"{name}-{width}-{scheme}.png", full_page=True)
     page.set_viewport_size({"width": 1280, "height": 860})
     page.emulate_media(color_scheme="light")
+    when(page, FITS)
     assert not page.locator('[data-said="page"]').inner_text()
 
 
@@ -433,6 +436,49 @@ def test_a_film_is_added_changed_and_removed(visit):
     assert not page.locator('[data-said="page"]').inner_text()
     page.locator('[data-path="film.remove"]').click()
     page.locator('[data-path="film.add"]').wait_for()
+
+
+def test_a_narrow_window_shows_a_particle_that_is_loaded(browser, address):
+    context = browser.new_context(viewport={"width": 390, "height": 860}, reduced_motion="reduce")
+    try:
+        page = context.new_page()
+        page.set_default_timeout(PATIENCE)
+        page.goto(f"{address}/?{to_link(STUDY, AT)}")
+        page.wait_for_selector('[data-figure="section"] svg')
+        when(
+            page,
+            "() => { const box = document.querySelector('[data-figure=section]'), b ="
+            " box.getBoundingClientRect(); return [...box.querySelectorAll('.grain.loaded')]"
+            ".map(e => e.getBoundingClientRect()).some(e => e.left >= b.left - 1"
+            " && e.right <= b.right + 1); }",
+        )
+    finally:
+        context.close()
+
+
+def test_figures_that_were_out_of_sight_are_those_of_the_study(visit):
+    """A tab that is left while its figures are on their way shows the study when it is back."""
+    page = visit()
+    tab(page, "Curves")
+    drawn(page, "separation")
+    steps = 0
+    for presses in (1, 2, 3):
+        moved(page, "roughness.sigma", presses)
+        steps += presses
+        page.get_by_role("tab", name="Interface", exact=True).click()
+        moved(page, "roughness.sigma", presses)
+        steps += presses
+        tab(page, "Curves")
+        sigma = engineering(100e-9 * REACH ** (2 * steps / STEPS), "m", 3)
+        study = STUDY | {"roughness": STUDY["roughness"] | {"sigma": sigma}}
+        state = check(study).solve()
+        for name, wanted in (("area", state.A_t), ("separation", 1e9 * state.h)):
+            when(
+                page,
+                "([name, wanted]) => JSON.stringify(wanted) === JSON.stringify("
+                "document.querySelector(`[data-figure='${name}']`).data[0].y)",
+                arg=[name, wanted.tolist()],
+            )
 
 
 # ---------------------------------------------------------------- the address

@@ -79,6 +79,9 @@ def figure(
 ) -> dict[str, Any]:
     """Traces with axes; text and grid take their colours from the page."""
     axis = {"gridcolor": "rgba(127,127,127,0.25)", "zeroline": False, "automargin": True}
+    decades = {
+        name: _decades(data, name) if log else {} for name, log in (("x", xlog), ("y", ylog))
+    }
     return {
         "data": data,
         "layout": {
@@ -88,13 +91,15 @@ def figure(
                 "title": {"text": x, "font": {"size": 13}},
                 "type": "log" if xlog else "linear",
                 "exponentformat": "power",
-            },
+            }
+            | decades["x"],
             "yaxis": axis
             | {
                 "title": {"text": y, "font": {"size": 13}, "standoff": 10},
                 "type": "log" if ylog else "linear",
                 "exponentformat": "power",
-            },
+            }
+            | decades["y"],
             "margin": {"l": 60, "r": 16, "t": 44, "b": 84},
             "height": height,
             "paper_bgcolor": "rgba(0,0,0,0)",
@@ -117,6 +122,15 @@ def figure(
     }
 
 
+def _decades(data: list[dict[str, Any]], name: str) -> dict[str, Any]:
+    """Ticks of a logarithmic axis: powers of ten alone where the traces reach over two or so."""
+    known = [np.asarray(each[name], float) for each in data if each.get(name) is not None]
+    every = np.concatenate([*known, [np.nan]])
+    every = every[np.isfinite(every) & (every > 0)]
+    wide = float(np.log10(every.max() / every.min())) if every.size else 0.0
+    return {"dtick": 1 if wide < 8 else 2} if wide > 1.9 else {}
+
+
 def empty(height: int) -> dict[str, Any]:
     """A place for a figure."""
     return {"data": [], "layout": {"height": height}, "config": CONFIG}
@@ -133,8 +147,8 @@ def span(values: Any, *, log: bool = False, padded: bool = True) -> list[float] 
 
     Ends are round, so that an axis stays as it is while a slider moves, or those of the values.
 
-    >>> span([0.3, 4.2]), span([0.3, 42], log=True, padded=False)[1] == np.log10(42)
-    ([0.0, 5.0], True)
+    >>> span([0.3, 4.2]), span([0.1, 100.0], log=True, padded=False)
+    ([0.0, 5.0], [-1.0, 2.0])
     """
     known = np.asarray(values, float).ravel()
     known = known[np.isfinite(known) & ((known > 0) | (not log))]

@@ -19,7 +19,7 @@ from ..study.inputs import inputs_of
 from ..systems.bodies import BODIES
 from .bounds import LARGEST_TABLE
 from .entries import Place, dotted
-from .fields import VARIANTS, Field, fields_of, number_field, value_from
+from .fields import VARIANTS, Field, fields_of, number_field, shown, value_from
 from .particle_inputs import ParticleInputs
 from .text import with_micro
 from .uploads import keep
@@ -70,6 +70,17 @@ BODIES_BEGUN: dict[str, dict[str, Any]] = {
     "flat": {"kind": "flat", "area": "1 cm^2"},
 }
 """How a table begins that is chosen in a menu."""
+
+
+def in_words(entry: Any) -> str:
+    """What is known of an input.
+
+    >>> in_words({"low": "95 nm", "high": "105 nm"})
+    'between 95 nm and 105 nm'
+    """
+    if isinstance(entry, dict) and list(entry) == ["low", "high"]:
+        return f"between {shown(entry['low'])} and {shown(entry['high'])}"
+    return say(entry)
 
 
 class Inputs(ParticleInputs):
@@ -269,7 +280,7 @@ class Inputs(ParticleInputs):
         for label, entry in flat.items():
             with ui.row().classes("w-full items-center no-wrap gap-2"):
                 ui.label(label).classes("grow break-all")
-                ui.label(with_micro(say(entry))).classes("hint")
+                ui.label(with_micro(in_words(entry))).classes("hint")
                 drop = ui.button(icon="delete", on_click=lambda _, k=label: self._known(k, None))
                 put(drop.props("flat dense"), {"aria-label": f"remove {label}"})
         kinds = {

@@ -99,6 +99,9 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 .scroll-x .q-table { min-width: 620px; }
 .narrow { max-width: 34rem; }
 .code textarea { font-family: ui-monospace, monospace; font-size: 0.8rem; line-height: 1.35; }
+@supports (field-sizing: content) {
+  .code textarea { field-sizing: content; height: auto !important; }
+}
 .listing {
   font-family: ui-monospace, monospace; font-size: 0.8rem; white-space: pre; overflow-x: auto;
 }
@@ -106,6 +109,7 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 .js-plotly-plot .main-svg { background: transparent !important; }
 .js-plotly-plot .hoverlayer text { fill: #222 !important; }
 .body--dark .scatterlayer .lines, .body--dark .legendlines { filter: brightness(1.4); }
+.body--dark [data-figure="map"] .legendlines path { stroke: #dddddd !important; }
 .body--dark .layer-below .shapelayer { opacity: 0.5; }
 .q-tab { padding: 0 11px; }
 .q-field__messages { line-height: 1.2; }
@@ -146,7 +150,26 @@ const sized = new ResizeObserver(async (entries) => {
   for (const { target } of entries)
     if (target.offsetParent && target._fullLayout) Plotly.Plots.resize(target).catch(() => {});
 });
+window.redraw = async ([id, name, ...args]) => {
+  const plot = document.getElementById(id);
+  if (!plot?._fullLayout) return false;
+  const { Plotly } = await import("nicegui-plotly");
+  await Plotly[name](plot, ...args);
+  return true;
+};
+const met = (svg) => {
+  const around = svg.parentElement.closest(".scroll-x"), grain = svg.querySelector(".loaded");
+  if (!around || !grain || around.scrollWidth <= around.clientWidth) return;
+  const [box, there] = [around, grain].map((e) => e.getBoundingClientRect());
+  if (there.left < box.left || there.right > box.right)
+    around.scrollLeft += (there.left + there.right - box.left - box.right) / 2;
+};
 new MutationObserver(() => {
+  if (innerWidth < 700)
+    for (const svg of document.querySelectorAll("svg.section:not([data-met])")) {
+      svg.dataset.met = "";
+      met(svg);
+    }
   for (const plot of document.querySelectorAll(".js-plotly-plot:not([data-sized])")) {
     plot.dataset.sized = "";
     sized.observe(plot);
@@ -163,4 +186,5 @@ new MutationObserver(() => document.querySelectorAll("[data-at] .js-plotly-plot"
 </script>
 """
 """Figures follow the width of their place; one that is out of sight has none. The operating load,
-which moves most, is a line over them: `data-at` around them says where."""
+which moves most, is a line over them: `data-at` around them says where. A cross-section that is
+wider than the window shows a particle that is loaded."""

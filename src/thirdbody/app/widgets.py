@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
@@ -63,43 +64,34 @@ DRAWS = 10.0
 
 
 class Plot:
-    """A figure; once it is drawn, another one in its place goes to the browser by itself."""
+    """A figure; another one in its place goes to the browser past all other elements."""
 
     def __init__(self, name: str, height: int = 360) -> None:
         self.widget = put(ui.plotly(empty(height)).classes("w-full"), {"data-figure": name})
         self.made: dict[str, Any] = {}
-        self.drawn = False
-        self.widget.on("plotly_afterplot", self._drawn, args=[], throttle=1.0)
+        """What the browser has drawn."""
 
-    def _drawn(self) -> None:
-        self.drawn = bool(self.made)  # and not the empty figure of the beginning
-
-    def show(self, made: dict[str, Any]) -> None:
-        """This figure, as `figures.figure` gives it."""
-        if call := self._taken(made):
-            self.widget.run_plot_method(*call)
-
-    async def shown(self, made: dict[str, Any]) -> None:
-        """The same, and wait until the browser has drawn it."""
-        if call := self._taken(made):
-            with contextlib.suppress(TimeoutError):  # the browser is gone
-                await self.widget.run_plot_method(*call, timeout=DRAWS)
-
-    def _taken(self, made: dict[str, Any]) -> tuple[Any, ...] | None:
-        """What to call in the browser, past the framework, which goes through all elements."""
+    async def show(self, made: dict[str, Any]) -> bool:
+        """This figure, as `figures.figure` gives it; whether the browser has drawn it."""
         if made == self.made:
-            return None
-        layout = made["layout"]
-        marks = {name: layout.get(name, []) for name in ("shapes", "annotations")}
-        same = self.made | {"layout": self.made.get("layout", {}) | marks} == made
-        self.made = made
-        if not self.drawn:
-            self.widget.update_figure(made)
-            return None
+            return True
+        marks = {name: made["layout"].get(name, []) for name in ("shapes", "annotations")}
+        known = self.made | {"layout": self.made.get("layout", {}) | marks}
+        whole = ["react", made["data"], made["layout"], CONFIG]
+        call = ["relayout", marks] if known == made else whole
+        self.made = {}
         self.widget.figure = made
         # every number would be watched by the framework otherwise
         dict.__setitem__(self.widget.props, "options", made)
-        return ("relayout", marks) if same else ("react", made["data"], layout, CONFIG)
+        code = f"return await redraw({json.dumps([self.widget.html_id, *call])})"
+        drawn = None
+        with contextlib.suppress(TimeoutError):  # the browser is gone
+            drawn = await self.widget.client.run_javascript(code, timeout=DRAWS)
+        if drawn is not True:
+            self.widget.update()  # not in sight, or not yet: it is drawn when it is
+            return False
+        self.made = made
+        return True
 
 
 PICK = "e => e.currentTarget.closest('.q-uploader').querySelector('input[type=file]').click()"
@@ -118,11 +110,18 @@ def upload(name: str, label: str, **more: Any) -> Any:
     return made
 
 
+SHORT = 20
+"""Characters of what stands in one line of a table."""
+
+
 def table(name: str, heads: dict[str, str], rows: list[dict[str, Any]], **more: Any) -> None:
     """Rows under heads, by their keys."""
-    columns = [
+    columns: list[dict[str, Any]] = [
         {"name": key, "label": label, "field": key, "align": "left"} for key, label in heads.items()
     ]
+    for column in columns:
+        if all(len(str(row[column["name"]])) <= SHORT for row in rows):
+            column["style"] = "white-space: nowrap"
     made = ui.table(columns=columns, rows=rows, **more).classes("w-full")
     # narrow windows have a card for each row
     made.props('dense flat wrap-cells :grid="Quasar.Screen.lt.sm"')

@@ -16,7 +16,7 @@ body{max-width:92rem}
 nav{margin:1rem 0}nav a{margin-right:1rem}
 .bar{display:inline-block;height:.7rem;background:#0072B2;vertical-align:middle}
 .pass{background:var(--pass)}.fail{background:var(--fail)}.none{background:var(--none)}
-.ledger{table-layout:fixed;width:100%;min-width:80rem;font-size:.78rem}
+.ledger{table-layout:fixed;width:100%;min-width:72rem;font-size:.78rem}
 .ledger td.v{font-variant-numeric:tabular-nums;overflow-wrap:normal}
 .ledger b{white-space:nowrap}
 .ledger th:nth-child(1){width:5.4rem}.ledger th:nth-child(2){width:21rem}

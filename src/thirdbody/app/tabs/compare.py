@@ -111,7 +111,7 @@ def _here(answer: Answer, at: float) -> dict[str, Any]:
 
 
 def _plain(label: str) -> str:
-    return label.replace("<sub>", "").replace("</sub>", "")
+    return label.replace("<sub>", "_").replace("</sub>", "")
 
 
 def _table(found: dict[str, Any], place: Any) -> None:

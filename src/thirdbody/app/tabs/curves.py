@@ -33,6 +33,9 @@ from .interface import abouts, swatch
 __all__ = ["TITLE", "build", "figures"]
 
 TITLE = "Curves"
+TAB = "curves"
+LOOKS = 0.05
+"""Seconds after which it is looked whether the tab is still in sight."""
 FIGURES = ("area", "shares", "regimes", "separation")
 CRITICAL = {
     "F_cr1": "F<sub>cr1</sub>",
@@ -144,8 +147,8 @@ def _regimes(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
 def _separation(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
     state, nm = answer.curves, 1e9
     lines = [
-        line(x, nm * np.asarray(state.h), "h, from the mean surface", 0),
-        line(x, nm * np.asarray(state.d), "d, from the mean asperity", 1),
+        line(x, nm * np.asarray(state.h), "h, mean surface", 0),
+        line(x, nm * np.asarray(state.d), "d, mean asperity", 1),
     ]
     made = figure(lines, y="separation [nm]", title="Separation", **more)
     fix(made, "yaxis", span([each["y"] for each in lines]))
@@ -214,13 +217,21 @@ class Curves:
         two_body = answer.contact.two_body
         self.plots["shares"].widget.set_visibility(not two_body)
         self.key.set_visibility(not two_body)
-        above, below = list(found)[:2], list(found)[2:]
-        await asyncio.gather(*(self.plots[name].shown(found[name]) for name in above))
-        if self.state.study is not self.state.read:  # it moved on: the last move wins
-            self.shown = None
-            return
-        for name in below:
-            self.plots[name].show(found[name])
+        for names in (FIGURES[:2], FIGURES[2:]):  # those on top first
+            drawing = asyncio.gather(
+                *(self.plots[name].show(found[name]) for name in names if name in found)
+            )
+            while not drawing.done() and self.state.tab == TAB:
+                await asyncio.wait([drawing], timeout=LOOKS)
+            if not drawing.done():
+                drawing.cancel()
+                self.shown = None
+                return
+            if not all(drawing.result()):
+                self.shown = None
+            if self.state.study is not self.state.read:  # it moved on: the last move wins
+                self.shown = None
+                return
 
     async def _finish(self) -> None:
         self.later = None

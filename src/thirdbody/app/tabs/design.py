@@ -55,7 +55,9 @@ def variables_of(state: State) -> dict[str, str]:
     return out
 
 
-def design_figure(found: dict[str, Any], variable: str, objective: str) -> dict[str, Any]:
+def design_figure(
+    found: dict[str, Any], variable: str, objective: str, unit: str = "SI"
+) -> dict[str, Any]:
     """Every point tried, the best marked, the tolerance as a band."""
     every = found["points"][variable]
     words = any(isinstance(item, str) for item in every)
@@ -85,9 +87,9 @@ def design_figure(found: dict[str, Any], variable: str, objective: str) -> dict[
     ]
     made = figure(
         traces,
-        x=f"{plain(variable.split('+')[0])} [SI]",
-        y=plain(objective),
-        title="Search",
+        x=f"{plain(variable.split('+')[0])} [{unit}]",
+        y=plain(about(objective)["meaning"] if objective in COLUMNS else objective),
+        title="What was tried",
         xlog=not words and bool(x.min() > 0),
         height=420,
     )
@@ -194,9 +196,10 @@ class Search:
 
     def _show(self, result: dict[str, Any]) -> None:
         objective, variable = next(iter(result["objectives"])), next(iter(result["values"]))
-        self.plot.update_figure(design_figure(result, variable, objective))
-        self.plot.set_visibility(True)
         units = {e.field: e.quantity["unit"] for e in inputs_of(self.state.study) if e.quantity}
+        unit = units.get(variable.split("+")[0], "SI")
+        self.plot.update_figure(design_figure(result, variable, objective, unit))
+        self.plot.set_visibility(True)
         self.said.set_text(with_micro(" ".join(told(result, units))))
 
     async def draw(self) -> None:

@@ -51,9 +51,9 @@ CURVES: dict[str, dict[str, tuple[str, int]]] = {
         "mu_sa": ("particles", 2),
     },
     "film shares": {
-        "film_share": ("on the film", 0),
-        "ss_share": ("on asperities", 1),
-        "sa_share": ("on particles", 2),
+        "film_share": ("film", 0),
+        "ss_share": ("asperities", 1),
+        "sa_share": ("particles", 2),
     },
     "film thickness": {
         "lambda_ratio": ("film over roughness λ", 0),

@@ -10,7 +10,7 @@ import numpy as np
 from nicegui import ui
 
 from ...equilibrium.columns import about
-from ...quantities.say import number
+from ...quantities.say import number, unit_of
 from ..figures import AXES, SCALES, figure, line, mark, plain
 from ..inputs import Inputs
 from ..state import Answer, State
@@ -64,7 +64,7 @@ def _quantity(columns: list[str], title: str, unit: str) -> str:
     """What an axis shows: the one column on it, the names of a few, or what many are of."""
     few = ", ".join(columns) if len(columns) <= FEW else title
     words = about(columns[0])["meaning"] if len(columns) == 1 else few
-    whole = words + ("" if unit in ("", "1") else f" [{unit}]")
+    whole = words + (f" [{unit_of(unit)}]" if unit_of(unit) else "")
     return "<br>".join(map(plain, textwrap.wrap(whole, 40)))
 
 
@@ -125,7 +125,7 @@ def _found(answer: Answer, at: float) -> tuple[dict[str, dict[str, Any]], list[d
             "name": name,
             "meaning": about(name)["meaning"],
             "value": number(float(value)),
-            "unit": about(name)["unit"],
+            "unit": unit_of(about(name)["unit"]),
         }
         for name, value in answer.solve(at).outputs.items()
     ]

@@ -258,6 +258,7 @@ def cutoff_figure(found: dict[str, Any], name: str) -> dict[str, Any]:
             line(x[known] * 1e6, y[known], words, i, mode="lines+markers", marker={"size": 7})
         )
     made = figure(traces, x="cut-off [µm]", y=label, title=label.split(" [")[0], ylog=True)
+    made["layout"]["yaxis"]["nticks"] = 5
     if found["used"]["cutoff"]:
         shape, _ = mark(1e6 * found["used"]["cutoff"], "")
         made["layout"]["shapes"] = [shape]

@@ -192,7 +192,7 @@ def coefficient_of_faces(
     Examples
     --------
     >>> print(coefficient_of_faces([0.1, 10.0], edge=0.1, angle=0.5).round(6))
-    [0.231859 0.347776]
+    [0.231858 0.347775]
     """
     a = np.asarray(a, dtype=float)
     groove = groove_area_of_faces(a, edge=edge, angle=angle)
