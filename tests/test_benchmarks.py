@@ -60,3 +60,12 @@ def test_every_row_has_its_name(run, monkeypatch):
     assert len(list(run.own_inputs(floor.nanoseconds()))) == 6
     *_, every = outputs.costs()
     assert every.what == "all of them"
+
+
+def test_every_kind_of_grain_is_solved(monkeypatch):
+    monkeypatch.syspath_prepend(str(FOLDER))
+    grains = importlib.import_module("grains")
+    for kind in grains.KINDS:
+        _, rate, engine = grains.measured(kind, COUNT)
+        assert rate > 0
+        assert engine == "compiled", kind

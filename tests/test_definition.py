@@ -207,7 +207,33 @@ BREAKING = {
 }
 
 
-@pytest.mark.parametrize("name", list(BREAKING))
+SHAPES = ((0.25, 35, 1.0), (0.5, 12, 1.3), (0.9, 70, 1.2), (0.05, 5, 1.0))
+
+
+@pytest.mark.parametrize("law", ["gw", "ceb", "zmc", "hermite", "jg", "ke"])
+def test_angular_particles_of_every_law(law):
+    for roundness, degrees, flatness in SHAPES:
+        shape = tb.Angular(roundness=roundness, angle=f"{degrees} deg", flatness=flatness)
+        case = tb.Contact(
+            surfaces=tb.MaterialPair(STEEL, SOFT),
+            roughness=ROUGH,
+            particles=tb.Particles(
+                material=SILICA, areal_density=1e11, diameter=SIZES["one size"], shape=shape
+            ),
+            particle_law=tb.particle.Series(law=tb.asperity.REGISTRY[law](), seat="plane"),
+        )
+        for d in (0.96 * MEAN, 0.6 * MEAN, 0.08 * MEAN):
+            want = definition.state(case, d)
+            assert difference(case, want, by_tables(case, d, want)) < TOLERANCE, (shape, d)
+
+
+LONG = ("one size rough", "sizes plane")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in BREAKING],
+)
 def test_particles_that_break(name):
     """Tables of them are made to 1e-10, and so is the tension inside."""
     case, separations = BREAKING[name]

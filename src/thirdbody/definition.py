@@ -143,7 +143,8 @@ class Side(Tip):
         super().__init__(law, R, E_star, H, nu)
         self.full = full or 0.5 * np.pi * R
         self.plastic = self.law.branches[-1].regime == "plastic"
-        self.cap = brentq(lambda u: super(Side, self).__call__(u)[1:].sum() - self.full, 0, 10)
+        most = max(10, 4 * self.full / R)
+        self.cap = brentq(lambda u: super(Side, self).__call__(u)[1:].sum() - self.full, 0, most)
         self.kinks = np.sort([*self.kinks[1:], self.cap])
 
     def __call__(self, delta: Any) -> Any:

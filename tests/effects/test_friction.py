@@ -327,6 +327,7 @@ def test_an_offset_lets_equal_surfaces_be_grooved():
     assert rolling["rolling_share"] == 1
     assert sliding["rolling_share"] < 1e-9  # barely loaded ones are held by their shear
     assert sliding["mu_sa_plough"] > 0
+    assert sliding["mu_plough_1"] == sliding["mu_plough_2"]  # over either of them
     ladder = [solved(contact(300e-9, offset=e)).outputs["rolling_share"] for e in (0.05, 0.1, 0.2)]
     assert np.all(np.diff(ladder) < 0)
 

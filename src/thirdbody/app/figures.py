@@ -147,8 +147,8 @@ def span(values: Any, *, log: bool = False, padded: bool = True) -> list[float] 
 
     Ends are round, so that an axis stays as it is while a slider moves, or those of the values.
 
-    >>> span([0.3, 4.2]), span([0.3, 42], log=True, padded=False)[1] == np.log10(42)
-    ([0.0, 5.0], True)
+    >>> span([0.3, 4.2]), span([0.1, 100.0], log=True, padded=False)
+    ([0.0, 5.0], [-1.0, 2.0])
     """
     known = np.asarray(values, float).ravel()
     known = known[np.isfinite(known) & ((known > 0) | (not log))]

@@ -456,8 +456,9 @@ class Friction(AbstractOutput):
             add(particles, self.of_particles(particles))
             add(particles, {"rolling": motion.rolls * particles.load})
             for i, track in enumerate(motion.plough):
-                # a rolling particle leaves half a track on either side
-                part = np.where(motion.rolls, 0.5, motion.side == i)
+                # a rolling particle leaves half a track on either side, and so does one that
+                # slides over either of two surfaces alike
+                part = np.where(motion.rolls | particles.even, 0.5, motion.side == i)
                 add(particles, {f"plough_{i + 1}": part * track * particles.load})
         F_ss = state.total(lambda spots: spots.load)
         F_sa = state.total_of_particles(lambda spots: spots.load)

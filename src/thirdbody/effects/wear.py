@@ -30,9 +30,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Wear"]
 
-EVEN = 1e-9
-"""Two sides that differ by less, relatively, are alike: a particle slides over both in turn."""
-
 NONE = 1e-12
 """Share of the pressure that counts as no particle at all."""
 
@@ -166,14 +163,11 @@ class Wear(AbstractOutput):
         """
         motion = friction.motion(spots)
         rolls = motion.rolls
-        one, two = spots.depths
-        even = np.abs(one - two) <= EVEN * (one + two)
-        if not math.isclose(*spots.hardness, rel_tol=EVEN):
-            even = np.zeros_like(even)
+        even = spots.even
         out: dict[str, list[Array]] = {"sa": [], "groove": [], "roll": [], "cut": []}
         for side, acts in enumerate(friction.indents(spots)):
             slides = np.where(even, 0.5, motion.side == side) * ~rolls
-            groove = acts * groove_of(spots, side)
+            groove = acts * groove_of(spots, side=side)
             touch = self._archard("sa", spots.regimes[side], spots.areas[side])
             b = np.sqrt(spots.areas[side] / np.pi)
             out["sa"].append(slides * touch)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Self
 
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 __all__ = ["ParticleSpots", "Spots"]
+
+EVEN = 1e-9
+"""Contacts of a particle that differ by less, relatively, are alike."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -106,6 +110,13 @@ class ParticleSpots(Spots):
     def half(self) -> Array:
         """Depth at which a side of a particle has sunk in (M, n) [m]: its radius if it is round."""
         return self.radius if self.shape is None else 0.5 * self.x
+
+    @property
+    def even(self) -> NDArray[np.bool_]:
+        """Particles whose two contacts are alike (M, n): what slides, slides over either."""
+        one, two = self.depths
+        alike = math.isclose(*self.hardness, rel_tol=EVEN)
+        return (np.abs(one - two) <= EVEN * (one + two)) & alike
 
     def thinned(self, factor: Array) -> Self:
         """A part of the spots of each state: factor (N,)."""

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..quantities.files import whole
+from ..errors import InvalidValue
+from ..quantities.files import whole, write_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Line", "Panel", "draw", "save", "table_of"]
+__all__ = ["Line", "Panel", "draw", "keep", "made", "save", "table_of"]
 
 Array = NDArray[np.float64]
 COLOURS = ("blue", "vermilion", "green", "purple", "orange", "sky")
@@ -135,6 +136,23 @@ def table_of(panel: Panel) -> str:
         for x, y in zip(line.x, line.y, strict=True):
             writer.writerow([label, f"{x:.8g}", "" if np.isnan(y) else f"{y:.8g}"])
     return out.getvalue()
+
+
+def made(out: str | Path) -> Path:
+    """A folder for a study, made when missing; `InvalidValue` where that cannot be."""
+    folder = Path(out)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InvalidValue(f"cannot make the folder {folder}: {error.strerror}") from None
+    return folder
+
+
+def keep(figure: Any, csv: str, folder: Path, stem: str) -> tuple[list[str], bytes]:
+    """Write a figure as PNG and SVG and its table; the names of the files, and the SVG."""
+    save(figure, folder, stem)
+    write_text(folder / f"{stem}.csv", csv)
+    return [f"{stem}.{end}" for end in ("png", "svg", "csv")], (folder / f"{stem}.svg").read_bytes()
 
 
 def save(figure: Any, folder: Path, stem: str) -> None:

@@ -14,7 +14,7 @@ from ..quantities.files import write_text
 from ..views.html import symbols, table
 from .ledger import OWN, WORDS, Claim, Verdict
 from .page import document, figures
-from .panels import Panel, draw, save, table_of
+from .panels import Panel, draw, keep, made, table_of
 from .trends import Measure, Reading, score
 
 __all__ = ["Study", "Summary"]
@@ -79,11 +79,7 @@ class Study:
                 f"preset = {preset!r} has no meaning for {self.name}: figures and ledger show all "
                 f"readings ({', '.join(self.readings)}); leave it out"
             )
-        folder = Path(out)
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise InvalidValue(f"cannot make the folder {folder}: {error.strerror}") from None
+        folder = made(out)
         report = progress or (lambda stage, done, total: None)
 
         report("claims", 0, 1)
@@ -94,12 +90,10 @@ class Study:
         for done, panel_of in enumerate(self.panels):
             report("figures", done, len(self.panels))
             panel = panel_of()
-            stem = f"fig{panel.name}"
-            save(draw(panel), folder, stem)
-            write_text(folder / f"{stem}.csv", table_of(panel))
-            files += [f"{stem}.png", f"{stem}.svg", f"{stem}.csv"]
+            new, svg = keep(draw(panel), table_of(panel), folder, f"fig{panel.name}")
+            files += new
             about = panel.about.replace("$", "").replace(r"\propto", "∝")
-            images.append((panel.name, about, panel.note, (folder / f"{stem}.svg").read_bytes()))
+            images.append((panel.name, about, panel.note, svg))
         report("figures", len(self.panels), len(self.panels))
         report("page", 0, 1)
         text = json.dumps(self.as_json(ledger), ensure_ascii=False, indent=1, allow_nan=False)

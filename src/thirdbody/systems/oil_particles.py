@@ -488,7 +488,7 @@ class FilmParticles(Value):
             dent = dent_of(spots, side=side, particle=self.material)
             volumes.append(per_area * float(spots.total(dent.volume)[0]))
             share = np.where(even, 0.5, here < there) * (self.material.H > spots.hardness[side])
-            cut = share * groove_of(spots, side)
+            cut = share * groove_of(spots, side=side)
             removed = self.slip * (self.f_ab or 0.0)
             grooves.append(per_area * removed * float(spots.total(cut)[0]))
         softer, harder = sorted(spots.hardness)

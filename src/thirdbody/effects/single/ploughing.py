@@ -192,7 +192,7 @@ def coefficient_of_faces(
     Examples
     --------
     >>> print(coefficient_of_faces([0.1, 10.0], edge=0.1, angle=0.5).round(6))
-    [0.231859 0.347776]
+    [0.231858 0.347775]
     """
     a = np.asarray(a, dtype=float)
     groove = groove_area_of_faces(a, edge=edge, angle=angle)
@@ -201,7 +201,7 @@ def coefficient_of_faces(
     return 2 / np.pi * front * (1 - kappa) / (1 + kappa)
 
 
-def groove_of(spots: ParticleSpots, side: int) -> Array:
+def groove_of(spots: ParticleSpots, *, side: int) -> Array:
     """Cross-section of the groove of each particle in surface 1 (side 0) or 2 [m²]: (M, n)."""
     shape = spots.shape
     if shape is None or shape.round:

@@ -104,6 +104,8 @@ class Side:
         if np.any(rest):
             low, high = 0.4 * full[rest], np.maximum(full[rest], 1.0)
             low = np.where(excess(low, full[rest]) < 0, low, 0.0)
+            while np.any(short := excess(high, full[rest]) < -1e-9 * full[rest]):
+                high = np.where(short, 2 * high, high)  # areas that jump down stay behind y
             found = bracketed_root(excess, low, high, (full[rest],))
             y[rest] = np.where(excess(high, full[rest]) <= 0, high, found)
         return y

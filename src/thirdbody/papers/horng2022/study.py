@@ -11,7 +11,7 @@ from typing import Any
 from ...errors import InvalidValue
 from ...quantities.files import write_text
 from ..ledger import Verdict
-from ..panels import save
+from ..panels import keep, made
 from .claims import claims, study_data
 from .drawing import draw
 from .figures import PANELS, table
@@ -110,11 +110,7 @@ def reproduce(
     """
     if preset not in READINGS:
         raise InvalidValue(f"preset = {preset!r} must be one of {', '.join(READINGS)}")
-    folder = Path(out)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidValue(f"cannot make the folder {folder}: {error.strerror}") from None
+    folder = made(out)
     report = progress or (lambda stage, done, total: None)
 
     books = {name: Curves(reading) for name, reading in READINGS.items()}
@@ -125,11 +121,9 @@ def reproduce(
         report("figures", done, len(PANELS))
         panel = panel_of(books[preset])
         drawn = draw(panel, f"reading {READINGS[preset].key}: {READINGS[preset].title}")
-        stem = f"fig{name}"
-        save(drawn, folder, stem)
-        write_text(folder / f"{stem}.csv", table(panel))
-        files += [f"{stem}.png", f"{stem}.svg", f"{stem}.csv"]
-        images.append((name, panel.about, panel.note, (folder / f"{stem}.svg").read_bytes()))
+        new, svg = keep(drawn, table(panel), folder, f"fig{name}")
+        files += new
+        images.append((name, panel.about, panel.note, svg))
     report("figures", len(PANELS), len(PANELS))
 
     report("page", 0, 1)

@@ -14,7 +14,7 @@ from ...errors import InvalidValue, RangeWarning
 from ...quantities.files import write_text
 from ...views.html import symbols, table
 from ..page import document, figures
-from ..panels import draw, save, table_of
+from ..panels import draw, keep, made, table_of
 from .row import STANDINGS, WORDS, Row, Verdict, word_of
 
 __all__ = ["Summary", "reproduce"]
@@ -89,11 +89,7 @@ def reproduce(
 
     if preset is not None:
         raise InvalidValue(f"preset = {preset!r} has no meaning for measurements; leave it out")
-    folder = Path(out)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidValue(f"cannot make the folder {folder}: {error.strerror}") from None
+    folder = made(out)
     report = progress or (lambda stage, done, total: None)
 
     known = rows()
@@ -110,11 +106,9 @@ def reproduce(
     for done, panel_of in enumerate(panels):
         report("figures", done, len(panels))
         panel = _quietly(panel_of)
-        stem = f"fig_{panel.name}"
-        save(draw(panel), folder, stem)
-        write_text(folder / f"{stem}.csv", table_of(panel))
-        files += [f"{stem}.png", f"{stem}.svg", f"{stem}.csv"]
-        images.append((panel.name, panel.about, panel.note, (folder / f"{stem}.svg").read_bytes()))
+        new, svg = keep(draw(panel), table_of(panel), folder, f"fig_{panel.name}")
+        files += new
+        images.append((panel.name, panel.about, panel.note, svg))
     report("figures", len(panels), len(panels))
 
     summary = Summary(folder, shown, ledger, (*files, LEDGER, "index.html"))

@@ -20,26 +20,7 @@ FAINT = 1e-12
 
 @dataclass(frozen=True, kw_only=True)
 class Found:
-    """What a study found.
-
-    Attributes
-    ----------
-    study : Study
-    result : dict
-        As `run_study` gives it: states, critical loads, warnings, citations.
-    curve : Equilibrium
-        The states that are drawn, over the loads of the study and what is near them.
-    assessment : Assessment or None
-        Error bars at one load; None where nothing is known to be uncertain.
-    slopes : Sensitivity or None
-        Elasticities at that load.
-    at : int
-        Number of that state.
-    file : str
-        The study file.
-    film : dict or None
-        What `run_film` gives, where the study has a table [film].
-    """
+    """What a study found; every attribute as `Report` lists it."""
 
     study: Study
     result: dict[str, Any] = field(repr=False)
