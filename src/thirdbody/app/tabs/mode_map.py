@@ -125,8 +125,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         return asked | {name: asked[name][::LITTLE] for name in ("sizes", "loads")}
 
     work = Work("map", "Draw the map", ask, show, key=contact, same=_same_map, little=little)
-    plot = ui.plotly(empty(520)).classes("w-full")
-    plot.props('data-figure="map"')
+    plot = ui.plotly(empty(520)).classes("w-full").props('data-figure="map"')
     plot.set_visibility(False)
 
     async def tell() -> None:
