@@ -189,3 +189,16 @@ def test_boulders_and_broken_particles_are_refused():
     breaks = closing(1.0, material="quartz").particles.replace(strength=strong)
     with pytest.raises(tb.InvalidValue, match="break"):
         ContactProbability(radius=4e-3, surfaces=PAIR, particles=breaks)
+
+
+def test_angular_particles_sink_in_more_easily():
+    """Faces carry less than a sphere until they are embedded: solids touch more often."""
+    round_ones = closing(1.0, material="Al2O3")
+    grit = tb.Angular(roundness=0.3, angle="60 deg")
+    faced = ContactProbability(
+        radius=round_ones.radius,
+        surfaces=PAIR,
+        particles=round_ones.particles.replace(shape=grit),
+    )
+    load = 0.3 * round_ones.threshold
+    assert faced.probability(load) > round_ones.probability(load) + 0.01

@@ -199,7 +199,8 @@ class ContactProbability(Value):
 
     @property
     def _one(self) -> Any:
-        return self.law.one(surfaces=self.surfaces, particle=self.particles.material)
+        law = self.law.of_shape(self.particles.shape)
+        return law.one(surfaces=self.surfaces, particle=self.particles.material)
 
     def _per_size(self, eps: Array) -> Array:
         """Load over x² [Pa] at ε."""
