@@ -16,7 +16,9 @@ from typer.testing import CliRunner
 
 import thirdbody as tb
 from thirdbody import cli
-from thirdbody.analysis.assess import assess
+from thirdbody.analysis.assess import about_fragments, assess
+from thirdbody.analysis.uncertainty.samples import enough
+from thirdbody.quantities.say import percent
 from thirdbody.study import load_study
 from thirdbody.study.analyses import assess_study
 from thirdbody.views import assess_page, plot
@@ -331,3 +333,32 @@ def test_the_page_is_made_for_small_and_dark_screens(page):
     assert "prefers-color-scheme:dark" in style
     light, dark = re.findall(r":root{(?:color-scheme:light dark;)?(--[^}]*)}", style)
     assert re.findall(r"--[a-z]+", light) == re.findall(r"--[a-z]+", dark)
+
+
+def test_particles_that_break_are_told_with_all_bounds_of_their_fragments():
+    """What pieces bear is not known: nothing, their footprint, all of them; and what decides."""
+    steel, quartz = tb.materials["S45C"], tb.materials["quartz"]
+    dust = tb.Particles(
+        material=quartz,
+        diameter=tb.LogNormal(median=20e-6, gsd=1.3),
+        areal_density=1e7,
+        strength=tb.WeibullStrength.of(quartz),
+    )
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=tb.Roughness(sigma=50e-9, R=20e-6),
+        particles=dust,
+    )
+    (said,) = about_fragments(contact, {"pressure": 20e6})
+    shares = []
+    for word in ("gone", "footprint", "all"):
+        each = dust.replace(strength=dust.strength.replace(fragments=word))
+        state = tb.solve(contact.replace(particles=each), pressure=20e6)
+        shares.append(float(state.particle_load_share))
+        assert percent(shares[-1]) in said
+    assert shares[0] < shares[1] < shares[2]
+    assert "particles.strength.size_exponent" in said
+    assert enough(contact, None) == 64  # each builds its own tables
+    whole = contact.replace(**{"particles.strength": None})
+    assert not about_fragments(whole, {"pressure": 20e6})
+    assert enough(whole, None) > 10_000

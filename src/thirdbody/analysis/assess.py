@@ -7,7 +7,7 @@ import math
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from ..contact.contact import Contact
 from ..equilibrium.critical_loads import CRITICAL
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
-from ..quantities.say import value_of
+from ..quantities.say import percent, value_of
 from ..quantities.value import problem_with
 from .assessment import COARSE, EACH, FAR, FINER, SHOWN, Assessment, Change, _nominal, _unit
 from .inputs import declared, words_of
@@ -23,7 +23,7 @@ from .inputs import inputs as all_inputs
 from .sensitivity import sensitivity
 from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
 from .uncertainty.propagation import Propagation, certain, propagate, swing
-from .uncertainty.samples import columns_at
+from .uncertainty.samples import columns_at, enough
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -40,7 +40,7 @@ def assess(
     pressure: float | None = None,
     F_star: float | None = None,
     vary: Mapping[str, Uncertain | tuple[float, float]] | None = None,
-    samples: int = 2**14,
+    samples: int | None = None,
     seed: int = 0,
     title: str = "",
     progress: Callable[[str], None] = lambda part: None,
@@ -58,7 +58,7 @@ def assess(
     pressure, F_star : float
         The operating load: p [Pa] or F* [1]; exactly one.
     samples, seed : int, optional
-        As in `propagate`.
+        As in `propagate`; 64 where particles break, each of which builds tables of its own.
     title : str, optional
         Over the page.
     progress : callable, optional
@@ -112,11 +112,13 @@ def assess(
         warnings.simplefilter("always", RangeWarning)
         state = solve(contact, **{load: given[load]})  # type: ignore[arg-type]
     notes += [f"Warning: {text}." for text in dict.fromkeys(str(item.message) for item in heard)]
+    notes += about_fragments(contact, {load: given[load]})
     progress(PARTS[0])
     if none:
         found = certain(contact, load, float(given[load] or 0.0))
     else:
-        found = propagate(contact, vary=vary, **{load: given[load]}, samples=samples, seed=seed)  # type: ignore[arg-type]
+        count = enough(contact, samples)
+        found = propagate(contact, vary=vary, **{load: given[load]}, samples=count, seed=seed)  # type: ignore[arg-type]
     if found.solved == 0:
         raise NoEquilibrium("no sample has an equilibrium; check the unit of the load")
     notes += _outside(found)
@@ -158,6 +160,40 @@ def _whence(contact: Contact, vary: Iterable[str]) -> list[str]:
         if named:
             out.append(f"Ranges of {source}: {'; '.join(named)}.")
     return out
+
+
+BEAR = {"gone": "nothing", "footprint": "their footprint", "all": "all of them, in one layer"}
+"""What pieces of broken particles bear, by the words of `WeibullStrength`."""
+EXPONENT = "particles.strength.size_exponent"
+
+
+def about_fragments(contact: Contact, load: dict[str, Any]) -> list[str]:
+    """What it is worth that nobody has measured what pieces of broken particles bear."""
+    if all(each.strength is None for each in contact.populations):
+        return []
+    said = []
+    for word, words in BEAR.items():
+        broken = tuple(
+            each if each.strength is None
+            else each.replace(strength=each.strength.replace(fragments=word))
+            for each in contact.populations
+        )  # fmt: skip
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RangeWarning)
+            try:
+                state = solve(contact.replace(particles=broken, outputs=()), **load)
+            except NoEquilibrium:
+                said.append(f"{words}: no equilibrium")
+                continue
+        said.append(
+            f"{words}: particles carry {percent(float(state.particle_load_share))} "
+            f"at d = {value_of(float(state.d), 'm', 3)}"
+        )
+    return [
+        f"What pieces of broken particles bear is not known. {'; '.join(said)}. "
+        "The largest uncertainty besides is the exponent of their strength over size: "
+        f"give {EXPONENT} a range."
+    ]
 
 
 def _outside(found: Propagation) -> list[str]:

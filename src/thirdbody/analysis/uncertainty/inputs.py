@@ -165,11 +165,11 @@ class Uncertainty:
     inputs : dict
         Dotted names, several joined by "+", and what is known of each.
     samples, seed : int
-        As in `propagate`.
+        As in `propagate`; no number of samples leaves it to what is done with them.
     """
 
     inputs: dict[str, Uncertain]
-    samples: int = 2**14
+    samples: int | None = None
     seed: int = 0
 
 

@@ -22,12 +22,13 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Arrays = dict[str, NDArray[Any]]
 
-__all__ = ["OUTPUTS", "about_result", "columns_at"]
+__all__ = ["OUTPUTS", "about_result", "columns_at", "enough"]
 
 REPLICATES = 8
 """Scramblings of the sequence."""
-LEAST, MOST_CRITICAL = 64, 2_048
-"""Fewest samples, and samples for which critical loads are sought unless more are asked for."""
+LEAST, MOST_CRITICAL, USUAL = 64, 2_048, 2**14
+"""Fewest samples, those for which critical loads are sought unless more are asked for, and usual
+ones."""
 PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
 MARGINS = {"F/F_cr1": "F_cr1", "F/F_cr2": "F_cr2"}
 MODES = ("p-s", "hybrid", "s-s", "none")
@@ -44,6 +45,13 @@ OUTPUTS: dict[str, dict[str, str]] = {
 """Symbol, unit and meaning of everything that gets a band, beside the outputs of the contact."""
 MOST_OUTPUTS = 512
 """Samples of outputs: each is a contact of its own, with spots of its own."""
+
+
+def enough(contact: Contact, asked: int | None) -> int:
+    """Samples that were asked for, or the usual number; few where each builds its own tables."""
+    if asked is not None:
+        return asked
+    return LEAST if any(each.strength is not None for each in contact.populations) else USUAL
 
 
 def about_result(name: str) -> dict[str, str]:

@@ -12,6 +12,7 @@ from ...analysis.assess import assess
 from ...analysis.assessment import Assessment
 from ...analysis.sensitivity import Sensitivity, sensitivity
 from ...analysis.uncertainty.inputs import stated_ranges
+from ...analysis.uncertainty.samples import enough
 from ...contact.contact import Contact
 from ...equilibrium.columns import Equilibrium
 from ...equilibrium.solve import solve
@@ -135,7 +136,7 @@ def _assessed(study: Study, contact: Contact, given: dict[str, float]) -> Assess
     inputs = {label: known for label, known in asked.inputs.items() if label not in loads}
     if not inputs:
         return None
-    samples = min(asked.samples, MOST_SAMPLES)
+    samples = min(enough(contact, asked.samples), MOST_SAMPLES)
     return assess(contact, vary=inputs, **given, samples=samples, seed=asked.seed)  # type: ignore[arg-type]
 
 

@@ -7,6 +7,7 @@ from html import escape
 
 from ...analysis.inputs import declared
 from ...analysis.uncertainty.inputs import stated_ranges
+from ...analysis.uncertainty.samples import enough
 from ...equilibrium.columns import about
 from ...equilibrium.words import unsolved
 from ...quantities.say import listed, signed, value_of
@@ -119,13 +120,14 @@ class Report(Sentences, Figures, Tables, Sources):
                 f"{escape(listed(list(dict.fromkeys(names))))}. Every input counts as exactly "
                 "known.</p>"
             ]
+        asked = self.study.uncertainty
         whence = (
             "The ranges are those of the table [uncertainty]."
-            if self.study.uncertainty is not None
+            if asked is not None
             else "The study has no table [uncertainty]: the ranges are those that the materials "
             "library states, and nothing else counts as uncertain."
         )
-        if self.study.uncertainty and self.study.uncertainty.samples > MOST_SAMPLES:
+        if asked and enough(self.study.contact, asked.samples) > MOST_SAMPLES:
             whence += f" {MOST_SAMPLES} samples stand here; `thirdbody assess` takes all."
         out = [f"<p>{words(found.headline())} {words(whence)}</p>"]
         for part in found.sections()[1:]:
