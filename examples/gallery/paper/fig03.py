@@ -9,7 +9,7 @@ H_s + H_a, which is inferred from this number and is not physical.
 """
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
-from thirdbody.papers.horng2022.figures import draw
+from thirdbody.papers.horng2022.drawing import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("3a", "3b")]

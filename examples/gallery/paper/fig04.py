@@ -7,7 +7,7 @@ that they have less than 0.01 % of the area, and then only at the largest loads.
 """
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
-from thirdbody.papers.horng2022.figures import draw
+from thirdbody.papers.horng2022.drawing import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("4a", "4b")]

@@ -8,7 +8,7 @@ This reading has it 2.2 times as wide at F* = 1e-5: one of the statements it mis
 """
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
-from thirdbody.papers.horng2022.figures import draw
+from thirdbody.papers.horng2022.drawing import draw
 
 curves = Curves(READINGS["published"])
 figure = draw(PANELS["5"](curves))

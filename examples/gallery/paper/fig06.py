@@ -11,7 +11,7 @@ at random places of the surface there is none (:doc:`/choose-a-seat`).
 import numpy as np
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
-from thirdbody.papers.horng2022.figures import draw
+from thirdbody.papers.horng2022.drawing import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("6a", "6b", "6c")]

@@ -9,7 +9,7 @@ point at F* = 3.0e-6.
 import numpy as np
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
-from thirdbody.papers.horng2022.figures import draw
+from thirdbody.papers.horng2022.drawing import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("7a", "7b")]

@@ -10,7 +10,7 @@ in none of them (item 16 of :doc:`/errata`).
 import numpy as np
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
-from thirdbody.papers.horng2022.figures import draw
+from thirdbody.papers.horng2022.drawing import draw
 
 curves = Curves(READINGS["published"])
 figure = draw(PANELS["8"](curves))

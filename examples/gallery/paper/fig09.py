@@ -7,8 +7,8 @@ on σ = 100 nm the paper reads 7.5e-6 and 5.1e-5. No point is drawn where a read
 """
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
-from thirdbody.papers.horng2022.figures import draw
-from thirdbody.papers.horng2022.ledger import critical_load_1
+from thirdbody.papers.horng2022.drawing import draw
+from thirdbody.papers.horng2022.measures import critical_load_1
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("9a", "9b")]

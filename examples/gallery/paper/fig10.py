@@ -7,7 +7,7 @@ elastic, which the paper says too; that needs R = 11.1 µm.
 """
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
-from thirdbody.papers.horng2022.figures import draw
+from thirdbody.papers.horng2022.drawing import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("10a", "10b", "10c")]

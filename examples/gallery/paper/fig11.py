@@ -7,7 +7,7 @@ particle diameter once they carry. The paper does not state the load; F* = 1e-5 
 """
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
-from thirdbody.papers.horng2022.figures import draw
+from thirdbody.papers.horng2022.drawing import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("11a", "11b")]

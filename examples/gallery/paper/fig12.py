@@ -7,7 +7,7 @@ against separation (b) shows both curves joining.
 """
 
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves
-from thirdbody.papers.horng2022.figures import draw
+from thirdbody.papers.horng2022.drawing import draw
 
 curves = Curves(READINGS["published"])
 figures = [draw(PANELS[name](curves)) for name in ("12a", "12b")]
