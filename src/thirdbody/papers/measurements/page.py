@@ -15,6 +15,7 @@ from ...quantities.files import write_text
 from ...views.html import symbols, table
 from ..page import document, figures
 from ..panels import draw, keep, made, table_of
+from .listed import rows
 from .row import STANDINGS, WORDS, Row, Verdict, word_of
 
 __all__ = ["Summary", "reproduce"]
@@ -85,8 +86,6 @@ def reproduce(
     InvalidValue
         A preset, or a folder that cannot be made.
     """
-    from . import rows
-
     if preset is not None:
         raise InvalidValue(f"preset = {preset!r} has no meaning for measurements; leave it out")
     folder = made(out)
