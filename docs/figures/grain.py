@@ -100,7 +100,8 @@ def draw_map():
             pair = tb.MaterialPair(body, body)
             one = tb.particle.Series().one(surfaces=pair, particle=grain)
             sizes.append(1e6 * crush_embed_size(one, breakage))
-        ax.loglog(hardness / 1e9, sizes, f"C{i}", label=name)
+        dash = "-" if i < len(INKS) else "--"
+        ax.loglog(hardness / 1e9, sizes, f"C{i}", ls=dash, label=name)
         if grain.H < 12e9:
             ax.plot(hardness[-1] / 1e9, sizes[-1], f"C{i}o")
     ax.axvline(7.37, color="0.7", lw=1.0, zorder=0)

@@ -123,8 +123,8 @@ def _about_squashed(contact: Contact, d: Array) -> list[str]:
         return []
     return [
         f"up to {percent(share, digits=2)} of the particles' load is on soft particles squashed to "
-        f"contacts wider than {WIDE:g} of their radius: metal spheres were measured to press there "
-        "with a sixth to a third less than this law says"
+        f"contacts wider than {WIDE:g} of their radius: at 0.20 to 0.28 metal spheres pressed with "
+        "a sixth to a third less than this law says, and no measurement is known beyond"
     ]
 
 

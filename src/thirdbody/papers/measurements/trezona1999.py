@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 import thirdbody as tb
 
-from ..ledger import number
+from ...quantities.say import number
 from ..panels import Line, Panel
 from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
 
