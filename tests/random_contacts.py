@@ -432,7 +432,7 @@ def hold(drawn: Drawn, *, shares: int = 1) -> tuple[Findings, int]:
         columns = state.columns()
         at = tb.solve(contact, d=drawn.d)
     # what follows compares numbers: looking for pressed particles would take most of its time
-    with quiet(), mock.patch.object(solving, "about_pressed", lambda *_: []):
+    with quiet(), mock.patch.object(solving, "about_pressed", return_value=[]):
         _states(found, contact, bound, state, columns)
         _states(found, contact, bound, at, at.columns(), "given d: ")
         _separations(found, contact, bound, state, columns)
