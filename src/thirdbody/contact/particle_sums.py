@@ -351,6 +351,8 @@ class PrintedIntegrals(ParticleSum):
         self.shadow_factor = math.pi * eta * H1 / (H1 + H2)
         low, high = self.sizes.support
         self.reach = high + self.h_e
+        pieces = np.asarray(self.sizes.pieces)
+        self.marks = np.unique(np.concatenate([pieces, pieces + self.h_e]))
         width = (high - low) / 6 or self.x_a
         self.resolution = min(roughness.sigma, self.h_e or np.inf, width) / 40
 
