@@ -244,6 +244,7 @@ def test_what_attracts_is_a_number_however_far():
         expected = asperities.units[0] * np.trapezoid(one.reduced("force", t / w) * density, t)
         d = asperities.centre + h * asperities.sigma_s
         load = asperities.load(np.array([d]))[0]
-        assert np.isfinite(load).all() and np.isfinite(asperities.fields(np.array([d]))).all()
+        assert np.isfinite(load).all()
+        assert np.isfinite(asperities.fields(np.array([d]))).all()
         assert_allclose(load[0], expected, rtol=2e-3, err_msg=str(h))
         assert (load[0] < 0) == (h < 42)
