@@ -122,8 +122,8 @@ class PiecewiseChebyshev:
             term -= before
         flat = coefficients.reshape(*coefficients.shape[:2], -1)
         sorted_values = np.empty((len(x), flat.shape[2]))
-        starts = np.flatnonzero(np.diff(where, prepend=-1)).tolist()
-        for start, end in zip(starts, [*starts[1:], len(x)], strict=False):
+        ends = [*(np.flatnonzero(where[1:] != where[:-1]) + 1).tolist(), len(x)] if len(x) else []
+        for start, end in zip([0, *ends], ends, strict=False):
             mine, p = slice(start, end), where[start]
             terms, values = basis[:, mine].T, sorted_values[mine]
             for part in in_pieces(len(values), flat[p].size):

@@ -188,7 +188,12 @@ class Reader:
         fields: dict[str, Any] = {
             name: (key.type, ... if key.required else None) for name, key in keys.items()
         }
-        config = ConfigDict(extra="forbid", arbitrary_types_allowed=True, protected_namespaces=())
+        config = ConfigDict(
+            extra="forbid",
+            arbitrary_types_allowed=True,
+            protected_namespaces=(),
+            defer_build=True,  # a table inside another needs no validator of its own
+        )
         model = create_model(path or "study", __config__=config, **fields)
 
         def finish(given: Any, check: Callable[[Any], Any]) -> Any:
