@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import EllipseCollection
+from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
+from matplotlib.ticker import MaxNLocator
 
 from ...errors import InvalidValue
 from ...quantities.say import percent, value_of
@@ -26,6 +27,8 @@ __all__ = ["Section", "explicit", "section_of"]
 
 AROUND = 3.0
 """Length of the section over the diameter of its particle."""
+GROUND = -1e6
+"""How far down the ground is filled [nm]: below every frame."""
 LEAST_PIXELS = 12
 """Points that a section shows at least."""
 
@@ -183,8 +186,11 @@ def _section(
     found = section_of(field, bodies, step)
     along, size = found.along / 1e-9, found.size
     surface = found.deformed / 1e-9
-    floor = min(float(surface.min()), h / 1e-9) - size / 1e-9
-    ax.fill_between(along, surface, floor, color=_tint(OKABE_ITO["black"], 0.25))
+    ends = np.array([[along[-1], GROUND], [along[0], GROUND]])
+    ground = np.concatenate([np.stack([along, surface], axis=1), ends])
+    ax.add_collection(
+        PolyCollection([ground], color=_tint(OKABE_ITO["black"], 0.25)), autolim=False
+    )
     ax.plot(along, found.height / 1e-9, color="black", linewidth=0.8, linestyle="--")
     ax.axhline(h / 1e-9, color=OKABE_ITO["blue"], linewidth=1.5)
     _dress(ax, "$x$ from the particle [nm]", "Height $z$ [nm]", xlog=False)
@@ -217,6 +223,7 @@ def _forces(ax: Axes, force: Array, on_asperities: float) -> None:
     if len(carried):
         ax.hist(100 * carried / total, bins=30, color=_tint(OKABE_ITO["vermilion"], 0.7))
         ax.margins(y=0.25)
+        ax.yaxis.set_major_locator(MaxNLocator(integer=True))
         text = (
             f"{len(carried)} of {len(force)} particles carry\n"
             f"{percent(float(np.sum(carried)) / total)} of the load"
