@@ -720,7 +720,7 @@ def test_texts_of_a_link_are_shown_as_text(visit):
             when(page, "document.querySelector('[data-path=python]')?.innerText.includes('__hit')")
         page.wait_for_timeout(200)
         assert not page.evaluate(HARM), name
-    assert len(TITLES) == 11
+    assert len(TITLES) == 12
     assert not dialogs
 
 
