@@ -156,13 +156,13 @@ class StateRows(Rows):
         """Particles are squashed, so that their area may grow faster than their load."""
         self.steepest = np.zeros(count)
         """Most that it changes with d on a plane seat [1/m]."""
-        asperities = self._asperities(contact, datum)
+        asperities = self._add_asperities(contact, datum)
         shared = {} if particles is None else self._add_particles(contact, arrays)
         _fill(self.interfaces, asperities | shared)
         self._finish()
 
-    def _asperities(self, contact: Contact, datum: float) -> dict[str, Any]:
-        """Fields of an `INTERFACE`."""
+    def _add_asperities(self, contact: Contact, datum: float) -> dict[str, Any]:
+        """Lay out the panels, and say what that is in the fields of an `INTERFACE`."""
         rough, surfaces = self.varied.roughness, self.varied.surfaces
         law = common_law(contact.asperity_law, rough, surfaces)
         if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity or pulls(law):
