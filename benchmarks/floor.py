@@ -17,21 +17,21 @@ from numpy.typing import NDArray
 
 from thirdbody.contact.asperity_sums import gaussian_rule
 from thirdbody.equilibrium.compiled import batch as engine
-from thirdbody.equilibrium.compiled import kernels
+from thirdbody.equilibrium.compiled import layout, machine
 
 Array = NDArray[np.float64]
 
 
-@njit(fastmath=kernels.SUM, nogil=True)
+@njit(fastmath=machine.SUM, nogil=True)
 def _total(x: Array) -> float:
     total = 0.0
     for i in range(len(x)):
-        total += kernels.exp(x[i])
+        total += machine.exp(x[i])
     return total
 
 
 def nanoseconds() -> float:
-    """Processor time of one `kernels.exp` in a loop of vectors over the first cache, best of 30."""
+    """Processor time of one `machine.exp` in a loop of vectors over the first cache, best of 30."""
     x = np.random.default_rng(0).uniform(-40, 0, 1_000)
     _total(x)
     best = math.inf
@@ -48,23 +48,21 @@ def exponentials(states: engine.States, h: Array) -> Array:
 
     Nodes within reach, where the exponent has not fallen by 36.
     """
-    k, kinds, values = kernels, states.kinds, states.values
+    rows = states.rows
     total = np.ones(len(h))
-    for m in range(len(h)):
-        reach = (math.sqrt(h[m] * h[m] + 72.0) - h[m]) / states.w[m]
-        total[m] += np.searchsorted(
-            gaussian_rule(states.law, math.frexp(states.w[m])[1] - 1).y, reach
-        )
-        d = values[m, k.CENTRE] + values[m, k.SIGMA_S] * h[m]
-        for p in range((kinds.shape[1] - k.PARTS) // k.PART_KINDS):
-            i, v = k.PARTS + p * k.PART_KINDS, k.VALUES + p * k.PART_VALUES
-            if kinds[m, i] != k.ROUGH_NODES:
+    for m, interface in enumerate(rows.interfaces[: len(h)]):
+        reach = (math.sqrt(h[m] * h[m] + 72.0) - h[m]) / rows.w[m]
+        total[m] += np.searchsorted(gaussian_rule(rows.law, math.frexp(rows.w[m])[1] - 1).y, reach)
+        d = interface["centre"] + interface["sigma_s"] * h[m]
+        for part in rows.parts[m]:
+            if part["kind"] != layout.ROUGH_NODES:
                 continue
-            gap = (d + values[m, v + k.OFFSET]) / values[m, v + k.SIZE]
-            reach = k.SEAT_REACH * values[m, v + k.WIDTH]
-            (at, n), (first, count) = kinds[m, i + 1 : i + 5].reshape(2, 2)
-            gaps = states.rules[at : at + (k.AT + 1) * n].reshape(-1, n)[k.AT]
-            for size in states.rules[first + count : first + 2 * count]:
+            gap = (d + part["offset"]) / part["size"]
+            reach = layout.SEAT_REACH * part["width"]
+            at, n = part["gaps"]
+            first, count = part["sizes"]
+            gaps = rows.rules[at : at + (layout.AT + 1) * n].reshape(-1, n)[layout.AT]
+            for size in rows.rules[first + count : first + 2 * count]:
                 low, high = np.searchsorted(gaps, [(gap - reach) / size, (gap + reach) / size])
                 total[m] += high - low
     return total

@@ -175,8 +175,8 @@ def own_inputs(nanoseconds: float) -> Iterator[Row]:
         solved = state_columns(base, F_star=many, vary=vary)
         some = {name: values[:2_000] for name, values in vary.items()}
         states = engine.States(base, some, 2_000)
-        sigma_s = states.values[:, floor.kernels.SIGMA_S]
-        at = (solved["d"][:2_000] - states.values[:, floor.kernels.CENTRE]) / sigma_s
+        asperities = states.rows.interfaces
+        at = (solved["d"][:2_000] - asperities["centre"]) / asperities["sigma_s"]
         nodes = floor.exponentials(states, at)
         # the root cannot be known, nor the columns, without an evaluation each
         least = 1e9 / (2 * float(nodes.mean()) * nanoseconds)

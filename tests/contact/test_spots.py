@@ -211,9 +211,14 @@ def test_mistakes(outputs, said):
 
 
 def test_a_law_without_spots_says_so():
-    case = contact(outputs=tb.outputs.Counts()).replace(particle_law=tb.particle.Horng2022())
-    with pytest.raises(tb.InvalidValue, match="how deep one of them sits"):
-        tb.solve(case, F_star=1e-5)
+    """Where the contact is bound, once for all outputs, and not when it is solved."""
+    case = contact(outputs=(tb.outputs.Counts(), tb.outputs.Dents()))
+    with pytest.raises(tb.InvalidValue, match="how deep one of them sits") as told:
+        case.replace(particle_law=tb.particle.Horng2022())
+    assert len(told.value.problems) == 1
+    assert "law horng2022" in str(told.value)
+    bare = case.replace(particles=None, particle_law=tb.particle.Horng2022())
+    assert tb.solve(bare, F_star=1e-5).outputs["n_sa"] == 0
 
 
 def test_columns_are_unique_and_described():

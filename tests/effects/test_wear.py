@@ -196,7 +196,7 @@ def test_what_nobody_can_predict_must_be_given():
     with pytest.raises(tb.InvalidValue, match=r"needs K_sa(.|\n)*needs f_ab"):
         contact(wear=Wear(K_ss=1e-5))
     with pytest.raises(tb.InvalidValue, match="needs f_roll"):
-        worn(STEEL, STEEL, wear=Wear(K_ss=1e-5, K_sa=0.0, f_ab=0.1))
+        contact(STEEL, STEEL, wear=Wear(K_ss=1e-5, K_sa=0.0, f_ab=0.1))
     system = contact()
     with pytest.raises(tb.InvalidValue, match=r"needs outputs\.friction"):
         system.replace(outputs=(system.outputs[1],))

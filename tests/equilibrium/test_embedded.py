@@ -174,7 +174,7 @@ def failing(solve, where):
     """States of the compiled engine as if the kernel had found no balance for some of them."""
 
     def solved(self, which, target, h=None):
-        from thirdbody.equilibrium.compiled.kernels import UNSOLVED
+        from thirdbody.equilibrium.compiled.balance import UNSOLVED
 
         h, evaluations, fate, columns = solve(self, which, target, h)
         if target is not None and len(target) > max(where):

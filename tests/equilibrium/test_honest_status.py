@@ -13,6 +13,7 @@ import thirdbody as tb
 from thirdbody.contact.interface import interface
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.compiled import batch as engine
+from thirdbody.equilibrium.compiled import rows
 from thirdbody.equilibrium.load_scan import load_scan
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.errors import NotCompiled
@@ -77,11 +78,11 @@ class TestPath:
         pytest.importorskip("numba")
         vary = {"roughness.sigma": 1e-7 * np.linspace(1, 1.2, 40)}
         broken = {"side_effect": TypeError("a mistake")}
-        with mock.patch.object(engine.States, where, **broken), pytest.raises(TypeError):
+        with mock.patch.object(rows.StateRows, where, **broken), pytest.raises(TypeError):
             state_columns(dusty(), F_star=1e-6, vary=vary)
         loads = np.geomspace(1e-8, 1e-5, 20)
         few = mock.patch.object(engine, "FEWEST", 1)
-        broken_there = mock.patch.object(engine.Interfaces, where, **broken)
+        broken_there = mock.patch.object(rows.InterfaceRows, where, **broken)
         with few, broken_there, pytest.raises(TypeError):
             tb.solve(dusty(), F_star=loads)
 

@@ -299,7 +299,7 @@ def _usual(contact: Contact) -> dict[str, Uncertain]:
     labels += ["+".join(names) for names in sizes.values()]
     labels += [name for name in own if name.endswith(".material.H")]
     both = ["surfaces.first.H", "surfaces.second.H"]
-    labels += ["+".join(both)] if contact.surfaces.first == contact.surfaces.second else both
+    labels += ["+".join(both)] if contact.surfaces.alike else both
     ends = {label: own[label.partition("+")[0]] for label in labels}
     return {
         label: Uncertain.uniform(low=value / FAR, high=value * FAR) for label, value in ends.items()

@@ -154,7 +154,7 @@ def _default_inputs(contact: Contact) -> list[str]:
     """Every input that may move; joined where several decide (who is softer, which side wider)."""
     known = inputs(contact)
     pair = contact.surfaces
-    alike = pair.first == pair.second
+    alike = pair.alike
     groups: dict[Any, list[str]] = {}
     for name, value in known.items():
         side, _, last = name.rpartition(".")

@@ -12,6 +12,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..populations.particles import Particles
 from .asperity_sums import asperity_sum
 from .contact import Contact
 from .particle_sums import particle_sum, together_in
@@ -99,7 +100,23 @@ def together(F: Array, areas: Sequence[Array], part: Mapping[str, Array]) -> dic
 
 def interface(contact: Contact) -> Interface:
     """The cached `Interface` of a contact: one for all that carry load alike, whatever else."""
-    return _interface(contact.replace(outputs=()) if contact.outputs else contact)
+    return _interface(carrying(contact))
+
+
+def carrying(contact: Contact) -> Contact:
+    """The contact by what decides how it carries load: no outputs, no labels, no conductivities."""
+    pair, given = contact.surfaces, contact.particles
+    surfaces = pair.unchecked(first=pair.first.carrying, second=pair.second.carrying)
+    particles: Particles | tuple[Particles, ...] | None = None
+    if isinstance(given, tuple):
+        particles = tuple(_carrying(each) for each in given)
+    elif given is not None:
+        particles = _carrying(given)
+    return contact.unchecked(surfaces=surfaces, particles=particles, outputs=())
+
+
+def _carrying(each: Particles) -> Particles:
+    return each.unchecked(material=each.material.carrying, name="")
 
 
 @lru_cache(maxsize=512)

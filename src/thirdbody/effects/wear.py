@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ..contact.evaluation import Solved
     from ..contact.output import Probe
     from ..laws.spots import ParticleSpots
+    from ..populations.particles import Particles
     from .friction import Friction
 
     Array = NDArray[np.float64]
@@ -32,6 +33,20 @@ __all__ = ["Wear"]
 
 NONE = 1e-12
 """Share of the pressure that counts as no particle at all."""
+
+
+F_ROLL = (
+    "outputs.wear needs f_roll, the broken-off part of the tracks of rolling particles [1]: some "
+    "particles of this contact roll"
+)
+
+
+def _all_roll(friction: Friction, contact: Contact, each: Particles) -> bool:
+    """Whether the particles of a population roll however they are squeezed."""
+    law, surfaces = contact.law_of(each), contact.surfaces
+    spots = law.probe(np.geomspace(1e-6, 0.5, 40), surfaces=surfaces, particle=each.material)
+    spots = replace(spots, material=each.material, population=each)
+    return bool(np.all(friction.motion(spots).rolls | (spots.load <= 0)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,12 +153,17 @@ class Wear(AbstractOutput):
             "K_sa": "wear coefficient of the contacts of particles (0 where grooves are all)",
             "f_ab": "removed part of a groove, 0 to 1",
         }
-        return [
+        out = [
             f"outputs.wear needs {name}, the {what} [1]; it depends on the materials, and no value "
             "fits all"
             for name, what in needed.items()
             if getattr(self, name) is None
         ]
+        friction: Any = next((each for each in contact.outputs if each.name == "friction"), None)
+        unknown = self.f_roll is None and friction is not None and not friction.problems(contact)
+        if unknown and any(_all_roll(friction, contact, each) for each in contact.populations):
+            out.append(F_ROLL)
+        return out
 
     def _archard(self, kind: str, regime: NDArray[np.intp], area: Array) -> Array:
         """K a of the regime [m²]."""
@@ -200,10 +220,7 @@ class Wear(AbstractOutput):
             S = S + spots.total(value)
             severe = severe + spots.total(over.astype(float))
         if self.f_roll is None and np.any(volume["rolls"][0] > NONE * state.pressure):
-            raise InvalidValue(
-                "outputs.wear needs f_roll, the broken-off part of the tracks of rolling "
-                "particles [1]: some particles of this contact roll"
-            )
+            raise InvalidValue(F_ROLL)  # in some of its states
         parts = {name: volume[name][0] + volume[name][1] for name in volume}
         total = parts["ss"] + parts["sa"] + parts["groove"] + parts["roll"]
         with np.errstate(invalid="ignore", divide="ignore"):

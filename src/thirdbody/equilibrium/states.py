@@ -296,7 +296,7 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
         columns = batch.columns(load, given)
         doubt = columns.pop("doubt")
         words = {"status": FATES[columns["status"]], "engine": np.where(doubt, doubt, "compiled")}
-        return here, columns | words, batch.own
+        return here, columns | words, batch.rows.own
 
     here, columns, size = part(slice(0, FIRST))  # refused, or compiled, once
     at_once = max(min(AT_ONCE, ROOM * FIRST // max(size, 1)), 1)

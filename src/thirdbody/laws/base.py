@@ -419,6 +419,8 @@ class AbstractParticleLaw(Law):
     registry: ClassVar[dict[str, type[Law]]] = {}
     breakable: ClassVar[bool] = False
     """Its particles are round: their strength has a meaning."""
+    knows_each: ClassVar[bool] = True
+    """It says what one particle does, which outputs need; if not, only what all do together."""
 
     @property
     def centre(self) -> float:

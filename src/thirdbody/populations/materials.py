@@ -27,13 +27,13 @@ OWN_FILES = "THIRDBODY_MATERIALS"
 def _bulk(symbol: str, unit: str, meaning: str) -> Any:
     """An optional quantity of a body that its contact under load does not ask for."""
     about = quantity(symbol, unit, meaning, gt=0).metadata
-    return field(default=None, compare=False, metadata=about)
+    return field(default=None, metadata={**about, "bulk": True})
 
 
 def _grain(symbol: str, unit: str, meaning: str) -> Any:
     """What is known of the strength of grains of a material, for `WeibullStrength.of`."""
     about = quantity(symbol, unit, meaning, gt=0, usual=1.0 if unit == "m" else None).metadata
-    return field(default=None, compare=False, metadata={**about, "grain": True})
+    return field(default=None, metadata={**about, "grain": True})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,8 +70,8 @@ class Material(Value):
 
     Notes
     -----
-    Two materials are equal when E, ν, H and K_c are: those alone decide how a contact carries load,
-    K_c where particles break.
+    Two materials are equal when all their numbers are, whatever their labels. How a contact carries
+    load is decided by E, ν, H and K_c alone, K_c where particles break: `carrying`.
 
     Examples
     --------
@@ -104,12 +104,13 @@ class Material(Value):
         """E/(1 − ν²) [Pa], the modulus with which a half-space answers an indenter."""
         return self.E / (1 - self.nu**2)
 
+    @property
+    def carrying(self) -> Material:
+        """What decides how a contact carries load, and nothing else: E, ν, H and K_c."""
+        return Material(E=self.E, nu=self.nu, H=self.H, K_c=self.K_c)
 
-BULK = frozenset(
-    item.name
-    for item in dataclasses.fields(Material)
-    if "quantity" in item.metadata and not item.compare and "grain" not in item.metadata
-)
+
+BULK = frozenset(item.name for item in dataclasses.fields(Material) if "bulk" in item.metadata)
 """Quantities of a body that decide how it conducts, not how it carries load."""
 
 
@@ -164,6 +165,11 @@ class MaterialPair(Value):
     def E_star(self) -> float:
         """Contact modulus E* [Pa], 1/E* = Σ(1 − ν²)/E."""
         return reduced_modulus(self.first, self.second)
+
+    @property
+    def alike(self) -> bool:
+        """Whether both bodies carry load alike."""
+        return self.first.carrying == self.second.carrying
 
     @property
     def softer(self) -> Material:

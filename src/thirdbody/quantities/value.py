@@ -228,6 +228,13 @@ class Value:
             now[head] = _replaced(where, part, deeper)
         return dataclasses.replace(self, **now)  # type: ignore[type-var]
 
+    def unchecked(self, **changes: Any) -> Self:
+        """A copy with some fields changed to what needs no check and no warning."""
+        out = object.__new__(type(self))
+        for item in dataclasses.fields(self):  # type: ignore[arg-type]
+            object.__setattr__(out, item.name, changes.get(item.name, getattr(self, item.name)))
+        return out
+
     def part(self, path: str) -> Any:
         """What a dotted name stands for: a field, or an item of a tuple by place or name."""
         where: Any = self

@@ -49,12 +49,11 @@ def filled_in(kind: Any) -> frozenset[str]:
 
 
 def idle(kind: type) -> dict[str, str]:
-    """Fields that have no part in the contact, and what each is: labels, and what equality of
-    two values leaves out."""
+    """Fields that have no part in how the contact carries load, and what each is."""
     out = {}
     for item in dataclasses.fields(kind):
         label = item.type in ("str", str) and "choice" not in item.metadata
-        if label or not item.compare:
+        if label or item.metadata.keys() & {"bulk", "grain"}:
             about = item.metadata.get("quantity", {"meaning": "a label"})
             out[item.name] = about["meaning"]
     return out

@@ -193,7 +193,7 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
         bodies |= {f"particles.{i}.material": each.material for i, each in enumerate(given)}
     elif given is not None:
         bodies["particles.material"] = given.material
-    alike = contact.surfaces.first == contact.surfaces.second
+    alike = contact.surfaces.alike
     out = {}
     for name, body in bodies.items():
         for key, (low, high) in entries.get(body.name, {}).get("range", {}).items():

@@ -9,13 +9,18 @@ bytes in the first process, too.
 from __future__ import annotations
 
 import base64
+import contextlib
+import hashlib
 import os
 import pickle
 import subprocess
 import sys
 import threading
 from collections.abc import Callable
+from importlib.resources import files
 from typing import Any
+
+import numpy as np
 
 __all__ = ["Cached"]
 
@@ -27,6 +32,18 @@ COMPILE = (
 )
 PATIENCE = 600
 """Seconds after which this process compiles for itself."""
+
+
+def sources() -> str:
+    """Digest of the modules beside this one, from which compiled functions take code and layout.
+
+    numba looks at the module of a function alone.
+    """
+    about = hashlib.sha256()
+    for path in sorted(files(__package__).iterdir(), key=lambda path: path.name):
+        if path.name.endswith(".py"):
+            about.update(path.read_bytes())
+    return about.hexdigest()
 
 
 class Cached:
@@ -41,11 +58,17 @@ class Cached:
     def __init__(self, function: Any):
         self.function = function
         self._lock = threading.Lock()
+        self._prepared: set[Any] = set()
+        with contextlib.suppress(AttributeError):  # numba's own; without it, its own stamp
+            stored = function._cache._cache_file
+            stored._source_stamp = stored._source_stamp, sources()
 
     def __call__(self, *args: Any) -> Any:
-        if not self.function.signatures or self._signature(args) not in self.function.overloads:
+        kinds = tuple(map(_kind, args))  # cheap, which the types of records are not
+        if kinds not in self._prepared:
             with self._lock:
                 self._prepare(self._signature(args))
+            self._prepared.add(kinds)
         return self.function(*args)
 
     @staticmethod
@@ -85,3 +108,14 @@ class Cached:
             )
         except (OSError, subprocess.TimeoutExpired):
             return  # compiled here instead, by the call
+
+
+def _kind(value: Any) -> Any:
+    """What tells arguments of different numba types apart."""
+    if isinstance(value, np.ndarray):
+        flags = value.flags
+        order = flags.c_contiguous, flags.f_contiguous
+        return value.dtype, value.ndim, order, flags.writeable, flags.aligned
+    if isinstance(value, tuple):
+        return tuple(map(_kind, value))
+    return value.dtype if isinstance(value, np.generic) else type(value)

@@ -12,32 +12,26 @@ import numpy as np
 from numba import njit
 
 from .cached import Cached
+from .layout import SHARED
 
 FAST = {"contract"}
 """A product and a sum may become one instruction, which rounds once."""
 
-# of one body: the sides' numbers in their columns
-DELTA, UNIT, FULL, CAP, LIMIT = range(5)
-# of one law: ends of its middle branch, with load and area there
-FIRST, LAST, FORCE_1, FORCE_2, AREA_1, AREA_2, ELASTIC, PLATEAU = range(8)
-# what one particle does: load on the weaker side, indentation of the stronger, areas of both
-LOAD, Y_STRONGER, AREA_WEAKER, AREA_STRONGER = range(4)
-
 
 @njit(error_model="numpy", fastmath=FAST, forceinline=True)
 def _on_panel(table, x):
-    """Panel of x, and x on −1…1; each panel begins with its middle and half width."""
+    """Panel of x, and x on −1…1."""
     p, last = 0, len(table) - 1
-    while p < last and x > table[p, 0, 0] + table[p, 0, 1]:
+    while p < last and x > table[p].middle + table[p].half:
         p += 1
-    return p, min(max((x - table[p, 0, 0]) / table[p, 0, 1], -1.0), 1.0)
+    return p, min(max((x - table[p].middle) / table[p].half, -1.0), 1.0)
 
 
 @njit(error_model="numpy", fastmath=FAST, forceinline=True)
 def _series(table, x):
-    """A Chebyshev series at x."""
+    """A curve at x."""
     p, s = _on_panel(table, x)
-    c, t = table[p, 1], 2 * s
+    c, t = table[p].y, 2 * s
     b1 = b2 = 0.0
     for k in range(len(c) - 1, 0, -1):
         b1, b2 = t * b1 + (c[k] - b2), b1
@@ -46,9 +40,9 @@ def _series(table, x):
 
 @njit(error_model="numpy", fastmath=FAST, forceinline=True)
 def _two_series(table, x):
-    """Two Chebyshev series on the same panels at x."""
+    """Load and area at x."""
     p, s = _on_panel(table, x)
-    c, d, t = table[p, 1], table[p, 2], 2 * s
+    c, d, t = table[p].load, table[p].area, 2 * s
     b1 = b2 = d1 = d2 = 0.0
     for k in range(len(c) - 1, 0, -1):
         b1, b2 = t * b1 + (c[k] - b2), b1
@@ -60,44 +54,44 @@ def _two_series(table, x):
 def _load_and_area(law, table, v):
     """Reduced load and area at y = v²."""
     y = v * v
-    if y <= law[FIRST] or law[ELASTIC]:
-        u = y / law[FIRST]
-        return law[FORCE_1] * u * math.sqrt(u), law[AREA_1] * u
-    if y >= law[LAST]:
-        u = y / law[LAST]
-        return law[FORCE_2] * u, law[AREA_2] * u
+    if y <= law.first or law.elastic:
+        u = y / law.first
+        return law.first_load * u * math.sqrt(u), law.first_area * u
+    if y >= law.last:
+        u = y / law.last
+        return law.last_load * u, law.last_area * u
     return _two_series(table, v)
 
 
 @njit(error_model="numpy", fastmath=FAST, forceinline=True)
 def _of_force(law, inverse, f):
     """y at which the law carries f."""
-    if f <= law[FORCE_1] or law[ELASTIC]:
-        return law[FIRST] * (f / law[FORCE_1]) ** (2 / 3)
-    if f >= law[FORCE_2]:
-        return law[LAST] * (f / law[FORCE_2])
+    if f <= law.first_load or law.elastic:
+        return law.first * (f / law.first_load) ** (2 / 3)
+    if f >= law.last_load:
+        return law.last * (f / law.last_load)
     return math.exp(_series(inverse, math.log(f)))
 
 
 @njit(error_model="numpy", fastmath=FAST, forceinline=True)
 def _of_pressure(law, rise, p):
     """y ≤ the last breakpoint at which the mean pressure is p."""
-    first, last = law[FORCE_1] / law[AREA_1], law[FORCE_2] / law[AREA_2]
+    first, last = law.first_load / law.first_area, law.last_load / law.last_area
     if p >= last:
-        return law[LAST]
+        return law.last
     if p <= first:
-        return law[FIRST] * (p / first) ** 2
+        return law.first * (p / first) ** 2
     return _series(rise, math.sqrt(last - p))
 
 
 @njit(error_model="numpy", fastmath=FAST, forceinline=True)
 def _carrying(law, tables, side, f):
     """y at which a side carries f times its unit, or all it can."""
-    f = min(f, side[LIMIT] / side[UNIT])
+    f = min(f, side.limit / side.unit)
     y = _of_force(law, tables[1], f)
-    if y > side[CAP] and law[PLATEAU] > 0:
-        return max(_of_pressure(law, tables[2], f / side[FULL]), side[CAP])
-    return min(y, side[CAP])
+    if y > side.cap and law.plateau:
+        return max(_of_pressure(law, tables[2], f / side.full), side.cap)
+    return min(y, side.cap)
 
 
 @Cached
@@ -113,23 +107,23 @@ def carrying(law, tables, side, f, out):
 def _share(law, tables, weaker, stronger, equal, v, out):
     """Both contacts when the weaker side is indented by v² of its unit."""
     f, a = _load_and_area(law, tables[0], v)
-    full, cap, plateau = weaker[FULL], weaker[CAP], law[PLATEAU] > 0
+    full, cap, plateau = weaker.full, weaker.cap, law.plateau
     if v * v > cap:
         # beyond the great circle: its area at the mean pressure of the law, or nothing more
         f = f * full / a if plateau else _load_and_area(law, tables[0], math.sqrt(cap))[0]
-    out[LOAD], out[AREA_WEAKER] = f, min(a, full)
+    out.load, out.area_weaker = f, min(a, full)
     if equal:
-        out[Y_STRONGER], out[AREA_STRONGER] = v * v, out[AREA_WEAKER]
+        out.y_stronger, out.area_stronger = v * v, out.area_weaker
         return
-    y = _carrying(law, tables, stronger, weaker[UNIT] / stronger[UNIT] * f)
-    out[Y_STRONGER] = y
-    out[AREA_STRONGER] = min(_load_and_area(law, tables[0], math.sqrt(y))[1], stronger[FULL])
+    y = _carrying(law, tables, stronger, weaker.unit / stronger.unit * f)
+    out.y_stronger = y
+    out.area_stronger = min(_load_and_area(law, tables[0], math.sqrt(y))[1], stronger.full)
 
 
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", fastmath=FAST)
 def share(law, tables, weaker, stronger, equal, y, out):
-    """`_share` at every y (M, k), into ``out`` (M, k, 4)."""
+    """`_share` at every y (M, k), into ``out`` (M, k)."""
     for m in range(y.shape[0]):
         for i in range(y.shape[1]):
             v = math.sqrt(y[m, i])
@@ -147,7 +141,7 @@ def fill(law, tables, weaker, stronger, equal, turned, breaks, order, edges, nod
     """
     per = len(nodes)
     n = rows.shape[2]
-    both, weight, values = np.empty(4), np.empty(per), np.empty((8, per))
+    both, weight, values = np.empty(1, SHARED)[0], np.empty(per), np.empty((8, per))
     for m in range(len(edges)):
         A, B = weaker[m], stronger[m]
         for p in range(edges.shape[1]):
@@ -156,22 +150,22 @@ def fill(law, tables, weaker, stronger, equal, turned, breaks, order, edges, nod
             for j in range(1 if end else per):
                 v = high if end else 0.5 * (low + high) + 0.5 * (high - low) * nodes[j]
                 _share(law, tables, A, B, equal[m], v, both)
-                y = both[Y_STRONGER] if turned[m] else v * v
-                a1 = R * math.pi * A[DELTA] * both[AREA_WEAKER]
-                a2 = R * math.pi * B[DELTA] * both[AREA_STRONGER]
-                cap = B[CAP] if turned[m] else A[CAP]
+                y = both.y_stronger if turned[m] else v * v
+                a1 = R * math.pi * A.delta * both.area_weaker
+                a2 = R * math.pi * B.delta * both.area_stronger
+                cap = B.cap if turned[m] else A.cap
                 if turned[m]:
                     a1, a2 = a2, a1
                 branch = 0
                 while branch < len(breaks) and y >= breaks[branch]:
                     branch += 1
-                regime = 2 if law[PLATEAU] > 0 and y >= cap else order[branch]
-                values[0, j] = A[UNIT] * both[LOAD]
+                regime = 2 if law.plateau and y >= cap else order[branch]
+                values[0, j] = A.unit * both.load
                 for c in range(3):
                     values[1 + c, j] = a1 if c == regime else 0.0
                 values[4, j], values[5, j] = a2, max(a1, a2)
                 values[6, j] = R * math.pi / 2
-                values[7, j] = A[DELTA] * v * v + B[DELTA] * both[Y_STRONGER]
+                values[7, j] = A.delta * v * v + B.delta * both.y_stronger
             if end:
                 bottom[m] = 1 - values[7, 0]
                 floor[m] = values[:7, 0]

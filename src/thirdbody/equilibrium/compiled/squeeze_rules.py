@@ -27,12 +27,14 @@ from ...numerics.chebyshev import PiecewiseChebyshev, chebyshev_transform
 from ...numerics.products import in_pieces
 from ...numerics.quadrature import gauss_legendre
 from ...numerics.roots import bracketed_root
+from .layout import CURVE, LAW, MOST_NODES, RESPONSE, SHARED, SIDE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
     Index = NDArray[np.intp]
+    Records = NDArray[np.void]
 
 __all__ = [
     "NEAR",
@@ -60,16 +62,13 @@ WORTH = 200
 """Materials for which series are quicker than rules of each."""
 
 
-def _table(function: PiecewiseChebyshev) -> Array:
-    """Middle and half width of each panel, and below them the coefficients of each column."""
-    columns = function.coefficients.transpose(0, 2, 1)
-    head = np.zeros((len(columns), 1, columns.shape[2]))
-    head[:, 0, 0], head[:, 0, 1] = function.middle, function.half
-    return np.ascontiguousarray(np.concatenate([head, columns], axis=1))
-
-
-def _no_table() -> Array:
-    return np.zeros((0, 2, 18))
+def _table(function: PiecewiseChebyshev, dtype: np.dtype[np.void], *columns: str) -> Records:
+    """Panels of a function, each of its columns by name."""
+    table = np.empty(len(function.middle), dtype)
+    table["middle"], table["half"] = function.middle, function.half
+    for i, name in enumerate(columns):
+        table[name] = function.coefficients[:, :, i]
+    return table
 
 
 class InverseLaw:
@@ -93,7 +92,7 @@ class InverseLaw:
         self.bends = np.zeros(0)
         """y at the ends of the panels that resolve y of f."""
         self._check(np.array(points))
-        self.tables = (_no_table(), _no_table(), _no_table())
+        self.tables: tuple[Records, ...] = tuple(np.empty(0, it) for it in (RESPONSE, CURVE, CURVE))
         """Load and area of √y, ln y of the load, y of the distance from the last pressure."""
         if self.first < self.last:
             log_y = PiecewiseChebyshev(
@@ -110,7 +109,11 @@ class InverseLaw:
                 lambda v: np.stack([law.reduced(name, v * v) for name in ("force", "area")], -1),
                 np.sqrt(points),
             )
-            self.tables = (_table(forward), _table(log_y), _table(y_of_rise))
+            self.tables = (
+                _table(forward, RESPONSE, "load", "area"),
+                _table(log_y, CURVE, "y"),
+                _table(y_of_rise, CURVE, "y"),
+            )
             self._y_of_area = PiecewiseChebyshev(
                 lambda a: self._solve("area", a)[:, None], law.reduced("area", np.array(points))
             )
@@ -146,10 +149,14 @@ class InverseLaw:
         root = bracketed_root(excess, *ends, (value,), xrtol=4e-16)
         return np.clip(root, self.first, self.last)
 
-    def numbers(self, plateau: bool) -> Array:
-        """The ends of the middle branch, as the compiled code reads them."""
-        ends = self.first, self.last, *self.forces, *self.areas
-        return np.array([*ends, self.elastic, plateau], dtype=float)
+    def record(self, plateau: bool) -> np.void:
+        """The law as the compiled code reads it."""
+        law = np.empty(1, LAW)
+        law["first"], law["last"] = self.first, self.last
+        law["first_load"], law["last_load"] = self.forces
+        law["first_area"], law["last_area"] = self.areas
+        law["elastic"], law["plateau"] = self.elastic, plateau
+        return law[0]
 
     def of_area(self, a: Array) -> Array:
         """y at which the contact area is a."""
@@ -220,24 +227,24 @@ def squeeze_rule(
     split_areas : bool
         Split also where the two contact areas change order.
     """
-    from .squeeze_kernel import AREA_STRONGER, AREA_WEAKER, Y_STRONGER, carrying, fill, share
+    from .squeeze_kernel import carrying, fill, share
 
     inverse = inverse_law(law)
     one, two = (_Sides(inverse, E, H, tip_radius) for E, H in (first, second))
     weaker = one.limit <= two.limit
     A, B = Side.chosen(weaker, one, two), Side.chosen(weaker, two, one)
     equal = np.all((A.delta_1 == B.delta_1) & (A.unit == B.unit), axis=1)
-    laid = (inverse.numbers(A.plateau), inverse.tables, _numbers(A), _numbers(B), equal)
+    laid = (inverse.record(A.plateau), inverse.tables, _records(A), _records(B), equal)
 
-    def shared(y: Array) -> Array:
-        out = np.empty((*y.shape, 4))
+    def shared(y: Array) -> Records:
+        out = np.empty(y.shape, SHARED)
         share(*laid, y, out)
         return out
 
     def more_area(y: Array) -> tuple[Array, Array]:
         """Contact areas of the weaker and the stronger side, over the same unit."""
         both = shared(y)
-        return A.delta_1 * both[..., AREA_WEAKER], B.delta_1 * both[..., AREA_STRONGER]
+        return A.delta_1 * both["area_weaker"], B.delta_1 * both["area_stronger"]
 
     top = A.kinks[:, -1:]
     kinks = A.kinks
@@ -251,7 +258,7 @@ def squeeze_rule(
             kinks = np.concatenate([kinks, np.minimum(crossings, top)], axis=1)
     kinks = np.sort(kinks, axis=1)
     edges = np.concatenate([np.zeros_like(top), kinks], axis=1)
-    eps = A.delta_1 * edges + B.delta_1 * shared(edges)[..., Y_STRONGER]
+    eps = A.delta_1 * edges + B.delta_1 * shared(edges)["y_stronger"]
     edges = _panels(np.sqrt(edges), eps / widths)
     per = NODES_ALIKE if np.all(equal) else NODES
     count, n = len(edges), (edges.shape[1] - 1) * per
@@ -408,8 +415,6 @@ def _series_in_ratio(
     options: tuple[tuple[str, Any], ...],
 ) -> RuleSeries | None:
     """Series where the ratios that are not fixed go from low to high; None if they diverge."""
-    from .kernels import MOST_NODES
-
     x, transform = chebyshev_transform(TERMS)
     ratio = 0.5 * (low + high) + 0.5 * (high - low) * x[:, None]
     one, two, E = (np.exp(ratio if value is None else 0 * ratio + value) for value in fixed)
@@ -448,10 +453,13 @@ def _kinks_and_bends(side: Side, inverse: InverseLaw) -> Array:
     return np.concatenate([side.kinks, np.minimum(bends, side.kinks[:, -1:])], axis=1)
 
 
-def _numbers(side: Side) -> Array:
-    """One row a material, as the compiled code reads them."""
-    columns = (side.delta_1, side.unit, side.full, side.cap, side.limit)
-    return np.concatenate(np.broadcast_arrays(*columns), axis=1)
+def _records(side: Side) -> Records:
+    """Materials as the compiled code reads them."""
+    columns = np.broadcast_arrays(side.delta_1, side.unit, side.full, side.cap, side.limit)
+    out = np.empty(len(columns[0]), SIDE)
+    for name, values in zip(("delta", "unit", "full", "cap", "limit"), columns, strict=True):
+        out[name] = values[:, 0]
+    return out
 
 
 def _panels(edges: Array, reach: Array) -> Array:

@@ -25,8 +25,8 @@ PRESETS: dict[str, dict[str, Any]] = {
 """What each reading of the printed equations changes; the rest is as printed."""
 
 NO_ONE_PARTICLE = (
-    "this particle law knows loads and areas of all particles together, not how deep one of them "
-    "sits; outputs need particle.Series or particle.Flakes"
+    "the particle law horng2022 knows loads and areas of all particles together, not how deep one "
+    "of them sits; outputs need particle.Series or particle.Flakes"
 )
 
 
@@ -97,6 +97,7 @@ class Horng2022(AbstractParticleLaw):
     doi = "10.3390/lubricants10070164"
     provenance = "seen"
     valid_range = "d > 0; reproduces the paper, does not predict"
+    knows_each = False
 
     preset: str = choice("reading of the paper", *PRESETS, default="published")
     weight: str = choice("weight of the particle integrals", "x2", "xa2", default="x2")

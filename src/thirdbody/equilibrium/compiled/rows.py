@@ -1,0 +1,390 @@
+"""From a contact to the records of the compiled engine: the one place where that happens."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...contact.asperity_sums import AsperitySum, GaussianSum, GaussianSums, gaussian_sums, scales
+from ...contact.contact import Contact
+from ...contact.interface import Interface
+from ...contact.particle_averages import SeatAverage, size_average
+from ...contact.particle_sums import SeatedParticles
+from ...errors import NotCompiled
+from ...laws.base import COLUMNS, AbstractAsperityLaw
+from ...laws.particle.series import Series as ParticleSeries
+from ...populations.heights import GaussianHeights
+from ...populations.materials import reduced_modulus, softer_hardness
+from ...populations.particles import Particles
+from ...populations.shape import Angular
+from . import layout
+from .inputs import MATERIALS, SHAPES, bare, common_law, own_particles, size_factor, squashed
+from .layout import INTERFACE, NONE, PART, RULE
+from .size_rules import FEW_SIZES, MOST_WIDTHS, densest, few_on_seats, seat_rule, size_rules
+from .squeeze_rules import NEAR, SharedRules, near_rule, squeeze_rules
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Index = NDArray[np.intp]
+    Records = NDArray[np.void]
+
+__all__ = ["InterfaceRows", "StateRows"]
+
+
+def pulls(law: AbstractAsperityLaw) -> bool:
+    """Whether the load may be tension, which the compiled balance does not know."""
+    return law.start < 0 or law.onset < 0
+
+
+class Rows:
+    """Interfaces and the parts of their particles as records, and the series that they point to."""
+
+    def __init__(self, count: int, parts: int):
+        self.interfaces = np.zeros(count, INTERFACE)
+        self.interfaces["inverse"] = self.interfaces["shadow"] = NONE
+        self.parts = np.zeros((count, parts), PART)
+        self.parts["kind"] = layout.ABSENT
+        self._panels, self._rules = layout.Panels(), layout.Rules()
+
+    def _finish(self) -> None:
+        self.panels, self.inverses = self._panels.laid()
+        self.edges = self.panels["edge"].copy()
+        self.rules, self.own = self._rules.laid(), self._rules.own
+
+    @property
+    def arrays(self) -> tuple[np.ndarray, ...]:
+        """What the kernels read."""
+        return self.interfaces, self.parts, self.panels, self.edges, self.inverses, self.rules
+
+
+class InterfaceRows(Rows):
+    """Interfaces by their tables.
+
+    Raises
+    ------
+    NotCompiled
+        An interface that the kernel does not know.
+    """
+
+    def __init__(self, interfaces: Sequence[Interface]):
+        particles = [bound.particles for bound in interfaces]
+        if not all(p is None or isinstance(p, SeatedParticles) for p in particles):
+            raise NotCompiled("particles that are not Series")
+        most = max(len(p.parts) if isinstance(p, SeatedParticles) else 0 for p in particles)
+        super().__init__(len(interfaces), most)
+        for m, bound in enumerate(interfaces):
+            self._add_asperities(self.interfaces[m], bound.asperities)
+            if isinstance(bound.particles, SeatedParticles):
+                self._add_particles(self.interfaces[m], self.parts[m], bound.particles)
+        self._finish()
+
+    def _add_asperities(self, row: np.void, asperities: Any) -> None:
+        if not isinstance(asperities, AsperitySum) or pulls(asperities.reduced.law):
+            raise NotCompiled("asperities of several shapes, or that attract")
+        reduced = asperities.reduced
+        table = reduced.table  # type: ignore[attr-defined]
+        if isinstance(reduced, GaussianSum):
+            row["kind"], load = layout.GAUSSIAN, table.coefficients[:, :, [0, 4, 5]]
+        else:
+            row["kind"], load = layout.DENSITY, table.with_derivatives[:, :, 0, :]
+        row["panels"] = self._panels.add(reduced, table, load, 4)
+        row["sigma_s"], row["centre"] = asperities.sigma_s, asperities.centre
+        row["force"], row["area"] = asperities.units[:2]
+        row["highest"] = asperities.highest
+
+    def _add_particles(self, row: np.void, parts: Records, particles: SeatedParticles) -> None:
+        shadow = row["shadow"] = _column(particles.shadow)
+        row["coverage"] = particles.coverage if particles.shadow == "covered" else 0.0
+        for part, source in zip(parts, particles.parts, strict=False):
+            average = plane = source.average
+            if isinstance(average, SeatAverage):
+                plane = average.average
+                part["kind"], part["width"] = layout.ROUGH, average.width
+                part["upper"] = self._panels.add_average(average.table, shadow)
+                part["least"], part["reach"] = average.table.edges[0], average.high
+            elif source.breaks:
+                raise NotCompiled("particles that break, on a plane seat")
+            else:
+                part["kind"], part["join"] = layout.PLANE, average.join
+                part["upper"] = self._panels.add_average(average.upper, shadow)
+                if average.lower is not None:
+                    part["lower"] = self._panels.add_average(average.lower, shadow)
+                part["least"], part["reach"] = average.bottom, average.top
+                part["top"], part["powers"] = average.top, average.powers
+            part["terms"] = part["inverse"] = NONE
+            part["size"], part["factor"] = source.scale, source.factor
+            part["offset"], part["floor"] = source.offset, plane.floor
+
+
+def _column(shadow: str) -> int:
+    """The column of the particles that is the shadow, if one is."""
+    return COLUMNS.index(shadow) if shadow in COLUMNS else NONE
+
+
+class StateRows(Rows):
+    """States with inputs of their own, by series and nodes that many of them share.
+
+    Raises
+    ------
+    NotCompiled
+        Inputs or models for which nodes are not shared.
+    """
+
+    def __init__(self, contact: Contact, arrays: Mapping[str, Array], count: int):
+        if any(name.startswith("asperity_law.") for name in arrays):
+            raise NotCompiled("the asperity law varies")
+        self.varied = contact.with_arrays(arrays)
+        particles = None if bare(contact, arrays) else contact.particles
+        if isinstance(particles, tuple) or (particles is not None and particles.law is not None):
+            raise NotCompiled("several populations")
+        if particles is not None and particles.strength is not None:
+            raise NotCompiled("particles that break")
+        super().__init__(count, 0 if particles is None else len(particles.diameter.components))
+        datum = 0.0 if particles is None else contact.particle_law.centre
+        self.covered: Array | None = None
+        """Projected particle area per nominal area (N,)."""
+        self.most = np.zeros(count)
+        """Most of the nominal area that particles can shadow; more than all of it if squashed."""
+        self.spreads = False
+        """Particles are squashed, so that their area may grow faster than their load."""
+        self.steepest = np.zeros(count)
+        """Most that it changes with d on a plane seat [1/m]."""
+        asperities = self._add_asperities(contact, datum)
+        shared = {} if particles is None else self._add_particles(contact, arrays)
+        _fill(self.interfaces, asperities | shared)
+        self._finish()
+
+    def _add_asperities(self, contact: Contact, datum: float) -> dict[str, Any]:
+        """Lay out the panels, and say what that is in the fields of an `INTERFACE`."""
+        rough, surfaces = self.varied.roughness, self.varied.surfaces
+        law = common_law(contact.asperity_law, rough, surfaces)
+        if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity or pulls(law):
+            raise NotCompiled(
+                "asperities of several shapes or heights that are not Gaussian, or that attract"
+            )
+        w, units = scales(law, rough, surfaces)
+        self.law, self.w = law, np.broadcast_to(w, len(self.interfaces))
+        step, across = GaussianSums.place(self.w)
+
+        def family(step: int) -> tuple[Any, ...]:
+            sums = gaussian_sums(law, step)
+            return self._panels.add_family(sums), self._panels.add_inverse(sums)
+
+        sums = _each(step, family, layout.SUM)
+        return {
+            **{"kind": layout.FAMILY, "shadow": NONE, "coverage": 0.0},
+            **{"panels": sums["panels"], "inverse": sums["inverse"], "across": across},
+            **{"sigma_s": rough.sigma_s, "centre": datum * rough.sigma},
+            **{"force": units[..., 0], "area": units[..., 1], "highest": GaussianSum.highest},
+        }
+
+    def _add_particles(self, contact: Contact, arrays: Mapping[str, Array]) -> dict[str, Any]:
+        """Fill the parts, and say what they add to the fields of an `INTERFACE`."""
+        law, particles = self.varied.particle_law, contact.particles
+        if not (isinstance(law, ParticleSeries) and isinstance(particles, Particles)):
+            raise NotCompiled("particles that are not Series")
+        if any(name.startswith("particle_law.law") for name in arrays):
+            raise NotCompiled("the law of the particles varies")
+        if any(name.startswith(SHAPES) for name in arrays):
+            raise NotCompiled("the shape of the particles varies")
+        if "particle_law.friction_factor" in arrays:
+            raise NotCompiled("the friction of squashed particles varies")
+        if "particle_law.aspect" in arrays:
+            raise NotCompiled("the aspect of flakes varies")
+        own = law.seat == "rough" and own_particles(contact, arrays)
+        parts = self._squeezed if own else self._averaged
+        coverage = np.zeros(len(self.parts))
+        for p, (covers, part) in enumerate(parts(contact, arrays)):
+            coverage += covers
+            part["offset"] = law.seat_offset(self.varied.roughness)
+            _fill(self.parts[:, p], part)
+        if np.any(coverage >= 1):
+            raise NotCompiled("some particles are jammed")  # said better, one contact at a time
+        one = contact.law_of(particles).one(surfaces=contact.surfaces, particle=particles.material)
+        self.covered = one.breadth * coverage
+        self.most = np.maximum(self.most, self.covered)
+        shared: dict[str, Any] = {"shadow": _column(law.shadow)}
+        return shared | ({"coverage": self.covered} if law.shadow == "covered" else {})
+
+    def _averaged(
+        self, contact: Contact, arrays: Mapping[str, Array]
+    ) -> Iterator[tuple[Array | float, dict[str, Any]]]:
+        """Parts of one material and shape, by size averages that all states share.
+
+        What each covers of the nominal area, and fields of a `PART`.
+        """
+        law: Any = self.varied.particle_law
+        particles, changed = contact.particles, self.varied.particles
+        assert isinstance(particles, Particles)
+        assert isinstance(changed, Particles)
+        if any(name.startswith(MATERIALS) for name in arrays):
+            raise NotCompiled("the materials of the particles vary")
+        one = contact.law_of(particles).one(surfaces=contact.surfaces, particle=particles.material)
+        rough, shadow = law.seat == "rough", _column(law.shadow)
+        ratio = size_factor(particles.diameter, arrays)
+        if ratio is None:
+            raise NotCompiled("the shape of the size distribution varies")
+        for share, sizes in particles.diameter.components:
+            scale, shape = sizes.standardised()
+            average = size_average(one, shape)
+            size = scale * ratio
+            factor = changed.areal_density * share * size**2
+            width = law.zeta_std * self.varied.roughness.sigma / size if rough else 0.0 * size
+            if not rough:
+                self.steepest += 0.25 * math.pi * one.breadth * factor / size * densest(shape)
+            if getattr(one, "spreads", False):
+                self.spreads = True
+                self.most = self.most + factor * average.floor[-2:].max()
+            part = {
+                **{"terms": NONE, "inverse": self._panels.add_inverse(average)},
+                **{"size": size, "factor": factor, "width": width},
+                **{"reach": average.top + layout.SEAT_REACH * width},
+                **{"top": average.top, "floor": average.floor},
+            }
+            if rough:
+                octave = np.broadcast_to(np.frexp(width)[1] - 1, len(self.parts))
+                one_size = self._rules.add("one", np.ones((2, 1)))
+                part |= {
+                    **{"kind": layout.ROUGH_NODES, "bottom": average.bottom, "near": -1.0},
+                    **{"gaps": self._on_octaves(octave, seat_rule, average), "sizes": one_size},
+                    **{"few_gaps": self._on_octaves(octave, few_on_seats, average)},
+                    **{"few_sizes": one_size},
+                }
+            else:
+                part |= {
+                    **{"kind": layout.PLANE, "least": average.bottom, "join": average.join},
+                    **{"upper": self._panels.add_average(average.upper, shadow)},
+                    **{"powers": average.powers},
+                }
+                if average.lower is not None:
+                    part["lower"] = self._panels.add_average(average.lower, shadow)
+            yield math.pi / 4 * factor * shape.moment(2), part
+
+    def _on_octaves(self, octave: Index, rule: Callable[..., Array], average: Any) -> Records:
+        """Rules over gaps (N,) for seats whose widths lie in these octaves."""
+
+        def place(octave: int) -> tuple[int, int]:
+            return self._rules.add((rule, average, octave), rule(average, octave))
+
+        return _each(octave, place, RULE)
+
+    def _squeezed(
+        self, contact: Contact, arrays: Mapping[str, Array]
+    ) -> Iterator[tuple[Array | float, dict[str, Any]]]:
+        """Parts whose material or shape varies, on a rough seat, by nodes for each state.
+
+        What each covers of the nominal area, and fields of a `PART`.
+        """
+        varied = self.varied
+        law: Any = varied.particle_law
+        particles, changed = contact.particles, varied.particles
+        assert isinstance(particles, Particles)
+        assert isinstance(changed, Particles)
+        count = len(self.parts)
+
+        def column(values: Any) -> Array:
+            return np.broadcast_to(values, count)[:, None]
+
+        body = changed.material
+        if isinstance(particles.shape, Angular):
+            raise NotCompiled("angular particles whose material or shape of sizes varies")
+        if squashed(contact, arrays, count).any():
+            raise NotCompiled("squashed particles whose material or shape of sizes varies")
+        sides = [
+            (column(reduced_modulus(surface, body)), column(softer_hardness(surface, body)))
+            for surface in (varied.surfaces.first, varied.surfaces.second)
+        ]
+        if not any(np.ptp(values) for side in sides for values in side):
+            sides = [(E[:1], H[:1]) for E, H in sides]  # one rule for all
+        bound = {
+            law.law.bound(R=law.tip_radius, E_star=float(E[0, 0]), H=float(H[0, 0]), nu=nu)
+            for (E, H), nu in itertools.product(sides, (0.1, 0.4))
+        }
+        if bound != {law.law}:
+            raise NotCompiled("the law of the particles depends on their material")
+        sigma = column(law.zeta_std * varied.roughness.sigma)
+        unvaried = law.one(surfaces=contact.surfaces, particle=particles.material)
+        parts = [part.standardised()[1] for _, part in particles.diameter.components]
+        each = size_rules(particles.diameter, changed.diameter, arrays, count)
+        for shape, (share, size, sizes) in zip(parts, each, strict=True):
+            width = sigma / size
+            x, weight = sizes(float(width.min()))
+            if x[..., -1].max() > MOST_WIDTHS * width.min():
+                raise NotCompiled("the seat is too smooth for nodes")
+            panels = width / x[..., -1:]
+            factor = changed.areal_density * share * size[:, 0] ** 2
+            inverse = self._panels.add_inverse(size_average(unvaried, shape))
+            few_x, few_weight = sizes(float(width.min()), FEW_SIZES)
+            part = {
+                **{"kind": layout.ROUGH_NODES, "inverse": inverse, "top": 1.0},
+                **self._over_gaps(law, sides, panels),
+                "sizes": self._rules.add_each(np.stack([weight * x**3, x], axis=1)),
+                "few_sizes": self._rules.add_each(np.stack([few_weight * few_x**3, few_x], axis=1)),
+                **{"size": size[:, 0], "factor": factor, "width": width[:, 0]},
+                "reach": x[..., -1] + layout.SEAT_REACH * width[:, 0],
+            }
+            yield math.pi / 4 * factor * np.sum(weight * x**2, axis=-1), part
+
+    def _over_gaps(
+        self, law: Any, sides: list[tuple[Array, Array]], panels: Array
+    ) -> dict[str, Array]:
+        """Rules over the squeeze, with all that goes with them, as fields of a `PART`."""
+        count, one = len(self.parts), len(sides[0][0]) == 1
+        names = ("gaps", "few_gaps", "terms", "bottom", "near", "place", "modulus", "floor")
+        out = {name: np.zeros(count, PART[name]) for name in names}
+        out["terms"][:], out["near"][:] = NONE, -1.0
+        out["modulus"][:] = sides[0][0][:, 0]
+        for which, rule in squeeze_rules(
+            law.law,
+            *sides,
+            tip_radius=law.tip_radius,
+            widths=panels.min(keepdims=True) if one else panels,
+            split_areas=law.shadow == "footprint",
+        ):
+            here = slice(None) if one else which
+            if isinstance(rule, SharedRules):
+                out["terms"][here], out["place"][here] = len(rule.series.rows), rule.across
+                rows, near = rule.series.rows, rule.series.near
+                add: Callable[[Array], Any] = partial(self._add_series, rule.series)
+            else:
+                rows, near = rule.rows, near_rule(rule, float(panels.min()))
+                add = self._rules.add_each
+            out["gaps"][here] = out["few_gaps"][here] = add(rows)
+            if near is not None:
+                out["few_gaps"][here], out["near"][here] = add(near), NEAR
+            out["bottom"][here], out["floor"][here] = rule.bottom, rule.floor
+        return out
+
+    def _add_series(self, series: Any, rows: Array) -> tuple[int, int]:
+        """Begin and nodes of a rule (terms, 8, n) on a series, whose two rules differ in n."""
+        return self._rules.add((series, rows.shape[2]), rows.reshape(-1, rows.shape[2]))
+
+
+def _fill(rows: Records, fields: Mapping[str, Any]) -> None:
+    """Records from their named fields: those alike for all at once, as one record."""
+    own = {}
+    one = np.zeros((), rows.dtype)
+    for name, values in fields.items():
+        if np.ndim(values) > len(rows.dtype[name].shape) and not isinstance(values, tuple):
+            own[name] = values
+        else:
+            one[name] = values
+    rows[...] = one
+    for name, values in own.items():
+        rows[name] = values
+
+
+def _each(number: Index, place: Callable[[int], Any], dtype: np.dtype[np.void]) -> Records:
+    """Records (N,) of what belongs to each number, asked for each number once."""
+    lowest = int(number.min())
+    table = np.zeros(int(number.max()) - lowest + 1, dtype)
+    for there in np.flatnonzero(np.bincount(number - lowest)):
+        table[there] = place(lowest + int(there))
+    return table[number - lowest]
