@@ -14,9 +14,6 @@ from ...equilibrium.words import CRITICAL, load_of
 from ...populations.materials import Material
 from ...study import Study
 
-FAINT = 1e-12
-"""The load F* that counts as nothing."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Found:
