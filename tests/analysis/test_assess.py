@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -18,7 +19,7 @@ import thirdbody as tb
 from thirdbody import cli
 from thirdbody.analysis.assess import about_fragments, assess
 from thirdbody.analysis.uncertainty.samples import enough
-from thirdbody.quantities.say import percent
+from thirdbody.quantities.say import number, percent, value_of
 from thirdbody.study import load_study
 from thirdbody.study.analyses import assess_study
 from thirdbody.views import assess_page, plot
@@ -197,8 +198,6 @@ def test_ranges_of_the_library_are_named(monkeypatch):
 @pytest.mark.parametrize(
     ("setting", "words"),
     [
-        ('load.pressure=["1 MPa", "5 MPa"]', "has 2 values"),
-        ('load={ separation = "200 nm" }', "needs the operating load"),
         ('uncertainty.inputs={ "roughness.sigma" = "5 GPa" }', "must be one of { low, high }"),
     ],
 )
@@ -212,6 +211,110 @@ def test_mistakes(setting, words):
 def test_a_load_beyond_the_model_has_no_page():
     done = run("assess", EXAMPLE, *FEW, "--set", "load.pressure=1e13")
     assert done.exit_code == 3
+
+
+# ---------------------------------------------------------------- several loads
+def bare(*settings):
+    """The example without ranges."""
+    study = load_study(EXAMPLE, settings)
+    return replace(study, uncertainty=None)
+
+
+def test_each_of_several_loads_has_its_row():
+    """Modes, shares and margins are those that `solve` and `transitions` give."""
+    found = assess_study(bare('load.pressure=["0.5 MPa", "5 MPa", "1 GPa"]'))
+    contact = found.pages[0].propagation.contact
+    state = tb.solve(contact, pressure=[5e5, 5e6, 1e9])
+    assert [page.mode for page in found.pages] == list(state.mode) == ["p-s", "hybrid", "s-s"]
+    modes, _, changes, _ = found.sections()
+    assert [row[modes.head.index("mode")] for row in modes.rows] == ["p-s", "hybrid", "s-s"]
+    shares = [row[modes.head.index("particles' load")] for row in modes.rows]
+    assert shares == [percent(share) for share in state.particle_load_share]
+    transitions = tb.transitions(contact)
+    over = [row[modes.head.index("over F_cr1")] for row in modes.rows]
+    assert over == [number(F / transitions.F_cr1.value, 3) for F in state.F_star]
+    assert "p-s → hybrid → s-s" in modes.sentences[0]
+    # F_cr1 is the load that changes the first mode, F_cr2 that of the last
+    ways = {row[0]: row for row in reversed(changes.rows) if row[1] == "load"}
+    to = changes.head.index("to")
+    assert ways["500 kPa"][to] == value_of(transitions.F_cr1.value * contact.E_ss, "Pa")
+    assert ways["500 kPa"][-1] == ways["1 GPa"][-1] == "hybrid"
+    for page in found.pages:
+        alone = tb.assess(contact, pressure=page.propagation.loads)
+        assert alone.changes == page.changes
+
+
+def test_at_separations_the_loads_are_those_carried_there():
+    found = assess_study(bare('load={ separation = ["400 nm", "250 nm", "20 um"] }'))
+    contact = found.pages[0].propagation.contact
+    state = tb.solve(contact, d=[400e-9, 250e-9])
+    assert found.separations == (400e-9, 250e-9)
+    loads = [page.propagation.nominal["F_star"] for page in found.pages]
+    assert loads == pytest.approx(list(state.F_star), rel=1e-9)
+    assert [page.mode for page in found.pages] == list(state.mode)
+    assert found.unsolved == ("At 20 µm nothing is in contact.",)
+    modes = found.sections()[0]
+    assert [row[modes.head.index("separation")] for row in modes.rows] == ["400 nm", "250 nm"]
+    assert any("carry at its separations" in said for said in modes.sentences)
+
+
+def test_of_many_loads_some_are_assessed():
+    found = assess_study(
+        bare("load.pressure={ from = 1e6, to = 1e8, points = 30, spacing = 'log' }",
+             "particles.areal_density=0")
+    )  # fmt: skip
+    pressures = [page.propagation.nominal["pressure"] for page in found.pages]
+    assert len(pressures) == 7
+    assert pressures[0] == pytest.approx(1e6)
+    assert pressures[-1] == pytest.approx(1e8)
+    assert "7 of 30 loads" in " ".join(found.sections()[0].sentences)
+
+
+def test_several_loads_on_the_command_line(tmp_path, monkeypatch):
+    """With ranges: a probability of every mode; one JSON object, one page, fitting 80 columns."""
+    monkeypatch.setenv("COLUMNS", "80")
+    file = tmp_path / "page.html"
+    loads = ["--set", 'load.pressure=["1 MPa", "5 MPa"]']
+    done = run("assess", EXAMPLE, *FEW, *loads, "--json", "--html", file)
+    assert done.exit_code == 0, done.stderr
+    told = strict(done.stdout)
+    assert [page["mode"] for page in told["loads"]] == ["hybrid", "hybrid"]
+    alone = strict(run("assess", EXAMPLE, *FEW, "--set", "load.pressure=5e6", "--json").stdout)
+    assert told["loads"][1] == alone
+    text = html.unescape(file.read_text("utf-8"))
+    shown = run("assess", EXAMPLE, *FEW, *loads).stdout
+    assert max(map(len, shown.splitlines())) <= 80
+    for title in ("Mode at each load", "Critical loads", "What would change the mode"):
+        assert title in text
+        assert title.upper() in shown
+    share = alone["propagation"]["mode_probability"]["hybrid"]
+    assert percent(share) in shown
+    assert percent(share) in text
+
+
+def test_several_loads_of_which_the_study_says_they_scatter():
+    """The scatter of the load is that of one load; it is left out, and told to be."""
+    scatter = 'uncertainty.inputs={ "load.pressure" = { median = "5 MPa", gsd = 2.0 } }'
+    study = load_study(EXAMPLE, [scatter, 'load.pressure=["1 MPa", "5 MPa"]'])
+    found = assess_study(study)
+    assert found.pages[0].propagation.inputs == {}
+    assert any("its own scatter is left out" in said for said in found.sections()[0].sentences)
+
+
+def test_loads_beyond_the_model_are_told_beside_the_others():
+    found = assess_study(bare('load.pressure=["5 MPa", "10 TPa"]'))
+    assert len(found.pages) == 1
+    (said,) = found.unsolved
+    assert said.startswith("At 1×10¹³ Pa there is no equilibrium: the load")
+
+
+def test_every_force_on_a_body_has_its_page():
+    body = 'body={ kind = "ball-on-flat", diameter = "6 mm" }'
+    found = assess_study(bare(body, 'load={ force = ["5 N", "50 N"] }'))
+    forces = [[note for note in page.notes if " N on" in note] for page in found.pages]
+    assert [len(notes) for notes in forces] == [1, 1]
+    ratio = found.pages[1].propagation.loads / found.pages[0].propagation.loads
+    assert ratio == pytest.approx(10 ** (1 / 3), rel=1e-9)
 
 
 # ---------------------------------------------------------------- what comes out

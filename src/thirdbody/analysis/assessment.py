@@ -27,7 +27,7 @@ from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
 from .uncertainty.propagation import OUTPUTS, Propagation, about_result, plain
 
-__all__ = ["Assessment", "Change"]
+__all__ = ["WORDS", "Assessment", "Change", "Section", "printed"]
 
 SHOWN = ("particle_load_share", "particle_area_share", "plastic_share", "A_t", "d", "h")
 """What the page tells of the state."""
@@ -170,18 +170,19 @@ class Assessment:
         said = (self.headline(),) if found.inputs else (self.headline(), NO_RANGES)
         parts = [Section("Mode at the operating load", sentences=said)]
         if not found.contact.two_body:
-            parts.append(self._margins())
+            parts.append(self.margins())
         parts += [self._state(), self._inputs()] if found.inputs else [self._state()]
         if not found.contact.two_body:
             parts.append(Section("What would change the mode", sentences=self._ways()))
-        parts.append(Section("What this rests on", sentences=self._basis()))
+        parts.append(Section("What this rests on", sentences=self.basis()))
         return parts
 
     def _band(self, name: str) -> tuple[float, ...]:
         where = [self.propagation.probabilities.index(q) for q in BAND]
         return tuple(float(self.propagation.bands[name][i]) for i in where)
 
-    def _margins(self) -> Section:
+    def margins(self) -> Section:
+        """Critical loads, and how far the load is from them."""
         found = self.propagation
         if "F_cr1" not in found.bands:
             return Section("Margins", sentences=(NO_CRITICAL.format(_law_of(found)),))
@@ -282,20 +283,26 @@ class Assessment:
             return f"{self.decisive}, the critical load nearest to this load"
         return f"the {OUTPUTS[self.decisive]['meaning']}"
 
-    def _ways(self) -> tuple[str, ...]:
+    def load_changes(self) -> list[tuple[float, str]]:
+        """Loads [Pa] beyond which the mode is another one, and that mode."""
         found = self.propagation
         out = []
-        F = found.nominal["F_star"]
         for name, modes in (("F_cr1", ("p-s", "hybrid")), ("F_cr2", ("hybrid", "s-s"))):
             critical = found.nominal.get(name, math.nan)
             if 0 < critical < math.inf and self.mode in modes:
-                word = "fall" if critical < F else "rise"
-                other = modes[0] if critical < F else modes[1]
-                load = value_of(critical * found.contact.E_ss, "Pa")
-                out.append(
-                    f"The load would have to {word} to {load} ({times(critical / F)} "
-                    f"the operating load) for {other}."
-                )
+                other = modes[0] if critical < found.nominal["F_star"] else modes[1]
+                out.append((critical * found.contact.E_ss, other))
+        return out
+
+    def _ways(self) -> tuple[str, ...]:
+        found = self.propagation
+        out = []
+        for load, other in self.load_changes():
+            ratio = load / found.contact.E_ss / found.nominal["F_star"]
+            out.append(
+                f"The load would have to {'fall' if ratio < 1 else 'rise'} to "
+                f"{value_of(load, 'Pa')} ({times(ratio)} the operating load) for {other}."
+            )
         for change in self.changes:
             unit, value = _unit(found.contact, change.input), _nominal(found, change.input)
             word = "falling" if change.value < value else "rising"
@@ -317,7 +324,8 @@ class Assessment:
             )
         return tuple(out)
 
-    def _basis(self) -> tuple[str, ...]:
+    def basis(self) -> tuple[str, ...]:
+        """What the page rests on, in sentences."""
         from ..version import __version__
 
         found = self.propagation
@@ -336,25 +344,31 @@ class Assessment:
     # ------------------------------------------------------------------ terminal
     def page(self, more: str = WIDER) -> Any:
         """The page for a terminal, to print by rich; ``more`` is how to see what has no room."""
-        from rich.console import Group
+        legend = {"elasticity": ELASTICITY.format(self.decisive)}
+        return printed(self.title or "Assessment", self.sections(), more, legend)
 
-        parts: list[Any] = [self.title or "Assessment"]
-        for section in self.sections():
-            parts += ["", section.title.upper()]
-            if section.rows:
-                table = Table(
-                    section.head,
-                    right=True,
-                    words=[section.head[0], "where"],
-                    drop=section.drop,
-                    more=more,
-                    legend={"elasticity": ELASTICITY.format(self.decisive)},
-                )
-                for row in section.rows:
-                    table.add_row(*row)
-                parts.append(table)
-            parts += section.sentences
-        return Group(*parts)
+
+WORDS = ("where", "result", "input", "what alone changes")
+"""Columns of words, which may break."""
+
+
+def printed(title: str, sections: list[Section], more: str, legend: dict[str, str]) -> Any:
+    """A page for a terminal."""
+    from rich.console import Group
+
+    parts: list[Any] = [title]
+    for section in sections:
+        parts += ["", section.title.upper()]
+        if section.rows:
+            words = [section.head[0], *(head for head in section.head if head in WORDS)]
+            table = Table(
+                section.head, right=True, words=words, drop=section.drop, more=more, legend=legend
+            )
+            for row in section.rows:
+                table.add_row(*row)
+            parts.append(table)
+        parts += section.sentences
+    return Group(*parts)
 
 
 ELASTICITY = "relative change of {} for that of the input, no unit"

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-__all__ = ["EPS_1", "EPS_2", "HYBRID", "P_S", "S_S", "WINDOW"]
+__all__ = ["EPS_1", "EPS_2", "FAINT", "HYBRID", "P_S", "S_S", "WINDOW"]
 
 P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
 EPS_1, EPS_2 = 0.02, 0.05
 """Default shares that separate the contact modes: read-off resolution, and the paper's 95 %."""
 WINDOW = (1e-8, 1e-2)
 """Loads F* between which critical loads are sought."""
+FAINT = 1e-12
+"""The load F* that counts as nothing."""

@@ -145,11 +145,12 @@ def warn_of_slips(value: Value, *, stacklevel: int, prefix: str = "") -> None:
         return
     for name, about, _ in _declared(type(value)):
         part = getattr(value, name)
-        where = prefix + name
-        if about and part is not None:
-            warn_of_slip(where, about, part, stacklevel=stacklevel + 1)
-        for name, inner in _values_in(where, part):
-            warn_of_slips(inner, stacklevel=stacklevel + 1, prefix=f"{name}.")
+        if about:
+            if part is not None and unit_meant(about, part):
+                warn_of_slip(prefix + name, about, part, stacklevel=stacklevel + 1)
+        elif isinstance(part, (Value, tuple)):
+            for where, inner in _values_in(prefix + name, part):
+                warn_of_slips(inner, stacklevel=stacklevel + 1, prefix=f"{where}.")
 
 
 @cache

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..analysis.assess import PARTS, assess
 from ..analysis.assessment import Assessment
-from ..errors import InvalidValue
+from ..analysis.assessments import Assessments
+from ..equilibrium.modes import FAINT
+from ..equilibrium.solve import solve
+from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..numerics.sampling import Span
 from ..quantities.progress import stages
 from ..quantities.say import value_of
 from ..systems.bodies import press
 from .amounts import is_span
+from .vocabulary import LOADS
 
 if TYPE_CHECKING:
     from ..analysis.design.design import Best
@@ -21,53 +29,120 @@ if TYPE_CHECKING:
 __all__ = ["assess_study", "design_study"]
 
 
-def assess_study(study: Study, *, progress: bool = False) -> Assessment:
-    """The page of a study file: its load, and its table [uncertainty]; raises as `assess`.
+MOST_ASSESSED = 7
+"""Loads that are assessed; of more, some evenly spread: each takes a second or several."""
 
-    With ``progress`` a terminal shows how far it is, on standard error.
+
+def assess_study(study: Study, *, progress: bool = False) -> Assessment | Assessments:
+    """The page of a study file: its loads, and its table [uncertainty]; raises as `assess`.
+
+    Of separations the loads are those that the study's own values carry there. With ``progress``
+    a terminal shows how far it is, on standard error.
     """
-    if study.load == "separation":
-        raise InvalidValue(
-            "load.separation: an assessment needs the operating load; give load.pressure or "
-            "load.F_star instead"
-        )
     if study.body is not None:
         return _assess_body(study, progress)
-    if len(study.values) != 1:
-        raise InvalidValue(
-            f"load.{study.load} has {len(study.values)} values, and an assessment is of one "
-            'operating load; choose it, e.g. --set load.pressure="5 MPa"'
+    notes: tuple[str, ...] = ()
+    apart, loads = np.empty(0), study.values[_some(len(study.values))]
+    name = study.load
+    if name == "separation":
+        apart, name = loads, "F_star"
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RangeWarning)
+            loads = np.asarray(solve(study.contact, d=apart).F_star, float)
+        notes = (
+            "The loads are those that the values of the study carry at its separations; what is "
+            "uncertain or moved changes the separation, not the load.",
         )
-    return _assess(study, float(study.values[0]), progress)
+    if len(study.values) == 1 and not len(apart):
+        with stages("assess", len(PARTS), progress) as report:
+            return _assess(study, name, float(loads[0]), report)
+    return _assess_each(study, name, loads, apart, notes, progress)
 
 
-def _assess_body(study: Study, progress: bool) -> Assessment:
-    """At the mean pressure of the one force, with what the largest and the integral are."""
+def _some(total: int) -> list[int]:
+    """Places of the loads that are assessed: all, or some evenly spread."""
+    count = min(total, MOST_ASSESSED)
+    return [round(i * (total - 1) / max(count - 1, 1)) for i in range(count)]
+
+
+def _assess_each(
+    study: Study,
+    name: str,
+    loads: np.ndarray,
+    apart: np.ndarray,
+    notes: tuple[str, ...],
+    progress: bool,
+) -> Assessments:
+    """A page for every load."""
+    pages, unsolved, where = [], [], []
+    scatters = study.uncertainty is not None and name in study.uncertainty.inputs
+    if scatters:
+        notes += ("Each load is taken as exactly known: its own scatter is left out.",)
+    with stages("assess", len(PARTS) * len(loads), progress) as report:
+        for i, load in enumerate(loads.tolist()):
+            told = value_of(apart[i], "m") if len(apart) else value_of(load, LOADS[name]["unit"])
+            if not load > FAINT:
+                unsolved.append(f"At {told} nothing is in contact.")
+                continue
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore", RangeWarning)  # the page tells of them
+                    pages.append(_assess(study, name, load, report, alone=True))
+                where += apart[i : i + 1].tolist()
+            except NoEquilibrium as error:
+                unsolved.append(f"At {told} there is {error}.")
+    if not pages:
+        raise NoEquilibrium(" ".join(unsolved))
+    return Assessments(
+        title=study.title,
+        pages=tuple(pages),
+        asked=len(study.values),
+        separations=tuple(where),
+        unsolved=tuple(unsolved),
+        notes=notes,
+    )
+
+
+def _assess_body(study: Study, progress: bool) -> Assessment | Assessments:
+    """At the mean pressure of every force, with what the largest and the integral are."""
     assert study.body is not None
     assert study.forces is not None
-    if len(study.forces) != 1:
-        raise InvalidValue(
-            f"load.force has {len(study.forces)} values, and an assessment is of one operating "
-            'load; choose it, e.g. --set load.force="50 N"'
-        )
-    found = press(study.contact, study.body, float(study.forces[0]))
-    page = _assess(study, found.mean, progress)
-    notes = [found.sentence(), *(f"Warning: {text}." for text in found.warnings)]
-    if found.kind != "flat":
-        largest = value_of(found.maximum, "Pa")
-        notes.append(
-            f"This page is for the mean pressure; for the largest: --set load.pressure={largest!r}."
-        )
-    return replace(page, notes=(*notes, *page.notes))
+    some = study.forces[_some(len(study.forces))].tolist()
+    pages = []
+    with stages("assess", len(PARTS) * len(some), progress) as report:
+        for force in some:
+            found = press(study.contact, study.body, force)
+            page = _assess(study, study.load, found.mean, report, alone=len(some) > 1)
+            notes = [found.sentence(), *(f"Warning: {text}." for text in found.warnings)]
+            if found.kind != "flat":
+                largest = value_of(found.maximum, "Pa")
+                notes.append(
+                    "This page is for the mean pressure; for the largest: "
+                    f"--set load.pressure={largest!r}."
+                )
+            pages.append(replace(page, notes=(*notes, *page.notes)))
+    if len(pages) == 1:
+        return pages[0]
+    return Assessments(title=study.title, pages=tuple(pages), asked=len(study.forces))
 
 
-def _assess(study: Study, load: float, progress: bool) -> Assessment:
+def _assess(
+    study: Study, name: str, load: float, report: Callable[[str], None], *, alone: bool = False
+) -> Assessment:
+    """At one load; ``alone`` without its own scatter."""
     asked = study.uncertainty
-    value: dict[str, Any] = {study.load: load}
+    value: dict[str, Any] = {name: load}
     if asked is not None:
-        value |= {"vary": asked.inputs, "samples": asked.samples, "seed": asked.seed}
-    with stages("assess", len(PARTS), progress) as report:
-        return assess(study.contact, **value, title=study.title, progress=report)
+        inputs = {label: known for label, known in asked.inputs.items() if label not in OF_LOADS}
+        value |= {"vary": inputs if alone else asked.inputs}
+        value |= {"samples": asked.samples, "seed": asked.seed}
+        if not value["vary"]:
+            value = {name: load}
+    return assess(study.contact, **value, title=study.title, progress=report)
+
+
+OF_LOADS = ("pressure", "F_star", "d")
+"""Names of loads among what is uncertain."""
 
 
 # -------------------------------------------------------------------------- the answer

@@ -6,7 +6,8 @@ from html import escape
 
 import numpy as np
 
-from ..analysis.assessment import Assessment
+from ..analysis.assessment import WORDS, Assessment
+from ..analysis.assessments import Assessments
 from ..analysis.uncertainty.propagation import OUTPUTS, propagate
 
 __all__ = ["page", "pictures"]
@@ -15,13 +16,13 @@ LOADS_SHOWN, SAMPLES_SHOWN = 25, 1024
 """Loads and samples of the figure."""
 
 
-def page(assessment: Assessment) -> str:
+def page(assessment: Assessment | Assessments) -> str:
     """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
     from .html import document, figure, section, text_table, words
 
     title = assessment.title or "Assessment"
     body = [f"<h1>{escape(title)}</h1>"]
-    figures = iter(pictures(assessment))
+    figures = iter(pictures(assessment) if isinstance(assessment, Assessment) else [])
     for part in assessment.sections():
         lines = [text_table(part.head, part.rows, WORDS)] if part.rows else []
         lines += [f"<p>{words(sentence)}</p>" for sentence in part.sentences]
@@ -64,7 +65,3 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
     ax = plot.tornado(found, assessment.decisive, values=assessment.tornado[assessment.decisive])
     words = f"{assessment.decisive} with one input at each end of its 5 % to 95 % range."
     return [*out, (words, svg_of(ax.figure))]
-
-
-WORDS = ("where", "result", "input")
-"""Columns of words, which may break."""

@@ -29,7 +29,7 @@ def command(
     ] = None,
     settings: Settings = None,
 ) -> None:
-    """One page: the mode at the operating load, how sure it is, and what would change it."""
+    """One page: the mode at each operating load, how sure it is, and what would change it."""
     from ...quantities.files import need_folders, write_text
     from ...study.analyses import assess_study
     from ...views.assess_page import page

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...equilibrium.modes import FAINT
 from ...equilibrium.transitions import Critical, Transitions, TurningPoint
 from ...quantities.say import listed, plural, value_of
 from ..html import figure, svg_of, words
-from .found import FAINT, Found
+from .found import Found
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

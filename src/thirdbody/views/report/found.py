@@ -15,9 +15,6 @@ from ...populations.materials import Material
 from ...study import Study
 from ...study.one_surface import OneSurface
 
-FAINT = 1e-12
-"""The load F* that counts as nothing."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Found:

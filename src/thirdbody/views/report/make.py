@@ -15,11 +15,12 @@ from ...analysis.uncertainty.inputs import stated_ranges
 from ...analysis.uncertainty.samples import enough
 from ...contact.contact import Contact
 from ...equilibrium.columns import Equilibrium
+from ...equilibrium.modes import FAINT
 from ...equilibrium.solve import solve
 from ...errors import InvalidValue, NoEquilibrium, RangeWarning, ThirdBodyError
 from ...study import Study, run_film, run_study
 from ...study.one_surface import OneSurface, one_surface
-from .found import FAINT, some_of
+from .found import some_of
 from .page import MOST_SAMPLES, Report
 
 DRAWN, WINDOW, BEYOND = 120, (1e-8, 1e-2), 5.0

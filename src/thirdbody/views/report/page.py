@@ -5,17 +5,17 @@ from __future__ import annotations
 import re
 from html import escape
 
+from ...analysis.assessment import WORDS as ASSESSMENT_WORDS
 from ...analysis.inputs import declared
 from ...analysis.uncertainty.inputs import stated_ranges
 from ...analysis.uncertainty.samples import enough
 from ...equilibrium.columns import about
+from ...equilibrium.modes import FAINT
 from ...equilibrium.words import unsolved
 from ...quantities.say import listed, signed, value_of
-from ..assess_page import WORDS as ASSESSMENT_WORDS
 from ..assess_page import pictures as pictures_of
 from ..html import document, figure, section, text_table, words
 from .figures import Figures
-from .found import FAINT
 from .sentences import Sentences
 from .sources import Sources, alike
 from .tables import Tables

@@ -1,0 +1,176 @@
+"""What an assessment of several loads says: a row a load, and what would change each mode."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from ..contact.citations import cite
+from ..equilibrium.words import load_of, mode_path
+from ..quantities.say import number, percent, plural, value_of
+from ..quantities.tables import WIDER
+from .assessment import NO_RANGES, RARE, Assessment, Section, _nominal, _unit, printed
+from .inputs import words_of
+
+__all__ = ["Assessments"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Assessments:
+    """What an engineer wants to know of a contact under each of several loads.
+
+    Attributes
+    ----------
+    title : str
+    pages : tuple of Assessment
+        One for each load that was assessed, in the order of the study.
+    asked : int
+        Loads of the study; of many, some evenly spread are assessed.
+    separations : tuple of float
+        Where the study gives separations, that of each page [m]; otherwise empty.
+    unsolved : tuple of str
+        Loads that no equilibrium carries, a sentence each.
+    notes : tuple of str
+        What else is to be said of all.
+    """
+
+    title: str
+    pages: tuple[Assessment, ...]
+    asked: int
+    separations: tuple[float, ...] = ()
+    unsolved: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything as plain data ready for JSON: every page as `Assessment.to_dict` has it."""
+        from ..version import __version__
+
+        each = [page.to_dict() for page in self.pages]
+        for page, d in zip(each, self.separations, strict=False):
+            page["separation"] = d
+        return {
+            "title": self.title,
+            "version": __version__,
+            "asked": self.asked,
+            "loads": each,
+            "unsolved": list(self.unsolved),
+            "sentences": {part.title: list(part.sentences) for part in self.sections()},
+            "notes": list(self.notes),
+            "citations": cite(self.pages[0].propagation.contact).splitlines(),
+        }
+
+    # ------------------------------------------------------------------ words and tables
+    @cached_property
+    def _uncertain(self) -> bool:
+        return bool(self.pages[0].propagation.inputs)
+
+    @cached_property
+    def _two_body(self) -> bool:
+        return self.pages[0].propagation.contact.two_body
+
+    def sections(self) -> list[Section]:
+        """The page from top to bottom."""
+        parts = [self._modes()]
+        if not self._two_body:
+            margins = self.pages[0].margins()
+            own = margins.sentences if not margins.rows else ()
+            parts.append(margins._replace(title="Critical loads", sentences=own))
+            parts.append(self._changes())
+        parts.append(Section("What this rests on", sentences=self._basis()))
+        return parts
+
+    def _basis(self) -> tuple[str, ...]:
+        """What holds for all, then what holds at one load."""
+        each = [page.basis() for page in self.pages]
+        common = [said for said in each[0] if all(said in other for other in each)]
+        own = [
+            f"At {self._loads(page)[0]}: {said}"
+            for page, basis in zip(self.pages, each, strict=True)
+            for said in basis
+            if said not in common
+        ]
+        return (*common, *own)
+
+    def _loads(self, page: Assessment) -> tuple[str, str]:
+        nominal = page.propagation.nominal
+        return value_of(nominal["pressure"], "Pa"), number(nominal["F_star"])
+
+    def _modes(self) -> Section:
+        rows = []
+        for i, page in enumerate(self.pages):
+            found = page.propagation
+            own = [*self._loads(page)]
+            own += [value_of(d, "m") for d in self.separations[i : i + 1]]
+            own.append(page.mode or "no contact")
+            if self._uncertain and not self._two_body:
+                own.append(percent(found.mode_probability.get(page.mode, math.nan)))
+            if not self._two_body:
+                own.append(percent(found.nominal["particle_load_share"]))
+                margins = (found.nominal.get(f"F/{name}", math.nan) for name in ("F_cr1", "F_cr2"))
+                own += ["-" if not 0 < x < math.inf else number(x, 3) for x in margins]
+            else:
+                own.append(percent(found.nominal["A_t"]))
+            rows.append(tuple(own))
+        head = ["pressure", "F*", *["separation"] * bool(self.separations), "mode"]
+        if self._two_body:
+            head.append("real area")
+        else:
+            head += ["probability"] * self._uncertain
+            head += ["particles' load", "over F_cr1", "over F_cr2"]
+        said = []
+        order = sorted(self.pages, key=lambda page: page.propagation.nominal["F_star"])
+        said.append(f"{mode_path(page.mode for page in order)}.")
+        if self.asked > len(self.pages) + len(self.unsolved):
+            shown = len(self.pages) + len(self.unsolved)
+            said.append(
+                f"{shown} of {plural(self.asked, 'load')}, evenly spread. The whole page of one "
+                'load: --set load.pressure="5 MPa".'
+            )
+        said += self.unsolved
+        said += self.notes
+        if not self._uncertain:
+            said.append(NO_RANGES)
+        drop = ("F*", "over F_cr2", "particles' load")
+        return Section("Mode at each load", tuple(head), tuple(rows), tuple(said), drop)
+
+    def _changes(self) -> Section:
+        """What would change the mode at each load: the load itself, then inputs alone."""
+        rows, said = [], []
+        for page in self.pages:
+            found, load = page.propagation, self._loads(page)[0]
+            ways = page.load_changes()
+            for to, other in ways:
+                share = "" if self._uncertain else None
+                rows.append(_row(load, "load", load, value_of(to, "Pa"), other, share))
+            for change in page.changes:
+                unit, value = _unit(found.contact, change.input), _nominal(found, change.input)
+                cells = value_of(value, unit, 3), value_of(change.value, unit, 3)
+                share = percent(change.beyond, least=RARE) if self._uncertain else None
+                words = words_of(found.contact, change.input)
+                rows.append(_row(load, words, *cells, change.mode, share))
+            if not (ways or page.changes):
+                loads = load_of(found.nominal["pressure"], found.nominal["F_star"])
+                said.append(f"At {loads} nothing was found that alone changes the mode.")
+        cases = ("in cases",) * self._uncertain
+        head = ("at the load", "what alone changes", "from", "to", "mode there", *cases)
+        said.append("Inputs are moved within a factor of 10, the others as they are.")
+        return Section("What would change the mode", head, tuple(rows), tuple(said), ("in cases",))
+
+    # ------------------------------------------------------------------ terminal
+    def page(self, more: str = WIDER) -> Any:
+        """The page for a terminal, to print by rich; ``more`` is how to see what has no room."""
+        return printed(self.title or "Assessment", self.sections(), more, LEGEND)
+
+
+LEGEND = {
+    "over F_cr1": "the load over the first critical load, p-s to hybrid, no unit",
+    "over F_cr2": "the load over the second critical load, hybrid to s-s, no unit",
+    "in cases": "part of the cases in which the input is there or beyond",
+    "probability": "of this mode",
+}
+
+
+def _row(*cells: str | None) -> tuple[str, ...]:
+    return tuple(cell for cell in cells if cell is not None)
