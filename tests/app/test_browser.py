@@ -714,7 +714,8 @@ def test_mistakes_of_a_link_are_told_as_text(visit, address):
 def test_an_address_made_to_do_harm_is_told_as_text(visit):
     page = visit()
     for payload in PAYLOADS:
-        for name in ("study", "tab", "at", "tab"):  # each shows another tab than the last
+        for name in ("study", "tab", "at", "tab", "files", "tab", "surface", "tab"):
+            # each shows another tab than the last
             query = parse_qsl(to_link(STUDY, AT)) + [("tab", "curves")]
             page.evaluate(
                 "q => { history.pushState(null, '', q); history.pushState(null, '', '?'); }",

@@ -108,10 +108,10 @@ async def shown(figures: Iterable[tuple[Plot, dict[str, Any]]]) -> bool:
         plot.widget.figure = made
         # every number would be watched by the framework otherwise
         dict.__setitem__(plot.widget.props, "options", made)
-    drawn = None
+    code = f"redraw({dumps(calls)})"  # JSON is data there as well
+    client, drawn = new[0][0].widget.client, None
     with contextlib.suppress(TimeoutError):  # the browser is gone
-        client = new[0][0].widget.client
-        drawn = await client.run_javascript(f"redraw({dumps(calls)})", timeout=DRAWS)
+        drawn = await client.run_javascript(code, timeout=DRAWS)
     for (plot, made), done in zip(new, drawn or [False] * len(new), strict=True):
         if done is True:
             plot.made = made
