@@ -279,8 +279,9 @@ class Inputs(ParticleInputs):
         flat = _flat(given)
         for label, entry in flat.items():
             with ui.row().classes("w-full items-center no-wrap gap-2"):
-                ui.label(label).classes("grow break-all")
-                ui.label(with_micro(in_words(entry))).classes("hint")
+                with ui.column().classes("grow gap-0"):
+                    ui.label(label).classes("break-any")
+                    ui.label(with_micro(in_words(entry))).classes("hint")
                 drop = ui.button(icon="delete", on_click=lambda _, k=label: self._known(k, None))
                 put(drop.props("flat dense"), {"aria-label": f"remove {label}"})
         kinds = {
@@ -292,7 +293,7 @@ class Inputs(ParticleInputs):
         with ui.row().classes("w-full items-end gap-2"):
             which = ui.select(names, label="input, or several that move together", multiple=True)
             which.set_value(names[:1])
-            which.props('dense options-dense data-path="uncertain.name"').classes("grow")
+            which.props('dense options-dense data-path="uncertain.name"').classes("wide")
             how = (
                 ui.select(
                     {kind: kinds.get(kind, kind) for kind in KINDS},
@@ -300,7 +301,7 @@ class Inputs(ParticleInputs):
                     value="uniform",
                 )
                 .props("dense options-dense")
-                .classes("grow")
+                .classes("wide")
             )
             first = ui.input("low, mean or median").props('dense data-path="uncertain.first"')
             second = ui.input("high, std or gsd").props('dense data-path="uncertain.second"')

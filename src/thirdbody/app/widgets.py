@@ -85,9 +85,10 @@ class Plot:
             return ["react", data, layout, CONFIG]
         new = {name: value for name, value in layout.items() if value != old[name]}
         for axis in ("xaxis", "yaxis"):
-            if axis in new and new[axis].keys() == old[axis].keys():
-                parts = new.pop(axis)
-                new |= {f"{axis}.{k}": v for k, v in parts.items() if v != old[axis][k]}
+            parts = new.pop(axis, {})
+            if parts and parts.keys() != old[axis].keys():
+                return ["react", data, layout, CONFIG]
+            new |= {f"{axis}.{k}": v for k, v in parts.items() if v != old[axis][k]}
         if data == self.made["data"]:
             return ["relayout", new]
         return ["update", {"y": [each.get("y") for each in data]}, new]
