@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,7 @@ __all__ = [
     "mode_bands",
     "plain",
     "span",
+    "symbol",
 ]
 
 INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
@@ -64,6 +66,15 @@ def plain(text: str) -> str:
     """
     # %{...} stands for a variable there
     return html.escape(text, quote=False).replace("%{", "%&#123;")
+
+
+def symbol(text: str) -> str:
+    """A symbol for Plotly, its subscripts set.
+
+    >>> symbol("A_t/A_n"), symbol("⟨δ_res⟩,1")
+    ('A<sub>t</sub>/A<sub>n</sub>', '⟨δ<sub>res</sub>⟩,1')
+    """
+    return re.sub(r"_([^\s/()⟩]+)", r"<sub>\1</sub>", plain(text))
 
 
 def figure(

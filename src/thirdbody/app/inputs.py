@@ -256,8 +256,20 @@ class Inputs(ParticleInputs):
             box.on_value_change(lambda e, p=place: self._switch(p, e.value))
             if on:
                 with ui.column().classes("w-full pl-4 gap-1"):
-                    for each in fields_of(kind):
-                        self.field(place, each)
+                    self._of_output(place, fields_of(kind))
+
+    def _of_output(self, place: Place, every: list[Field]) -> None:
+        """The numbers of an output; what has a default and is not given is folded."""
+        folded = [
+            f for f in every if f.default is not None and self.state.get(*place, f.name) is None
+        ]
+        for each in every:
+            if each not in folded:
+                self.field(place, each)
+        if folded:
+            with ui.expansion("more").classes("w-full").props("dense"):
+                for each in folded:
+                    self.field(place, each)
 
     def _switch(self, place: Place, on: bool) -> None:
         wanted = dict(self.table("outputs"))

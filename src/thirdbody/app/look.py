@@ -71,6 +71,7 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .words { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1rem; }
 .fact .value { font-size: 1.05rem; font-weight: 600; }
 .figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
+.figures { align-items: start; }
 @media (min-width: 1100px) { .figures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
 .figures > * { min-width: 0; }
 .js-plotly-plot { position: relative; }
@@ -120,7 +121,7 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 .js-plotly-plot .hoverlayer text { fill: #222 !important; }
 .body--dark .scatterlayer .lines, .body--dark .legendlines { filter: brightness(1.4); }
 .body--dark [data-figure="map"] .legendlines path { stroke: #dddddd !important; }
-.body--dark [data-figure="bands"] .fills, .body--dark .legendfill { filter: brightness(1.9); }
+.body--dark [data-figure="bands"] :is(.fills, .legendfill) { filter: brightness(1.9); }
 .body--dark .layer-below .shapelayer { opacity: 0.5; }
 .q-tab { padding: 0 11px; }
 .whole .q-field { max-width: 100%; }

@@ -13,7 +13,7 @@ from ...errors import InvalidValue
 from ...quantities.say import number, prefixed
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, shown, value_from
-from ..figures import GREY, empty, figure, line, plain
+from ..figures import GREY, empty, figure, line, plain, symbol
 from ..state import State, loads_as
 from ..text import with_micro
 from ..work import Work
@@ -88,7 +88,7 @@ def design_figure(
     ]
     made = figure(
         traces,
-        x=plain(words_of.get(variable, variable)) + (f" [{name}]" if name else ""),
+        x=symbol(words_of.get(variable, variable)) + (f" [{name}]" if name else ""),
         y=plain(meaning(objective)),
         title="What was tried",
         xlog=not words and bool(x.min() > 0),
@@ -229,12 +229,11 @@ def in_words(study: dict[str, Any], fields: list[str]) -> dict[str, str]:
     said = {field: f"{each['meaning']} {each['symbol']}" for field, each in known.items()}
     out = {}
     for field in fields:
-        first, *more = field.split("+")
+        first = field.partition("+")[0]
         if first not in said:
             continue
         several = list(said.values()).count(said[first]) > 1
         out[field] = said[first] + (f" ({first.rpartition('.')[0]})" if several else "")
-        out[field] += " (what goes along in proportion)" if more else ""
     return out
 
 
@@ -251,7 +250,9 @@ def told(result: dict[str, Any], units: dict[str, str], names: dict[str, str]) -
         return str(value) if isinstance(value, str) else str(engineering(value, unit))
 
     best = [
-        f"{names.get(name, name)} = {one(name, value)}" for name, value in result["values"].items()
+        f"{names.get(name, name)} = {one(name, value)}"
+        + (" and what goes along in proportion" if "+" in name else "")
+        for name, value in result["values"].items()
     ]
     best += [f"{meaning(name)} = {number(value)}" for name, value in result["objectives"].items()]
     words = [f"Best: {', '.join(best)}."]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import textwrap
 from collections.abc import Awaitable, Callable
 from itertools import takewhile
@@ -13,7 +12,7 @@ from nicegui import ui
 
 from ...equilibrium.columns import about
 from ...quantities.say import prefixed, value_of
-from ..figures import AXES, SCALES, figure, line, mark, plain
+from ..figures import AXES, SCALES, figure, line, mark, plain, symbol
 from ..inputs import Inputs
 from ..state import Answer, State
 from ..widgets import Plot, shown
@@ -65,7 +64,7 @@ def _figure(
     every = every[np.isfinite(every) & (every != 0)]
     size, name = prefixed(float(np.abs(every).max()) if len(every) else 1.0, unit)
     wide = len(every) > 0 and every.min() > 0 and every.max() > 30 * every.min()
-    names = [f"{_symbol(about(c)['symbol'])}: {plain(about(c)['meaning'])}" for c in columns]
+    names = [f"{symbol(about(c)['symbol'])}: {plain(about(c)['meaning'])}" for c in columns]
     names = [_folded(each) for each in names]
     return figure(
         [
@@ -91,11 +90,6 @@ def quantity_of(columns: list[str], unit: str) -> str:
     while len(columns) > 1 and words and words[-1] in LINKS:
         words = words[:-1]
     return " ".join(words).rstrip(":,") or QUANTITIES.get(unit, "value")
-
-
-def _symbol(text: str) -> str:
-    """A symbol with its subscripts set."""
-    return re.sub(r"_([^\s/()⟩]+)", r"<sub>\1</sub>", plain(text))
 
 
 def _wrapped(text: str, wide: int) -> str:
@@ -180,6 +174,6 @@ def _table(rows: list[dict[str, Any]], place: Any) -> None:
             "meaning": "quantity",
             "symbol": "symbol",
             "value": "value",
-            "name": "in files and Python",
+            "name": "in files",
         }
         shown_table("outputs", heads, rows)
