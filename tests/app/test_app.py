@@ -35,6 +35,7 @@ from thirdbody.app.sliders import at_position, position_of
 from thirdbody.app.state import State
 from thirdbody.app.tabs.error_bars import _ranges
 from thirdbody.app.tabs.interface import _drawn, headline, told
+from thirdbody.app.tabs.outputs import output_figures
 from thirdbody.app.uploads import harmless
 from thirdbody.equilibrium.words import two_bodies
 from thirdbody.quantities import say
@@ -614,6 +615,32 @@ def test_a_figure_is_told_what_is_new_alone():
     assert plot.change(other)[:2] == ["react", other["data"]]
     plot.made = {}
     assert plot.change(first)[:2] == ["react", first["data"]]
+
+
+def test_figures_of_outputs_name_quantities_and_no_columns(tmp_path):
+    study = example()
+    study["outputs"] = {"counts": {}, "friction": {"m_ss": 0.2, "m_sa": 0.3}, "dents": {}}
+    state = State(study, tmp_path)
+    answer = state.answer
+    columns = {c: each for output in answer.contact.outputs for c, each in output.columns.items()}
+    drawn = output_figures(answer, state.at)
+    assert list(drawn) == [
+        *("counts [1/m^2]", "counts [N]", "counts [Pa]", "friction [1]", "dents [1/m^2]"),
+        "dents [m]",
+    ]
+    said = []
+    for name, made in drawn.items():
+        axis = made["layout"]["yaxis"]["title"]["text"]
+        said += [made["layout"]["title"]["text"], axis, *(t["name"] for t in made["data"])]
+        assert name.endswith("[1]") or re.search(r"\[[^]]+\]$", axis), axis
+    assert not {name for name in columns if "_" in name and any(name in text for text in said)}
+    known = {re.sub("<.*?>", "", text.replace("<sub>", "_")) for text in said}
+    for each in columns.values():
+        wanted = f"{each.symbol}: {each.meaning}"
+        assert any(wanted.replace(" ", "") == text.replace(" ", "") for text in known), wanted
+    (pressure, _) = drawn["counts [Pa]"]["data"]
+    assert "[GPa]" in drawn["counts [Pa]"]["layout"]["yaxis"]["title"]["text"]
+    assert np.allclose(1e9 * np.array(pressure["y"]), answer.curves.outputs["p_ss"], rtol=1e-14)
 
 
 ALSO = {

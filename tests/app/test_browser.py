@@ -368,6 +368,7 @@ def outputs_are_drawn(page):
     page.locator('[data-path="undo"]').click()
     when(page, "document.querySelector('[data-said=page]').innerText === ''")
     page.locator('[data-path="outputs.wear"][aria-checked="false"]').wait_for()
+    cards_are_short(page)
 
 
 def a_surface_is_pressed(page):
@@ -392,6 +393,28 @@ def a_surface_is_pressed(page):
 def a_design_is_found(page):
     page.locator('[data-work="design"]').click()
     drawn(page, "design")
+    said = fact(page, "design")
+    assert said.startswith("Best: mean diameter x_a = ")
+    assert "load share of particles = " in said
+    axis = page.locator('[data-figure="design"] .xtitle').text_content()
+    assert re.fullmatch(r"mean diameter x.?a.? \[[nµ]m\]", axis), axis
+
+
+def cards_are_short(page):
+    """Of a table in a narrow window: name and value in one line, nothing that is empty."""
+    page.set_viewport_size({"width": 390, "height": 860})
+    cards = page.locator('[data-figure="outputs"] .q-table__grid-item')
+    cards.first.wait_for()
+    assert cards.count() == len(check(STUDY).solve().outputs)
+    rows = page.evaluate(
+        "() => [...document.querySelectorAll('[data-figure=outputs] .q-table__grid-item-row')]"
+        ".map(e => [...e.children].map(c => c.getBoundingClientRect()))"
+        ".map(([a, b]) => a.width ? Math.abs(a.top - b.top) : 0)"
+    )
+    assert len(rows) > 4
+    assert max(rows) < 10
+    page.set_viewport_size({"width": 1280, "height": 860})
+    page.locator('[data-figure="outputs"] tbody').wait_for()
 
 
 def critical_loads_have_error_bars(page):
@@ -721,6 +744,11 @@ def test_texts_of_a_link_are_shown_as_text(visit):
         page.wait_for_timeout(200)
         assert not page.evaluate(HARM), name
     assert len(TITLES) == 12
+    page.set_viewport_size({"width": 390, "height": 860})
+    for name in TITLES:  # tables are cards there
+        tab(page, name.strip())
+        page.wait_for_timeout(200)
+        assert not page.evaluate(HARM), name
     assert not dialogs
 
 
@@ -736,7 +764,8 @@ def test_mistakes_of_a_link_are_told_as_text(visit, address):
 def test_an_address_made_to_do_harm_is_told_as_text(visit):
     page = visit()
     for payload in PAYLOADS:
-        for name in ("study", "tab", "at", "tab"):  # each shows another tab than the last
+        for name in ("study", "tab", "at", "tab", "files", "tab", "surface", "tab"):
+            # each shows another tab than the last
             query = parse_qsl(to_link(STUDY, AT)) + [("tab", "curves")]
             page.evaluate(
                 "q => { history.pushState(null, '', q); history.pushState(null, '', '?'); }",

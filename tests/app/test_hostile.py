@@ -29,13 +29,13 @@ from hostile import PAYLOADS, hostile, wrong
 from thirdbody.app import bounds, exports, text, work
 from thirdbody.app.examples import example
 from thirdbody.app.figures import plain
-from thirdbody.app.folders import Folders, remove_left
+from thirdbody.app.folders import Folders, Shelf, remove_left
 from thirdbody.app.inputs import FORMED, Inputs
 from thirdbody.app.jobs import RUNNING, Job
 from thirdbody.app.page import Start
 from thirdbody.app.solver import Solver
 from thirdbody.app.state import State
-from thirdbody.app.uploads import keep
+from thirdbody.app.uploads import keep, take
 from thirdbody.app.widgets import facts
 from thirdbody.errors import InvalidValue
 from thirdbody.study import check, run_study
@@ -417,3 +417,85 @@ def test_a_folder_in_use_is_not_removed(tmp_path, monkeypatch):
     used.lock.close()
     assert remove_left() == [used.path]
     assert not used.path.exists()
+
+
+# ---------------------------------------------------------------- files that an address names
+KEYS = ["0" * 64, "../lock", "..", "", "/etc/passwd", "{}", "<img src=x onerror=window.__hit=1>"]
+
+
+@pytest.mark.parametrize("key", [*KEYS, "the right one, for another name"])
+def test_an_address_gives_a_file_for_its_key_alone(key, tmp_path):
+    folders = Folders()
+    try:
+        mine = folders.new() / "part.txt"
+        mine.write_bytes(b"1 2 3")
+        right = folders.shelf.put(mine)
+        start = Start(None, None, folders)
+        name = "../part.txt" if key.startswith("the") else "part.txt"
+        query = {"files": f"{name}:{right if key.startswith('the') else key}"}
+        state, _ = start.state(query)
+        assert list(state.folder.iterdir()) == []
+        assert state.files == {}
+        state, _ = start.state({"files": f"part.txt:{right}"})
+        assert (state.folder / "part.txt").read_bytes() == b"1 2 3"
+        assert not list(folders.path.parent.glob("part.txt*"))
+    finally:
+        folders.close()
+
+
+def test_a_key_is_of_this_server_and_of_what_a_file_holds(tmp_path):
+    (tmp_path / "one.txt").write_bytes(b"1 2 3")
+    (tmp_path / "two.txt").write_bytes(b"1 2 3")
+    first, second = Shelf(tmp_path / "a"), Shelf(tmp_path / "b")
+    assert first.put(tmp_path / "one.txt") == first.put(tmp_path / "two.txt")
+    assert first.put(tmp_path / "one.txt") != second.put(tmp_path / "one.txt")
+
+
+def test_another_file_of_the_same_name_leaves_the_first_one_to_its_address(tmp_path):
+    class File:
+        name = "part.txt"
+        content = b""
+
+        def size(self):
+            return len(self.content)
+
+        async def save(self, path):
+            path.write_bytes(self.content)
+
+    folders = Folders()
+    try:
+        state, _ = Start(None, None, folders).state({})
+        keys = []
+        for content in (b"1 2 3", b"4 5 6"):
+            File.content = content
+            asyncio.run(take(state, type("Event", (), {"file": File()})))
+            keys.append(state.files["part.txt"])
+        assert (state.folder / "part.txt").read_bytes() == b"4 5 6"
+        back, _ = Start(None, None, folders).state({"files": f"part.txt:{keys[0]}"})
+        assert (back.folder / "part.txt").read_bytes() == b"1 2 3"
+    finally:
+        folders.close()
+
+
+def test_the_shelf_of_a_server_is_bounded_and_the_oldest_file_goes(tmp_path, monkeypatch):
+    monkeypatch.setattr("thirdbody.app.folders.LARGEST_SHELF", 25)
+    shelf = Shelf(tmp_path / "shelf")
+    keys = []
+    for number in range(4):
+        file = tmp_path / f"{number}.txt"
+        file.write_bytes(bytes([number]) * 10)
+        keys.append(shelf.put(file))
+        os.utime(tmp_path / "shelf" / keys[-1], (number, number))
+    assert [shelf.give(key, tmp_path / "given.txt") for key in keys] == [False, False, True, True]
+    assert (tmp_path / "given.txt").read_bytes() == b"\3" * 10
+    assert (tmp_path / "0.txt").read_bytes() == b"\0" * 10
+
+
+@pytest.mark.parametrize(
+    "told",
+    ['{"file": "../part.txt"}', '{"file": 3}', '{"file": "a", "x": "y"}', "[" * 9999, "nul", "{}"],
+)
+def test_an_address_tells_of_a_surface_in_plain_words_or_not_at_all(told):
+    state, _ = Start(None, None, folders := Folders()).state({"surface": told})
+    folders.close()
+    assert state.surface == {}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,7 @@ __all__ = [
     "mode_bands",
     "plain",
     "span",
+    "symbol",
 ]
 
 INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
@@ -64,6 +66,15 @@ def plain(text: str) -> str:
     """
     # %{...} stands for a variable there
     return html.escape(text, quote=False).replace("%{", "%&#123;")
+
+
+def symbol(text: str) -> str:
+    """A symbol for Plotly, its subscripts set.
+
+    >>> symbol("A_t/A_n"), symbol("⟨δ_res⟩,1")
+    ('A<sub>t</sub>/A<sub>n</sub>', '⟨δ<sub>res</sub>⟩,1')
+    """
+    return re.sub(r"_([^\s/()⟩]+)", r"<sub>\1</sub>", plain(text))
 
 
 def figure(
@@ -122,13 +133,39 @@ def figure(
     }
 
 
+TICKS = ((1.0, (1, 2, 5)), (0.6, (1, 2, 3, 4, 6, 8)))
+"""Ticks inside a decade of axes that are wider than so many decades."""
+
+
 def _decades(data: list[dict[str, Any]], name: str) -> dict[str, Any]:
     """Ticks of a logarithmic axis: powers of ten alone where the traces reach over two or so."""
     known = [np.asarray(each[name], float) for each in data if each.get(name) is not None]
     every = np.concatenate([*known, [np.nan]])
     every = every[np.isfinite(every) & (every > 0)]
     wide = float(np.log10(every.max() / every.min())) if every.size else 0.0
-    return {"dtick": 1 if wide < 8 else 2} if wide > 1.9 else {}
+    if wide > 1.9:  # the browser writes powers a quarter larger than other numbers
+        return {"dtick": 1 if wide < 8 else 2, "tickfont": {"size": 10}}
+    digits = next((inside for least, inside in TICKS if wide > least), ())
+    if not digits:
+        return {}
+    first, last = int(np.floor(np.log10(every.min()))), int(np.floor(np.log10(every.max())))
+    ticks = [(digit, power) for power in range(first - 1, last + 2) for digit in digits]
+    return {
+        "tickmode": "array",
+        "tickvals": [float(f"{digit}e{power}") for digit, power in ticks],
+        "ticktext": [_tick(digit, power) for digit, power in ticks],
+    }
+
+
+def _tick(digit: int, power: int) -> str:
+    """A number of one digit, as people write it.
+
+    >>> _tick(2, -1), _tick(5, 3), _tick(1, -6), _tick(2, 11)
+    ('0.2', '5000', '10<sup>−6</sup>', '2×10<sup>11</sup>')
+    """
+    if -3 <= power <= 3:
+        return f"{float(f'{digit}e{power}'):g}"
+    return (f"{digit}×" if digit > 1 else "") + f"10<sup>{power}</sup>".replace("-", "−")
 
 
 def empty(height: int) -> dict[str, Any]:

@@ -256,8 +256,20 @@ class Inputs(ParticleInputs):
             box.on_value_change(lambda e, p=place: self._switch(p, e.value))
             if on:
                 with ui.column().classes("w-full pl-4 gap-1"):
-                    for each in fields_of(kind):
-                        self.field(place, each)
+                    self._of_output(place, fields_of(kind))
+
+    def _of_output(self, place: Place, every: list[Field]) -> None:
+        """The numbers of an output; what has a default and is not given is folded."""
+        folded = [
+            f for f in every if f.default is not None and self.state.get(*place, f.name) is None
+        ]
+        for each in every:
+            if each not in folded:
+                self.field(place, each)
+        if folded:
+            with ui.expansion("more").classes("w-full").props("dense"):
+                for each in folded:
+                    self.field(place, each)
 
     def _switch(self, place: Place, on: bool) -> None:
         wanted = dict(self.table("outputs"))
@@ -279,8 +291,9 @@ class Inputs(ParticleInputs):
         flat = _flat(given)
         for label, entry in flat.items():
             with ui.row().classes("w-full items-center no-wrap gap-2"):
-                ui.label(label).classes("grow break-all")
-                ui.label(with_micro(in_words(entry))).classes("hint")
+                with ui.column().classes("grow gap-0"):
+                    ui.label(label).classes("break-any")
+                    ui.label(with_micro(in_words(entry))).classes("hint")
                 drop = ui.button(icon="delete", on_click=lambda _, k=label: self._known(k, None))
                 put(drop.props("flat dense"), {"aria-label": f"remove {label}"})
         kinds = {
@@ -292,7 +305,7 @@ class Inputs(ParticleInputs):
         with ui.row().classes("w-full items-end gap-2"):
             which = ui.select(names, label="input, or several that move together", multiple=True)
             which.set_value(names[:1])
-            which.props('dense options-dense data-path="uncertain.name"').classes("grow")
+            which.props('dense options-dense data-path="uncertain.name"').classes("wide")
             how = (
                 ui.select(
                     {kind: kinds.get(kind, kind) for kind in KINDS},
@@ -300,7 +313,7 @@ class Inputs(ParticleInputs):
                     value="uniform",
                 )
                 .props("dense options-dense")
-                .classes("grow")
+                .classes("wide")
             )
             first = ui.input("low, mean or median").props('dense data-path="uncertain.first"')
             second = ui.input("high, std or gsd").props('dense data-path="uncertain.second"')

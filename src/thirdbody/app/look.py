@@ -49,7 +49,8 @@ BASE = """
   .whole { width: 100%; max-width: 1500px; margin-inline: auto; }
   .pl-4 { padding-left: 1rem; }
   .hidden { display: none; }
-  .break-all { word-break: break-all; }
+  .break-any { overflow-wrap: anywhere; }
+  .wide { flex: 1 1 14rem; }
   .font-bold { font-weight: 700; }
   .bg-transparent { background-color: transparent; }
 }
@@ -70,6 +71,7 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .words { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1rem; }
 .fact .value { font-size: 1.05rem; font-weight: 600; }
 .figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
+.figures { align-items: start; }
 @media (min-width: 1100px) { .figures { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
 .figures > * { min-width: 0; }
 .js-plotly-plot { position: relative; }
@@ -97,6 +99,15 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 .q-uploader__list { display: none; }
 #q-loading-bar { display: none; }
 .scroll-x .q-table { min-width: 620px; }
+/* tables as cards: a heading, then name and value in one line */
+.q-table__grid-item { padding: 4px 0; }
+.q-table__grid-item-card { padding: 8px 12px; border: 1px solid rgba(127, 127, 127, 0.3); }
+.q-table__grid-item-row { display: flex; justify-content: space-between; padding: 2px 0; }
+.q-table__grid-item-title { flex: none; margin-right: 1rem; }
+.q-table__grid-item-row:has(.q-table__grid-item-value:empty) { display: none; }
+.q-table__grid-item-row:first-child .q-table__grid-item-title { display: none; }
+.q-table__grid-item-row:first-child .q-table__grid-item-value { font-weight: 600; }
+.q-table__grid-item-row + .q-table__grid-item-row .q-table__grid-item-value { text-align: right; }
 .narrow { max-width: 34rem; }
 .code textarea { font-family: ui-monospace, monospace; font-size: 0.8rem; line-height: 1.35; }
 @supports (field-sizing: content) {
@@ -110,8 +121,10 @@ h1.name { font-size: 1.125rem; font-weight: 700; line-height: 1.75rem; letter-sp
 .js-plotly-plot .hoverlayer text { fill: #222 !important; }
 .body--dark .scatterlayer .lines, .body--dark .legendlines { filter: brightness(1.4); }
 .body--dark [data-figure="map"] .legendlines path { stroke: #dddddd !important; }
+.body--dark [data-figure="bands"] :is(.fills, .legendfill) { filter: brightness(1.9); }
 .body--dark .layer-below .shapelayer { opacity: 0.5; }
 .q-tab { padding: 0 11px; }
+.whole .q-field { max-width: 100%; }
 .q-field__messages { line-height: 1.2; }
 .q-field--with-bottom { padding-bottom: 0; }
 .q-field--with-bottom .q-field__bottom { position: static; transform: none; padding: 3px 0 6px; }

@@ -195,7 +195,9 @@ class Sliders:
         if now is None:
             made["middle"] = None
             return
-        made["label"].set_text(f"{knob.label} = {knob.say(now)}")
+        # the number and its unit stay in one line
+        said = knob.say(now).replace(" ", "\u00a0")
+        made["label"].set_text(f"{knob.label} = {said}")
         middle = made["middle"]
         if middle is None or not made.pop("own", False):
             inside = middle is not None and 1 / REACH <= now / middle <= REACH

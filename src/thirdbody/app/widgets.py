@@ -85,9 +85,10 @@ class Plot:
             return ["react", data, layout, CONFIG]
         new = {name: value for name, value in layout.items() if value != old[name]}
         for axis in ("xaxis", "yaxis"):
-            if axis in new and new[axis].keys() == old[axis].keys():
-                parts = new.pop(axis)
-                new |= {f"{axis}.{k}": v for k, v in parts.items() if v != old[axis][k]}
+            parts = new.pop(axis, {})
+            if parts and parts.keys() != old[axis].keys():
+                return ["react", data, layout, CONFIG]
+            new |= {f"{axis}.{k}": v for k, v in parts.items() if v != old[axis][k]}
         if data == self.made["data"]:
             return ["relayout", new]
         return ["update", {"y": [each.get("y") for each in data]}, new]
@@ -108,10 +109,10 @@ async def shown(figures: Iterable[tuple[Plot, dict[str, Any]]]) -> bool:
         plot.widget.figure = made
         # every number would be watched by the framework otherwise
         dict.__setitem__(plot.widget.props, "options", made)
-    drawn = None
+    code = f"redraw({dumps(calls)})"  # JSON is data there as well
+    client, drawn = new[0][0].widget.client, None
     with contextlib.suppress(TimeoutError):  # the browser is gone
-        client = new[0][0].widget.client
-        drawn = await client.run_javascript(f"redraw({dumps(calls)})", timeout=DRAWS)
+        drawn = await client.run_javascript(code, timeout=DRAWS)
     for (plot, made), done in zip(new, drawn or [False] * len(new), strict=True):
         if done is True:
             plot.made = made

@@ -10,10 +10,10 @@ from nicegui import ui
 
 from ...equilibrium.columns import COLUMNS, about
 from ...errors import InvalidValue
-from ...quantities.say import number
+from ...quantities.say import number, prefixed
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, shown, value_from
-from ..figures import GREY, empty, figure, line, plain
+from ..figures import GREY, empty, figure, line, plain, symbol
 from ..state import State, loads_as
 from ..text import with_micro
 from ..work import Work
@@ -56,12 +56,13 @@ def variables_of(state: State) -> dict[str, str]:
 
 
 def design_figure(
-    found: dict[str, Any], variable: str, objective: str, unit: str = "SI"
+    found: dict[str, Any], variable: str, objective: str, unit: str, words_of: dict[str, str]
 ) -> dict[str, Any]:
     """Every point tried, the best marked, the tolerance as a band."""
     every = found["points"][variable]
     words = any(isinstance(item, str) for item in every)
-    x = np.array([plain(item) for item in every] if words else every, dtype=str if words else float)
+    size, name = (1.0, "") if words else prefixed(float(np.max(np.abs(every))), unit)
+    x = np.array([plain(item) for item in every]) if words else np.array(every, float) / size
     y = np.array([np.nan if v is None else v for v in found["points"][objective]], dtype=float)
     good = np.array(found["points"]["feasible"], dtype=bool)
     order = np.argsort(x)
@@ -79,7 +80,7 @@ def design_figure(
         {
             "type": "scatter",
             "mode": "markers",
-            "x": [plain(str(best)) if words else best],
+            "x": [plain(str(best)) if words else best / size],
             "y": [found["objectives"][objective]],
             "name": "best",
             "marker": {"symbol": "star", "size": 16, "color": "#D55E00"},
@@ -87,8 +88,8 @@ def design_figure(
     ]
     made = figure(
         traces,
-        x=f"{plain(variable.split('+')[0])} [{unit}]",
-        y=plain(about(objective)["meaning"] if objective in COLUMNS else objective),
+        x=symbol(words_of.get(variable, variable)) + (f" [{name}]" if name else ""),
+        y=plain(meaning(objective)),
         title="What was tried",
         xlog=not words and bool(x.min() > 0),
         height=420,
@@ -99,8 +100,8 @@ def design_figure(
                 "type": "rect",
                 "xref": "x",
                 "yref": "paper",
-                "x0": band[0],
-                "x1": band[1],
+                "x0": band[0] / size,
+                "x1": band[1] / size,
                 "y0": 0,
                 "y1": 1,
                 "fillcolor": "#009E73",
@@ -136,7 +137,7 @@ class Search:
         self.form.set_visibility(names[0] != WRITTEN)
         self.which.on_value_change(self._ranged)
         self.work = Work("design", "Search", self._ask, self._show, key=lambda: state.answer)
-        self.said = ui.label().props('data-fact="design"')
+        self.said = ui.label().props('data-fact="design"').classes("break-any")
         self.plot = ui.plotly(empty(420)).classes("w-full").props('data-figure="design"')
         self.plot.set_visibility(False)
 
@@ -198,10 +199,11 @@ class Search:
     def _show(self, result: dict[str, Any]) -> None:
         objective, variable = next(iter(result["objectives"])), next(iter(result["values"]))
         units = {e.field: e.quantity["unit"] for e in inputs_of(self.state.study) if e.quantity}
-        unit = units.get(variable.split("+")[0], "SI")
-        self.plot.update_figure(design_figure(result, variable, objective, unit))
+        unit = units.get(variable.split("+")[0], "1")
+        names = in_words(self.state.study, list(result["values"]))
+        self.plot.update_figure(design_figure(result, variable, objective, unit, names))
         self.plot.set_visibility(True)
-        self.said.set_text(with_micro(" ".join(told(result, units))))
+        self.said.set_text(with_micro(" ".join(told(result, units, names))))
 
     async def draw(self) -> None:
         await self.work.tell(self.state)
@@ -214,21 +216,52 @@ class Search:
                 menu.set_options(options, value=menu.value if menu.value in options else None)
 
 
-def told(result: dict[str, Any], units: dict[str, str]) -> list[str]:
+def in_words(study: dict[str, Any], fields: list[str]) -> dict[str, str]:
+    """Inputs by meaning and symbol; with their names where two have the same.
+
+    >>> from ..examples import example
+    >>> for name in in_words(example(), ["roughness.R", "surfaces.first.H"]).values():
+    ...     print(name)
+    mean asperity radius R
+    hardness H (surfaces.first)
+    """
+    known = {e.field: e.quantity for e in inputs_of(study) if e.quantity}
+    said = {field: f"{each['meaning']} {each['symbol']}" for field, each in known.items()}
+    out = {}
+    for field in fields:
+        first = field.partition("+")[0]
+        if first not in said:
+            continue
+        several = list(said.values()).count(said[first]) > 1
+        out[field] = said[first] + (f" ({first.rpartition('.')[0]})" if several else "")
+    return out
+
+
+def meaning(column: str) -> str:
+    """What a column is; some aims are none."""
+    return str(about(column)["meaning"]) if column in COLUMNS else column
+
+
+def told(result: dict[str, Any], units: dict[str, str], names: dict[str, str]) -> list[str]:
     """The design that was found, in sentences."""
 
     def one(name: str, value: Any) -> str:
         unit = units.get(name.split("+")[0], "1")
         return str(value) if isinstance(value, str) else str(engineering(value, unit))
 
-    best = [f"{name} = {one(name, value)}" for name, value in result["values"].items()]
-    best += [f"{name} = {number(value)}" for name, value in result["objectives"].items()]
+    best = [
+        f"{names.get(name, name)} = {one(name, value)}"
+        + (" and what goes along in proportion" if "+" in name else "")
+        for name, value in result["values"].items()
+    ]
+    best += [f"{meaning(name)} = {number(value)}" for name, value in result["objectives"].items()]
     words = [f"Best: {', '.join(best)}."]
     if not result["feasible"]:
         words = [f"Nothing that was tried obeys the limits: {result['reason']}."]
     for name, band in result["tolerance"].items():
         low, high = (one(name, end) for end in band)
-        words.append(f"Less than 5 % is lost for {name} between {low} and {high}.")
+        which = f" for {names.get(name, name)}" if len(result["tolerance"]) > 1 else ""
+        words.append(f"Less than 5 % is lost{which} between {low} and {high}.")
     if result["at_bound"]:
         words.append("It lies at an end of the range: the best may lie beyond.")
     if result["active"]:

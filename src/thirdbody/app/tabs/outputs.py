@@ -4,68 +4,101 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Awaitable, Callable
+from itertools import takewhile
 from typing import Any
 
 import numpy as np
 from nicegui import ui
 
 from ...equilibrium.columns import about
-from ...quantities.say import number, unit_of
-from ..figures import AXES, SCALES, figure, line, mark, plain
+from ...quantities.say import prefixed, value_of
+from ..figures import AXES, SCALES, figure, line, mark, plain, symbol
 from ..inputs import Inputs
 from ..state import Answer, State
-from ..widgets import put
+from ..widgets import Plot, shown
 from ..widgets import table as shown_table
 
 __all__ = ["TITLE", "build", "output_figures"]
 
 TITLE = "Outputs"
-FEW = 3
-"""Columns of a figure that its title names."""
+QUANTITIES = {
+    "1": "coefficient or share",
+    "m": "length",
+    "K": "temperature or rise",
+    "1/m^2": "number per area",
+}
+"""What columns of one unit are where their meanings have no words in common."""
+LINKS = {"of", "a", "an", "the", "on", "in", "by", "that", "from"}
+"""Words with which no name ends."""
+WIDE = 44
+"""Characters of one line of an axis or a legend."""
+HEIGHT, LINE = 330, 19
+"""Pixels of a figure, and more for each line of its legend."""
 
 
 def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
     """A figure for each output and unit of its columns."""
     out: dict[str, dict[str, Any]] = {}
-    state = answer.curves
     load = answer.load
     scale = SCALES.get(load, 1.0)
-    x = answer.loads * scale
     for output in answer.contact.outputs:
         units: dict[str, list[str]] = {}
         for column, told in output.columns.items():
             units.setdefault(told.unit, []).append(column)
         for unit, columns in units.items():
-            names = ", ".join(columns) if len(columns) <= FEW else ""
-            traces = []
-            values = []
-            for i, column in enumerate(columns):
-                y = np.asarray(state.outputs[column], dtype=float)
-                values.append(y)
-                traces.append(line(x, y, plain(column), i))
-            every = np.concatenate(values)
-            every = every[np.isfinite(every) & (every != 0)]
-            wide = len(every) > 0 and every.min() > 0 and every.max() > 30 * every.min()
-            shape, _ = mark(at * scale, "", dash="solid")
-            out[f"{output.name} [{unit}]"] = figure(
-                traces,
-                x=AXES[load],
-                y=_quantity(columns, str(output.title), unit),
-                title=plain(f"{output.title}: {names}" if names else str(output.title)),
-                xlog=load != "d",
-                ylog=bool(wide),
-                height=380,
-                shapes=[shape],
-            )
+            what = quantity_of(columns, unit)
+            title = str(output.title) if len(units) == 1 else f"{output.title}: {what}"
+            made = _figure(answer, columns, unit, what, AXES[load], scale)
+            made["layout"]["title"]["text"] = _wrapped(title, WIDE)
+            made["layout"]["shapes"] = [mark(at * scale, "", dash="solid")[0]]
+            out[f"{output.name} [{unit}]"] = made
     return out
 
 
-def _quantity(columns: list[str], title: str, unit: str) -> str:
-    """What an axis shows: the one column on it, the names of a few, or what many are of."""
-    few = ", ".join(columns) if len(columns) <= FEW else title
-    words = about(columns[0])["meaning"] if len(columns) == 1 else few
-    whole = words + (f" [{unit_of(unit)}]" if unit_of(unit) else "")
-    return "<br>".join(map(plain, textwrap.wrap(whole, 40)))
+def _figure(
+    answer: Answer, columns: list[str], unit: str, what: str, x: str, scale: float
+) -> dict[str, Any]:
+    """Columns of one unit over the load, in the prefix of their largest value."""
+    values = [np.asarray(answer.curves.outputs[column], dtype=float) for column in columns]
+    every = np.concatenate(values)
+    every = every[np.isfinite(every) & (every != 0)]
+    size, name = prefixed(float(np.abs(every).max()) if len(every) else 1.0, unit)
+    wide = len(every) > 0 and every.min() > 0 and every.max() > 30 * every.min()
+    names = [f"{symbol(about(c)['symbol'])}: {plain(about(c)['meaning'])}" for c in columns]
+    names = [_folded(each) for each in names]
+    return figure(
+        [
+            line(answer.loads * scale, y / size, each, i)
+            for i, (y, each) in enumerate(zip(values, names, strict=True))
+        ],
+        x=x,
+        y=_wrapped(what + (f" [{name}]" if name else ""), WIDE),
+        xlog=answer.load != "d",
+        ylog=bool(wide),
+        height=HEIGHT + LINE * sum(each.count("<br>") + 1 for each in names),
+    )
+
+
+def quantity_of(columns: list[str], unit: str) -> str:
+    """What columns of one unit are, in words.
+
+    >>> quantity_of(["f_ss", "f_sa"], "N"), quantity_of(["n_ss", "n_sa"], "1/m^2")
+    ('mean load', 'number per area')
+    """
+    every = zip(*(about(column)["meaning"].split() for column in columns), strict=False)
+    words = [each[0] for each in takewhile(lambda each: len(set(each)) == 1, every)]
+    while len(columns) > 1 and words and words[-1] in LINKS:
+        words = words[:-1]
+    return " ".join(words).rstrip(":,") or QUANTITIES.get(unit, "value")
+
+
+def _wrapped(text: str, wide: int) -> str:
+    return "<br>".join(map(plain, textwrap.wrap(text, wide)))
+
+
+def _folded(name: str) -> str:
+    """A name of a legend in lines, its tags whole."""
+    return "<br>".join(textwrap.wrap(name, WIDE + 12, break_long_words=False))
 
 
 def asked(state: State) -> list[str]:
@@ -97,23 +130,21 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             entries()
         table = ui.column().classes("w-full")
     grid = ui.element("div").classes("figures w-full")
-    plots: dict[str, Any] = {}
+    plots: dict[str, Plot] = {}
 
     async def draw() -> None:
         if asked(state) != seen["asked"]:  # undone, or another study
             renewed()
         inputs.tell()
         made, rows = await state.ask(_found, state.at)
-        for name in set(plots) - set(made):
-            plots.pop(name).delete()
+        for name in [name for name in plots if name not in made]:
+            plots.pop(name).widget.delete()
         with grid:
             for name, drawn in made.items():
                 if name not in plots:
-                    plots[name] = ui.plotly(drawn).classes("w-full")
-                    put(plots[name], {"data-figure": f"output {name}"})
-                else:
-                    plots[name].update_figure(drawn)
+                    plots[name] = Plot(f"output {name}", drawn["layout"]["height"])
         _table(rows, table)
+        await shown((plots[name], drawn) for name, drawn in made.items())
 
     return draw
 
@@ -122,10 +153,10 @@ def _found(answer: Answer, at: float) -> tuple[dict[str, dict[str, Any]], list[d
     """The figures, and the rows of the table."""
     rows = [
         {
-            "name": name,
             "meaning": about(name)["meaning"],
-            "value": number(float(value)),
-            "unit": unit_of(about(name)["unit"]),
+            "symbol": about(name)["symbol"],
+            "value": value_of(float(value), about(name)["unit"]),
+            "name": name,
         }
         for name, value in answer.solve(at).outputs.items()
     ]
@@ -139,5 +170,10 @@ def _table(rows: list[dict[str, Any]], place: Any) -> None:
             ui.label("Switch an output on.").classes("hint")
             return
         ui.label("At the operating load").classes("subhead")
-        heads = {key: key for key in ("name", "value", "unit", "meaning")}
-        shown_table("outputs", heads, rows, pagination=12)
+        heads = {
+            "meaning": "quantity",
+            "symbol": "symbol",
+            "value": "value",
+            "name": "in files",
+        }
+        shown_table("outputs", heads, rows)

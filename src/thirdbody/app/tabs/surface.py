@@ -270,27 +270,26 @@ def height_figure(found: dict[str, Any]) -> dict[str, Any]:
 
 
 LABELS = {
-    "R": ("tip radius R [m]", ("R", "R_counted")),
-    "eta": ("asperities per area η [1/m²]", ("eta", "eta_counted")),
-    "rms_gradient": ("RMS gradient", ("rms_gradient",)),
+    "R": ("tip radius R [µm]", ("R", "R_counted"), 1e-6),
+    "eta": ("asperities per area η [m⁻²]", ("eta", "eta_counted"), 1.0),
+    "rms_gradient": ("RMS gradient", ("rms_gradient",), 1.0),
 }
 
 
 def cutoff_figure(found: dict[str, Any], name: str) -> dict[str, Any]:
     """One quantity against the cut-off, the cut-off used marked."""
-    label, columns = LABELS[name]
+    label, columns, size = LABELS[name]
     curve = found["curve"]
     x = np.array([np.nan if v is None else v for v in curve["cutoff"]], dtype=float)
     known = x > 0
     traces = []
     for i, column in enumerate(columns):
-        y = np.array([np.nan if v is None else v for v in curve[column]], dtype=float)
+        y = np.array([np.nan if v is None else v for v in curve[column]], dtype=float) / size
         words = "counted" if column.endswith("_counted") else "from moments"
         traces.append(
             line(x[known] * 1e6, y[known], words, i, mode="lines+markers", marker={"size": 7})
         )
     made = figure(traces, x="cut-off [µm]", y=label, title=label.split(" [")[0], ylog=True)
-    made["layout"]["yaxis"]["nticks"] = 5
     if found["used"]["cutoff"]:
         shape, _ = mark(1e6 * found["used"]["cutoff"], "")
         made["layout"]["shapes"] = [shape]
