@@ -501,7 +501,7 @@ def _warnings(
     if np.any(area > CLOSE) and any(_lies_anywhere(contact.law_of(p)) for p in contact.populations):
         out.append(
             f"A_t reaches {np.nanmax(area):.3g}: pressed point by point, surfaces with more than "
-            f"{CLOSE:g} were 0.04 to 0.3 sigma further apart than this model says, and their "
+            f"{CLOSE:g} were 0.04 to 0.65 sigma further apart than this model says, and their "
             "particles carried 7 to 17 % less"
         )
     height = (d - bound.asperities.centre) / bound.asperities.sigma_s

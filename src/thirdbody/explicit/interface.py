@@ -77,7 +77,7 @@ class Map:
         return False
 
     def shortest_wave(self) -> float:
-        """Wavelength above which 99 % of the mean square slope lies [m], but for jumps at the rim."""
+        """Wavelength above which 99 % of the mean square slope lies [m]; no jumps at the rim."""
         n, m = self.z.shape
         z = self.z
         if self._jumps():  # these have every wave
