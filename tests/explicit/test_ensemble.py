@@ -14,6 +14,8 @@ from typer.testing import CliRunner
 import thirdbody as tb
 from thirdbody import cli
 from thirdbody.explicit import ensemble as function
+from thirdbody.explicit import sums
+from thirdbody.explicit.interface import law_tables, map_of
 from thirdbody.study import load_study
 from thirdbody.study.run_explicit import run_explicit
 
@@ -26,6 +28,14 @@ CONTACT = tb.Contact(
         material=SILICA, areal_density=2e11, diameter=tb.Monodisperse(mean=4e-7)
     ),
 )
+
+
+def gauss(low, high, count):
+    """Nodes and weights of Gauss and Legendre."""
+    nodes, weights = np.polynomial.legendre.leggauss(count)
+    return low + (nodes + 1) * (high - low) / 2, weights * (high - low) / 2
+
+
 HOW = dict(F_star=[3e-4, 2e-3], size=128, spacing=2e-7, seed=3)
 
 
@@ -74,6 +84,27 @@ def test_loads_are_pooled_at_equal_separation(found):
     particles = np.exp(np.interp(h, at.h.values[::-1], np.log(at.particles.values[::-1])))
     share = particles / nominal / CONTACT.E_ss / back
     assert found.table.particle_load_share_raw.values == pytest.approx(share, rel=0.01)
+
+
+def test_what_a_draw_carries_on_average_counts_the_tail_of_the_sizes():
+    """Against the distribution itself: 64 equal shares of the number once lost 14 % of the load."""
+    sizes = tb.LogNormal(median=3e-7, gsd=1.6)
+    dust = CONTACT.particles.replace(diameter=sizes)
+    contact = CONTACT.replace(particles=dust)
+    heights = 300e-9 * np.random.default_rng(0).standard_normal((64, 64))
+    surface = map_of(heights - heights.mean(), 2e-7)
+    (law,) = law_tables(contact)
+    h, sigma = 3.8 * surface.sigma, surface.sigma
+    found = sums._expected(
+        contact, surface, tb.explicit.RandomSeats(), np.empty(0), np.array([h]), gaussian=True
+    )
+    x, weight = gauss(np.log(1e-8), np.log(3e-5), 4000)
+    x, weight = np.exp(x), weight * np.exp(x) * sizes.pdf(np.exp(x))
+    zeta, share = gauss(-8, 8, 800)
+    share = share * np.exp(-(zeta**2) / 2) / np.sqrt(2 * np.pi)
+    squeeze = x[:, None] + sigma * zeta - h
+    load = np.sum(weight[:, None] * share * x[:, None] ** 2 * law.force(squeeze / x[:, None]))
+    assert found["law"][0] == pytest.approx(load * dust.areal_density * surface.area, rel=3e-3)
 
 
 def test_ratios_say_why(found):

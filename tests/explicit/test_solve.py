@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.explicit.interface import map_of
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 SPACING, POINTS = 1e-7, 128
@@ -304,3 +305,13 @@ def test_what_is_doubtful_is_said():
     )
     with pytest.warns(tb.RangeWarning, match="a few points"):
         tb.explicit.solve(contact(), ROUGH, F_star=2e-6)
+
+
+def test_a_jump_at_the_rim_is_no_short_wave():
+    """Of a part cut out of a map, whose own waves are well resolved."""
+    heights = tb.synthetic.self_affine(
+        sigma=300e-9, hurst=0.8, shortest=1.6e-6, longest=6e-6, spacing=1e-7, points=256
+    ).heights
+    whole, part = map_of(heights, 1e-7), map_of(heights[:100, :90], 1e-7)
+    assert whole.shortest_wave() == pytest.approx(1.6e-6, rel=0.05)
+    assert part.shortest_wave() == pytest.approx(1.6e-6, rel=0.2)

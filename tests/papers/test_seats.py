@@ -107,10 +107,13 @@ def test_figure_shows_stored_points_and_solved_lines():
         rough = next(line for label, line in lines.items() if "random place" in label)
         expected = tb.solve(seats.contact(diameter), F_star=loads).particle_load_share
         np.testing.assert_array_equal(rough.get_ydata(), expected)
-        drawn = [c for c in ax.containers if c.get_label().endswith("as computed")]
-        assert len(drawn) == 1
-        raw = [p["raw"]["load_share"] for p in points(diameter=diameter)]
-        np.testing.assert_array_equal(drawn[0].lines[0].get_ydata(), raw)
+        drawn = {c.get_label(): c.lines[0].get_ydata() for c in ax.containers}
+        told = [p["control_variate"] or p["raw"] for p in points(diameter=diameter)]
+        stored = [each["load_share"] for each in told]
+        np.testing.assert_array_equal(drawn["explicit particles, earlier runs"], stored)
+        case = {200e-9: "x067", 300e-9: "x1", 600e-9: "x2"}[diameter]
+        own = [state["share"] for state in seats.comparison() if state["case"] == case]
+        np.testing.assert_array_equal(drawn["explicit particles, this library"], own)
 
 
 def test_command_writes_the_file(tmp_path, capsys):

@@ -42,6 +42,8 @@ ARRAYS = 15
 SHARE_OF_MEMORY = 0.6
 FEW_POINTS = 8
 """Points to the shortest wave below which pressures are those of the grid."""
+JUMP = 3.0
+"""Difference across the rim over that of neighbours from which a map does not repeat itself."""
 LARGEST = 0.1
 """Diameter over the side above which a particle meets its own images."""
 
@@ -65,11 +67,23 @@ class Map:
         """Nominal area [m²]."""
         return self.z.size * self.spacing**2
 
+    def _jumps(self) -> bool:
+        """Whether heights jump from one rim to the other."""
+        for axis in (0, 1):
+            inside = np.mean(np.diff(self.z, axis=axis) ** 2)
+            across = np.mean((self.z.take(0, axis) - self.z.take(-1, axis)) ** 2)
+            if across > JUMP**2 * inside:
+                return True
+        return False
+
     def shortest_wave(self) -> float:
-        """Wavelength above which 99 % of the mean square slope lies [m]."""
+        """Wavelength above which 99 % of the mean square slope lies [m]; no jumps at the rim."""
         n, m = self.z.shape
+        z = self.z
+        if self._jumps():  # these have every wave
+            z = z * np.hanning(n + 1)[:n, None] * np.hanning(m + 1)[:m]
         q = np.hypot(np.fft.fftfreq(n)[:, None], np.fft.rfftfreq(m)) / self.spacing
-        power = (q * np.abs(np.fft.rfft2(self.z))) ** 2
+        power = (q * np.abs(np.fft.rfft2(z))) ** 2
         order = np.argsort(q, axis=None)
         total = np.cumsum(power.ravel()[order])
         if not total[-1] > 0:

@@ -4,7 +4,8 @@
 
 The numbers come from boundary-element runs kept in ``data/explicit_particles.json``: particles
 placed at random on Gaussian height maps, pressed by a rigid flat, contact pressure capped at the
-hardness. No parameter of the model was adjusted to them.
+hardness; and from the library's own, which ``thirdbody reproduce explicit`` makes anew, kept in
+``data/explicit_comparison.json``. No parameter of the model was adjusted to them.
 """
 
 from __future__ import annotations
@@ -25,7 +26,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["STATED_AGREEMENT", "contact", "explicit_particles", "figure", "main"]
+__all__ = [
+    "STATED_AGREEMENT",
+    "comparison",
+    "contact",
+    "explicit_particles",
+    "figure",
+    "main",
+]
 
 STATED_AGREEMENT = {200e-9: 0.10, 300e-9: 0.06, 600e-9: 0.02}
 """Relative difference of the load share that the ``rough`` seat stays within, 1e-5 ≤ F* ≤ 3e-4."""
@@ -49,6 +57,26 @@ def explicit_particles() -> dict[str, Any]:
     """
     file = resources.files("thirdbody").joinpath("data/explicit_particles.json")
     return json.loads(file.read_text("utf-8"))
+
+
+@cache
+def comparison() -> list[dict[str, Any]]:
+    """What ``thirdbody reproduce explicit`` gave: every state as its columns.
+
+    Returns
+    -------
+    list of dict
+        ``case``, ``F_star`` [1], the particles' load share as it was pressed, ``share`` and
+        ``share_error`` [1], that of the model, ``share_statistical``, and why they differ.
+
+    Examples
+    --------
+    >>> len({state["case"] for state in comparison()})
+    29
+    """
+    file = resources.files("thirdbody").joinpath("data/explicit_comparison.json")
+    states: list[dict[str, Any]] = json.loads(file.read_text("utf-8"))["states"]
+    return states
 
 
 def contact(diameter: float, seat: str = "rough", h_0: float = 0.0) -> tb.Contact:
@@ -101,7 +129,7 @@ def figure(*, h_0: float = 2.5, loads: np.ndarray | None = None) -> Figure:
     h_0 : float, optional
         Height of the ``offset`` seat over σ [1]; 2.5 puts particles on the asperity tops.
     loads : array, optional
-        F* [1]; 160 from 5e-7 to 6e-4 when left out.
+        F* [1]; 160 from 5e-7 to 1.5e-3 when left out.
 
     Returns
     -------
@@ -116,7 +144,7 @@ def figure(*, h_0: float = 2.5, loads: np.ndarray | None = None) -> Figure:
 
     from ..views.plot.style import AXIS_LABELS
 
-    loads = np.geomspace(5e-7, 6e-4, 160) if loads is None else loads
+    loads = np.geomspace(5e-7, 1.5e-3, 160) if loads is None else loads
     sigma = explicit_particles()["parameters"]["sigma"]
     out = Figure(figsize=(7.6, 3.2), dpi=150, layout="constrained")
     panels = out.subplots(1, 3, sharey=True)
@@ -173,19 +201,31 @@ def _draw_model(ax: Axes, diameter: float, loads: np.ndarray, h_0: float) -> Ite
 
 
 def _draw_explicit(ax: Axes, diameter: float) -> Iterator[Any]:
-    """The stored runs with their errors, as computed and without the luck of sampling."""
-    points = [p for p in explicit_particles()["points"] if p["diameter"] == diameter]
-    raw: dict[str, Any] = dict(color="0.55", marker="s", markersize=4, zorder=4)
-    fair: dict[str, Any] = dict(color="black", marker="o", markersize=5, zorder=5)
-    for key, words, style in (
-        ("raw", "explicit particles, as computed", raw | {"markerfacecolor": "white"}),
-        ("control_variate", "explicit particles, sampling luck removed", fair),
+    """The library's own runs and the older ones, both without the luck of sampling."""
+    stored = [
+        (point["F_star"], told["load_share"], told["load_share_error"])
+        for point in explicit_particles()["points"]
+        if point["diameter"] == diameter
+        for told in (point["control_variate"] or point["raw"],)
+    ]
+    sigma = explicit_particles()["parameters"]["sigma"]
+    name = f"x{diameter / sigma:.2g}".replace(".", "")
+    own = [
+        (state["F_star"], state["share"], state["share_error"] or 0.0)
+        for state in comparison()
+        if state["case"] == name
+    ]
+    older: dict[str, Any] = dict(color="0.55", marker="s", markersize=4, zorder=4)
+    ours: dict[str, Any] = dict(color="black", marker="o", markersize=5, zorder=5)
+    for points, words, style in (
+        (stored, "explicit particles, earlier runs", older | {"markerfacecolor": "white"}),
+        (own, "explicit particles, this library", ours),
     ):
-        given = [p for p in points if p[key] is not None]
+        load, share, error = zip(*points, strict=True)
         yield ax.errorbar(
-            [p["F_star"] for p in given],
-            [p[key]["load_share"] for p in given],
-            yerr=[p[key]["load_share_error"] for p in given],
+            load,
+            share,
+            yerr=error,
             linestyle="none",
             capsize=2.5,
             elinewidth=1.0,

@@ -26,12 +26,13 @@ SIGMA = 300e-9
 NU = 0.3
 GROUPS = {
     "sizes": "Size over roughness",
-    "bumps": "The same, with the law of a bump that the map resolves",
+    "bumps": "The same, with the law of a resolved bump",
     "spectra": "Spectrum of the roughness",
     "materials": "Hardness",
     "mixtures": "Sizes spread log-normally",
     "densities": "Particles per area",
     "seats": "Seats",
+    "loads": "Large loads",
 }
 """What varies, in the order of the page."""
 
@@ -45,6 +46,8 @@ class Case:
     words: str
     contact: tb.Contact
     seats: Any = "random"
+    loads: tuple[float, ...] = ()
+    """F* in the place of those of all [1]."""
 
     @property
     def diameter(self) -> float:
@@ -136,8 +139,14 @@ def _cases() -> tuple[Case, ...]:
         add(name, "seats", f"{words}, {_named(2)}", _contact(2.0), rule)
     add("summits", "seats", f"a summit each, 2×10¹⁰ m⁻², {_named(1)}",
         _contact(1.0, density=2e10), SummitSeats())  # fmt: skip
+    for name, words, case in (
+        ("large", _named(1), _contact(1.0)),
+        ("large_soft", f"soft, H/E* = 0.018, {_named(1)}", _contact(1.0, H=(soft, soft))),
+    ):
+        out.append(Case(name=name, group="loads", words=words, contact=case, loads=LARGE))
     return tuple(out)
 
 
+LARGE = (2e-3, 4e-3, 8e-3)
 CASES = _cases()
 """Every row."""

@@ -67,6 +67,8 @@ class Point:
         What ``bare_over_bearing`` is in the model.
     surfaces : int
         How many the error is from.
+    zeta : (float, float)
+        Mean and width of the heights of the seats over σ, which the model has [1].
     stored : (float, float) or None
         The share that the stored runs gave, and its error.
     """
@@ -83,6 +85,7 @@ class Point:
     ratios: dict[str, float]
     model_bare: float
     surfaces: int
+    zeta: tuple[float, float]
     stored: tuple[float, float] | None
 
     @property
@@ -134,7 +137,7 @@ def compared(
         return ensemble(
             case.contact,
             surfaces=effort.surfaces,
-            F_star=effort.loads,
+            F_star=case.loads or effort.loads,
             size=effort.size,
             spacing=effort.spacing,
             seats=case.seats,
@@ -175,6 +178,7 @@ def points_of(case: Case, found: Ensemble) -> list[Point]:
                 ratios=ratios,
                 model_bare=bare,
                 surfaces=found.surfaces,
+                zeta=(found.seats.mean, found.seats.std),
                 stored=_stored(case, load),
             )
         )

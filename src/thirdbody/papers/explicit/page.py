@@ -26,7 +26,7 @@ from .compared import FULL, QUICK, Effort, Point, compared, points_of
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["Summary", "figure", "reproduce"]
+__all__ = ["Summary", "figure", "markdown", "reproduce"]
 
 Progress = Callable[[str, int, int], None]
 PRESETS = {None: FULL, "full": FULL, "quick": QUICK}
@@ -109,11 +109,13 @@ def reproduce(
     report("surfaces", total, total)
     summary = Summary(folder, effort, tuple(points), left_out, ())
     drawn, svg = keep(figure(summary.points), _csv(summary.points), folder, STEM)
-    files = (*drawn, "comparison.csv", RECORD, "index.html")
+    files = (*drawn, "comparison.csv", "comparison.md", RECORD, "index.html")
     summary = Summary(folder, effort, tuple(points), left_out, files)
     write_text(folder / "comparison.csv", _csv(summary.points))
-    text = json.dumps(_as_json(summary), ensure_ascii=False, indent=1, allow_nan=False)
+    record = _as_json(summary)
+    text = json.dumps(record, ensure_ascii=False, indent=1, allow_nan=False)
     write_text(folder / RECORD, text + "\n")
+    write_text(folder / "comparison.md", markdown(record["states"]))
     write_text(folder / "index.html", _page(summary, svg))
     return summary
 
@@ -126,6 +128,8 @@ def _columns(point: Point) -> dict[str, Any]:
         "case": point.case.name,
         "group": point.case.group,
         "what": point.case.words,
+        "zeta_mean": point.zeta[0],
+        "zeta_std": point.zeta[1],
         "F_star": point.F_star,
         "share_raw": point.raw[0],
         "share_raw_error": point.raw[1],
@@ -170,26 +174,65 @@ def _as_json(summary: Summary) -> dict[str, Any]:
         "effort": summary.effort.words,
         "left_out": summary.left_out,
         "states": [
-            {name: finite(value) for name, value in _columns(point).items()} | {"why": point.why}
+            {name: finite(value) for name, value in _columns(point).items()}
+            | {"off": point.off, "why": point.why}
             for point in summary.points
         ],
     }
+
+
+def markdown(states: list[dict[str, Any]]) -> str:
+    """The record as tables of a book: a row a contact, explicit ± error | model at each load.
+
+    Numbers are in per cent of the load; the model's are bold where it is off by more than the
+    error bars.
+    """
+    at = {(state["case"], state["F_star"]): state for state in states}
+    out = []
+    for group, title in GROUPS.items():
+        names = list(dict.fromkeys(s["case"] for s in states if s["group"] == group))
+        if not names:
+            continue
+        loads = sorted({s["F_star"] for s in states if s["group"] == group})
+        heads = [f"F* = {load:.0e}".replace("e-0", "e-") for load in loads]
+        out += [f"| {title} | {' | '.join(heads)} |", "|---" * (1 + len(loads)) + "|"]
+        for name in names:
+            cells = [_cell(at[name, load]) for load in loads]
+            out.append(f"| {at[name, loads[0]]['what']} | {' | '.join(cells)} |")
+        out.append("")
+    return "\n".join(out)
+
+
+def _cell(state: dict[str, Any]) -> str:
+    """Explicit ± error, and the model's number."""
+    ours, error, model = (
+        None if state[name] is None else 100 * state[name]
+        for name in ("share", "share_error", "share_statistical")
+    )
+    assert ours is not None
+    assert model is not None
+    decimals = 0 if not error else min(max(0, 1 - math.floor(math.log10(error))), 3)
+    spread = f" ± {error:.{decimals}f}" if error else ""
+    told = f"{model:.{max(decimals, 1)}f}"
+    return f"{ours:.{decimals}f}{spread}, " + (f"**{told}**" if state["off"] else told)
 
 
 # -------------------------------------------------------------------------- the figure
 def figure(points: tuple[Point, ...]) -> Figure:
     """Model over explicit share, with the error bars of the explicit one, a panel a group."""
     from matplotlib.figure import Figure
+    from matplotlib.ticker import NullFormatter
 
     from ...views.plot.style import OKABE_ITO
 
     inks = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky",
                                          "black")]  # fmt: skip
     out = Figure(figsize=(10.4, 9.6), dpi=150, layout="constrained")
-    panels = out.subplots(3, 3, sharex=True, sharey=True).flat
+    panels = out.subplots(3, 3, sharey=True).ravel().tolist()
     for ax, (name, title) in zip(panels, GROUPS.items(), strict=False):
         mine = [point for point in points if point.case.group == name]
         names = list(dict.fromkeys(point.case.words for point in mine))
+        ax.set_xscale("log")
         ax.axhspan(0.9, 1.1, color="0.93", zorder=0)
         ax.axhline(1.0, color="0.5", linewidth=0.8, zorder=1)
         for i, words in enumerate(names):
@@ -202,15 +245,18 @@ def figure(points: tuple[Point, ...]) -> Figure:
                 elinewidth=1.0, color=inks[i % len(inks)], label=words,
             )  # fmt: skip
         ax.set_title(title, fontsize="small", loc="left")
+        loads = sorted({point.F_star for point in mine})
+        if loads and loads[-1] < 10 * loads[0]:
+            ax.set_xticks(loads, [f"{load:g}" for load in loads])
+            ax.xaxis.set_minor_formatter(NullFormatter())
         if names:
             ax.legend(fontsize=6.2, frameon=False, loc="upper left")
-    for ax in panels:
+    for ax in panels[len(GROUPS) :]:
         ax.set_visible(False)
-    for ax in out.axes:
-        ax.set_xscale("log")
-        ax.set_ylim(0.6, 1.8)
+    for ax in panels:
+        ax.set_ylim(0.75, 1.5)
         ax.tick_params(which="both", direction="in", top=True, right=True)
-        ax.tick_params(labelbottom=True)
+        ax.tick_params(labelleft=True)
     out.supxlabel("load $F^*$", fontsize="medium")
     out.supylabel("particles' load share, statistical over explicit", fontsize="medium")
     return out
