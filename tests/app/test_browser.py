@@ -506,6 +506,24 @@ def test_figures_that_were_out_of_sight_are_those_of_the_study(visit):
             )
 
 
+def test_the_first_drawing_of_a_figure_is_left_to_the_framework(visit):
+    """It may come late, and would draw the empty place over what came before it."""
+    page = visit()
+    tab(page, "Curves")
+    for name in ("area", "shares", "regimes", "separation"):
+        assert len(drawn(page, name)) > 1
+    drawn_at_once = page.evaluate(
+        "async () => { const { Plotly } = await import('nicegui-plotly'), out = [];"
+        " const place = document.body.appendChild(document.createElement('div'));"
+        " place.id = 'place'; const told = [{ y: [1, 2] }];"
+        " out.push(await redraw([['place', 'react', told]]));"
+        " await Plotly.newPlot(place, []); out.push(await redraw([['place', 'react', told]]));"
+        " await Plotly.newPlot(place, told); out.push(await redraw([['place', 'react', told]]));"
+        " place.remove(); return out.flat(); }"
+    )
+    assert drawn_at_once == [False, False, True]
+
+
 # ---------------------------------------------------------------- the address
 def address_of(page):
     return dict(parse_qsl(urlsplit(page.url).query))
@@ -702,7 +720,7 @@ def test_texts_of_a_link_are_shown_as_text(visit):
             when(page, "document.querySelector('[data-path=python]')?.innerText.includes('__hit')")
         page.wait_for_timeout(200)
         assert not page.evaluate(HARM), name
-    assert len(TITLES) == 11
+    assert len(TITLES) == 12
     assert not dialogs
 
 
