@@ -161,6 +161,12 @@ def test_states_that_did_not_converge_are_left_out():
     assert "did not converge and count nowhere" in " ".join(short.warnings)
 
 
+def test_a_load_on_a_few_points_is_told():
+    few = " ".join(many(2, F_star=[3e-6, 3e-4]).warnings)
+    assert "of all surfaces carry the smallest load: the answer is that of a few points" in few
+    assert "few points" not in " ".join(many(2).warnings)
+
+
 @pytest.mark.parametrize(
     ("how", "words"),
     [

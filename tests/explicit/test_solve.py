@@ -292,6 +292,7 @@ def test_what_is_doubtful_is_said():
 
     assert "did not converge" in warned(max_iterations=2, tol=1e-10)
     assert "answer is that of a few points" in warned(F_star=2e-6)
+    assert "real contact area 59.1 %" in warned(F_star=0.6 * contact().surfaces.H / contact().E_ss)
     assert "more than a tenth of the side" in warned(
         particles=told(x=[0.0], y=[0.0], diameter=[2e-6])
     )

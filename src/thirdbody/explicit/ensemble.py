@@ -37,7 +37,7 @@ from ..version import __version__
 from .interface import Map, map_of
 from .pooling import COMPARED, RATIOS, Pool, pooled_seats
 from .seats import AbstractSeats, GivenSeats, SeatHeights, seat_heights, seats_named
-from .solve import TOL
+from .solve import FEW, TOL
 from .sums import one_surface, places
 
 if TYPE_CHECKING:
@@ -326,6 +326,11 @@ def _ensemble(
         told.append(
             f"{plural(left_out, 'state')} of {pool.good.size} did not converge and count nowhere"
         )
+    table = xarray.Dataset(
+        _columns(pool, state, loads * contact.E_ss, gaussian),
+        coords={"F_star": ("F_star", loads, {"units": "1"})},
+    )
+    told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
     columns: dict[str, list[Any]] = {"surface": [i for i in range(len(records)) for _ in grid]}
     for name in records[0]["columns"]:
         columns[name] = [value for each in records for value in each["columns"][name]]
@@ -333,10 +338,7 @@ def _ensemble(
         contact=contact,
         model=model,
         statistical=state,
-        table=xarray.Dataset(
-            _columns(pool, state, loads * contact.E_ss, gaussian),
-            coords={"F_star": ("F_star", loads, {"units": "1"})},
-        ),
+        table=table,
         at_h=xarray.Dataset(at_h, coords={"h": ("h", grid, {"units": "m"})}),
         seats=seats,
         states=columns,
@@ -344,6 +346,21 @@ def _ensemble(
         left_out=left_out,
         warnings=tuple(told),
     )
+
+
+def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> list[str]:
+    """Where the smallest load, at separation h, is carried by a few points of all surfaces."""
+    each = [
+        np.add(one["columns"]["carrying_pixels"], one["columns"]["carrying_particles"])
+        for one in records
+    ]
+    carry = np.interp(h, grid[::-1], np.sum(np.array(each) * pool.good, axis=0)[::-1])
+    if not carry < FEW:
+        return []
+    return [
+        f"{plural(round(float(carry)), 'pixel')} and particles of all surfaces carry the smallest "
+        "load: the answer is that of a few points; more surfaces"
+    ]
 
 
 def _columns(pool: Pool, state: Equilibrium, pressure: Array, gaussian: bool) -> dict[str, Any]:
