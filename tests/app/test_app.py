@@ -573,7 +573,7 @@ def test_a_figure_that_the_browser_did_not_draw_is_drawn_by_the_framework(answer
         sent.append(code)
         if answer is None:
             raise TimeoutError
-        return answer
+        return [answer]
 
     with Client(place("/test"), request=None) as client:
         client.run_javascript = browser
@@ -584,8 +584,36 @@ def test_a_figure_that_the_browser_did_not_draw_is_drawn_by_the_framework(answer
             assert asyncio.run(plot.show(made)) is drawn
         assert plot.widget.figure == made
     assert len(sent) == (1 if drawn else 4)
-    assert sent[0].startswith('return await redraw(["c')
+    assert sent[0].startswith('redraw([["c')
     assert '"react"' in sent[0]
+
+
+def test_a_figure_is_told_what_is_new_alone():
+    from nicegui import Client
+    from nicegui.page import page as place
+
+    from thirdbody.app.figures import figure, fix, line
+    from thirdbody.app.widgets import Plot
+
+    def made(y, shapes=(), x=(1.0, 2.0)):
+        out = figure([line(x, y, "area", 0)], x="load", y="area", shapes=list(shapes))
+        fix(out, "yaxis", [0.0, max(y)])
+        return out
+
+    with Client(place("/test"), request=None):
+        plot = Plot("area")
+        first = plot.made = made([1.0, 2.0])
+    changes = [
+        (made([1.0, 2.0], [{"type": "rect"}]), ["relayout", {"shapes": [{"type": "rect"}]}]),
+        (made([2.0, 1.0]), ["update", {"y": [[2.0, 1.0]]}, {}]),
+        (made([3.0, 1.0]), ["update", {"y": [[3.0, 1.0]]}, {"yaxis.range": [0.0, 3.0]}]),
+    ]
+    for there, calls in changes:
+        assert plot.change(there) == calls
+    other = made([1.0, 2.0], x=(1.0, 3.0))
+    assert plot.change(other)[:2] == ["react", other["data"]]
+    plot.made = {}
+    assert plot.change(first)[:2] == ["react", first["data"]]
 
 
 ALSO = {

@@ -8,6 +8,7 @@ import tomllib
 from pathlib import Path
 from urllib.parse import parse_qsl, urlsplit
 
+import numpy as np
 import pytest
 
 pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
@@ -197,6 +198,70 @@ def test_the_same_numbers_however_one_comes_back(opened, tmp_path):
     told(elsewhere, known)
     tab(elsewhere, "Take away")
     assert downloaded(elsewhere, "states.json") == by_command
+
+
+def heights_of(page):
+    """The numbers of the tab Surface, once they are there."""
+    page.locator('[data-fact="surface R"]').wait_for()
+    when(page, "() => document.querySelector('[data-cancel=surface]')?.offsetParent === null")
+    return page.evaluate(FACTS)
+
+
+def test_a_measured_surface_is_there_after_a_reload_and_asked_for_after_a_restart(opened, tmp_path):
+    browser, start = opened
+    server, address = start()
+    page = visited(browser, address)
+    tab(page, "Surface")
+    file = tmp_path / "part.txt"
+    rng = np.random.default_rng(2)
+    smooth = np.exp(-(np.fft.fftfreq(96)[:, None] ** 2 + np.fft.rfftfreq(96) ** 2) / 0.002)
+    heights = np.fft.irfft2(np.fft.rfft2(rng.normal(size=(96, 96))) * smooth)
+    np.savetxt(file, 2e-7 * heights / heights.std())
+    for name, value in (("spacing", "0.5 µm"), ("unit", "m"), ("cutoff", "6 um")):
+        page.locator(f'[data-path="surface.{name}"]').fill(value)
+    upload = '[data-upload="surface"] input[type=file]'
+    page.locator(upload).set_input_files(file)
+    read = heights_of(page)
+    when(page, "() => location.search.includes('files=part.txt')")
+    page.reload()
+    assert heights_of(page) == read
+
+    page.locator('[data-take="file"]').click()
+    page.get_by_text("The roughness of the study is that of this surface now.").wait_for()
+    tab(page, "Take away")
+    when(page, "() => document.querySelector('textarea[data-path=toml]')?.value.includes('part.')")
+    given = downloaded(page, "study.toml")
+    assert tomllib.loads(given)["roughness"]["topography"] == "part.txt"
+    by_command = command_line(given, tmp_path)
+    assert downloaded(page, "states.json") == by_command
+    when(page, "() => location.search.includes('tab=take_away')")
+    page.reload()
+    page.locator('[data-download="states.json"]').wait_for()
+    when(page, "() => document.querySelector('[data-path=python]').innerText.length > 9")
+    assert downloaded(page, "states.json") == by_command
+    link = page.url
+    elsewhere = browser.new_context(accept_downloads=True).new_page()
+    elsewhere.set_default_timeout(PATIENCE)
+    elsewhere.goto(link)
+    when(elsewhere, "() => document.querySelector('[data-path=python]')?.innerText.length > 9")
+    assert downloaded(elsewhere, "states.json") == by_command
+
+    page.evaluate("window.before = true")
+    server.kill()
+    server.wait()
+    start(urlsplit(address).port)
+    when(page, "() => window.before === undefined")  # of itself
+    said = '"part.txt" is not a file of this page: drop it on the tab Surface'
+    page.locator('[data-said="page"]', has_text=said).wait_for()
+    tab(page, "Surface")
+    page.locator('[data-said="surface"]', has_text=said).wait_for()
+    assert page.locator('[data-path="surface.cutoff"]').input_value() == "6 um"
+    page.locator(upload).set_input_files(file)
+    assert heights_of(page) == read
+    when(page, "() => !document.querySelector('[data-said=page]').innerText")
+    tab(page, "Take away")
+    when(page, "() => document.querySelector('[data-path=python]').innerText.length > 9")
+    assert downloaded(page, "states.json") == by_command
 
 
 def test_by_keyboard_from_opening_to_a_report(opened):

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import asyncio
+import json
+import re
+from collections.abc import Mapping
 from typing import Any
+from urllib.parse import quote
 
 from nicegui import ui
 
 from .state import State
 from .text import LONGEST_LINK, to_link
+from .uploads import harmless
 from .widgets import put
 
-__all__ = ["FOLLOW", "TRAVELLED", "Address"]
+__all__ = ["FOLLOW", "TRAVELLED", "Address", "files_in", "query_of", "surface_in"]
 
 REST = 0.25
 """Seconds without a change after which the address follows: browsers refuse many in a row."""
@@ -36,6 +41,51 @@ FOLLOW = """
 TOO_LONG = "The study is too long for an address: reloading loses it, a file of it (Take away) not."
 
 
+MOST_FILES = 20
+READ_AS = ("file", "cutoff", "spacing", "unit", "channel", "resolution", "detrend")
+"""What an address may tell of the file on the tab Surface."""
+
+
+def query_of(state: State, at: float | None) -> str:
+    """The query string that reopens the study at an operating load, and its files here."""
+    query = to_link(state.study, at)
+    if named := state.named():
+        query += "&files=" + ",".join(f"{name}:{key}" for name, key in named.items())
+    if state.surface:
+        query += "&surface=" + quote(json.dumps(state.surface, ensure_ascii=False))
+    return query
+
+
+def files_in(query: Mapping[str, str]) -> dict[str, str]:
+    """Names of files and their keys, as an address tells them.
+
+    >>> files_in({"files": "part.x3p:12ab,../part.x3p:12ab,other"})
+    {'part.x3p': '12ab'}
+    """
+    pairs = [each.partition(":") for each in query.get("files", "").split(",", MOST_FILES)]
+    known = pairs[:MOST_FILES]
+    return {a: b for a, _, b in known if harmless(a) == a and re.fullmatch("[0-9a-f]{1,64}", b)}
+
+
+def surface_in(query: Mapping[str, str]) -> dict[str, str]:
+    """The file of the tab Surface, and how it is read, as an address tells them.
+
+    >>> surface_in({"surface": '{"file": "part.x3p", "cutoff": "2 um"}'})
+    {'file': 'part.x3p', 'cutoff': '2 um'}
+    >>> surface_in({"surface": '{"file": "/part.x3p"}'}), surface_in({"surface": "["})
+    ({}, {})
+    """
+    try:
+        told = json.loads(query.get("surface", "")[:2000])
+    except (ValueError, RecursionError):
+        return {}
+    if not isinstance(told, dict) or not set(told) <= set(READ_AS):
+        return {}
+    if not all(isinstance(value, str) for value in told.values()):
+        return {}
+    return told if (name := told.get("file")) and harmless(name) == name else {}
+
+
 class Address:
     """Says in the page what its address is to be, once the study rests."""
 
@@ -48,7 +98,8 @@ class Address:
         """How often the tab was changed."""
 
     def _now(self) -> tuple[Any, ...]:
-        return self.state.study, self.state.wanted, self.state.tab
+        state = self.state
+        return state.study, state.wanted, state.tab, state.named(), dict(state.surface)
 
     def tell(self) -> str:
         """Follow the study; what is to be said about it."""
@@ -68,9 +119,10 @@ class Address:
         self.told = self._now()
 
     def _write(self) -> None:
-        study, at, tab = self._now()
+        now = self._now()
+        _, at, tab, *_ = now
         self.tabs += tab != self.told[2]
-        self.told = study, at, tab
-        query = "" if self._too_long() else f"{to_link(study, at)}&"
+        self.told = now
+        query = "" if self._too_long() else f"{query_of(self.state, at)}&"
         step = str(self.state.steps + self.tabs)
         put(self.mark, {"data-step": step, "data-address": f"?{query}tab={tab}"})

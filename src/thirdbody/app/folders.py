@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import contextlib
+import hmac
 import os
+import secrets
 import shutil
 import tempfile
 from pathlib import Path
 from typing import Any
 
-__all__ = ["Folders", "remove_left"]
+__all__ = ["Folders", "Shelf", "remove_left"]
 
 PREFIX = "thirdbody-app-"
 LOCK = "lock"
+LARGEST_SHELF = 400 * 2**20
+"""Bytes of all files of a server that addresses can name; the oldest go first."""
 
 
 class Folders:
@@ -29,6 +33,7 @@ class Folders:
             fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             # under its name nobody meets it open
             beginning.rename(self.path / LOCK)
+        self.shelf = Shelf(self.path / "shelf")
 
     def new(self) -> Path:
         """A folder for one page."""
@@ -39,6 +44,45 @@ class Folders:
         shutil.rmtree(self.path, ignore_errors=True)
         if self.lock is not None:
             self.lock.close()
+
+
+class Shelf:
+    """Files that were given to a server, by keys that nobody can guess or work out.
+
+    An address names its files by their keys, so that a reload finds them though the folder of the
+    former page is gone.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.secret = secrets.token_bytes(32)
+
+    def put(self, file: Path) -> str:
+        """Keep what a file holds; its key."""
+        key = hmac.new(self.secret, file.read_bytes(), "sha256").hexdigest()
+        self.path.mkdir(mode=0o700, exist_ok=True)
+        kept = self.path / key
+        with contextlib.suppress(FileExistsError):
+            os.link(file, kept)
+        os.utime(kept)
+        every = sorted(self.path.iterdir(), key=lambda each: (each != kept, -each.stat().st_mtime))
+        room = LARGEST_SHELF
+        for each in every:
+            room -= each.stat().st_size
+            if room < 0 and each != kept:
+                each.unlink()
+        return key
+
+    def give(self, key: str, file: Path) -> bool:
+        """Put what has this key where a page looks for it; whether it is there."""
+        if not key.isalnum():
+            return False
+        with contextlib.suppress(FileNotFoundError):
+            there = file.with_name(f"{file.name}.{secrets.token_hex(4)}")
+            os.link(self.path / key, there)
+            there.replace(file)
+            return True
+        return False
 
 
 def remove_left() -> list[Path]:

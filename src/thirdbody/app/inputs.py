@@ -22,7 +22,7 @@ from .entries import Place, dotted
 from .fields import VARIANTS, Field, fields_of, number_field, shown, value_from
 from .particle_inputs import ParticleInputs
 from .text import with_micro
-from .uploads import keep
+from .uploads import take
 from .widgets import put, upload
 
 __all__ = ["FORMED", "Inputs"]
@@ -93,7 +93,7 @@ class Inputs(ParticleInputs):
 
         async def uploaded(event: events.UploadEventArguments) -> None:
             try:
-                self.change("materials", await keep(self.state.folder, event))
+                self.change("materials", await take(self.state, event))
             except InvalidValue as error:
                 ui.notify("; ".join(error.problems))
 

@@ -150,12 +150,15 @@ const sized = new ResizeObserver(async (entries) => {
   for (const { target } of entries)
     if (target.offsetParent && target._fullLayout) Plotly.Plots.resize(target).catch(() => {});
 });
-window.redraw = async ([id, name, ...args]) => {
-  const plot = document.getElementById(id);
-  if (!plot?._fullLayout) return false;
+window.redraw = async (calls) => {
   const { Plotly } = await import("nicegui-plotly");
-  await Plotly[name](plot, ...args);
-  return true;
+  return Promise.all(calls.map(async ([id, name, ...args]) => {
+    const plot = document.getElementById(id);
+    // one without curves may still be drawn by the framework, as it was when it came
+    if (!plot?.data?.length) return false;
+    await Plotly[name](plot, ...args);
+    return true;
+  }));
 };
 const met = (svg) => {
   const around = svg.parentElement.closest(".scroll-x"), grain = svg.querySelector(".loaded");

@@ -14,7 +14,7 @@ from nicegui import background_tasks, events, run, ui
 from starlette.datastructures import QueryParams
 
 from ..errors import InvalidValue, ThirdBodyError
-from .address import FOLLOW, TRAVELLED, Address
+from .address import FOLLOW, TRAVELLED, Address, files_in, surface_in
 from .examples import EXAMPLES, example
 from .folders import Folders
 from .look import LOOK, RESIZE
@@ -36,6 +36,10 @@ SKIP = """event => {
 
 TURN = '() => setDark(!document.body.classList.contains("body--dark"))'
 """The framework's element for it would set the colours anew at every change of the page."""
+
+
+WITHOUT_ANSWER = ("surface", "dust", "take_away")
+"""Tabs that a study with mistakes may need: there files are dropped, and its text stands."""
 
 
 class Start:
@@ -66,7 +70,19 @@ class Start:
                     shutil.copyfile(beside, own / Path(name).name)
         state = State(study, own, at, later=True)
         state.tab = tab
+        state.shelf = self.folders.shelf
+        self.give(state, query)
         return state, told
+
+    def give(self, state: State, query: Mapping[str, str]) -> None:
+        """What the address tells of files, and those that are still here."""
+        state.surface = surface_in(query)
+        for name, key in files_in(query).items():
+            if state.files.get(name) == key:
+                continue
+            if self.folders.shelf.give(key, state.folder / name):
+                state.files[name] = key
+                state.read = None
 
     def read(self, query: Mapping[str, str]) -> tuple[dict[str, Any], float | None, str, str]:
         """Study, operating load and tab of an address, and what to tell."""
@@ -215,6 +231,8 @@ class Page:
         remark = self.address.tell()
         if state.answer is None:
             self.banner.set_text(with_micro("; ".join(state.problems)))
+            if state.tab in WITHOUT_ANSWER:
+                await self._draw(state.tab)
             return
         wrong = self._wrong()
         try:
@@ -278,10 +296,12 @@ class Page:
         if read is None or mine != self.travels:
             return
         state = self.state
+        self.start.give(state, query)
         study, at, state.tab, wrong = read
         if wrong:
             ui.notify(wrong)
-        if (study, at, state.tab) == (state.study, state.wanted, self.tabs.value):
+        now = (state.study, state.wanted, self.tabs.value)
+        if (study, at, state.tab) == now and state.read is not None:
             return
         state.travel(study, at)
         self.address.travelled()

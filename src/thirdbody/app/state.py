@@ -8,7 +8,7 @@ import dataclasses
 import json
 import time
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -20,15 +20,28 @@ import thirdbody as tb
 from ..errors import InvalidValue, RangeWarning, ThirdBodyError
 from ..study import Study, check
 from .bounds import MOST_DRAWN, refuse_large, refuse_large_files
+from .folders import Shelf
 from .jobs import Job, Stopped
 from .solver import apart
 from .text import without_paths
 
-__all__ = ["Answer", "State", "files_of", "loads_as", "look", "refuse_foreign_files"]
+__all__ = [
+    "Answer",
+    "State",
+    "files_of",
+    "loads_as",
+    "look",
+    "missing",
+    "refuse_foreign_files",
+]
 
 Path_ = tuple[str | int, ...]
-FILES = ("topography", "sizes", "materials")
-"""Keys of a study that name other files."""
+FILES = {
+    "topography": "on the tab Surface",
+    "sizes": "on the tab Dust",
+    "materials": "at the side under Surfaces",
+}
+"""Keys of a study that name other files, and where such a file is dropped."""
 POINTS = 200
 """Loads of the curves where the study gives one load."""
 MOST_TOLD = 40
@@ -220,6 +233,12 @@ class State:
         self.later = later
         self.read: dict[str, Any] | None = None
         """The study that answer and problems belong to."""
+        self.shelf: Shelf | None = None
+        """Where files lie that the address names."""
+        self.files: dict[str, str] = {}
+        """Keys there of the files of this page."""
+        self.surface: dict[str, str] = {}
+        """The file that the tab Surface shows, and how it was read."""
         self.surfaces: dict[str, dict[str, Any]] = {}
         """What was found in measured files, the last one asked for."""
         self.library: Mapping[str, tb.Material] = tb.materials
@@ -353,6 +372,22 @@ class State:
         answer.__dict__.update(more)
         return found
 
+    # ------------------------------------------------------------------ files
+    def took(self, name: str, key: str | None) -> None:
+        """A file was given to the page; a study that names it is read anew."""
+        if key is not None:
+            self.files[name] = key
+        if name in files_of(self.study):
+            self.read = None
+            if not self.later:
+                self.check()
+        self.tell()
+
+    def named(self) -> dict[str, str]:
+        """The files that study and tabs name, with their keys."""
+        names = [*files_of(self.study), self.surface.get("file", "")]
+        return {name: self.files[name] for name in names if name in self.files}
+
     # ------------------------------------------------------------------ measured surfaces
     def _surface(self) -> dict[str, Any] | None:
         return self.surfaces.get(measured(self.study, self.folder))
@@ -410,24 +445,36 @@ class State:
 
 def files_of(table: Any) -> list[str]:
     """Names of the files that a study names."""
-    found: list[str] = []
+    return [name for _, name in _files(table)]
+
+
+def _files(table: Any) -> Iterator[tuple[str, str]]:
+    """The keys of a study that name files, and the files."""
     if isinstance(table, dict):
         for key, value in table.items():
             if key in FILES and isinstance(value, (str, list)):
-                found += [v for v in ([value] if isinstance(value, str) else value)]
+                names = [value] if isinstance(value, str) else value
+                yield from ((key, name) for name in names if isinstance(name, str))
             else:
-                found += files_of(value)
+                yield from _files(value)
     elif isinstance(table, list):
         for item in table:
-            found += files_of(item)
-    return [name for name in found if isinstance(name, str)]
+            yield from _files(item)
+
+
+def missing(name: str, key: str = "topography") -> str:
+    """What is told of a file that the page has not, where a study or an address names it."""
+    return (
+        f'"{name}" is not a file of this page: drop it {FILES[key]} '
+        "(files are kept until the server ends)"
+    )
 
 
 def refuse_foreign_files(study: dict[str, Any], folder: Path) -> None:
     """Refuse files that were not given to this page: a link must not read the user's disk."""
     wrong = [
-        f'"{name}" is not a file of this page; drop it on the tab Surface or Dust first'
-        for name in dict.fromkeys(files_of(study))
+        missing(name, key)
+        for key, name in dict.fromkeys(_files(study))
         if name != "example" and not (Path(name).name == name and (folder / name).is_file())
     ]
     if wrong:

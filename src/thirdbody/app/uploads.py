@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InvalidValue
 from .guard import LARGEST_UPLOAD
 
-__all__ = ["harmless", "keep"]
+if TYPE_CHECKING:
+    from .state import State
+
+__all__ = ["harmless", "keep", "take"]
 
 LARGEST_FOLDER = 4 * LARGEST_UPLOAD
 """Bytes of all files of one page."""
@@ -43,6 +47,24 @@ async def keep(folder: Path, event: Any) -> str:
             f"the files of this page would have more than {LARGEST_FOLDER // 2**20} MB together; "
             "open the page anew"
         )
+    # the shelf may hold what was there before, as the same file
+    (folder / name).unlink(missing_ok=True)
     await event.file.save(folder / name)
     (folder / name).chmod(0o600)
+    return name
+
+
+async def take(state: State, event: Any) -> str:
+    """Keep an uploaded file for the page and for its address; its name.
+
+    Raises
+    ------
+    InvalidValue
+        As `keep`.
+    """
+    name = await keep(state.folder, event)
+    key = None
+    if state.shelf is not None:
+        key = await asyncio.to_thread(state.shelf.put, state.folder / name)
+    state.took(name, key)
     return name

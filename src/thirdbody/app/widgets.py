@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import contextlib
-import json
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
 from nicegui import ui
+from nicegui.json import dumps
 
 from .figures import CONFIG, empty
 
-__all__ = ["Facts", "Plot", "facts", "put", "table", "upload"]
+__all__ = ["Facts", "Plot", "facts", "put", "shown", "table", "upload"]
 
 
 def put(element: Any, props: Mapping[str, Any]) -> Any:
@@ -73,25 +73,51 @@ class Plot:
 
     async def show(self, made: dict[str, Any]) -> bool:
         """This figure, as `figures.figure` gives it; whether the browser has drawn it."""
-        if made == self.made:
-            return True
-        marks = {name: made["layout"].get(name, []) for name in ("shapes", "annotations")}
-        known = self.made | {"layout": self.made.get("layout", {}) | marks}
-        whole = ["react", made["data"], made["layout"], CONFIG]
-        call = ["relayout", marks] if known == made else whole
-        self.made = {}
-        self.widget.figure = made
-        # every number would be watched by the framework otherwise
-        dict.__setitem__(self.widget.props, "options", made)
-        code = f"return await redraw({json.dumps([self.widget.html_id, *call])})"
-        drawn = None
-        with contextlib.suppress(TimeoutError):  # the browser is gone
-            drawn = await self.widget.client.run_javascript(code, timeout=DRAWS)
-        if drawn is not True:
-            self.widget.update()  # not in sight, or not yet: it is drawn when it is
-            return False
-        self.made = made
+        return await shown([(self, made)])
+
+    def change(self, made: dict[str, Any]) -> list[Any]:
+        """The function of Plotly that draws this figure, and its arguments: what is new alone."""
+        data, layout = made["data"], made["layout"]
+        old = self.made.get("layout", {})
+        if [_without_y(each) for each in self.made.get("data", ())] != list(map(_without_y, data)):
+            return ["react", data, layout, CONFIG]
+        if old.keys() != layout.keys():
+            return ["react", data, layout, CONFIG]
+        new = {name: value for name, value in layout.items() if value != old[name]}
+        for axis in ("xaxis", "yaxis"):
+            if axis in new and new[axis].keys() == old[axis].keys():
+                parts = new.pop(axis)
+                new |= {f"{axis}.{k}": v for k, v in parts.items() if v != old[axis][k]}
+        if data == self.made["data"]:
+            return ["relayout", new]
+        return ["update", {"y": [each.get("y") for each in data]}, new]
+
+
+def _without_y(trace: dict[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in trace.items() if name != "y"}
+
+
+async def shown(figures: Iterable[tuple[Plot, dict[str, Any]]]) -> bool:
+    """Figures in their places, in one message; whether the browser has drawn all of them."""
+    new = [(plot, made) for plot, made in figures if made != plot.made]
+    if not new:
         return True
+    calls = [[plot.widget.html_id, *plot.change(made)] for plot, made in new]
+    for plot, made in new:
+        plot.made = {}
+        plot.widget.figure = made
+        # every number would be watched by the framework otherwise
+        dict.__setitem__(plot.widget.props, "options", made)
+    drawn = None
+    with contextlib.suppress(TimeoutError):  # the browser is gone
+        client = new[0][0].widget.client
+        drawn = await client.run_javascript(f"redraw({dumps(calls)})", timeout=DRAWS)
+    for (plot, made), done in zip(new, drawn or [False] * len(new), strict=True):
+        if done is True:
+            plot.made = made
+        else:
+            plot.widget.update()  # not in sight, or not yet: it is drawn when it is
+    return all(plot.made is made for plot, made in new)
 
 
 PICK = "e => e.currentTarget.closest('.q-uploader').querySelector('input[type=file]').click()"

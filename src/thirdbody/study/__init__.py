@@ -2,7 +2,7 @@
 
 The keys of a table, their units and their ranges are those of the class the table stands for
 (`quantity`, `choice`); law names and options come from the registries. For the file at hand a
-pydantic model is put together from them, so that one validation finds every mistake.
+pydantic schema is put together from them, so that one validation finds every mistake.
 
 Each table is read in a file of its own; `tables` lists them.
 """

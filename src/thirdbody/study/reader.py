@@ -1,4 +1,4 @@
-"""The machinery under every table: a pydantic model that fits one file, put together key by key."""
+"""The machinery under every table: a pydantic schema for one file, put together key by key."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
-from pydantic import ConfigDict, PlainValidator, WrapValidator, create_model
+from pydantic import GetCoreSchemaHandler
+from pydantic_core import CoreSchema, core_schema
 
 from ..errors import InvalidValue
 from ..populations.materials import MaterialLibrary, materials
@@ -183,20 +184,9 @@ class Reader:
         return self.table(path, keys, build)
 
     def table(self, path: str, keys: dict[str, Key], build: Callable[[dict[str, Any]], Any]) -> Any:
-        """A pydantic model for the table, followed by the object it stands for."""
+        """What pydantic checks of the table, followed by the object it stands for."""
         self.known.keys[path] = {name: key.about for name, key in keys.items()}
-        fields: dict[str, Any] = {
-            name: (key.type, ... if key.required else None) for name, key in keys.items()
-        }
-        config = ConfigDict(extra="forbid", arbitrary_types_allowed=True, protected_namespaces=())
-        model = create_model(path or "study", __config__=config, **fields)
-
-        def finish(given: Any, check: Callable[[Any], Any]) -> Any:
-            values = check(given)
-            # in the order of the file, which decides what each sampled input is given
-            return build({name: getattr(values, name) for name in given})
-
-        return Annotated[model, WrapValidator(finish)]
+        return Annotated[Any, _Built(keys, build)]
 
     # ------------------------------------------------------------------ several keys at once
     def only_one(self, path: str, data: Any, group: str = "") -> list[str]:
@@ -217,9 +207,42 @@ class Reader:
             ) from None
 
 
+@dataclass(frozen=True)
+class _Built:
+    """A table with these keys and no others, as a schema: faster to put together than a model."""
+
+    keys: dict[str, Key]
+    build: Callable[[dict[str, Any]], Any]
+
+    def __get_pydantic_core_schema__(self, kind: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        fields = {
+            name: core_schema.typed_dict_field(
+                handler.generate_schema(key.type), required=key.required
+            )
+            for name, key in self.keys.items()
+        }
+        table = core_schema.typed_dict_schema(fields, extra_behavior="forbid")
+        return core_schema.no_info_wrap_validator_function(self._finish, table)
+
+    def _finish(self, given: Any, check: Callable[[Any], Any]) -> Any:
+        values = check(given)
+        # in the order of the file, which decides what each sampled input is given
+        return self.build({name: values[name] for name in given})
+
+
 def plain(read: Callable[[Any], Any]) -> Any:
     """A type that reads one value."""
-    return Annotated[Any, PlainValidator(read)]
+    return Annotated[Any, _Read(read)]
+
+
+@dataclass(frozen=True)
+class _Read:
+    """What reads one value; `pydantic.PlainValidator` would look for ways to write it as well."""
+
+    read: Callable[[Any], Any]
+
+    def __get_pydantic_core_schema__(self, kind: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
 
 
 def get(data: Any, key: str) -> Any:

@@ -26,7 +26,7 @@ from ..figures import (
     span,
 )
 from ..state import Answer, State
-from ..widgets import Plot, put
+from ..widgets import Plot, put, shown
 from ..widgets import table as shown_table
 from .interface import abouts, swatch
 
@@ -218,8 +218,8 @@ class Curves:
         self.plots["shares"].widget.set_visibility(not two_body)
         self.key.set_visibility(not two_body)
         for names in (FIGURES[:2], FIGURES[2:]):  # those on top first
-            drawing = asyncio.gather(
-                *(self.plots[name].show(found[name]) for name in names if name in found)
+            drawing = asyncio.ensure_future(
+                shown((self.plots[name], found[name]) for name in names if name in found)
             )
             while not drawing.done() and self.state.tab == TAB:
                 await asyncio.wait([drawing], timeout=LOOKS)
@@ -227,7 +227,7 @@ class Curves:
                 drawing.cancel()
                 self.shown = None
                 return
-            if not all(drawing.result()):
+            if not drawing.result():
                 self.shown = None
             if self.state.study is not self.state.read:  # it moved on: the last move wins
                 self.shown = None

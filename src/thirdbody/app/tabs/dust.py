@@ -21,7 +21,7 @@ from ..inputs import Inputs
 from ..solver import apart
 from ..state import Answer, State
 from ..text import with_micro, without_paths
-from ..uploads import keep
+from ..uploads import take
 from ..widgets import facts, upload
 from ..worker import counted
 
@@ -140,7 +140,7 @@ class Dust:
     async def _uploaded(self, event: events.UploadEventArguments) -> None:
         self.chooser.reset()
         try:
-            name = await keep(self.state.folder, event)
+            name = await take(self.state, event)
             found = await apart(counted, str(self.state.folder / name))
         except InvalidValue as error:
             self.wrong.set_text(with_micro(without_paths("; ".join(error.problems))))
@@ -159,9 +159,9 @@ class Dust:
         mine = [text for text in self.state.problems if about_of(text).startswith("particles")]
         self.wrong.set_text(with_micro(" ".join(mine)))
         answer = self.state.answer
-        assert answer is not None
-        self.plot.set_visibility(not answer.contact.two_body)
-        if answer.contact.two_body:
+        none = answer is None or answer.contact.two_body
+        self.plot.set_visibility(not none)
+        if none:
             self.table.clear()
             return
         drawn, told = await self.state.ask(_found)

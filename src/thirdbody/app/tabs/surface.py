@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from nicegui import events, ui
+from nicegui import background_tasks, events, ui
 
 from ...errors import InvalidValue
 from ...quantities.say import number, value_of
@@ -15,9 +15,9 @@ from ...quantities.units import to_si
 from ..fields import value_from
 from ..figures import empty, figure, line, mark
 from ..guard import LARGEST_UPLOAD
-from ..state import State
+from ..state import State, missing
 from ..text import with_micro
-from ..uploads import keep
+from ..uploads import take
 from ..widgets import facts, put, upload
 from ..work import Work
 
@@ -70,8 +70,7 @@ TAKEN = (("Use these numbers", "surface"), ("Use the file", "file"))
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], None]:
     """An upload, options, pictures, and a button that takes the numbers over."""
-    Surface(state, again)
-    return lambda: None
+    return Surface(state, again).draw
 
 
 class Surface:
@@ -83,6 +82,8 @@ class Surface:
         self.asked: dict[str, str] = {}
         """How the file was read that is shown."""
         self.result: dict[str, Any] = {}
+        self.followed: dict[str, str] = {}
+        """What the address told last, or was told."""
         ui.label(
             "Maps and profiles of instruments (x3p, sur, opd, al3d, npy, txt, ...), up to "
             f"{LARGEST_UPLOAD // 2**20} MB. The file stays on this machine; it is read in a "
@@ -144,15 +145,44 @@ class Surface:
     def _key(self) -> Any:
         return self.file, self._written()
 
+    def _told(self) -> dict[str, str]:
+        """The file and how it is read, for the address."""
+        return {"file": Path(self.file).name} | {k: v for k, v in self._written().items() if v}
+
+    def _of(self, name: str) -> None:
+        """Another file is the one to read."""
+        mine = name != "example"
+        self.file = str(self.state.folder / name) if mine else name
+        self.source.set_text(f"file: {name if mine else 'the example of the library'}")
+
+    def draw(self) -> None:
+        """Read again what the address tells, after a reload and on the way back."""
+        told = self.state.surface
+        if not told or told == self.followed:
+            return
+        self.followed = told
+        self._of(told["file"])
+        for name, entry in self.texts.items():
+            text = told.get(name, "")
+            entry.set_value(text if name != "detrend" or text in FORMS else "")
+        self.box.set_visibility(False)
+        if told["file"] != "example" and not Path(self.file).is_file():
+            self.work.said.set_text(missing(told["file"]))
+            return
+        background_tasks.create(self._read())
+
+    async def _read(self) -> None:
+        with self.box:
+            await self.work.run()
+
     async def _uploaded(self, event: events.UploadEventArguments) -> None:
         try:
-            name = await keep(self.state.folder, event)
+            name = await take(self.state, event)
         except InvalidValue as error:
             self.work.said.set_text("; ".join(error.problems))
             return
-        self.file = str(self.state.folder / name)
+        self._of(name)
         self.box.set_visibility(False)
-        self.source.set_text(f"file: {name}")
         self.chooser.reset()
         await self.work.run()
 
@@ -164,6 +194,8 @@ class Surface:
             return None
         self.box.set_visibility(False)
         self.asked = self._written()
+        self.state.surface = self.followed = self._told()
+        self.state.tell()
         return {"file": self.file, "options": options}
 
     def _show(self, result: dict[str, Any]) -> None:

@@ -8,11 +8,12 @@ from typing import Any
 from nicegui import events, ui
 
 from ...errors import InvalidValue
+from ..address import query_of
 from ..cross_section import section, to_svg
 from ..exports import FIGURES, figure_of, to_csv, to_json
 from ..python_text import to_python
 from ..state import Answer, State
-from ..text import LONGEST_STUDY, from_toml, to_link, to_toml
+from ..text import LONGEST_STUDY, from_toml, to_toml
 from ..widgets import put, upload
 from ..work import Work
 
@@ -152,10 +153,11 @@ class TakeAway:
 
     def draw(self) -> None:
         state = self.state
-        assert state.answer is not None
         self.editor.set_value(to_toml(state.study))
-        self.script.set_text(to_python(state.answer.study, state.at))
-        self.link.set_value(f"{_origin()}/?{to_link(state.study, state.at)}")
+        if state.answer is not None:
+            self.script.set_text(to_python(state.answer.study, state.at))
+        at = state.wanted if state.answer is None else state.at
+        self.link.set_value(f"{_origin()}/?{query_of(state, at)}")
         self.problems.clear()
         with self.problems:
             for text in state.problems:
