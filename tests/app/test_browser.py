@@ -32,6 +32,8 @@ from thirdbody.app.sliders import REACH, STEPS, at_position  # noqa: E402
 from thirdbody.app.tabs.interface import abouts, headline  # noqa: E402
 from thirdbody.app.text import from_link, to_link, to_toml  # noqa: E402
 from thirdbody.quantities import say  # noqa: E402
+from thirdbody.study.one_surface import one_surface  # noqa: E402
+from thirdbody.views import explicit_words  # noqa: E402
 
 pytestmark = pytest.mark.check
 PATIENCE = 30_000
@@ -369,6 +371,25 @@ def outputs_are_drawn(page):
     cards_are_short(page)
 
 
+def a_surface_is_pressed(page):
+    page.locator('[data-work="explicit"]').click()
+    page.locator('[data-cancel="explicit"]').dispatch_event("click")
+    page.get_by_text("cancelled", exact=True).wait_for()
+    page.locator('[data-work="explicit"]').click()
+    drawn(page, "explicit section")
+    found = one_surface(check(STUDY), state_of(STUDY).F_star)
+    assert fact(page, "explicit headline") == explicit_words.headline(found, 0).replace("`", "")
+    ours, theirs = explicit_words.rows(found, 0)["load on particles"]
+    assert fact(page, "explicit load on particles") == f"{ours}; statistically {theirs}"
+    names = [trace["name"] for trace in drawn(page, "explicit pressure")]
+    assert names[1:] == ["particles that carry"]
+    drawn(page, "explicit forces")
+    moved(page, "load", 3)
+    page.locator('[data-stale="explicit"]', has_text="as it was before").wait_for()
+    moved(page, "load", 3, "ArrowLeft")
+    page.locator('[data-stale="explicit"]').wait_for(state="hidden")
+
+
 def a_design_is_found(page):
     page.locator('[data-work="design"]').click()
     drawn(page, "design")
@@ -413,6 +434,7 @@ ANSWERS = {
     "Compare": laws_are_compared,
     "Dust": sizes_are_drawn,
     "Outputs": outputs_are_drawn,
+    "Explicit": a_surface_is_pressed,
     "Design": a_design_is_found,
     "Error bars": critical_loads_have_error_bars,
 }
@@ -721,7 +743,7 @@ def test_texts_of_a_link_are_shown_as_text(visit):
             when(page, "document.querySelector('[data-path=python]')?.innerText.includes('__hit')")
         page.wait_for_timeout(200)
         assert not page.evaluate(HARM), name
-    assert len(TITLES) == 11
+    assert len(TITLES) == 12
     page.set_viewport_size({"width": 390, "height": 860})
     for name in TITLES:  # tables are cards there
         tab(page, name.strip())

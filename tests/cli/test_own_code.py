@@ -6,7 +6,7 @@ import re
 import subprocess
 import sys
 import tomllib
-from importlib.metadata import EntryPoint
+from importlib.metadata import EntryPoint, EntryPoints
 from pathlib import Path
 
 import pytest
@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 from thirdbody import cli
 from thirdbody.effects import own_code
 from thirdbody.laws import asperity
+from thirdbody.quantities import installed
 
 ROOT = Path(__file__).parents[2]
 
@@ -106,10 +107,9 @@ def test_installed_packages_are_found(folder, monkeypatch):
     monkeypatch.syspath_prepend(folder)
     law = EntryPoint("good", "plugin_of_tests", "thirdbody.laws")
     bad = EntryPoint("bad", "nowhere_at_all", "thirdbody.laws")
-    monkeypatch.setattr(
-        own_code, "entry_points", lambda group: [law, bad] if group == law.group else []
-    )
+    monkeypatch.setattr(installed, "entry_points", lambda: EntryPoints([law, bad]))
     known = dict(asperity.REGISTRY)
+    installed.offers.cache_clear()
     own_code._load_entry_points.cache_clear()
     try:
         with pytest.warns(UserWarning, match="entry point bad = nowhere_at_all") as heard:
@@ -117,6 +117,7 @@ def test_installed_packages_are_found(folder, monkeypatch):
         assert len(heard) == 1
         assert asperity.REGISTRY["abrupt-too"]().breakpoints == (1.0,)
     finally:
+        installed.offers.cache_clear()
         own_code._load_entry_points.cache_clear()
         asperity.REGISTRY.clear()
         asperity.REGISTRY.update(known)
@@ -126,4 +127,4 @@ def test_the_page_names_the_groups():
     text = (ROOT / "docs" / "add-a-law.md").read_text("utf-8")
     (example,) = (b for b in re.findall(r"^```toml\n(.*?)^```$", text, re.S | re.M) if "entry" in b)
     (group,) = tomllib.loads(example)["project"]["entry-points"]
-    assert group in own_code.GROUPS
+    assert group in installed.GROUPS

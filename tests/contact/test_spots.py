@@ -1,5 +1,7 @@
 """Spots: every contact of a state, against the state's own sums and against explicit contacts."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -222,3 +224,51 @@ def test_columns_are_unique_and_described():
             assert column not in tb.solve(contact(), F_star=1e-5).columns()
             assert all(about)
             seen[column] = name
+
+
+# ------------------------------------------------- sizes over many widths of the seat
+def dust_on_a_fine_surface(**change):
+    """Grains of 1 to 100 µm, 33 000 widths of the seat they rest on."""
+    steel = tb.materials["S45C"]
+    return tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=tb.Roughness(sigma=10e-9, R=280e-9),
+        particles=tb.Particles(
+            material=tb.materials["SiO2"],
+            diameter=tb.Uniform(low=1e-6, high=100e-6),
+            areal_density=1e6,
+        ),
+        particle_law=tb.particle.Series(zeta_mean=0.3, zeta_std=0.3),
+    ).replace(**change)
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+def test_only_seats_within_reach_of_a_state_are_laid_out():
+    contact = dust_on_a_fine_surface()
+    (response,) = interface(contact).populations
+    d = np.array([0.5e-6, 20e-6, 21e-6, 80e-6, 99.9e-6])
+    (spots,) = response.spots(d)
+    assert len(spots.number) < 400 * len(d)
+    load = response.fields(d)["F_sa"]
+    np.testing.assert_allclose(spots.total(spots.load), load, rtol=1e-9)
+    np.testing.assert_allclose(response.direct_fields(d)["F_sa"], load, rtol=1e-9)
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+def test_states_far_apart_are_laid_out_in_groups():
+    """Memory stays small, every state is itself, and no warning is told once for each group."""
+    contact = dust_on_a_fine_surface(outputs=(tb.outputs.Counts(),))
+    loads = np.geomspace(1e-9, 1e-3, 300)
+    tracemalloc.start()
+    try:
+        together = tb.solve(contact, F_star=loads)
+        most = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert most < 400e6
+    assert np.ptp(together.d) > 90e-6
+    assert len(together.warnings) == 3
+    for i in (0, 150, 299):
+        alone = tb.solve(contact, F_star=float(loads[i]))
+        for name, value in alone.outputs.items():
+            np.testing.assert_allclose(together.outputs[name][i], value, rtol=1e-12, err_msg=name)

@@ -197,5 +197,3 @@ def test_the_deepest_of_few_dents_is_no_shallower_than_the_mean(density):
     few = min(n for n in (found["n_dents_1"], found["n_dents_2"]) if n > 0) * 1e-6
     told = [text for text in state.warnings if "on average: the deepest" in text]
     assert bool(told) == (few < 10)
-    if told:
-        assert f"as few as {few:.2g} dents" in told[0] or "×10" in told[0]

@@ -10,6 +10,7 @@ import pytest
 from twins import base, material
 
 import thirdbody as tb
+from thirdbody.contact.interface import interface
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.compiled import batch as engine
 from thirdbody.equilibrium.load_scan import load_scan
@@ -394,3 +395,30 @@ class TestResults:
         assert one == one
         assert one != two
         assert len({one, two, one}) == 2
+
+
+def test_stones_among_dust_hide_no_root():
+    """The scan of the load resolves fine dust beside sizes that reach to kilometres."""
+    steel = tb.materials["S45C"]
+    dust = tb.Particles(
+        material=tb.materials["SiO2"],
+        diameter=tb.TruncatedGaussian(mean=50e-6, std=2e-6),
+        areal_density=1e4,
+    )
+    fine = dust.replace(diameter=tb.TruncatedGaussian(mean=20e-6, std=1e-6))
+    stones = dust.replace(diameter=tb.LogNormal(median=2.7e-3, gsd=3.8), areal_density=1e-3)
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=tb.Roughness(sigma=1e-6, R=28e-6),
+        particles=(dust, fine, stones),
+        particle_law=tb.particle.Horng2022(preset="window"),
+    )
+    d = np.linspace(0, 100e-6, 20_001)
+    for load in (1e-11, 1e-10, 1e-9, 3e-9):
+        more = interface(contact).load(d)[:, 0] > load * contact.E_ss
+        crossed = np.flatnonzero(more[1:] != more[:-1])
+        with pytest.warns(tb.RangeWarning, match="5 separations carry the load"):
+            state = tb.solve(contact, F_star=load)
+        assert state.d == pytest.approx(d[crossed[-1]], abs=6e-9)
+        roots = tb.roots(contact, F_star=load)
+        assert len(roots) == len(crossed) == 5

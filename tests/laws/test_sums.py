@@ -225,3 +225,26 @@ def test_load_and_area_fall_with_the_separation(subject):
         assert np.all(np.diff(state.F_star) < 0)
         back = tb.solve(contact(subject.law), F_star=state.F_star[20:])
         assert_allclose(back.d, d[20:], rtol=1e-10, atol=1e-12 * SIGMA_S)
+
+
+def test_what_attracts_is_a_number_however_far():
+    """Tall asperities pull back beyond 37 σ_s, then nothing is left; no sum overflows there."""
+    steel = tb.Material(E=1e9, nu=0.3, H=1e8)
+    rough = tb.Roughness(sigma=5e-9, R=15e-6, alpha=5.0, eta_R_sigma=0.05)
+    law = tb.asperity.JKR(w=0.2, unloading=True)
+    contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), roughness=rough, asperity_law=law)
+    asperities = interface(contact).asperities
+    one, w = asperities.reduced.law, asperities.reduced.w
+    start = float(one.start) * w
+    assert -6 < start < -2
+    for h in (30.0, 37.9, 38.1, 39.0, 45.0, 1e3, 1e6):
+        t = np.linspace(start, start + 4.0, 400_001)
+        with np.errstate(under="ignore"):
+            density = np.exp(-0.5 * (h + t) ** 2) / math.sqrt(2 * math.pi)
+        expected = asperities.units[0] * np.trapezoid(one.reduced("force", t / w) * density, t)
+        d = asperities.centre + h * asperities.sigma_s
+        load = asperities.load(np.array([d]))[0]
+        assert np.isfinite(load).all()
+        assert np.isfinite(asperities.fields(np.array([d]))).all()
+        assert_allclose(load[0], expected, rtol=2e-3, err_msg=str(h))
+        assert (load[0] < 0) == (h < 42)

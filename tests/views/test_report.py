@@ -18,6 +18,8 @@ from thirdbody import cli
 from thirdbody.contact.output import AbstractOutput, Column
 from thirdbody.quantities.say import number, percent
 from thirdbody.study import load_study
+from thirdbody.study.one_surface import one_surface
+from thirdbody.views.explicit_words import compared, headline
 from thirdbody.views.html import figure, symbols, text_table, words
 from thirdbody.views.report import Report, Row, laws_of, report, rows_of, source_of
 
@@ -404,6 +406,43 @@ def test_the_same_study_gives_the_same_bytes(tmp_path, request):
     assert run("report", files[0], "--out", other, "--set", "roughness.alpha=7").exit_code == 0
     assert "--set roughness.alpha=7" in other.read_text("utf-8")
     assert "--set" not in pages[0].read_text("utf-8")
+
+
+# ---------------------------------------------------------------- point by point
+EXPLICIT = (EXAMPLES / "explicit.toml").read_text("utf-8")
+
+
+def test_a_study_with_explicit_surfaces_has_one_pressed(tmp_path, no_figures):
+    study = load_study(written(tmp_path, EXPLICIT))
+    found = report(study)
+    page = Page(found.html())
+    again = one_surface(study, study.values)
+    head, rows = compared(again)
+    assert page.tables["Point by point"] == [head, *rows]
+    assert headline(again, 1) in page.whole
+    assert "128 × 128 points" in page.whole
+    assert 'id="explicit"' in page.source or "id=explicit" in page.source
+    assert page.source.count("<figure") == 1
+    assert found.html() == page.source
+
+
+def test_many_loads_are_thinned(tmp_path, no_figures):
+    loads = 'F_star = { from = 1e-4, to = 1e-3, points = 30, spacing = "log" }'
+    study = load_study(written(tmp_path, EXPLICIT.replace("F_star = [1e-4, 1e-3]", loads)))
+    shown = report(study).pressed.state.F_star
+    assert len(shown) == 5
+    assert shown[[0, -1]] == pytest.approx([1e-4, 1e-3])
+
+
+def test_a_surface_that_cannot_be_pressed_is_told(tmp_path, no_figures):
+    text = re.sub(r"sigma = .*\nR .*\n", 'sigma = "300 um"\nR = "3 um"\n', EXPLICIT)
+    page = Page(report(load_study(written(tmp_path, text))).html())
+    assert "The surface of the study could not be pressed: no spectrum" in page.whole
+
+
+def test_others_have_no_such_part(dusty):
+    assert dusty[0].pressed is None
+    assert "Point by point" not in dusty[1].whole
 
 
 # ---------------------------------------------------------------- refusals

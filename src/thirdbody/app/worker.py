@@ -25,6 +25,7 @@ __all__ = [
     "counted",
     "design",
     "error_bars",
+    "explicit",
     "handed_on",
     "in_little",
     "mode_map",
@@ -293,6 +294,36 @@ def counted(file: str) -> dict[str, list[float]]:
     return {"edges": list(bins.edges), "counts": list(bins.counts)}
 
 
+def explicit(
+    *, study: dict[str, Any], folder: str, F_star: float, report: Report
+) -> dict[str, Any]:
+    """One small surface of the study pressed point by point under one load."""
+    from ..study.one_surface import one_surface
+    from ..views.explicit_words import headline, rows
+    from ..views.plot.explicit import section_of
+
+    report(0.1)
+    found = one_surface(_study(study, folder), F_star)
+    report(0.9)
+    maps, bodies = found.state.maps, found.state.particles
+    field = {str(name): maps[name].values for name in maps.data_vars}
+    every = {str(name): bodies[name].values for name in bodies.data_vars}
+    step = float(maps.attrs["spacing"])
+    carries = every["force"] > 0
+    total = float(np.sum(field["pressure"])) * step**2 + float(np.sum(every["force"]))
+    shown = {name: every[name][carries] for name in ("x", "y", "diameter", "force")}
+    return {
+        "h": float(maps.attrs["h"]),
+        "spacing": step,
+        "pressure": field["pressure"],
+        "carrying": shown | {"share": shown["force"] / total},
+        "section": section_of(field, every, step)._asdict(),
+        "compared": rows(found, 0),
+        "headline": headline(found, 0),
+        "warnings": list(found.warnings),
+    }
+
+
 def handed_on(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
     """What ``thirdbody report`` writes, with the study file at its end."""
     from ..views.report import PARTS
@@ -314,6 +345,7 @@ TASKS: dict[str, Callable[..., dict[str, Any]]] = {
     "design": design,
     "surface": surface,
     "roughness": roughness,
+    "explicit": explicit,
     "report": handed_on,
 }
 

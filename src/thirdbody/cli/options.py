@@ -6,13 +6,13 @@ import inspect
 import math
 import os
 from collections.abc import Callable, Iterable
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..errors import InvalidValue
+from ..quantities.installed import offers
 from .streams import warn
 
 if TYPE_CHECKING:
@@ -64,8 +64,7 @@ OwnCode = Annotated[
 def load_own_code(files: Iterable[Path] | None) -> None:
     """Laws and outputs of one's own: of installed packages, then of these files."""
     # asked by name first: loading takes a while, and most have none
-    installed = any(entry_points(group=each) for each in ("thirdbody.laws", "thirdbody.outputs"))
-    if files or installed or os.environ.get("THIRDBODY_IMPORT"):
+    if files or offers() or os.environ.get("THIRDBODY_IMPORT"):
         from ..effects.own_code import load_file, load_installed
 
         load_installed()

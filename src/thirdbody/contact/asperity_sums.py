@@ -129,19 +129,22 @@ class GaussianRule:
         self.weight = np.concatenate([2 * root * root_weight, weight]) / math.sqrt(2 * math.pi)
         self.columns = self.weight[:, None] * by_regime(law, self.y)
 
-    def sums(self, w: float, h: Array) -> Array:
+    def sums(self, w: float, h: Array, *, whole: bool = False) -> Array:
         """Columns, then the moments wy and w²y² of the load, at (N,) separations [σ_s]: (N, 6).
 
-        The common factor exp(−h²/2) is left out.
+        The common factor exp(−h²/2) is left out unless ``whole``.
         """
         t = w * self.y
         force = self.columns[:, :1]
         columns = w * np.hstack([self.columns, force * t[:, None], force * t[:, None] ** 2])
         out = np.empty((len(h), columns.shape[1]))
         for part in in_pieces(len(h), columns.size):
-            e = np.multiply.outer(-h[part], t)
-            e -= 0.5 * t**2
-            np.maximum(e, -700.0, out=e)
+            if whole:
+                e = -0.5 * np.add.outer(h[part], t) ** 2
+            else:
+                e = np.multiply.outer(-h[part], t)
+                e -= 0.5 * t**2
+                np.maximum(e, -700.0, out=e)
             np.exp(e, out=e)
             out[part] = e @ columns
         return out
@@ -177,22 +180,24 @@ class GaussianSum(ReducedSum):
         self.t = w * self.rule.y
         self.table = PiecewiseChebyshev(partial(self.rule.sums, w), self.SPAN, kinds=self.KINDS)
 
-    def _sums(self, h: Array) -> Array:
-        """The sums, the common factor exp(−h²/2) left out: (N, 6)."""
-        out = self.table(h)
+    def _sums(self, h: Array) -> tuple[Array, Array]:
+        """The sums (N, 6), and their common factor (N, 1)."""
+        out, factor = self.table(h), np.exp(-0.5 * h * h)
         low, high = self.table.edges[[0, -1]]
         if np.any(beyond := (h < low) | (h > high)):
-            out[beyond] = self.rule.sums(self.w, h[beyond])
-        return out
+            # what attracts reaches above its height: sum and factor by themselves would overflow
+            out[beyond], factor[beyond] = self.rule.sums(self.w, h[beyond], whole=True), 1.0
+        return out, factor[:, None]
 
     def load(self, h: Array) -> Array:
-        sums = self._sums(h)
+        sums, factor = self._sums(h)
         m0, m1, m2 = sums[:, 0], sums[:, 4], sums[:, 5]
         out = np.stack([m0, -(h * m0 + m1), (h * h - 1) * m0 + 2 * h * m1 + m2], axis=-1)
-        return out * np.exp(-0.5 * h * h)[:, None]
+        return out * factor
 
     def fields(self, h: Array) -> Array:
-        out = self._sums(h)[:, :4] * np.exp(-0.5 * h * h)[:, None]
+        sums, factor = self._sums(h)
+        out = sums[:, :4] * factor
         out[:, 1:] = np.maximum(out[:, 1:], 0.0)  # rounding of the other regimes
         return out
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
@@ -27,6 +28,8 @@ __all__ = ["Solved"]
 
 AT_ONCE = 4096
 """States whose spots are laid out together."""
+NUMBERS = re.compile(r"\d+(\.\d+)?(?= %)|\d+\.\d+(e[+-]\d+)?|\d+e[+-]\d+")
+"""In a warning: of several that differ in these alone, that of the smallest d is told."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -111,6 +114,20 @@ def _splits(
     return tuple(float(eps) for eps in output.splits(probe))
 
 
+def _laid_out_together(d: Array, bound: Interface) -> Iterator[NDArray[np.intp]]:
+    """Indices of solved states in groups whose spots take little memory, smallest d first."""
+    known = np.flatnonzero(np.isfinite(d))
+    groups = [known]
+    stretch = min((each.stretch for each in bound.populations), default=np.inf)
+    if len(known) > AT_ONCE or (len(known) and np.ptp(d[known]) > stretch):
+        known = known[np.argsort(d[known], kind="stable")]
+        cells = np.floor((d[known] - d[known[0]]) / stretch)
+        groups = np.split(known, np.flatnonzero(np.diff(cells)) + 1)
+    for group in groups:
+        for start in range(0, len(group), AT_ONCE):
+            yield group[start : start + AT_ONCE]
+
+
 def evaluate(
     contact: Contact, bound: Interface, columns: Mapping[str, Array], crowd: Array | None = None
 ) -> tuple[dict[str, Array], list[str]]:
@@ -128,10 +145,8 @@ def evaluate(
     """
     names = [name for output in contact.outputs for name in output.columns]
     values = {name: np.full(len(columns["d"]), np.nan) for name in names}
-    notes: dict[str, None] = {}
-    known = np.flatnonzero(np.isfinite(columns["d"]))
-    for start in range(0, len(known), AT_ONCE):
-        part = known[start : start + AT_ONCE]
+    notes: dict[str, str] = {}
+    for part in _laid_out_together(columns["d"], bound):
         here = {name: columns[name][part] for name in ("d", "h", "pressure", "A_t")}
         asperities, particles = spots_of(contact, bound, here["d"], columns["shadow"][part])
         if crowd is not None:
@@ -141,5 +156,6 @@ def evaluate(
             found = output.of(state)
             for name, value in found.items():
                 values[name][part] = value
-            notes |= dict.fromkeys(output.warnings(state, found))
-    return values, list(notes)
+            for note in output.warnings(state, found):
+                notes.setdefault(NUMBERS.sub("", note), note)
+    return values, list(notes.values())

@@ -350,16 +350,25 @@ class SeatAverage:
         z = (self.average.bottom - mean_gap) / self.width
         out = special.ndtr(z)[:, None] * self.floor
         order = np.argsort(mean_gap)
-        for piece in in_pieces(len(order), weights[:1000].size):
-            part = order[piece]
-            lowest, highest = mean_gap[part[0]], min(mean_gap[part[-1]], gaps[-1])
-            near = slice(
-                np.searchsorted(gaps, min(lowest, highest) - 2 * NORMAL_REACH * self.width),
-                np.searchsorted(gaps, highest + NORMAL_REACH * self.width),
-            )
-            z = (mean_gap[part, None] - gaps[near]) / self.width
-            out[part] += np.exp(-0.5 * z * z) @ weights[near]
+        # mean gaps that share no local gap are summed apart
+        apart = np.diff(mean_gap[order]) > 2 * NORMAL_REACH * self.width
+        for close in np.split(order, np.flatnonzero(apart) + 1):
+            for piece in in_pieces(len(close), weights[:1000].size):
+                part = close[piece]
+                lowest, highest = mean_gap[part[0]], min(mean_gap[part[-1]], gaps[-1])
+                near = slice(
+                    np.searchsorted(gaps, min(lowest, highest) - 2 * NORMAL_REACH * self.width),
+                    np.searchsorted(gaps, highest + NORMAL_REACH * self.width),
+                )
+                z = (mean_gap[part, None] - gaps[near]) / self.width
+                out[part] += np.exp(-0.5 * z * z) @ weights[near]
         return out
+
+    def _within_reach(self, gaps: Array, mean_gap: Array) -> NDArray[np.bool_]:
+        """Which local gaps count at one of the mean gaps at least."""
+        reach = NORMAL_REACH * self.width
+        means = np.append(np.sort(mean_gap), np.inf)
+        return means[np.searchsorted(means, gaps - reach)] <= gaps + reach
 
     def __call__(self, gap: Array) -> Array:
         """Every column: (N, 7)."""
@@ -371,10 +380,10 @@ class SeatAverage:
 
     def direct(self, mean_gap: Array) -> Array:
         """Every column by quadrature over sizes and seats, without tables: (N, 7)."""
-        average, reach = self.average, NORMAL_REACH * self.width
+        average = self.average
         out = special.ndtr((average.bottom - mean_gap) / self.width)[:, None] * self.floor
         gaps, rise, weights = average.gaps(self.width)
-        near = slice(*np.searchsorted(gaps, [mean_gap.min() - reach, mean_gap.max() + reach]))
+        near = self._within_reach(gaps, mean_gap)
         gaps, rise, weights = gaps[near], rise[near], weights[near]
         if not len(gaps):
             return out
@@ -391,7 +400,7 @@ class SeatAverage:
         """The load at mean gaps from those seats alone in which the gap is narrower: (N,)."""
         gaps, weights = self.nodes
         out = self.floor[0] * self.part_in_gaps(mean_gap, min(narrow, self.average.bottom))
-        below = gaps < narrow
+        below = (gaps < narrow) & self._within_reach(gaps, mean_gap)
         z = (mean_gap[:, None] - gaps[below]) / self.width
         return out + np.exp(-0.5 * z * z) @ weights[below, 0]
 
@@ -402,11 +411,8 @@ class SeatAverage:
     def spots(self, mean_gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         """Every squeezed particle at mean gaps (N,)."""
         average = self.average
-        reach = NORMAL_REACH * self.width
-        lowest, highest = mean_gap.min() - reach, mean_gap.max() + reach
         gaps, rise, weights = average.gaps(self.width, splits)
-        near = slice(*np.searchsorted(gaps, [lowest, highest]))
-        gaps, rise, weights = gaps[near], rise[near], weights[near]
+        lowest = mean_gap.min() - NORMAL_REACH * self.width
         if lowest < average.bottom:
             # loads no longer change there, but depths do
             edges = np.array(
@@ -417,6 +423,8 @@ class SeatAverage:
             gaps = np.concatenate([below, gaps])
             rise = np.concatenate([average.top - below, rise])
             weights = np.concatenate([weight, weights])
+        near = self._within_reach(gaps, mean_gap)
+        gaps, rise, weights = gaps[near], rise[near], weights[near]
         z = (mean_gap[:, None] - gaps) / self.width
         share = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
         return average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])

@@ -110,6 +110,8 @@ class ParticleSum(ABC):
     """The load falls with d everywhere."""
     resolution: float = np.inf
     """Step of d [m] that resolves the load, where it is not monotone."""
+    stretch: float = np.inf
+    """Range of d [m] in which spots of many states are few enough to be laid out together."""
     in_one_layer: float = 0.0
     """Part of the nominal area that fragments and whole particles cover where the gap closes."""
     marks: Array | tuple[float, ...] = ()
@@ -147,6 +149,7 @@ class ParticlesTogether(ParticleSum):
         self.reach = max(each.reach for each in sums)
         self.monotone = all(each.monotone for each in sums)
         self.resolution = min(each.resolution for each in sums)
+        self.stretch = min(each.stretch for each in sums)
         self.in_one_layer = sum(each.in_one_layer for each in sums)
         self.marks = np.concatenate([np.asarray(each.marks, float) for each in sums])
 
@@ -198,6 +201,14 @@ class Part:
         return self.scale * (0.01 * low or 0.001 * high)
 
     @property
+    def stretch(self) -> float:
+        """Range of d [m] whose spots are laid out together: so many widths of the seat."""
+        average = self.average
+        if not isinstance(average, SeatAverage):
+            return np.inf
+        return STRETCH * self.scale * average.width
+
+    @property
     def marks(self) -> Array:
         """Ends of the panels of the tables, as separations d [m]."""
         return self.scale * self.average.edges - self.offset
@@ -242,6 +253,7 @@ class SeatedParticles(ParticleSum):
         self._shadow_column = COLUMNS.index(shadow) if shadow in COLUMNS else 0
         self.monotone = not any(part.breaks for part in parts)
         self.resolution = min((part.resolution for part in parts), default=np.inf)
+        self.stretch = min((part.stretch for part in parts), default=np.inf)
         self.in_one_layer = sum(
             part.factor * part.average.floor[6] for part in parts if part.breaks
         )
@@ -339,6 +351,8 @@ class PrintedIntegrals(ParticleSum):
         self.shadow_factor = math.pi * eta * H1 / (H1 + H2)
         low, high = self.sizes.support
         self.reach = high + self.h_e
+        pieces = np.asarray(self.sizes.pieces)
+        self.marks = np.unique(np.concatenate([pieces, pieces + self.h_e]))
         width = (high - low) / 6 or self.x_a
         self.resolution = min(roughness.sigma, self.h_e or np.inf, width) / 40
 
@@ -406,6 +420,10 @@ class PrintedIntegrals(ParticleSum):
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
         raise InvalidValue(NO_ONE_PARTICLE)
+
+
+STRETCH = 200.0
+"""Widths of the seat over which spots of many states are laid out together."""
 
 
 def nominal_diameter(sizes: Distribution) -> float:

@@ -215,12 +215,12 @@ class Dents(AbstractOutput):
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         found = np.concatenate([values[f"n_dents_{side}"] for side in (1, 2)]) * self.A_n
-        if not np.any(few := (found > 0) & (found < FEW)):
+        if not np.any((found > 0) & (found < FEW)):
             return []
         return [
-            f"outputs.dents: as few as {number(float(found[few].min()), 2)} dents lie in "
-            f"A_n = {number(self.A_n)} m² on average: the deepest and the widest of fewer than "
-            f"{FEW} scatter from one place to the next; a larger A_n has more"
+            f"outputs.dents: fewer than {FEW} dents lie in A_n = {number(self.A_n)} m² on average: "
+            "the deepest and the widest of so few scatter from one place to the next; a larger "
+            "A_n has more"
         ]
 
     def splits(self, probe: Probe) -> Sequence[float]:

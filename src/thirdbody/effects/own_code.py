@@ -14,19 +14,17 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterator
 from functools import cache
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
 from ..errors import InvalidValue
 from ..laws import asperity, particle
 from ..laws.base import Law
+from ..quantities.installed import offers
 from . import REGISTRY as OUTPUTS
 
-__all__ = ["GROUPS", "NAMED", "load_file", "load_installed"]
+__all__ = ["NAMED", "load_file", "load_installed"]
 
-GROUPS = ("thirdbody.laws", "thirdbody.outputs")
-"""Entry points of installed packages whose modules are imported."""
 NAMED = "THIRDBODY_IMPORT"
 """Environment variable that names files; `load_file` adds to it, for processes started later."""
 
@@ -91,13 +89,12 @@ def load_installed() -> None:
 
 @cache
 def _load_entry_points() -> None:
-    for group in GROUPS:
-        for entry in sorted(entry_points(group=group), key=lambda each: (each.name, each.value)):
-            where = f"entry point {entry.name} = {entry.value} of {group}"
-            try:
-                _looked_over(where, entry.load, None)
-            except InvalidValue as error:
-                warnings.warn(f"{error}; it is left out", UserWarning, stacklevel=3)
+    for entry in offers():
+        where = f"entry point {entry.name} = {entry.value} of {entry.group}"
+        try:
+            _looked_over(where, entry.load, None)
+        except InvalidValue as error:
+            warnings.warn(f"{error}; it is left out", UserWarning, stacklevel=3)
 
 
 def _registries() -> Iterator[tuple[str, dict[str, type[Law]]]]:

@@ -46,7 +46,16 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["COMPARED", "Ensemble", "counterpart", "ensemble", "spacing_for", "surface_of"]
+__all__ = [
+    "COMPARED",
+    "Ensemble",
+    "counterpart",
+    "ensemble",
+    "heights_of_seats",
+    "seats_on",
+    "spacing_for",
+    "surface_of",
+]
 
 STEP = 0.15
 """Distance of separations [σ]."""
@@ -232,7 +241,7 @@ def ensemble(
         return map_of(given[i], spacing)
 
     first = map_number(0)
-    measured = _heights_of_seats(contact, rule, [first], seed)
+    measured = heights_of_seats(contact, rule, first, seed)
     sigma = first.sigma
     grid = _separations(counterpart(contact, measured), loads, sigma)
     key = _key(contact, given, rule, (total, size, spacing, seed, cap, tol, max_iterations), grid)
@@ -257,11 +266,21 @@ def ensemble(
 
 
 # -------------------------------------------------------------------------- its seats
-def _heights_of_seats(
-    contact: Contact, rule: AbstractSeats, maps: list[Map], seed: int
+def heights_of_seats(contact: Contact, rule: AbstractSeats, surface: Map, seed: int) -> SeatHeights:
+    """Heights of very many places of a rule, not of the few particles that one draw has."""
+    return seat_heights(places(surface, rule, contact, np.random.default_rng([seed, 1])))
+
+
+def seats_on(
+    contact: Contact,
+    surface: object,
+    *,
+    spacing: float | None = None,
+    seats: Any = "random",
+    seed: int = 0,
 ) -> SeatHeights:
-    drawn = [places(each, rule, contact, np.random.default_rng([seed, 1])) for each in maps]
-    return seat_heights(np.concatenate(drawn))
+    """Heights over σ at which a rule seats particles on a surface; arguments as of `solve`."""
+    return heights_of_seats(contact, seats_named(seats), map_of(surface, spacing), seed)
 
 
 def counterpart(contact: Contact, seats: SeatHeights) -> Contact:

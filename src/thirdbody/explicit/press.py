@@ -144,9 +144,9 @@ def _press(
                 break
             a, last = a / 2, None
             continue
-        theta = programme.exact_step(x, s, squeeze)
+        theta, free = programme.exact_step(x, s, squeeze)
         programme.move(x, s, theta)
-        a *= float(np.clip(theta, 0.3, 3) if s.clipped else np.clip(theta, 0.1, 10))
+        a *= float(np.clip(free, 0.3, 3) if s.clipped else np.clip(free, 0.1, 10))
         last = s
         if iterations % AFRESH == 0:
             x.u = programme.displaced(x.p, x.phi)
@@ -341,16 +341,22 @@ class _Programme:
             room=_room(X, along, cap), clipped=bool(np.any(new != moved)),
         )  # fmt: skip
 
-    def exact_step(self, x: _Iterate, s: _Step, squeeze: Array) -> float:
-        """θ = r·s / s·Hs, no further than the box, halved until Φ does not rise."""
-        theta = min(s.rs / s.sHs, LONGEST, s.room)
+    def exact_step(self, x: _Iterate, s: _Step, squeeze: Array) -> tuple[float, float]:
+        """θ = r·s / s·Hs, no further than the box, halved until Φ does not rise; and without box.
+
+        The next trial is as long as the step wanted to be: one that the box ended would else never
+        grow again, since a clipped step always ends there.
+        """
+        free = min(s.rs / s.sHs, LONGEST)
+        theta = min(free, s.room)
         if np.any(s.s_k != 0):  # the law of a particle is no line
             for _ in range(40):
                 bent = self.bodies.squeeze((x.phi + theta * s.s_k) * self.area) - squeeze
                 if s.rs - theta * s.quadratic - _dot(bent, s.s_k) >= -s.rs:
                     break
                 theta /= 2
-        return theta
+                free = theta
+        return theta, free
 
     def move(self, x: _Iterate, s: _Step, theta: float) -> None:
         """X += θ s and u += θ K s."""

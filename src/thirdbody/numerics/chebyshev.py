@@ -110,21 +110,21 @@ class PiecewiseChebyshev:
 
     def _evaluate(self, x: Array, coefficients: Array) -> Array:
         """Σ_k T_k(s) c_k panel by panel: (N, ...) for coefficients (P, n, ...)."""
-        panel = np.clip(np.searchsorted(self.edges, x, side="right") - 1, 0, len(self.half) - 1)
-        order = np.argsort(panel.astype(np.int16), kind="stable")
+        panel = self.edges[1:-1].searchsorted(x, side="right")
+        order = panel.astype(np.int16).argsort(kind="stable")
         where = panel[order]
         s = (x[order] - self.middle[where]) / self.half[where]
         basis = np.empty((coefficients.shape[1], len(x)))
         basis[0], basis[1] = 1.0, s
-        for k in range(2, len(basis)):
-            np.multiply(s, basis[k - 1], out=basis[k])
-            basis[k] *= 2
-            basis[k] -= basis[k - 2]
+        s += s
+        for before, last, term in zip(basis, basis[1:], basis[2:], strict=False):
+            np.multiply(s, last, out=term)
+            term -= before
         flat = coefficients.reshape(*coefficients.shape[:2], -1)
         sorted_values = np.empty((len(x), flat.shape[2]))
-        starts = np.searchsorted(where, np.arange(len(self.half) + 1))
-        for p in np.unique(where):
-            mine = slice(starts[p], starts[p + 1])
+        ends = [*(np.flatnonzero(where[1:] != where[:-1]) + 1).tolist(), len(x)] if len(x) else []
+        for start, end in zip([0, *ends], ends, strict=False):
+            mine, p = slice(start, end), where[start]
             terms, values = basis[:, mine].T, sorted_values[mine]
             for part in in_pieces(len(values), flat[p].size):
                 np.matmul(terms[part], flat[p], out=values[part])

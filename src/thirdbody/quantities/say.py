@@ -140,6 +140,8 @@ def percent(value: float | None, error: float = 0.0, *, digits: int = 3, least: 
     ('12.3 %', '99.996 %', '100 %', '30 % (± 2 %)', 'not known')
     >>> percent(1e-8, least=1e-6), percent(0.1234, digits=2), percent(1, digits=1)
     ('< 0.0001 %', '12 %', '100 %')
+    >>> percent(0.8, 0.123)
+    '80 % (± 12 %)'
     """
     if value is None or not math.isfinite(value):
         return NOT_KNOWN
@@ -148,7 +150,10 @@ def percent(value: float | None, error: float = 0.0, *, digits: int = 3, least: 
     near = 1 - 0.5 * 10.0**-digits <= value and value != 1
     whole = len(f"{abs(100 * value):.0f}")  # 100 is no 1×10²
     text = f"{number(100 * value, max(digits + 2 if near else digits, whole))} %"
-    return f"{text} (± {number(100 * error, 1)} %)" if error > 0 else text
+    if not error > 0:
+        return text
+    tens = len(f"{abs(100 * error):.0f}")  # nor is 10 one of the first digit
+    return f"{text} (± {number(100 * error, tens if 100 * error >= 9.5 else 1)} %)"
 
 
 def signed(value: float | None, decimals: int, unit: str = "") -> str:

@@ -141,15 +141,24 @@ def warn_of_slip(where: str, about: Mapping[str, Any], number: float, *, stackle
 
 def warn_of_slips(value: Value, *, stacklevel: int, prefix: str = "") -> None:
     """Warn of every number of a value, and of the values in it, that looks like a slip."""
-    if not dataclasses.is_dataclass(value):  # an output or law of one's own
+    if _told.get() or not dataclasses.is_dataclass(value):  # an output or law of one's own
         return
-    for item in dataclasses.fields(value):
-        part = getattr(value, item.name)
-        where = prefix + item.name
-        if (about := item.metadata.get("quantity")) and part is not None:
+    for name, about, _ in _declared(type(value)):
+        part = getattr(value, name)
+        where = prefix + name
+        if about and part is not None:
             warn_of_slip(where, about, part, stacklevel=stacklevel + 1)
         for name, inner in _values_in(where, part):
             warn_of_slips(inner, stacklevel=stacklevel + 1, prefix=f"{name}.")
+
+
+@cache
+def _declared(kind: type) -> tuple[tuple[str, dict[str, Any] | None, dict[str, Any] | None], ...]:
+    """Every field of a class, with what is declared of it as a quantity or a choice."""
+    return tuple(
+        (item.name, item.metadata.get("quantity"), item.metadata.get("choice"))
+        for item in dataclasses.fields(kind)
+    )
 
 
 def _values_in(name: str, part: Any) -> Iterator[tuple[str, Value]]:
@@ -173,19 +182,18 @@ class Value:
 
     def __post_init__(self) -> None:
         problems: list[str] = []
-        for item in dataclasses.fields(self):  # type: ignore[arg-type]
-            value = getattr(self, item.name)
-            where = f"{type(self).__name__}.{item.name} = {value!r}"
-            if about := item.metadata.get("quantity"):
-                if value is None and item.default is None:
+        for name, about, words in _declared(type(self)):  # type: ignore[arg-type]
+            value = getattr(self, name)
+            why = None
+            if about:
+                if value is None and type(self).__dataclass_fields__[name].default is None:  # type: ignore[attr-defined]
                     continue
-                if why := problem_with(about, value):
-                    problems.append(f"{where} {why}")
-                else:
-                    object.__setattr__(self, item.name, float(value))
-            elif (about := item.metadata.get("choice")) and value not in about["options"]:
-                options = ", ".join(repr(option) for option in about["options"])
-                problems.append(f"{where} must be one of {options}")
+                if not (why := problem_with(about, value)):
+                    object.__setattr__(self, name, float(value))
+            elif words and value not in words["options"]:
+                why = f"must be one of {', '.join(map(repr, words['options']))}"
+            if why:
+                problems.append(f"{type(self).__name__}.{name} = {value!r} {why}")
         if not problems:
             problems = self._problems()
         if problems:
@@ -205,7 +213,7 @@ class Value:
         """A copy with some fields changed; dots reach inside: ``**{"diameter.mean": 1e-7}``."""
         now: dict[str, Any] = {}
         inner: dict[str, dict[str, Any]] = {}
-        names = {item.name for item in dataclasses.fields(self)}  # type: ignore[arg-type]
+        names = {name for name, _, _ in _declared(type(self))}  # type: ignore[arg-type]
         for key, value in changes.items():
             head, _, rest = key.partition(".")
             if head not in names:

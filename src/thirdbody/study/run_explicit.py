@@ -15,7 +15,15 @@ from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.solve import solve as statistical
 from ..errors import InvalidValue, RangeWarning
-from ..explicit.ensemble import COMPARED, Ensemble, counterpart, ensemble, spacing_for, surface_of
+from ..explicit.ensemble import (
+    COMPARED,
+    Ensemble,
+    counterpart,
+    ensemble,
+    seats_on,
+    spacing_for,
+    surface_of,
+)
 from ..explicit.solve import solve
 from ..explicit.state import COLUMNS, ExplicitState
 from ..version import __version__
@@ -127,7 +135,11 @@ def _measured(
     """One map: the numbers are its own, and the model beside it has its seats."""
     (face,) = study.faces
     state = solve(contact, face, F_star=loads, maps=maps, **asked)
-    model = counterpart(contact, state.seats)
+    rule = {name: asked[name] for name in ("seats", "seed") if name in asked}
+    seats = seats_on(contact, face, **rule)
+    if not math.isfinite(seats.mean):  # places that are told
+        seats = state.seats
+    model = counterpart(contact, seats)
     beside = statistical(model, F_star=loads)
     table: dict[str, list[float | None]] = {"F_star": loads.tolist()}
     for name in COMPARED:
@@ -138,7 +150,7 @@ def _measured(
         "surfaces": 1,
         "source": face.source,
         "left_out": int(np.sum(~np.atleast_1d(state.converged))),
-        "seats": state.seats._asdict(),
+        "seats": seats._asdict(),
         "table": table,
         "warnings": list(state.warnings),
     }

@@ -12,8 +12,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -58,6 +59,13 @@ AT_END = 1e-3
 """Part of a range that counts as its end."""
 
 
+class Column(NamedTuple):
+    """Values of a table, and unit and words of what they are."""
+
+    values: NDArray[Any]
+    about: dict[str, str]
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Best:
     """The answer of `design`.
@@ -73,6 +81,10 @@ class Best:
     feasible : bool
         Whether every limit holds there; if not, nothing tried was feasible, and ``reason`` says
         why not at the point that came nearest.
+    load, loads : str, array (L,)
+        Which load is given, and its values.
+    of_states, of_points : dict of Column
+        The columns of ``states`` and ``points``, which are made of them when asked for.
     states : xarray.Dataset
         Every metric against the load at the best point, nominal.
     points : xarray.Dataset
@@ -120,8 +132,10 @@ class Best:
     objectives: dict[str, float]
     feasible: bool
     reason: str
-    states: xarray.Dataset
-    points: xarray.Dataset
+    load: str
+    loads: Array = field(repr=False)
+    of_states: dict[str, Column] = field(repr=False)
+    of_points: dict[str, Column] = field(repr=False)
     active: tuple[str, ...]
     tolerance: dict[str, tuple[float, float]]
     plateau: dict[str, tuple[float, float]]
@@ -129,6 +143,16 @@ class Best:
     slopes: dict[str, dict[str, float]]
     hypervolume: float | None = None
     warnings: tuple[str, ...] = ()
+
+    @cached_property
+    def states(self) -> xarray.Dataset:
+        """Every metric against the load."""
+        return _dataset(self.of_states, self.load, {self.load: self.loads})
+
+    @cached_property
+    def points(self) -> xarray.Dataset:
+        """Every point tried."""
+        return _dataset(self.of_points, "point", {})
 
     def to_dict(self) -> dict[str, Any]:
         """Everything for JSON, the points as lists."""
@@ -147,18 +171,25 @@ class Best:
             "at_bound": list(self.at_bound),
             "slopes": self.slopes,
             "hypervolume": self.hypervolume,
-            "states": _lists(self.states),
-            "points": _lists(self.points),
+            "states": _lists(self.of_states) | {self.load: _plain(self.loads)},
+            "points": _lists(self.of_points),
             "warnings": list(self.warnings),
         }
 
 
-def _lists(data: xarray.Dataset) -> dict[str, list[Any]]:
-    every = {str(name): data[name].values for name in data.variables}
-    return {
-        name: [None if isinstance(v, float) and math.isnan(v) else v for v in values.tolist()]
-        for name, values in every.items()
-    }
+def _dataset(table: dict[str, Column], dim: str, coords: dict[str, Array]) -> xarray.Dataset:
+    import xarray  # takes longer to load than most designs to find
+
+    columns = {name: (dim, each.values, each.about) for name, each in table.items()}
+    return xarray.Dataset(columns, coords=coords)
+
+
+def _lists(table: dict[str, Column]) -> dict[str, list[Any]]:
+    return {name: _plain(each.values) for name, each in table.items()}
+
+
+def _plain(values: NDArray[Any]) -> list[Any]:
+    return [None if isinstance(v, float) and math.isnan(v) else v for v in values.tolist()]
 
 
 # -------------------------------------------------------------------------- the search
@@ -290,8 +321,6 @@ def _expected(task: Task, points: int | None, local: bool) -> int:
 
 # -------------------------------------------------------------------------- the answer
 def _answer(task: Task) -> Best:
-    import xarray
-
     rows, best = task.tried, task.best()
     made = task.made(best.numbers, best.materials)
     ok = np.array([not point.reason for point in rows])
@@ -302,21 +331,22 @@ def _answer(task: Task) -> Best:
     if len(task.objectives) > 1 and ok.any():
         volume = hypervolume(costs[ok], costs[ok].max(axis=0))
     signs = {each.label: each.sign for each in task.objectives}
-    columns: dict[str, Any] = {
-        name: ("point", [point.numbers[name] for point in rows], _about_variable(task, name))
+    columns = {
+        name: Column(np.array([point.numbers[name] for point in rows]), _about_variable(task, name))
         for name in task.variables
     }
     columns |= {
-        name: ("point", [point.materials[name].name for point in rows]) for name in task.materials
+        name: Column(np.array([point.materials[name].name for point in rows]), {})
+        for name in task.materials
     }
     columns |= {
-        each.label: ("point", each.sign * costs[:, i], _about_objective(each))
+        each.label: Column(each.sign * costs[:, i], _about_objective(each))
         for i, each in enumerate(task.objectives)
     }
     columns |= {
-        "feasible": ("point", ok),
-        "front": ("point", on_front),
-        "reason": ("point", [point.reason for point in rows]),
+        "feasible": Column(ok, {}),
+        "front": Column(on_front, {}),
+        "reason": Column(np.array([point.reason for point in rows]), {}),
     }
     ends = {name: each.place(best.numbers[name]) for name, each in task.variables.items()}
     at_bound = tuple(name for name, u in ends.items() if min(u, 1 - u) < AT_END)
@@ -332,8 +362,10 @@ def _answer(task: Task) -> Best:
         objectives={label: signs[label] * cost for label, cost in best.costs.items()},
         feasible=not best.reason,
         reason=best.reason,
-        states=_states(task, best),
-        points=xarray.Dataset(columns),
+        load=task.load,
+        loads=task.loads,
+        of_states=_states(task, best),
+        of_points=columns,
         active=best.active,
         tolerance=tolerance,
         plateau=plateau,
@@ -362,18 +394,16 @@ def _about_objective(each: Objective) -> dict[str, str]:
     return {"units": unit, "long_name": words, "aim": each.aim}
 
 
-def _states(task: Task, best: Point) -> xarray.Dataset:
+def _states(task: Task, best: Point) -> dict[str, Column]:
     """Metrics against the load, nominal."""
-    import xarray
-
     found = task.metrics([best.numbers], best.materials, samples=False)
-    columns: dict[str, Any] = {}
+    columns: dict[str, Column] = {}
     first = (name for name in found if name not in ("coverage", "buried_share"))
     for name in (*first, "buried_share"):
         told = METRICS.get(name) or about(name)
-        attrs = {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
-        columns[name] = (task.load, found[name].reshape(-1), attrs)
-    return xarray.Dataset(columns, coords={task.load: task.loads})
+        about_it = {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
+        columns[name] = Column(found[name].reshape(-1), about_it)
+    return columns
 
 
 CONCENTRATIONS = {"mass": "1", "volume": "1", "number": "1/m^3", "mass per volume": "kg/m^3"}

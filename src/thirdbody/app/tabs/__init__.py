@@ -10,6 +10,7 @@ TABS = (
     "error_bars",
     "outputs",
     "film",
+    "explicit",
     "design",
     "take_away",
 )

@@ -48,8 +48,10 @@ def command(
     best = design_study(asked, progress=sys.stderr.isatty())
     for sentence in best.warnings:
         warn(sentence)
-    columns = {str(name): best.points[name].values.tolist() for name in best.points}
-    files.write(columns, {name: best.points[name].attrs.get("units", "") for name in columns})
+    columns = {name: each.values.tolist() for name, each in best.of_points.items()}
+    files.write(
+        columns, {name: each.about.get("units", "") for name, each in best.of_points.items()}
+    )
     for path in files.asked:
         print(f"written: {path}", file=sys.stderr)
     if figure is not None:
@@ -72,7 +74,7 @@ def _page(asked: Study, best: Best) -> None:
     if not best.feasible:
         why = said.limits(best.reason)
         out.print(f"\nNothing tried obeys the limits. Nearest is what follows: {why}")
-    front = best.points["front"].values
+    front = best.of_points["front"].values
     several = len(best.objectives) > 1
     out.print("\none of the best" if several else "\nbest")
     heads = ("chosen", "value", "within 5 % from", "to")
@@ -101,13 +103,15 @@ def _page(asked: Study, best: Best) -> None:
         out.print(table)
     if several:
         out.print(f"{front.sum()} of {len(front)} points are beaten by none in every objective")
-        chosen = best.points.isel(point=front).sortby(next(iter(best.objectives)))
+        every, first = best.of_points, next(iter(best.objectives))
+        on_front = [i for i, on in enumerate(front) if on]
+        chosen = sorted(on_front, key=lambda i: every[first].values[i])
         names = [*map(said.name, best.values), *map(said.objective, best.objectives)]
         table = Table(names, right=True, wrap=True)
-        for i in some(chosen.sizes["point"]):
-            one = chosen.isel(point=i)
-            cells = [said.amount(name, one[name].item()) for name in best.values]
-            cells += [said.metric(name, one[name].item()) for name in best.objectives]
+        for i in some(len(chosen)):
+            one = {name: each.values[chosen[i]].item() for name, each in every.items()}
+            cells = [said.amount(name, one[name]) for name in best.values]
+            cells += [said.metric(name, one[name]) for name in best.objectives]
             table.add_row(*cells)
         out.print(table)
 
@@ -141,8 +145,8 @@ class _Words:
 
     def about(self, of: str) -> tuple[str, str]:
         """Unit and meaning of a number of the states."""
-        if of in self.best.states:
-            told = self.best.states[of].attrs
+        if of in self.best.of_states:
+            told = self.best.of_states[of].about
             return told["units"], told["long_name"]
         return "1", of
 
@@ -171,20 +175,19 @@ class _Words:
 
 def _against_load(out: Any, best: Best, said: _Words) -> None:
     """Numbers against the loads."""
-    (load,) = best.states.dims
-    units = {str(name): best.states[name].attrs["units"] for name in best.states.data_vars}
+    units = {name: each.about["units"] for name, each in best.of_states.items()}
     legend = {
         name: said.about(name)[1] + (", no unit" if unit == "1" else "")
         for name, unit in units.items()
     }
-    head, unit = ("pressure", "Pa") if load == "pressure" else ("F*", "1")
-    legend[head] = "nominal pressure p" if load == "pressure" else "load F/(A_n E_ss), no unit"
+    head, unit = ("pressure", "Pa") if best.load == "pressure" else ("F*", "1")
+    legend[head] = "nominal pressure p" if best.load == "pressure" else "load F/(A_n E_ss), no unit"
     table = Table((head, *units), right=True, legend=legend, wrap=True)
-    count = best.states.sizes[load]
+    count = len(best.loads)
     for i in some(count):
-        one = best.states.isel({load: i})
-        cells = (value_of(one[name].item(), units[name]) for name in units)
-        table.add_row(value_of(float(one[load]), unit), *cells)
+        each = best.of_states.items()
+        cells = (value_of(column.values[i].item(), units[name]) for name, column in each)
+        table.add_row(value_of(float(best.loads[i]), unit), *cells)
     out.print(table)
     if count > MOST_ROWS:
         out.print(f"{MOST_ROWS} of {count} loads shown; --json tells all\n")

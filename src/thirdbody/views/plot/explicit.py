@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import EllipseCollection
+from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
+from matplotlib.ticker import MaxNLocator
 
 from ...errors import InvalidValue
 from ...quantities.say import percent, value_of
@@ -22,10 +23,12 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["explicit"]
+__all__ = ["Section", "explicit", "section_of"]
 
 AROUND = 3.0
 """Length of the section over the diameter of its particle."""
+GROUND = -1e6
+"""How far down the ground is filled [nm]: below every frame."""
 LEAST_PIXELS = 12
 """Points that a section shows at least."""
 
@@ -138,10 +141,23 @@ def _gap(drawing: Figure, ax: Axes, gap: Array, x: Array, y: Array, step: float)
     ax.set_ylabel(f"$y$ [{unit}]")
 
 
-def _section(
-    ax: Axes, field: dict[str, Array], bodies: dict[str, Array], h: float, step: float
-) -> None:
-    """Along x through the particle that carries most, or through the highest pressure."""
+class Section(NamedTuple):
+    """Along x through the particle that carries most, or the highest pressure; [m]."""
+
+    along: Array
+    """From the particle."""
+    height: Array
+    deformed: Array
+    size: float
+    """Diameter of the particle; 0 without one."""
+    seat: float
+    """Height of its lowest point."""
+    share: float
+    """Its part of the particles' load."""
+
+
+def section_of(field: dict[str, Array], bodies: dict[str, Array], step: float) -> Section:
+    """A section of maps and particles as `ExplicitState` has them, a few diameters long."""
     rows, columns = field["height"].shape
     force = bodies["force"]
     carries = len(force) > 0 and float(np.max(force)) > 0
@@ -154,21 +170,35 @@ def _section(
     half = int(max(AROUND * size / step, LEAST_PIXELS)) // 2
     centre, row = round(x0 / step), round(y0 / step) % rows
     at = centre + np.arange(-half, half + 1)
-    along = (at * step - x0) / 1e-9
-    line = {name: field[name][row, at % columns] / 1e-9 for name in ("height", "displacement")}
-    surface = line["height"] - line["displacement"]
-    floor = min(float(surface.min()), h / 1e-9) - size / 1e-9
-    ax.fill_between(along, surface, floor, color=_tint(OKABE_ITO["black"], 0.25))
-    ax.plot(along, line["height"], color="black", linewidth=0.8, linestyle="--")
+    along = at.astype(float) * step - x0
+    height, displacement = (field[name][row, at % columns] for name in ("height", "displacement"))
+    deformed = height - displacement
+    seat = share = 0.0
+    if carries:
+        seat = float(np.interp(0.0, along, deformed)) - float(bodies["dent_1"][k])
+        share = float(force[k] / np.sum(force))
+    return Section(along, height, deformed, size, seat, share)
+
+
+def _section(
+    ax: Axes, field: dict[str, Array], bodies: dict[str, Array], h: float, step: float
+) -> None:
+    found = section_of(field, bodies, step)
+    along, size = found.along / 1e-9, found.size
+    surface = found.deformed / 1e-9
+    ends = np.array([[along[-1], GROUND], [along[0], GROUND]])
+    ground = np.concatenate([np.stack([along, surface], axis=1), ends])
+    ax.add_collection(
+        PolyCollection([ground], color=_tint(OKABE_ITO["black"], 0.25)), autolim=False
+    )
+    ax.plot(along, found.height / 1e-9, color="black", linewidth=0.8, linestyle="--")
     ax.axhline(h / 1e-9, color=OKABE_ITO["blue"], linewidth=1.5)
     _dress(ax, "$x$ from the particle [nm]", "Height $z$ [nm]", xlog=False)
     ax.legend(["deformed", "as it was", "the flat"], fontsize="small", loc="upper left")
-    if carries:
-        dent = float(bodies["dent_1"][k]) / 1e-9
-        seat = float(np.interp(0.0, along, surface)) - dent
+    if size:
         ax.add_patch(
             Circle(
-                (0.0, seat + size / 2e-9),
+                (0.0, found.seat / 1e-9 + size / 2e-9),
                 size / 2e-9,
                 facecolor=_tint(OKABE_ITO["vermilion"], 0.5),
                 edgecolor=OKABE_ITO["vermilion"],
@@ -179,8 +209,7 @@ def _section(
         ax.text(
             0.02,
             0.03,
-            f"x = {value_of(size, 'm', 3)}, {percent(float(force[k] / np.sum(force)))} of the "
-            "particles' load",
+            f"x = {value_of(size, 'm', 3)}, {percent(found.share)} of the particles' load",
             transform=ax.transAxes,
             fontsize="small",
         )
@@ -194,6 +223,7 @@ def _forces(ax: Axes, force: Array, on_asperities: float) -> None:
     if len(carried):
         ax.hist(100 * carried / total, bins=30, color=_tint(OKABE_ITO["vermilion"], 0.7))
         ax.margins(y=0.25)
+        ax.yaxis.set_major_locator(MaxNLocator(integer=True))
         text = (
             f"{len(carried)} of {len(force)} particles carry\n"
             f"{percent(float(np.sum(carried)) / total)} of the load"

@@ -13,6 +13,7 @@ from ...equilibrium.columns import Equilibrium
 from ...equilibrium.words import CRITICAL, load_of
 from ...populations.materials import Material
 from ...study import Study
+from ...study.one_surface import OneSurface
 
 FAINT = 1e-12
 """The load F* that counts as nothing."""
@@ -30,6 +31,7 @@ class Found:
     at: int
     file: str = field(repr=False, default="")
     film: dict[str, Any] | None = field(repr=False, default=None)
+    pressed: OneSurface | str | None = field(repr=False, default=None)
 
     @property
     def contact(self) -> Contact:

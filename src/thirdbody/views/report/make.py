@@ -16,9 +16,10 @@ from ...analysis.uncertainty.samples import enough
 from ...contact.contact import Contact
 from ...equilibrium.columns import Equilibrium
 from ...equilibrium.solve import solve
-from ...errors import NoEquilibrium, RangeWarning, ThirdBodyError
+from ...errors import InvalidValue, NoEquilibrium, RangeWarning, ThirdBodyError
 from ...study import Study, run_film, run_study
-from .found import FAINT
+from ...study.one_surface import OneSurface, one_surface
+from .found import FAINT, some_of
 from .page import MOST_SAMPLES, Report
 
 DRAWN, WINDOW, BEYOND = 120, (1e-8, 1e-2), 5.0
@@ -26,6 +27,9 @@ DRAWN, WINDOW, BEYOND = 120, (1e-8, 1e-2), 5.0
 
 USUAL = 1e-5
 """The load F* around which is drawn where the study presses nothing."""
+
+MOST_PRESSED = 5
+"""Loads under which one small surface is pressed point by point."""
 
 PARTS = ("states", "error bars", "which inputs matter", "figures")
 """What is done one after the other until there is a page."""
@@ -60,7 +64,8 @@ def report(
     Error bars and elasticities are those at the middle of the loads. Error bars take what the
     table [uncertainty] says, in at most 256 samples (`assess` takes all that it asks for);
     without it, the ranges of the materials library, where it states some, but for particles that
-    break, whose samples take a second each.
+    break, whose samples take a second each. A table [explicit] has one small surface pressed, in
+    seconds; `thirdbody.study.run_explicit` takes all that it asks for.
 
     Examples
     --------
@@ -99,6 +104,9 @@ def report(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
         curve = _curve(bare, result, loaded)
+        pressed = None
+        if study.explicit is not None and loaded:
+            pressed = _pressed(study, [states["F_star"][i] for i in loaded])
         progress(PARTS[1])
         assessment = _assessed(study, bare, given) if loaded else None
         progress(PARTS[2])
@@ -111,7 +119,17 @@ def report(
             at=at,
             file=file,
             film=None if study.film is None else run_film(study),
+            pressed=pressed,
         )
+
+
+def _pressed(study: Study, loads: list[float]) -> OneSurface | str:
+    """One small surface under a few of the loads; why not, where it cannot be pressed."""
+    few = [loads[i] for i in some_of(len(loads), MOST_PRESSED)]
+    try:
+        return one_surface(study, few)
+    except InvalidValue as error:
+        return "; ".join(error.problems)
 
 
 def _curve(contact: Contact, result: dict[str, Any], loaded: Sequence[int]) -> Equilibrium:

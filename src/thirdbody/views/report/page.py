@@ -61,6 +61,9 @@ class Report(Sentences, Figures, Tables, Sources):
         The study file.
     film : dict or None
         What `run_film` gives, where the study has a table [film].
+    pressed : OneSurface, str or None
+        One small surface pressed point by point, where the study has a table [explicit]; or why
+        it could not be.
     """
 
     def html(self) -> str:
@@ -76,6 +79,7 @@ class Report(Sentences, Figures, Tables, Sources):
             *self._film(),
             section("Figures", self._figures(), name="figures"),
             section("States", self._states(), name="states"),
+            *self._explicit(),
             *self._critical(),
             *self._outputs(),
             section("Error bars", self._error_bars(), name="errors"),

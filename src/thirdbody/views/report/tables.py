@@ -8,6 +8,7 @@ from typing import Any
 from ...equilibrium.columns import about
 from ...equilibrium.words import CRITICAL, critical_load, happens
 from ...quantities.say import NOT_KNOWN, percent, plural, unit_of, value_of
+from ..explicit_words import compared, headline
 from ..html import figure, section, svg_of, symbols, table, text_table, words
 from .found import Found, some_of
 
@@ -115,6 +116,29 @@ class Tables(Found):
         head = ["at a speed of", *(value_of(states["speed"][i], "m/s") for i in which)]
         rows = [[name, *(column[name] for column in columns)] for name in columns[0]]
         return [section("The oil film", [*out, text_table(head, rows)], name="film")]
+
+    def _explicit(self) -> list[str]:
+        """One small surface, every particle at its place, beside the states of the study."""
+        found = self.pressed
+        if found is None:
+            return []
+        if isinstance(found, str):
+            text = f"<p>{words(f'The surface of the study could not be pressed: {found}.')}</p>"
+            return [section("Point by point", [text], name="explicit")]
+        from ..plot.explicit import explicit
+
+        head, rows = compared(found)
+        last = len(rows) - 1
+        told = [headline(found, last), *found.warnings]
+        out = [f"<p>{words(text)}</p>" for text in told]
+        caption = (
+            f"At F* = {rows[last][0]}: (a) contact pressure, with the particles that carry in true "
+            "size; (b) gap; (c) section through the particle that carries most; (d) parts of the "
+            "load on single particles."
+        )
+        drawn = figure(svg_of(explicit(found.state)), caption)
+        out += [text_table(head, rows), drawn]
+        return [section("Point by point", out, name="explicit")]
 
 
 def column_value(name: str, value: Any) -> str:

@@ -1,0 +1,183 @@
+"""One small surface pressed point by point: pressures, the particles that carry, and a section."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+import numpy as np
+from nicegui import ui
+
+from ...quantities.say import percent, value_of
+from ..figures import INKS, empty, figure, fix, line
+from ..state import Answer, State
+from ..text import with_micro
+from ..widgets import facts, put
+from ..work import Work
+
+__all__ = ["TITLE", "build", "force_figure", "pressure_figure", "section_figure"]
+
+TITLE = "Explicit"
+SECONDS = 120.0
+MOST_CIRCLES = 400
+"""Particles that are drawn, those that carry most."""
+CORNERS = 24
+"""Of a circle."""
+NAMES = ("pressure", "section", "forces")
+
+
+def _circles(x: Any, y: Any, size: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Circles of these diameters as one line with breaks."""
+    turn = np.append(np.linspace(0, 2 * np.pi, CORNERS + 1), np.nan)
+    radius = 0.5 * np.asarray(size, float)[:, None]
+    across = np.asarray(x, float)[:, None] + radius * np.cos(turn)
+    along = np.asarray(y, float)[:, None] + radius * np.sin(turn)
+    return across.ravel(), along.ravel()
+
+
+def pressure_figure(found: dict[str, Any]) -> dict[str, Any]:
+    """Pressure on the surface, and the particles that carry in true size."""
+    pressed = np.array(found["pressure"], float) / 1e9
+    step = 1e6 * found["spacing"]
+    rows = [[round(v, 4) if v > 0 else None for v in row] for row in pressed.tolist()]
+    traces: list[dict[str, Any]] = [
+        {
+            "type": "heatmap",
+            "z": rows,
+            "x0": 0,
+            "dx": step,
+            "y0": 0,
+            "dy": step,
+            "zmin": 0,
+            "zmax": max(float(pressed.max()), 1e-9),
+            "colorscale": "Cividis",
+            "colorbar": {"title": {"text": "GPa"}, "thickness": 12},
+            "hovertemplate": "%{z:.3g} GPa<extra></extra>",
+        }
+    ]
+    carrying = found["carrying"]
+    if carrying["force"]:
+        most = np.argsort(carrying["force"])[::-1][:MOST_CIRCLES]
+        x, y, size = (1e6 * np.array(carrying[name])[most] for name in ("x", "y", "diameter"))
+        circles = line(*_circles(x, y, size), "particles that carry", 1, line={"dash": "solid"})
+        traces.append(circles | {"hoverinfo": "skip"})
+    title = "Pressure, and particles in true size"
+    made = figure(
+        traces, x="x [µm]", y="y [µm]", title=title, xlog=False, height=460, hovermode="closest"
+    )
+    for axis, count in (("xaxis", pressed.shape[1]), ("yaxis", pressed.shape[0])):
+        fix(made, axis, [-0.5 * step, (count - 0.5) * step])
+        made["layout"][axis]["constrain"] = "domain"
+    made["layout"]["yaxis"]["scaleanchor"] = "x"
+    return made
+
+
+def section_figure(found: dict[str, Any]) -> dict[str, Any]:
+    """Through the particle that carries most: the deformed ground, and the flat above."""
+    section = found["section"]
+    along, before, deformed = (
+        1e9 * np.array(section[name], float) for name in ("along", "height", "deformed")
+    )
+    flat = np.full(len(along), 1e9 * found["h"])
+    traces = [
+        line(along, flat, "the flat", 0, line={"dash": "solid"}),
+        line(along, deformed, "deformed", 2, line={"dash": "solid"}),
+        line(along, before, "as it was", 2, line={"dash": "dot", "width": 1.4}),
+    ]
+    if section["size"]:
+        size = 1e9 * section["size"]
+        x, y = _circles([0.0], [1e9 * section["seat"] + size / 2], [size])
+        style = {"fill": "toself", "line": {"dash": "solid"}}
+        name = f"x = {value_of(section['size'], 'm', 3)}, {percent(section['share'])} of their load"
+        traces.append(line(x, y, name, 1, **style))
+        title = "The particle that carries most"
+    else:
+        title = "The highest pressure"
+    made = figure(traces, x="x from there [nm]", y="height [nm]", title=title, xlog=False)
+    made["layout"]["hovermode"] = "closest"
+    if section["size"]:
+        made["layout"]["yaxis"]["scaleanchor"] = "x"
+    return made
+
+
+def force_figure(found: dict[str, Any]) -> dict[str, Any]:
+    """How many particles carry how much of the load."""
+    trace = {
+        "type": "histogram",
+        "x": [100 * share for share in found["carrying"]["share"]],
+        "nbinsx": 30,
+        "marker": {"color": INKS[1]},
+        "name": "particles that carry",
+    }
+    title = "Load on single particles"
+    made = figure(
+        [trace], x="part of the load on one [%]", y="particles", title=title, xlog=False
+    )  # fmt: skip
+    made["layout"]["showlegend"] = False
+    return made
+
+
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
+    """A button that presses the surface of the study, and what came of it."""
+    return Explicit(state).draw
+
+
+class Explicit:
+    """The study on one small surface, at its operating load."""
+
+    def __init__(self, state: State) -> None:
+        self.state = state
+        ui.label(
+            "A small part of the surface of the study, measured or made with its σ, R and α, is "
+            "pressed point by point under the operating load, with every particle at its place, "
+            "and laid beside the statistical answer."
+        ).classes("hint")
+        self.work = Work(
+            "explicit", "Press the surface", self._ask, self._show, SECONDS, key=self._key
+        )
+        self.box = ui.column().classes("w-full")
+        with self.box:
+            self.words = put(ui.label().classes("w-full"), {"data-fact": "explicit headline"})
+            self.table = ui.row().classes("facts w-full")
+            self.notes = ui.column().classes("w-full gap-1")
+            self.plots: dict[str, Any] = {}
+            with ui.element("div").classes("figures w-full"):
+                for name in NAMES:
+                    self.plots[name] = ui.plotly(empty(360)).classes("w-full")
+                    put(self.plots[name], {"data-figure": f"explicit {name}"})
+        self.box.set_visibility(False)
+
+    def _key(self) -> Any:
+        answer = self.state.answer
+        return None if answer is None else (answer.contact, answer.study.explicit, self.state.at)
+
+    async def _ask(self) -> dict[str, Any] | None:
+        await self.state.settle()
+        if self.state.answer is None:
+            self.work.said.set_text("the study has a mistake; see its entries")
+            return None
+        load = await self.state.ask(_load, self.state.at)
+        return {"study": self.state.study, "folder": str(self.state.folder), "F_star": load}
+
+    def _show(self, found: dict[str, Any]) -> None:
+        self.box.set_visibility(True)
+        self.words.set_text(found["headline"].replace("`", ""))
+        self.table.clear()
+        with self.table:
+            each = found["compared"].items()
+            facts(((name, f"{a}; statistically {b}") for name, (a, b) in each), "explicit ")
+        self.notes.clear()
+        with self.notes:
+            for text in found["warnings"]:
+                ui.label(with_micro(text)).classes("hint")
+        draws = {"pressure": pressure_figure, "section": section_figure, "forces": force_figure}
+        for name, draw in draws.items():
+            self.plots[name].update_figure(draw(found))
+        self.plots["forces"].set_visibility(bool(found["carrying"]["force"]))
+
+    async def draw(self) -> None:
+        await self.work.tell(self.state)
+
+
+def _load(answer: Answer, at: float) -> float:
+    return float(answer.solve(at).F_star)

@@ -1,0 +1,201 @@
+"""One case pressed and laid beside the model, and what its numbers say."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.stats import norm
+from scipy.stats import t as student
+
+from ...errors import RangeWarning
+from ...explicit import Ensemble, ensemble
+from ...quantities.say import percent
+from ..seats import explicit_particles
+from .cases import SIGMA, Case
+
+__all__ = ["FULL", "QUICK", "Effort", "Point", "compared", "points_of"]
+
+SURE = 0.975
+"""Probability to each side within which a difference is one of the draw."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Effort:
+    """How much is pressed."""
+
+    surfaces: int
+    size: int
+    spacing: float
+    """Of the points [m]."""
+    loads: tuple[float, ...]
+
+    @property
+    def words(self) -> str:
+        side = self.size * self.spacing * 1e6
+        return (
+            f"{self.surfaces} surfaces of ({side:.3g} µm)², {self.size}² points "
+            f"{self.spacing * 1e9:.3g} nm apart"
+        )
+
+
+FULL = Effort(surfaces=8, size=512, spacing=200e-9, loads=(1e-5, 1e-4, 3e-4, 1e-3))
+QUICK = Effort(surfaces=3, size=128, spacing=200e-9, loads=(1e-4, 1e-3))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point:
+    """One case under one load: explicit with its error, statistical, and why they differ.
+
+    Attributes
+    ----------
+    raw, share : (float, float)
+        Load share of the particles and its standard error, as drawn and without the luck of the
+        draw [1].
+    statistical : float
+        The same of the model, its seats being those that were measured [1].
+    h, h_statistical, area, area_statistical
+        Separation over σ and real contact area [1].
+    ratios : dict
+        The four of `Ensemble` at the separation found.
+    model_bare : float
+        What ``bare_over_bearing`` is in the model.
+    surfaces : int
+        How many the error is from.
+    stored : (float, float) or None
+        The share that the stored runs gave, and its error.
+    """
+
+    case: Case
+    F_star: float
+    raw: tuple[float, float]
+    share: tuple[float, float]
+    statistical: float
+    h: tuple[float, float]
+    h_statistical: float
+    area: tuple[float, float]
+    area_statistical: float
+    ratios: dict[str, float]
+    model_bare: float
+    surfaces: int
+    stored: tuple[float, float] | None
+
+    @property
+    def apart(self) -> float:
+        """Share of the model over the explicit one, less 1."""
+        return self.statistical / self.share[0] - 1 if self.share[0] > 0 else math.nan
+
+    @property
+    def errors(self) -> float:
+        """The difference in standard errors."""
+        return (self.statistical - self.share[0]) / self.share[1] if self.share[1] > 0 else math.nan
+
+    @property
+    def off(self) -> bool:
+        """Whether the model is off by more than the error bars: 95 %, few surfaces counted."""
+        if self.surfaces < 2:
+            return False
+        return abs(self.errors) > float(student.ppf(SURE, self.surfaces - 1))
+
+    @property
+    def why(self) -> str:
+        """What the four ratios say of the difference, largest part first; "" without one.
+
+        The shares' odds differ by the factors with which explicit asperities carry less than
+        those of the model at one separation, and explicit particles less than their sum.
+        """
+        if not self.off:
+            return ""
+        found = self.ratios
+        bare = found["bare_over_bearing"] / self.model_bare
+        parts = [
+            (found["particles_over_sum"], "particles carry {} of the sum of their law"),
+            (bare, "bare asperities carry {} of the model's"),
+            (found["asperities_with_over_without"], "beside particles asperities carry {}"),
+            (found["bearing_over_gaussian"], "the bearing area drawn is {} of the Gaussian one"),
+        ]
+        known = [(abs(math.log(r)), words.format(percent(r, digits=2)))
+                 for r, words in parts if math.isfinite(r) and r > 0]  # fmt: skip
+        told = [words for size, words in sorted(known, reverse=True) if size > 0.01]
+        return "; ".join(told[:3])
+
+
+def compared(
+    case: Case, effort: Effort, folder: Path | None, report: Callable[[int], None]
+) -> Ensemble:
+    """The surfaces of a case, finished ones read from the folder."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        return ensemble(
+            case.contact,
+            surfaces=effort.surfaces,
+            F_star=effort.loads,
+            size=effort.size,
+            spacing=effort.spacing,
+            seats=case.seats,
+            folder=None if folder is None else folder / case.name,
+            progress=report,
+        )
+
+
+def points_of(case: Case, found: Ensemble) -> list[Point]:
+    """Every load of a case."""
+    table, at, state = found.table, found.at_h, found.statistical
+    hardness = found.contact.surfaces.H
+
+    def pair(name: str, i: int, scale: float = 1.0) -> tuple[float, float]:
+        value, error = (float(table[f"{name}{end}"].values[i]) for end in ("", "_error"))
+        return value / scale, error / scale
+
+    out = []
+    for i, load in enumerate(table.F_star.values.tolist()):
+        h = float(table["h_cv"].values[i])
+        ratios = {
+            name: float(np.interp(h, at.h.values[::-1], at[name].values[::-1])) for name in RATIOS
+        }
+        own = float(np.atleast_1d(state.h)[i])
+        bearing = hardness * float(norm.sf(own / SIGMA))
+        bare = float(np.atleast_1d(state.F_ss_star)[i]) * found.contact.E_ss / bearing
+        out.append(
+            Point(
+                case=case,
+                F_star=load,
+                raw=pair("particle_load_share_raw", i),
+                share=pair("particle_load_share_cv", i),
+                statistical=float(table["particle_load_share_statistical"].values[i]),
+                h=pair("h_cv", i, SIGMA),
+                h_statistical=own / SIGMA,
+                area=pair("A_t_cv", i),
+                area_statistical=float(table["A_t_statistical"].values[i]),
+                ratios=ratios,
+                model_bare=bare,
+                surfaces=found.surfaces,
+                stored=_stored(case, load),
+            )
+        )
+    return out
+
+
+RATIOS = (
+    "bare_over_bearing",
+    "particles_over_sum",
+    "asperities_with_over_without",
+    "bearing_over_gaussian",
+)
+
+
+def _stored(case: Case, load: float) -> tuple[float, float] | None:
+    """What the stored runs gave for the same contact."""
+    if case.group not in ("sizes", "bumps"):
+        return None
+    for point in explicit_particles()["points"]:
+        same = math.isclose(point["diameter"], case.diameter, rel_tol=1e-6)
+        if same and math.isclose(point["F_star"], load, rel_tol=1e-6):
+            told: dict[str, Any] = point["control_variate"] or point["raw"]
+            return told["load_share"], told["load_share_error"]
+    return None

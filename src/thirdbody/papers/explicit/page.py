@@ -1,0 +1,268 @@
+"""Every case pressed; the page, the table and the figure of it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...errors import InvalidValue
+from ...quantities.files import write_text
+from ...quantities.say import number, percent, signed
+from ...views.html import symbols, table
+from ..page import document, figures
+from ..panels import keep, made
+from .cases import CASES, GROUPS
+from .compared import FULL, QUICK, Effort, Point, compared, points_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["Summary", "figure", "reproduce"]
+
+Progress = Callable[[str, int, int], None]
+PRESETS = {None: FULL, "full": FULL, "quick": QUICK}
+STEM, RECORD = "share", "comparison.json"
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What `reproduce` did."""
+
+    out: Path
+    effort: Effort
+    points: tuple[Point, ...]
+    left_out: int
+    """States that did not converge, and count nowhere."""
+    files: tuple[str, ...]
+
+    def lines(self) -> list[str]:
+        """The summary for a terminal."""
+        off = sum(point.off for point in self.points)
+        out = [
+            f"{len(CASES)} contacts, each on {self.effort.words}",
+            f"{len(self.points)} states: the model is off by more than the error bars (95 %) in "
+            f"{off}; nothing fitted",
+        ]
+        for name, title in GROUPS.items():
+            out += ["", title]
+            for point in self.points:
+                if point.case.group == name:
+                    out.append(
+                        f"  {point.case.words:<44} F* = {number(point.F_star, 2):<8} "
+                        f"{_share(point.share):>18}  model {percent(point.statistical)}  "
+                        f"{signed(point.errors, 1)} errors"
+                    )
+        out += ["", f"{len(self.files)} files in {self.out}; read {self.out / 'index.html'}"]
+        return out
+
+
+def reproduce(
+    out: str | Path, *, preset: str | None = None, progress: Progress | None = None
+) -> Summary:
+    """Write ``index.html``, ``comparison.json`` and ``.csv``, and the figure as PNG, SVG, CSV.
+
+    Parameters
+    ----------
+    out : path-like
+        Folder, made when missing; it keeps finished surfaces, from which a run goes on.
+    preset : {"full", "quick"}, optional
+        ``quick`` takes three small maps a contact and two loads: a minute, and wide error bars.
+    progress : callable, optional
+        Called with stage, steps done, and steps in all.
+
+    Returns
+    -------
+    Summary
+
+    Raises
+    ------
+    InvalidValue
+        Another preset, or a folder that cannot be made.
+    """
+    if preset not in PRESETS:
+        raise InvalidValue(f"preset = {preset!r} must be 'full' or 'quick'")
+    effort = PRESETS[preset]
+    folder = made(out)
+    report = progress or (lambda stage, done, total: None)
+    total = len(CASES) * effort.surfaces
+    points: list[Point] = []
+    left_out = 0
+    for i, case in enumerate(CASES):
+        report("surfaces", i * effort.surfaces, total)
+        before = i * effort.surfaces
+
+        def tell(done: int, before: int = before) -> None:
+            report("surfaces", before + done, total)
+
+        found = compared(case, effort, folder / "surfaces", tell)
+        left_out += found.left_out
+        points += points_of(case, found)
+    report("surfaces", total, total)
+    summary = Summary(folder, effort, tuple(points), left_out, ())
+    drawn, svg = keep(figure(summary.points), _csv(summary.points), folder, STEM)
+    files = (*drawn, "comparison.csv", RECORD, "index.html")
+    summary = Summary(folder, effort, tuple(points), left_out, files)
+    write_text(folder / "comparison.csv", _csv(summary.points))
+    text = json.dumps(_as_json(summary), ensure_ascii=False, indent=1, allow_nan=False)
+    write_text(folder / RECORD, text + "\n")
+    write_text(folder / "index.html", _page(summary, svg))
+    return summary
+
+
+# -------------------------------------------------------------------------- the record
+def _columns(point: Point) -> dict[str, Any]:
+    """A state as plain numbers."""
+    stored = point.stored or (math.nan, math.nan)
+    return {
+        "case": point.case.name,
+        "group": point.case.group,
+        "what": point.case.words,
+        "F_star": point.F_star,
+        "share_raw": point.raw[0],
+        "share_raw_error": point.raw[1],
+        "share": point.share[0],
+        "share_error": point.share[1],
+        "share_statistical": point.statistical,
+        "difference_in_errors": point.errors,
+        "share_stored": stored[0],
+        "share_stored_error": stored[1],
+        "h_over_sigma": point.h[0],
+        "h_over_sigma_error": point.h[1],
+        "h_over_sigma_statistical": point.h_statistical,
+        "A_t": point.area[0],
+        "A_t_error": point.area[1],
+        "A_t_statistical": point.area_statistical,
+        **point.ratios,
+        "bare_over_bearing_statistical": point.model_bare,
+    }
+
+
+def _csv(points: tuple[Point, ...]) -> str:
+    out = io.StringIO()
+    rows = [_columns(point) for point in points]
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(rows[0])
+    for row in rows:
+        writer.writerow(
+            [f"{v:.6g}" if isinstance(v, float) and math.isfinite(v) else
+             "" if isinstance(v, float) else v for v in row.values()]
+        )  # fmt: skip
+    return out.getvalue()
+
+
+def _as_json(summary: Summary) -> dict[str, Any]:
+    from ...version import __version__
+
+    def finite(value: Any) -> Any:
+        return None if isinstance(value, float) and not math.isfinite(value) else value
+
+    return {
+        "version": __version__,
+        "effort": summary.effort.words,
+        "left_out": summary.left_out,
+        "states": [
+            {name: finite(value) for name, value in _columns(point).items()} | {"why": point.why}
+            for point in summary.points
+        ],
+    }
+
+
+# -------------------------------------------------------------------------- the figure
+def figure(points: tuple[Point, ...]) -> Figure:
+    """Model over explicit share, with the error bars of the explicit one, a panel a group."""
+    from matplotlib.figure import Figure
+
+    from ...views.plot.style import OKABE_ITO
+
+    inks = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky",
+                                         "black")]  # fmt: skip
+    out = Figure(figsize=(10.4, 9.6), dpi=150, layout="constrained")
+    panels = out.subplots(3, 3, sharex=True, sharey=True).flat
+    for ax, (name, title) in zip(panels, GROUPS.items(), strict=False):
+        mine = [point for point in points if point.case.group == name]
+        names = list(dict.fromkeys(point.case.words for point in mine))
+        ax.axhspan(0.9, 1.1, color="0.93", zorder=0)
+        ax.axhline(1.0, color="0.5", linewidth=0.8, zorder=1)
+        for i, words in enumerate(names):
+            every = [point for point in mine if point.case.words == words and point.share[0] > 0]
+            load = np.array([point.F_star for point in every]) * 1.07 ** (i - len(names) / 2)
+            ratio = np.array([point.statistical / point.share[0] for point in every])
+            error = ratio * np.array([point.share[1] / point.share[0] for point in every])
+            ax.errorbar(
+                load, ratio, yerr=error, marker="o", markersize=4, capsize=2.5, linewidth=1.0,
+                elinewidth=1.0, color=inks[i % len(inks)], label=words,
+            )  # fmt: skip
+        ax.set_title(title, fontsize="small", loc="left")
+        if names:
+            ax.legend(fontsize=6.2, frameon=False, loc="upper left")
+    for ax in panels:
+        ax.set_visible(False)
+    for ax in out.axes:
+        ax.set_xscale("log")
+        ax.set_ylim(0.6, 1.8)
+        ax.tick_params(which="both", direction="in", top=True, right=True)
+        ax.tick_params(labelbottom=True)
+    out.supxlabel("load $F^*$", fontsize="medium")
+    out.supylabel("particles' load share, statistical over explicit", fontsize="medium")
+    return out
+
+
+# -------------------------------------------------------------------------- the page
+def _share(pair: tuple[float, float]) -> str:
+    return percent(*pair) if math.isfinite(pair[1]) else percent(pair[0])
+
+
+def _page(summary: Summary, svg: bytes) -> str:
+    title = "The statistical model against particles at their places"
+    body = [
+        f"<h1>{title}</h1>",
+        f"<p>{len(CASES)} contacts, each on {summary.effort.words}; "
+        f"{summary.left_out} states that did not converge are left out. Base: σ = 0.3 µm, "
+        "R = 3 µm, α = 5, E* = 112 GPa, H = 5 GPa, 10¹¹ particles of one size per m², random "
+        "seats. Shares are those of the particles in the load; explicit ones without the luck of "
+        "the draw, with standard errors over surfaces. The model has the seat heights that were "
+        "measured; nothing is fitted. Rows on a coloured ground are those in which it is off by "
+        "more than the error bars (95 %, the few surfaces counted).</p>",
+        "<h2>Shares</h2>",
+    ]
+    for name, words in GROUPS.items():
+        mine = [point for point in summary.points if point.case.group == name]
+        stored = any(point.stored for point in mine)
+        body.append(f"<h3>{escape(words)}</h3>")
+        head = ["contact", "F*", "explicit, raw", "explicit", "statistical", "off by", "h/σ",
+                "h/σ, statistical", "why"]  # fmt: skip
+        if stored:
+            head.insert(4, "stored runs")
+        body.append(table(head, (_row(point, stored) for point in mine)))
+    body += ["<h2>Figure</h2>",
+             figures([(STEM, "load share of particles, statistical over explicit",
+                       "Grey: 10 %.", svg)])]  # fmt: skip
+    return document(title, body)
+
+
+def _row(point: Point, stored: bool) -> list[str]:
+    kind = "fail" if point.off else "pass"
+    cells = [
+        symbols(point.case.words),
+        number(point.F_star, 2),
+        _share(point.raw),
+        f"<b>{_share(point.share)}</b>",
+        percent(point.statistical),
+        f"<td class='{kind}'>{signed(100 * point.apart, 1)} %, {signed(point.errors, 1)} errors"
+        "</td>",
+        f"{point.h[0]:.3f} ± {point.h[1]:.3f}",
+        f"{point.h_statistical:.3f}",
+        escape(point.why),
+    ]
+    if stored:
+        cells.insert(4, _share(point.stored) if point.stored else "–")
+    return cells
