@@ -885,6 +885,8 @@ def test_everything_has_a_name(visit):
         )
         folded = "document.querySelector('.q-drawer .q-item[aria-expanded=false]')"
         when(page, f"!{folded}?.offsetParent")
+    tabs = "document.querySelector('.q-tabs__content')"
+    assert page.evaluate(f"{tabs}.scrollWidth <= {tabs}.clientWidth")  # all are in sight
     for name in page.get_by_role("tab").all_inner_texts():
         tab(page, name.strip())
         when(page, "document.querySelector('.q-tab-panel').innerText.trim()")

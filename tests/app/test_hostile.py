@@ -443,6 +443,17 @@ def test_an_address_gives_a_file_for_its_key_alone(key, tmp_path):
         folders.close()
 
 
+def test_a_system_without_links_has_copies(tmp_path, monkeypatch):
+    def refused(*_):
+        raise PermissionError
+
+    monkeypatch.setattr("os.link", refused)
+    (tmp_path / "part.txt").write_bytes(b"1 2 3")
+    shelf = Shelf(tmp_path / "shelf")
+    assert shelf.give(shelf.put(tmp_path / "part.txt"), tmp_path / "there.txt")
+    assert (tmp_path / "there.txt").read_bytes() == b"1 2 3"
+
+
 def test_a_key_is_of_this_server_and_of_what_a_file_holds(tmp_path):
     (tmp_path / "one.txt").write_bytes(b"1 2 3")
     (tmp_path / "two.txt").write_bytes(b"1 2 3")

@@ -63,7 +63,7 @@ class Shelf:
         self.path.mkdir(mode=0o700, exist_ok=True)
         kept = self.path / key
         with contextlib.suppress(FileExistsError):
-            os.link(file, kept)
+            _same(file, kept)
         os.utime(kept)
         every = sorted(self.path.iterdir(), key=lambda each: (each != kept, -each.stat().st_mtime))
         room = LARGEST_SHELF
@@ -79,10 +79,20 @@ class Shelf:
             return False
         with contextlib.suppress(FileNotFoundError):
             there = file.with_name(f"{file.name}.{secrets.token_hex(4)}")
-            os.link(self.path / key, there)
+            _same(self.path / key, there)
             there.replace(file)
             return True
         return False
+
+
+def _same(file: Path, there: Path) -> None:
+    """The same file under another name; a copy of it where the system has no such links."""
+    try:
+        os.link(file, there)
+    except (FileExistsError, FileNotFoundError):
+        raise
+    except OSError:
+        shutil.copyfile(file, there)
 
 
 def remove_left() -> list[Path]:
