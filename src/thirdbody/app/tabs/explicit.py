@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...quantities.say import percent, value_of
+from ...quantities.say import percent, prefixed, value_of
 from ..figures import INKS, empty, figure, fix, line
 from ..state import Answer, State
 from ..text import with_micro
@@ -37,9 +37,12 @@ def _circles(x: Any, y: Any, size: Any) -> tuple[np.ndarray, np.ndarray]:
 
 def pressure_figure(found: dict[str, Any]) -> dict[str, Any]:
     """Pressure on the surface, and the particles that carry in true size."""
-    pressed = np.array(found["pressure"], float) / 1e9
+    pressed = np.array(found["pressure"], float)
+    top = max(float(pressed.max()), 1.0)
+    most, unit = prefixed(top, "Pa")
+    pressed *= most / top
     step = 1e6 * found["spacing"]
-    rows = [[round(v, 4) if v > 0 else None for v in row] for row in pressed.tolist()]
+    rows = [[float(f"{v:.4g}") if v > 0 else None for v in row] for row in pressed.tolist()]
     traces: list[dict[str, Any]] = [
         {
             "type": "heatmap",
@@ -49,10 +52,10 @@ def pressure_figure(found: dict[str, Any]) -> dict[str, Any]:
             "y0": 0,
             "dy": step,
             "zmin": 0,
-            "zmax": max(float(pressed.max()), 1e-9),
+            "zmax": most,
             "colorscale": "Cividis",
-            "colorbar": {"title": {"text": "GPa"}, "thickness": 12},
-            "hovertemplate": "%{z:.3g} GPa<extra></extra>",
+            "colorbar": {"title": {"text": unit}, "thickness": 12},
+            "hovertemplate": f"%{{z:.3g}} {unit}<extra></extra>",
         }
     ]
     carrying = found["carrying"]
