@@ -42,7 +42,7 @@ def pressure_figure(found: dict[str, Any]) -> dict[str, Any]:
     most, unit = prefixed(top, "Pa")
     pressed *= most / top
     step = 1e6 * found["spacing"]
-    rows = [[float(f"{v:.4g}") if v > 0 else None for v in row] for row in pressed.tolist()]
+    rows = [[round(v, 4) if v > 0 else None for v in row] for row in pressed.tolist()]
     traces: list[dict[str, Any]] = [
         {
             "type": "heatmap",
