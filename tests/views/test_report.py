@@ -167,7 +167,10 @@ def test_two_bodies_have_no_modes(two_body):
     assert "no particles" in found.sentences()[0]
     order = tb.sensitivity(found.contact, of="A_t", pressure=5e6).elasticity["A_t"]
     strongest = max(order, key=lambda label: abs(order[label]))
-    assert f"Of the inputs, {words_of(found.contact, strongest)} moves the real contact area most" in found.sentences()[2]
+    assert (
+        f"Of the inputs, {words_of(found.contact, strongest)} moves the real contact area most"
+        in found.sentences()[2]
+    )
     assert "Critical loads" not in page.tables
     assert not re.search(r"\b(nan|inf|None)\b", page.whole)
 
