@@ -2,6 +2,7 @@
 
 import html
 import json
+import math
 import os
 import re
 import subprocess
@@ -211,6 +212,20 @@ def test_mistakes(setting, words):
 def test_a_load_beyond_the_model_has_no_page():
     done = run("assess", EXAMPLE, *FEW, "--set", "load.pressure=1e13")
     assert done.exit_code == 3
+
+
+def test_inputs_that_move_nothing_are_not_ranked(monkeypatch):
+    """Where the rank would be that of rounding errors: no bars, and a sentence that says so."""
+    monkeypatch.setattr(sys.modules["thirdbody.views.assess_page"], "LOADS_SHOWN", 4)
+    vary = {"surfaces.first.nu": (0.29, 0.29 + 1e-9)}
+    page = tb.assess(DUSTY, vary=vary, pressure=5e6, samples=64)
+    assert not page.moved
+    assert all(math.isnan(part) for part in page.matter.values())
+    (inputs,) = (part for part in page.sections() if part.title == "Inputs that matter")
+    assert inputs.sentences == (
+        "No input moves F_cr1, the critical load nearest to this load, within its range.",
+    )
+    assert len(assess_page.pictures(page)) == 1
 
 
 # ---------------------------------------------------------------- several loads

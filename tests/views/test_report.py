@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 
 import thirdbody as tb
 from thirdbody import cli
+from thirdbody.analysis.inputs import words_of
 from thirdbody.contact.output import AbstractOutput, Column
 from thirdbody.quantities.say import number, percent
 from thirdbody.study import load_study
@@ -168,7 +169,10 @@ def test_two_bodies_have_no_modes(two_body):
     assert "no particles" in found.sentences()[0]
     order = tb.sensitivity(found.contact, of="A_t", pressure=5e6).elasticity["A_t"]
     strongest = max(order, key=lambda label: abs(order[label]))
-    assert f"Of the inputs, {strongest} moves the real contact area most" in found.sentences()[2]
+    assert (
+        f"Of the inputs, {words_of(found.contact, strongest)} moves the real contact area most"
+        in found.sentences()[2]
+    )
     assert "Critical loads" not in page.tables
     assert not re.search(r"\b(nan|inf|None)\b", page.whole)
 
@@ -259,8 +263,9 @@ def test_the_inputs_that_matter_come_first(dusty):
     order = sorted(size, key=lambda label: -size[label])
     head, *rows = page.tables["Which inputs matter"]
     assert head[2] == "load share of particles"
-    assert [row[0] for row in rows[:5]] == order[:5]
-    assert f"{order[0]}, {order[1]} and {order[2]} matter most" in page.whole
+    first = [words_of(found.contact, label) for label in order]
+    assert [row[0] for row in rows[:5]] == first[:5]
+    assert f"{first[0]}, {first[1]} and {first[2]} matter most" in page.whole
 
 
 # ---------------------------------------------------------------- what it rests on

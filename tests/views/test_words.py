@@ -1,14 +1,18 @@
 """Numbers and sentences have one home each, and it holds."""
 
+import dataclasses
 import re
 from pathlib import Path
 
 import pytest
 
 import thirdbody as tb
+from thirdbody import effects
 from thirdbody.equilibrium import words
-from thirdbody.equilibrium.columns import MODES
+from thirdbody.equilibrium.columns import COLUMNS, MODES
 from thirdbody.quantities import say
+from thirdbody.quantities.units import EXAMPLES
+from thirdbody.quantities.value import Value
 
 SOURCE = Path(tb.__file__).parent
 SPEAK = ("analysis/assess", "app", "cli", "views", "study/run")
@@ -126,3 +130,20 @@ def test_a_critical_load_outside_the_window_is_one_sentence_however_it_is_told(
 
 def test_a_critical_load_that_does_not_exist_is_a_dash():
     assert words.critical_load(None, "none") == words.critical_load(float("nan")) == "-"
+
+
+def test_no_unit_stands_as_a_file_writes_it():
+    """Of every declared quantity and every column: powers are raised, products have no sign."""
+    units = {about["unit"] for about in COLUMNS.values()} | set(EXAMPLES)
+    units |= {column.unit for each in effects.REGISTRY.values() for column in each.columns.values()}
+    units |= {
+        item.metadata["quantity"]["unit"]
+        for kind in Value._classes.values()
+        if dataclasses.is_dataclass(kind)
+        for item in dataclasses.fields(kind)
+        if "quantity" in item.metadata
+    }
+    assert len(units) > 15
+    for unit in units - {"1"}:
+        assert not re.search(r"[\^*]|1/|/.*/", say.unit_of(unit)), unit
+    assert say.value_of(6.7e5, "Pa m^0.5") == "0.67 MPa √m"

@@ -17,7 +17,18 @@ from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..quantities.say import percent, value_of
 from ..quantities.value import problem_with
-from .assessment import COARSE, EACH, FAR, FINER, SHOWN, Assessment, Change, _nominal, _unit
+from .assessment import (
+    COARSE,
+    EACH,
+    FAR,
+    FINER,
+    SHOWN,
+    UNMOVED,
+    Assessment,
+    Change,
+    _nominal,
+    _unit,
+)
 from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
 from .sensitivity import sensitivity
@@ -223,7 +234,8 @@ def _parts(ends: Mapping[str, tuple[float, float]], *, logarithm: bool) -> dict[
         if logarithm:
             with np.errstate(divide="ignore"):
                 low, high = (float(np.log(x)) for x in (low, high))
-        ways[label] = swing(low, high) if not math.isnan(low + high) else 0.0
+        way = swing(low, high) if not math.isnan(low + high) else 0.0
+        ways[label] = way if way > UNMOVED else 0.0
     total = sum(way**2 for way in ways.values())
     order = sorted(ways, key=lambda label: -ways[label])
     if not 0 < total < math.inf:

@@ -36,6 +36,8 @@ FAR, COARSE, FINER = 10.0, 41, (18, 18)
 """Factor within which a change of mode is sought in an input, values on the way to it of which
 every EACH-th is tried, and values tried within the step in which it lies, and within that."""
 EACH = 4
+UNMOVED = 1e-5
+"""Part of a result below which its differences are not known."""
 RARE = 1e-4
 """Probability below which a value counts as outside the range of an input."""
 
@@ -177,6 +179,14 @@ class Assessment:
         parts.append(Section("What this rests on", sentences=self.basis()))
         return parts
 
+    @property
+    def moved(self) -> bool:
+        """Whether what inputs are ranked by answers to any of them, or ceases to exist."""
+        return any(
+            not (low == high or abs(high - low) <= UNMOVED * abs(high + low))
+            for low, high in self.tornado[self.decisive].values()
+        )
+
     def _band(self, name: str) -> tuple[float, ...]:
         where = [self.propagation.probabilities.index(q) for q in BAND]
         return tuple(float(self.propagation.bands[name][i]) for i in where)
@@ -256,11 +266,13 @@ class Assessment:
                 )
             )
         strongest = [self._words(label) for label in list(self.matter)[:3]]
+        first = next(iter(self.matter.values()), math.nan)
         sentences = [
             f"Of the inputs, {listed(strongest)} matter{'s' if len(strongest) == 1 else ''} most "
             f"to {self._decisive()}."
+            if self.moved
+            else f"No input moves {self._decisive()}, within its range."
         ]
-        first = next(iter(self.matter.values()), math.nan)
         if math.isfinite(first):
             sentences.append(
                 f"A better value of the {strongest[0]} pays most: it alone makes about "

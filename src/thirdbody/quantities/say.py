@@ -32,6 +32,7 @@ SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PREFIXED = {
     "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")),
     "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
+    "Pa m^0.5": ((1e6, "MPa √m"),),
 }
 SMALLEST, LARGEST = 1e-11, 1e13
 """Magnitudes between which units take a prefix."""
@@ -39,6 +40,9 @@ UNITS = {
     "um": "µm",
     "1/m^2": "m⁻²",
     "1/m": "m⁻¹",
+    "1/m^3": "m⁻³",
+    "1/Pa": "Pa⁻¹",
+    "Pa m^0.5": "Pa √m",
     "m^3": "m³",
     "m^2": "m²",
     "kg/m^3": "kg/m³",

@@ -62,6 +62,8 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
         out.append((words + "marked.", svg_of(ax.figure)))
     else:
         out.append(("Only the load is uncertain.", svg_of(Figure(figsize=(1, 1)))))
+    if not assessment.moved:
+        return out
     ax = plot.tornado(found, assessment.decisive, values=assessment.tornado[assessment.decisive])
     words = f"{assessment.decisive} with one input at each end of its 5 % to 95 % range."
     return [*out, (words, svg_of(ax.figure))]

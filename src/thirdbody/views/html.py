@@ -51,7 +51,9 @@ figcaption{font-size:.82rem}
 .figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(25rem,100%),1fr));gap:1rem}
 .figures figure{margin:0}.figures img{width:100%}
 @media print{html{font-size:9.5pt}body{margin:0;padding:0;max-width:none;font-size:9.5pt}
-h1,h2,h3,.lead-in{break-after:avoid}h2{margin:.9rem 0 .3rem}p{max-width:none;orphans:3;widows:3}
+h1,h2,h3,.lead-in{break-after:avoid}
+.lead-in{break-inside:avoid}.scroll+.soft{break-before:avoid}
+h2{margin:.9rem 0 .3rem}p{max-width:none;orphans:3;widows:3}
 figure,tr,li{break-inside:avoid}thead{display:table-header-group}
 .scroll{overflow:visible;break-inside:avoid}.scroll.long{break-inside:auto}
 table{font-size:7.5pt}th,td{padding:.1rem .35rem}td.words{min-width:0}

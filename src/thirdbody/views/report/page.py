@@ -6,7 +6,7 @@ import re
 from html import escape
 
 from ...analysis.assessment import WORDS as ASSESSMENT_WORDS
-from ...analysis.inputs import declared
+from ...analysis.inputs import declared, words_of
 from ...analysis.uncertainty.inputs import stated_ranges
 from ...analysis.uncertainty.samples import enough
 from ...equilibrium.columns import about
@@ -157,7 +157,7 @@ class Report(Sentences, Figures, Tables, Sources):
             unit = unit or declared(self.contact, label.split("+")[0])["unit"]
             each = (float(self.slopes.elasticity[name][label]) for name in (of, *others))
             slopes = (signed(slope, 3) for slope in each)
-            rows.append([label, value_of(float(value), unit), *slopes])
+            rows.append([words_of(self.contact, label), value_of(float(value), unit), *slopes])
         sentence = (
             f"At {self._load(self.at)}, {self._strongest(of, order)}. The numbers tell by how many "
             "per cent a result changes when an input grows by one per cent, all others held, "
@@ -165,4 +165,5 @@ class Report(Sentences, Figures, Tables, Sources):
         )
         more = f"<p class=soft>{len(rows)} of {len(order)} inputs.</p>" * (len(order) > len(rows))
         head = ["input", "value", *(about(name)["meaning"] for name in (of, *others))]
-        return [f"<p class=lead-in>{words(sentence)}</p>", text_table(head, rows), more]
+        found = text_table(head, rows, ASSESSMENT_WORDS)
+        return [f"<p class=lead-in>{words(sentence)}</p>", found, more]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from ...analysis.inputs import words_of
 from ...analysis.sensitivity import Sensitivity
 from ...equilibrium.columns import about
 from ...equilibrium.words import carried, happens, mode_of, mode_path, not_met, two_bodies
@@ -148,7 +149,8 @@ class Sentences(Found):
         assert self.slopes is not None
         slope = float(self.slopes.elasticity["A_t"][order[0]])
         return (
-            f"{self._when()}{order[0]} moves the real contact area most: 1 % more of it makes "
+            f"{self._when()}{words_of(self.contact, order[0])} moves the real contact area most: "
+            "1 % more of it makes "
             f"{signed(slope, 2, '%')} of area."
         )
 
@@ -170,7 +172,7 @@ class Sentences(Found):
         return of, _order(self.slopes, of)
 
     def _strongest(self, of: str, order: list[str]) -> str:
-        first = order[:MATTER]
+        first = [words_of(self.contact, label) for label in order[:MATTER]]
         most = f"{listed(first)} matter{'s' if len(first) == 1 else ''} most"
         most += f" to the {about(of)['meaning']}"
         if self.contact.two_body or of != "A_t":
