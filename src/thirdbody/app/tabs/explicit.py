@@ -39,8 +39,8 @@ def pressure_figure(found: dict[str, Any]) -> dict[str, Any]:
     """Pressure on the surface, and the particles that carry in true size."""
     pressed = np.array(found["pressure"], float)
     top = max(float(pressed.max()), 1.0)
-    most, unit = prefixed(top, "Pa")
-    pressed *= most / top
+    shown, unit = prefixed(top, "Pa")
+    pressed *= shown / top
     step = 1e6 * found["spacing"]
     rows = [[round(v, 4) if v > 0 else None for v in row] for row in pressed.tolist()]
     traces: list[dict[str, Any]] = [
@@ -52,7 +52,7 @@ def pressure_figure(found: dict[str, Any]) -> dict[str, Any]:
             "y0": 0,
             "dy": step,
             "zmin": 0,
-            "zmax": most,
+            "zmax": shown,
             "colorscale": "Cividis",
             "colorbar": {"title": {"text": unit}, "thickness": 12},
             "hovertemplate": f"%{{z:.3g}} {unit}<extra></extra>",
