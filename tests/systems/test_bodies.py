@@ -156,8 +156,6 @@ def test_an_assessment_of_a_force():
     page = assess_study(study(more=ranges))
     assert page.propagation.loads == study().values[0]
     assert page.notes[0].startswith("10 N on the body ball-on-flat: Hertz contact")
-    with pytest.raises(InvalidValue, match=r"load\.force has 2 values"):
-        assess_study(study("load.force=[1, 2]", more=ranges))
 
 
 def test_a_film_between_the_bodies():

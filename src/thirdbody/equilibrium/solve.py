@@ -491,19 +491,7 @@ def _warnings(
     contact: Contact, bound: Interface, full: dict[str, Array], d: Array
 ) -> tuple[str, ...]:
     """One sentence for each way in which these states leave the model's validity."""
-    out = []
-    area = full["A_t"]
-    if np.any(area > 0.2):
-        out.append(
-            f"A_t reaches {np.nanmax(area):.3g}: above 0.2 neighbouring contacts interact, "
-            "which this model neglects"
-        )
-    if np.any(area > CLOSE) and any(_lies_anywhere(contact.law_of(p)) for p in contact.populations):
-        out.append(
-            f"A_t reaches {np.nanmax(area):.3g}: pressed point by point, surfaces with more than "
-            f"{CLOSE:g} were 0.04 to 0.65 sigma further apart than this model says, and their "
-            "particles carried 7 to 17 % less"
-        )
+    out = about_area(contact, float(np.nanmax(full["A_t"], initial=0.0)))
     height = (d - bound.asperities.centre) / bound.asperities.sigma_s
     if np.any(height < DEEPEST):
         out.append(
@@ -534,6 +522,23 @@ def _warnings(
         if np.any(np.isfinite(d)):
             out += about_pressed(contact, d)
     return tuple(out)
+
+
+def about_area(contact: Contact, most: float) -> list[str]:
+    """What states whose real area reaches this leave out."""
+    out = []
+    if most > 0.2:
+        out.append(
+            f"A_t reaches {most:.3g}: above 0.2 neighbouring contacts interact, "
+            "which this model neglects"
+        )
+    if most > CLOSE and any(_lies_anywhere(contact.law_of(p)) for p in contact.populations):
+        out.append(
+            f"A_t reaches {most:.3g}: pressed point by point, surfaces with more than "
+            f"{CLOSE:g} were 0.04 to 0.65 sigma further apart than this model says, and their "
+            "particles carried 7 to 17 % less"
+        )
+    return out
 
 
 CLOSE = 0.05

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.columns import labels, labels_of
-from ...equilibrium.solve import about_particles, solve
+from ...equilibrium.solve import about_area, about_particles, solve
 from ...equilibrium.states import state_columns, varied
 from ...errors import InvalidValue, RangeWarning
 from ...numerics.sampling import DESIGNS, Span
@@ -375,14 +375,10 @@ def _wording(sentence: str) -> str:
     return re.sub(r"[\d.e+-]+", "", sentence)
 
 
-def all_notes(notes: list[str], summary: Mapping[str, Any]) -> list[str]:
+def all_notes(contact: Contact, notes: list[str], summary: Mapping[str, Any]) -> list[str]:
     """The sentences of a finished run: about its inputs, and about its states."""
     out = [note for note in notes if not note.startswith(("A_t reaches", "particles shadow"))]
-    if summary["A_t"] > 0.2:
-        out.append(
-            f"A_t reaches {summary['A_t']:.3g}: above 0.2 neighbouring contacts interact, "
-            "which this model neglects"
-        )
+    out += about_area(contact, summary["A_t"])
     if summary["shadow"] >= 1:
         out.append("particles shadow the whole area: the area correction was cut at zero")
     return out

@@ -31,6 +31,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from ...contact.contact import Contact
 from ...errors import InvalidValue
 from ...quantities.files import write_text
 from ...quantities.progress import Report, reporting
@@ -96,7 +97,7 @@ def in_memory(
         for name, (dims, _, attrs) in layout.variables.items()
     }
     inputs = {name: variables.pop(name) for name in layout.inputs}
-    attrs = layout.attrs | _attributes(notes, _summary(summaries))
+    attrs = layout.attrs | _attributes(plan.contact, notes, _summary(summaries))
     return xr.Dataset(variables, coords=layout.coords | inputs, attrs=attrs)
 
 
@@ -136,10 +137,10 @@ def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     return out | {"engine": dict(sorted(paths.items()))}
 
 
-def _attributes(notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
+def _attributes(contact: Contact, notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
     """What a run says of itself, a line each."""
     paths = (f"{word} ({count} states)" for word, count in summary["engine"].items())
-    return {"warnings": "\n".join(all_notes(notes, summary)), "engine": "\n".join(paths)}
+    return {"warnings": "\n".join(all_notes(contact, notes, summary)), "engine": "\n".join(paths)}
 
 
 # -------------------------------------------------------------------------- who solves
@@ -471,7 +472,7 @@ def _carry_out(
             states += summary["states"]
             report(states)
     total = _summary(done.values())
-    attrs: dict[str, Any] = dict(_attributes(notes, total))
+    attrs: dict[str, Any] = dict(_attributes(plan.contact, notes, total))
     if direct:
         store.label(attrs)
     else:
