@@ -1,8 +1,10 @@
-"""Sweeps on a Dask cluster: a scheduler and worker processes on the loopback."""
+"""Sweeps and explicit surfaces on a Dask cluster: a scheduler and worker processes on the loopback."""
 
+import json
 import os
 import signal
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +14,8 @@ from steel_and_dust import DUSTY as CONTACT
 from typer.testing import CliRunner
 
 import thirdbody as tb
-from thirdbody.analysis.sweep.cluster import connected
 from thirdbody.cli import app
+from thirdbody.quantities.sharing import connected
 
 distributed = pytest.importorskip(
     "distributed", reason="needs the extra: pip install 'thirdbody[cluster]'"
@@ -22,6 +24,7 @@ pytest.importorskip("zarr", reason="needs the extra: pip install 'thirdbody[swee
 
 pytestmark = pytest.mark.check
 EXAMPLE = Path(__file__).parents[2] / "examples" / "sweep.toml"
+POINTS = EXAMPLE.with_name("explicit.toml")
 ASKED = dict(
     pressure=(1e6, 1e8),
     vary={
@@ -135,9 +138,71 @@ def test_command(cluster, tmp_path):
     assert "nothing to do" in run("--set", "sweep.chunk=64").stderr
 
 
+def test_surfaces_survive_a_killed_worker(cluster, client, tmp_path):
+    """Byte for byte the local run; a finished surface is kept before the next one comes."""
+    asked = dict(surfaces=8, F_star=[3e-4, 2e-3], size=64, spacing=2e-7, seed=3)
+    told, killed = [], []
+
+    def progress(done):
+        told.append((done, len(list((tmp_path / "there").glob("surface_*.json")))))
+        if done == 2:
+            killed.append(processes(client)[0])
+            os.kill(killed[0], getattr(signal, "SIGKILL", signal.SIGTERM))
+
+    def pressed(name, **how):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", tb.RangeWarning)
+            found = tb.explicit.ensemble(CONTACT, **asked, folder=tmp_path / name, **how)
+        return json.dumps(found.to_dict()), json.dumps(found.states)
+
+    address = cluster.scheduler_address
+    there = pressed("there", scheduler=address, progress=progress)
+    assert there == pressed("here")
+    assert written(tmp_path / "there") == written(tmp_path / "here")
+    assert told == [(done, done) for done in range(1, 9)]
+    client.wait_for_workers(2, timeout=60)
+    assert killed[0] not in processes(client)
+
+
+def test_command_with_surfaces(cluster, tmp_path):
+    def run(name, *arguments):
+        small = ("--surfaces", "3", "--size", "64", "--spacing", "300 nm", "--json")
+        out = ("--out", str(tmp_path / name))
+        return CliRunner().invoke(app, ["explicit", str(POINTS), *small, *out, *arguments])
+
+    there = run("there", "--scheduler", cluster.scheduler_address)
+    assert there.exit_code == 0, there.stderr
+    assert there.stdout == run("here").stdout
+    surfaces = [written(tmp_path / name / "surfaces") for name in ("there", "here")]
+    assert surfaces[0] == surfaces[1]
+    assert len(surfaces[0]) == 3
+
+
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nowhere", "tcp://127.0.0.1:no", ""])
+@pytest.mark.parametrize("command", ["sweep", "explicit"])
+def test_a_bad_address_has_one_message(command, address, tmp_path, monkeypatch):
+    monkeypatch.setattr("thirdbody.quantities.sharing.TIMEOUT", 1.0)
+    study = {"sweep": EXAMPLE, "explicit": POINTS}[command]
+    arguments = [command, str(study), "--out", str(tmp_path), "--scheduler", address]
+    done = CliRunner().invoke(app, arguments)
+    assert done.exit_code == 2, done.output
+    (line,) = (line for line in done.stderr.splitlines() if not line.startswith("warning: "))
+    assert f"no Dask scheduler answers at {address}" in line
+
+
 def test_nobody_there(tmp_path):
     with pytest.raises(tb.InvalidValue, match=r"no Dask scheduler answers at tcp://127\.0\.0\.1:9"):
         connected("tcp://127.0.0.1:9", timeout=1)
+
+
+@pytest.mark.parametrize("address", ["nowhere", "tcp://127.0.0.1:no", "foo://127.0.0.1:9", ""])
+def test_no_client_is_made_for_what_is_no_address(address, monkeypatch):
+    """It would end the process with a traceback of its own after the message."""
+    made = []
+    monkeypatch.setattr(distributed, "Client", lambda *_, **__: made.append(1))
+    with pytest.raises(tb.InvalidValue, match="no Dask scheduler answers"):
+        connected(address)
+    assert made == []
 
 
 def test_missing_package_has_one_message(monkeypatch):

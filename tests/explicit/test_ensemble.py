@@ -155,6 +155,29 @@ def test_an_interrupted_run_goes_on(tmp_path):
     assert other.seats.mean < -1
 
 
+def test_shared_among_threads_it_is_the_same(tmp_path):
+    """Byte for byte, in a folder and out of it, stopped and resumed by others."""
+
+    def stop(done):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    asked = dict(count=5, size=64, spacing=3e-7)
+    alone = many(**asked, folder=tmp_path / "alone")
+    told = []
+    with pytest.raises(KeyboardInterrupt):
+        many(**asked, folder=tmp_path / "two", workers=2, progress=stop)
+    assert len(list((tmp_path / "two").iterdir())) == 2
+    two = many(**asked, folder=tmp_path / "two", workers=3, progress=told.append)
+    assert told == [3, 4, 5]
+    assert json.dumps(two.to_dict()) == json.dumps(alone.to_dict())
+    assert json.dumps(two.states) == json.dumps(alone.states)
+    assert json.dumps(many(**asked, workers=2).to_dict()) == json.dumps(alone.to_dict())
+    files = [{each.name: each.read_bytes() for each in (tmp_path / name).iterdir()}
+             for name in ("alone", "two")]  # fmt: skip
+    assert files[0] == files[1]
+
+
 def test_states_that_did_not_converge_are_left_out():
     short = many(2, max_iterations=2, tol=1e-10)
     assert short.left_out > 0
@@ -174,6 +197,7 @@ def test_a_load_on_a_few_points_is_told():
         (dict(F_star=[-1.0]), "must be finite and > 0"),
         (dict(seats=[[0.0, 0.0]]), "positions belong to one surface"),
         (dict(seats="nowhere"), "must be one of 'random'"),
+        (dict(workers=0), "workers = 0 must be a whole number, at least 1"),
     ],
 )
 def test_bad_input_is_refused(how, words):
@@ -205,6 +229,10 @@ def test_the_command_writes_what_it_says(tmp_path):
     assert {row[0] for row in rows} == {"0", "1"}
     again = run(EXAMPLE, *SMALL, "--out", out, "--json")
     assert again.stdout == done.stdout
+    shared = run(EXAMPLE, *SMALL, "--workers", "2", "--out", tmp_path / "shared", "--json")
+    assert shared.stdout == done.stdout
+    for name in ("states.csv", "explicit.json", "explicit.png", "surfaces/surface_001.json"):
+        assert (tmp_path / "shared" / name).read_bytes() == (out / name).read_bytes()
 
 
 def test_the_command_in_words():
@@ -228,6 +256,10 @@ def test_a_measured_surface_is_pressed_itself():
         warnings.simplefilter("ignore", tb.RangeWarning)
         alone = tb.explicit.solve(asked.contact, measured, F_star=[1e-4, 1e-3])
     assert result.data["table"]["h_raw"] == alone.h.tolist()
+    shared = run_explicit(asked, workers=2)
+    assert json.dumps(shared.data) == json.dumps(result.data)
+    with pytest.raises(tb.InvalidValue, match="gives one surface, which is not shared"):
+        run_explicit(asked, scheduler="tcp://127.0.0.1:9")
 
 
 def test_a_measured_surface_with_holes_is_refused(tmp_path):
@@ -254,6 +286,7 @@ def test_states_that_did_not_converge_end_in_3(tmp_path):
         (("--surfaces", "0"), "explicit.surfaces = 0 must be a whole number from 1"),
         (("--spacing", "3 GPa"), "explicit.spacing"),
         (("--maps", "some"), "--maps some must be last or all"),
+        (("--workers", "0"), "--workers 0 must be at least 1"),
         (("--set", "explicit.sizes=128"), "did you mean size"),
         (("--set", 'explicit.cap="soft"'), 'must be "hardness", "none"'),
         (("--set", 'explicit.seats={rule="settled", within="-1 um"}'), "explicit.seats.within"),

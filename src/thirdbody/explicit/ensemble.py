@@ -15,6 +15,7 @@ import hashlib
 import json
 import math
 from collections.abc import Callable, Sequence
+from contextlib import closing, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -32,6 +33,7 @@ from ..populations.measured.topography import Topography
 from ..quantities.files import write_text
 from ..quantities.progress import reporting
 from ..quantities.say import number, percent, plural
+from ..quantities.sharing import connected, need_version, shared
 from ..quantities.value import Value
 from ..version import __version__
 from .interface import Map, map_of
@@ -168,6 +170,7 @@ def ensemble(
     tol: float = TOL,
     max_iterations: int = 300,
     workers: int = 1,
+    scheduler: str | None = None,
     folder: str | Path | None = None,
     progress: bool | Callable[[int], None] = False,
 ) -> Ensemble:
@@ -185,10 +188,15 @@ def ensemble(
         Points along each side of synthetic surfaces.
     spacing : float, optional
         Distance of their points [m]; one that gives the shortest wave some 16 points by default.
-    seats, cap, tol, max_iterations, workers
+    seats, cap, tol, max_iterations
         As in `solve`; positions can only be given for one surface.
     seed : int, optional
         Surface i has seed + i.
+    workers : int, optional
+        Threads that press a surface each.
+    scheduler : str, optional
+        Address of a Dask cluster whose workers press the surfaces instead; this process keeps
+        them. The answer is the same, whoever presses them.
     folder : path-like, optional
         Where finished surfaces are kept: a run that is interrupted goes on from there.
     progress : bool or callable, optional
@@ -201,7 +209,7 @@ def ensemble(
     Raises
     ------
     InvalidValue
-        As `solve`; surfaces that do not carry such a load.
+        As `solve`; surfaces that do not carry such a load; a scheduler that does not answer.
 
     Notes
     -----
@@ -231,38 +239,81 @@ def ensemble(
     assert isinstance(total, int)
     if isinstance(rule, GivenSeats) and total > 1:
         raise InvalidValue("seats: positions belong to one surface; give surfaces = 1")
+    if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
+        raise InvalidValue(f"workers = {workers!r} must be a whole number, at least 1")
     if spacing is None and given is None:
         spacing = spacing_for(contact)
 
-    def map_number(i: int) -> Map:
-        if given is None:
-            assert spacing is not None
-            return map_of(surface_of(contact, size=size, spacing=spacing, seed=seed + i), None)
-        return map_of(given[i], spacing)
+    def task(i: int, grid: Array) -> _Task:
+        return _Task(
+            contact=contact, surface=None if given is None else given[i], size=size,
+            spacing=spacing, seed=seed + i, rule=rule, grid=grid, cap=cap, tol=tol,
+            max_iterations=max_iterations, version=__version__,
+        )  # fmt: skip
 
-    first = map_number(0)
-    measured = heights_of_seats(contact, rule, first, seed)
-    sigma = first.sigma
-    grid = _separations(counterpart(contact, measured), loads, sigma)
-    key = _key(contact, given, rule, (total, size, spacing, seed, cap, tol, max_iterations), grid)
-    records: list[dict[str, Any]] = []
-    kept = None if folder is None else Path(folder)
-    done = [i for i in range(total) if kept is not None and _read(kept, i, key) is not None]
-    with reporting("explicit", total, len(done), progress, "surfaces") as report:
-        for i in range(total):
-            record = None if kept is None else _read(kept, i, key)
-            if record is None:
-                surface = first if i == 0 else map_number(i)
-                record = one_surface(
-                    contact, surface, rule, grid, seed + i, cap=cap, tol=tol,
-                    max_iterations=max_iterations, workers=workers, gaussian=given is None,
-                )  # fmt: skip
+    with nullcontext() if scheduler is None else connected(scheduler) as client:
+        first = task(0, np.empty(0)).map()
+        measured = heights_of_seats(contact, rule, first, seed)
+        grid = _separations(counterpart(contact, measured), loads, first.sigma)
+        numbers = (total, size, spacing, seed, cap, tol, max_iterations)
+        key = _key(contact, given, rule, numbers, grid)
+        kept = None if folder is None else Path(folder)
+        records: dict[int, dict[str, Any]] = {}
+        if kept is not None:
+            found = ((i, _read(kept, i, key)) for i in range(total))
+            records = {i: record for i, record in found if record is not None}
+        left = [(i, task(i, grid)) for i in range(total) if i not in records]
+        results = shared(
+            left, workers=workers, client=client, part="surface", smaller="a smaller size"
+        )
+        with (
+            closing(results),
+            reporting("explicit", total, len(records), progress, "surfaces") as report,
+        ):
+            for i, record in results:
                 if kept is not None:
                     kept.mkdir(parents=True, exist_ok=True)
                     write_text(_file(kept, i), json.dumps(record | {"key": key}))
-            records.append(record)
-            report(i + 1)
-    return _ensemble(contact, records, loads, grid, gaussian=given is None)
+                records[i] = record
+                report(len(records))
+    return _ensemble(
+        contact, [records[i] for i in range(total)], loads, grid, gaussian=given is None
+    )
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class _Task:
+    """The work on one surface: make it, press it; anywhere, any number of times."""
+
+    contact: Contact
+    surface: Topography | None
+    """None for a synthetic one."""
+    size: int
+    spacing: float | None
+    seed: int
+    rule: AbstractSeats
+    grid: Array
+    cap: str | float | None
+    tol: float
+    max_iterations: int
+    version: str
+
+    def map(self) -> Map:
+        """Its heights."""
+        if self.surface is not None:
+            return map_of(self.surface, self.spacing)
+        assert self.spacing is not None
+        own = surface_of(self.contact, size=self.size, spacing=self.spacing, seed=self.seed)
+        return map_of(own, None)
+
+    def __call__(self) -> dict[str, Any]:
+        """What `one_surface` says of it."""
+        need_version(self.version, "ensemble")
+        return one_surface(
+            self.contact, self.map(), self.rule, self.grid, self.seed, cap=self.cap,
+            tol=self.tol, max_iterations=self.max_iterations, workers=1,
+            gaussian=self.surface is None,
+        )  # fmt: skip
 
 
 # -------------------------------------------------------------------------- its seats

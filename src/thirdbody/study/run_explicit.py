@@ -63,6 +63,8 @@ def run_explicit(
     *,
     folder: Path | None = None,
     maps: str = "last",
+    workers: int = 1,
+    scheduler: str | None = None,
     progress: bool | Callable[[int], None] = False,
 ) -> ExplicitResult:
     """The loads of a study on explicit surfaces.
@@ -75,6 +77,10 @@ def run_explicit(
     folder : Path, optional
         Where finished synthetic surfaces are kept.
     maps : {"last", "all"}, optional
+    workers : int, optional
+        Threads that press a synthetic surface each; of the FFTs of a measured one.
+    scheduler : str, optional
+        Address of a Dask cluster whose workers press the synthetic surfaces instead.
     progress : bool or callable, optional
 
     Returns
@@ -84,11 +90,17 @@ def run_explicit(
     Raises
     ------
     InvalidValue
-        The study gives separations instead of loads, or its surfaces cannot be made or pressed.
+        The study gives separations instead of loads, its surfaces cannot be made or pressed, or
+        no scheduler answers.
     """
     if study.load == "separation":
         raise InvalidValue(
             "load.separation counts from a plane that a map has not; give load.pressure or F_star"
+        )
+    if scheduler is not None and len(study.faces) == 1:
+        raise InvalidValue(
+            f"scheduler = {scheduler!r}: roughness.topography gives one surface, which is not "
+            "shared; leave the scheduler out"
         )
     contact = study.contact.replace(outputs=())
     loads = np.sort(study.values) / (contact.E_ss if study.load == "pressure" else 1.0)
@@ -99,7 +111,7 @@ def run_explicit(
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         if len(study.faces) == 1:
-            made = _measured(study, contact, loads, asked, maps)
+            made = _measured(study, contact, loads, asked, maps, workers)
         else:
             if study.faces:
                 notes.append(
@@ -109,7 +121,7 @@ def run_explicit(
             spacing = spacing_for(contact) if spacing is None else spacing
             found = ensemble(
                 contact, surfaces=count, F_star=loads, size=size, spacing=spacing,
-                folder=folder, progress=progress, **asked,
+                folder=folder, workers=workers, scheduler=scheduler, progress=progress, **asked,
             )  # fmt: skip
             first = surface_of(contact, size=size, spacing=spacing, seed=asked.get("seed", 0))
             state = solve(contact, first, F_star=loads, maps=maps, **asked)
@@ -130,11 +142,16 @@ def run_explicit(
 
 
 def _measured(
-    study: Study, contact: Contact, loads: np.ndarray, asked: dict[str, Any], maps: str
+    study: Study,
+    contact: Contact,
+    loads: np.ndarray,
+    asked: dict[str, Any],
+    maps: str,
+    workers: int,
 ) -> ExplicitResult:
     """One map: the numbers are its own, and the model beside it has its seats."""
     (face,) = study.faces
-    state = solve(contact, face, F_star=loads, maps=maps, **asked)
+    state = solve(contact, face, F_star=loads, maps=maps, workers=workers, **asked)
     rule = {name: asked[name] for name in ("seats", "seed") if name in asked}
     seats = seats_on(contact, face, **rule)
     if not math.isfinite(seats.mean):  # places that are told

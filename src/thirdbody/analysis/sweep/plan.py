@@ -22,8 +22,9 @@ from ...contact.contact import Contact
 from ...equilibrium.columns import labels, labels_of
 from ...equilibrium.solve import about_area, about_particles, solve
 from ...equilibrium.states import state_columns, varied
-from ...errors import InvalidValue, RangeWarning
+from ...errors import RangeWarning
 from ...numerics.sampling import DESIGNS, Span
+from ...quantities.sharing import need_version
 from ...quantities.value import Value
 from .reduction import Reduction
 
@@ -174,13 +175,7 @@ class Task:
 
     def __call__(self) -> tuple[Arrays, dict[str, Any]]:
         """The arrays to store, and a summary: states, unsolved states, largest area, shadow."""
-        from ...version import __version__
-
-        if self.version != __version__:
-            raise InvalidValue(
-                f"this worker runs thirdbody {__version__} and the sweep needs {self.version}; "
-                "install the same version everywhere"
-            )
+        need_version(self.version, "sweep")
         needed = dict.fromkeys((*self.columns, "status", "engine", "A_t", "shadow"))
         solved: Arrays = {}
         for part, block in self.block.parts(CHUNK):

@@ -16,16 +16,13 @@ import importlib
 import json
 import math
 import os
-import queue
 import shutil
 import sys
-import threading
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -35,7 +32,8 @@ from ...contact.contact import Contact
 from ...errors import InvalidValue
 from ...quantities.files import write_text
 from ...quantities.progress import Report, reporting
-from .plan import Arrays, Layout, Plan, Task, all_notes
+from ...quantities.sharing import shared
+from .plan import Arrays, Layout, Plan, all_notes
 from .reduction import Reduction
 from .stores import _NetCDF, _Zarr
 
@@ -149,58 +147,7 @@ def _results(
 ) -> Iterator[tuple[int, Result]]:
     """Every block's result, in the order in which they come."""
     tasks = ((number, plan.task(number, coded=coded)) for number in numbers)
-    if client is not None:
-        from .cluster import on_cluster
-
-        return on_cluster(tasks, client)
-    return _in_threads(tasks, workers) if workers > 1 else _in_line(tasks)
-
-
-def _in_line(tasks: Iterable[tuple[int, Task]]) -> Iterator[tuple[int, Result]]:
-    for number, task in tasks:
-        yield number, task()
-
-
-def _in_threads(tasks: Iterable[tuple[int, Task]], workers: int) -> Iterator[tuple[int, Result]]:
-    """Blocks solved in threads that do not outlive an interrupted run."""
-    todo: queue.SimpleQueue[tuple[int, Task] | None] = queue.SimpleQueue()
-    done: queue.SimpleQueue[tuple[int, Result | None, BaseException | None]] = queue.SimpleQueue()
-
-    def serve() -> None:
-        while (item := todo.get()) is not None:
-            number, task = item
-            try:
-                done.put((number, task(), None))
-            except BaseException as error:
-                done.put((number, None, error))
-
-    for _ in range(workers):
-        threading.Thread(target=serve, daemon=True).start()
-    waiting = iter(tasks)
-    flying = 0
-    try:
-        for item in islice(waiting, workers + 1):
-            todo.put(item)
-            flying += 1
-        while flying:
-            try:
-                # a wait without an end cannot be interrupted everywhere
-                number, result, error = done.get(timeout=0.5)
-            except queue.Empty:
-                continue
-            flying -= 1
-            if error is not None:
-                raise error
-            assert result is not None
-            for item in islice(waiting, 1):
-                todo.put(item)
-                flying += 1
-            yield number, result
-    finally:
-        while not todo.empty():
-            todo.get()
-        for _ in range(workers):
-            todo.put(None)
+    return shared(tasks, workers=workers, client=client)
 
 
 # -------------------------------------------------------------------------- the folder

@@ -43,6 +43,15 @@ def command(
             "--out", metavar="DIR", help="Folder for states.csv, maps.nc, explicit.png and .json."
         ),
     ] = None,
+    workers: Annotated[
+        int, typer.Option("--workers", metavar="N", help="Threads that press a surface each.")
+    ] = 1,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler", metavar="ADDRESS", help="A Dask cluster that presses them instead."
+        ),
+    ] = None,
     as_json: AsJson = False,
     settings: Settings = None,
 ) -> None:
@@ -52,6 +61,8 @@ def command(
     problems = not_a_folder(out)
     if maps not in MAPS:
         problems.append(f"--maps {maps} must be last or all")
+    if workers < 1:
+        problems.append(f"--workers {workers} must be at least 1")
     if problems:
         raise InvalidValue(*problems)
     short = {"surfaces": surfaces, "size": size, "spacing": spacing, "seats": seats}
@@ -62,7 +73,10 @@ def command(
     if out is not None:
         out.mkdir(parents=True, exist_ok=True)
     kept = None if out is None else out / "surfaces"
-    result = run_explicit(asked, folder=kept, maps=maps, progress=sys.stderr.isatty())
+    result = run_explicit(
+        asked, folder=kept, maps=maps, workers=workers, scheduler=scheduler,
+        progress=sys.stderr.isatty(),
+    )  # fmt: skip
     for sentence in result.data["warnings"][len(asked.notes) :]:
         warn(sentence)
     if out is not None:

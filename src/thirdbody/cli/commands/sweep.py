@@ -50,7 +50,7 @@ def command(
     plan = _read_plan(study, settings, format, workers)
     client = None
     if scheduler is not None:
-        from ...analysis.sweep.cluster import connected
+        from ...quantities.sharing import connected
 
         client = connected(scheduler)
     try:
