@@ -480,3 +480,24 @@ def test_particles_that_break_are_told_with_all_bounds_of_their_fragments():
     whole = contact.replace(**{"particles.strength": None})
     assert not about_fragments(whole, {"pressure": 20e6})
     assert enough(whole, None) > 10_000
+
+
+def test_few_samples_where_each_has_tables_of_its_own():
+    """Soft grains of varied materials: an answer in seconds, with as many samples as it says."""
+    steel = tb.materials["100Cr6"]
+    debris = tb.Particles(
+        material=tb.materials["S45C"],
+        areal_density=1e10,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+    )
+    soft = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=debris,
+    )
+    hard = soft.replace(particles=debris.replace(material=tb.materials["SiC"]))
+    mixed = soft.replace(particles=(debris, hard.particles))
+    materials, roughness = ["surfaces.first.H"], ["roughness.sigma"]
+    assert [enough(case, None, materials) for case in (soft, hard, mixed)] == [64, 2**14, 64]
+    assert [enough(case, None, roughness) for case in (soft, hard, mixed)] == [2**14] * 3
+    assert enough(soft, 512, materials) == 512

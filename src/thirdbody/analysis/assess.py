@@ -128,7 +128,7 @@ def assess(
     if none:
         found = certain(contact, load, float(given[load] or 0.0))
     else:
-        count = enough(contact, samples)
+        count = enough(contact, samples, vary)
         found = propagate(contact, vary=vary, **{load: given[load]}, samples=count, seed=seed)  # type: ignore[arg-type]
     if found.solved == 0:
         raise NoEquilibrium("no sample has an equilibrium; check the unit of the load")

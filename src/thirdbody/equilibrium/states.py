@@ -15,6 +15,7 @@ from ..contact.evaluation import evaluate
 from ..contact.interface import Interface, interface
 from ..errors import InvalidValue, NotCompiled
 from ..populations.materials import BULK
+from ..populations.shape import Angular
 from ..quantities.value import warn_of_slip
 from .columns import COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
@@ -271,6 +272,15 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
         some = _taken(arrays, rest)
         parts.append((rest, _by_groups(contact, some, load, loads[rest], why)))
     return _joined(len(loads), parts)
+
+
+def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
+    """Whether states that differ in these inputs each need tables of their own: 0.1 s a state."""
+    if not any(name.startswith(DEMANDING) for name in vary):
+        return False
+    populations = contact.populations
+    shaped = any(isinstance(each.shape, Angular) for each in populations)
+    return len(populations) > 1 or shaped or bool(engine.squashed(contact, {}, 1).any())
 
 
 def _own(contact: Contact, name: str) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from ...contact.contact import Contact
 from ...equilibrium.columns import COLUMNS, about
 from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, load_falls
-from ...equilibrium.states import state_columns
+from ...equilibrium.states import state_columns, tables_each
 from ...errors import InvalidValue
 from ...numerics.sampling import sobol
 from ..inputs import NUMBERS
@@ -47,11 +47,12 @@ MOST_OUTPUTS = 512
 """Samples of outputs: each is a contact of its own, with spots of its own."""
 
 
-def enough(contact: Contact, asked: int | None) -> int:
+def enough(contact: Contact, asked: int | None, vary: Iterable[str]) -> int:
     """Samples that were asked for, or the usual number; few where each builds its own tables."""
     if asked is not None:
         return asked
-    return LEAST if any(each.strength is not None for each in contact.populations) else USUAL
+    breaks = any(each.strength is not None for each in contact.populations)
+    return LEAST if breaks or tables_each(contact, vary) else USUAL
 
 
 def about_result(name: str) -> dict[str, str]:

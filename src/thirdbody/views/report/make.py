@@ -148,14 +148,16 @@ def _assessed(study: Study, contact: Contact, given: dict[str, float]) -> Assess
     asked = study.uncertainty
     if asked is None:
         breaks = any(each.strength is not None for each in contact.populations)
-        if breaks or not stated_ranges(contact):
+        ranges = stated_ranges(contact)
+        if breaks or not ranges:
             return None
-        return assess(contact, **given, samples=MOST_SAMPLES)  # type: ignore[arg-type]
+        samples = min(enough(contact, None, ranges), MOST_SAMPLES)
+        return assess(contact, **given, samples=samples)  # type: ignore[arg-type]
     loads = {"pressure", "F_star", "d"} - set(given)
     inputs = {label: known for label, known in asked.inputs.items() if label not in loads}
     if not inputs:
         return None
-    samples = min(enough(contact, asked.samples), MOST_SAMPLES)
+    samples = min(enough(contact, asked.samples, inputs), MOST_SAMPLES)
     return assess(contact, vary=inputs, **given, samples=samples, seed=asked.seed)  # type: ignore[arg-type]
 
 

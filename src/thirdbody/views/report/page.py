@@ -131,7 +131,7 @@ class Report(Sentences, Figures, Tables, Sources):
             else "The study has no table [uncertainty]: the ranges are those that the materials "
             "library states, and nothing else counts as uncertain."
         )
-        if asked and enough(self.study.contact, asked.samples) > MOST_SAMPLES:
+        if asked and enough(self.study.contact, asked.samples, asked.inputs) > MOST_SAMPLES:
             whence += f" {MOST_SAMPLES} samples stand here; `thirdbody assess` takes all."
         out = [f"<p>{words(found.headline())} {words(whence)}</p>"]
         for part in found.sections()[1:]:
