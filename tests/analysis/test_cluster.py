@@ -1,9 +1,12 @@
 """Sweeps and explicit surfaces on a Dask cluster: a scheduler and worker processes on the loopback."""
 
+import contextlib
 import json
 import os
 import signal
+import socket
 import sys
+import threading
 import warnings
 from pathlib import Path
 
@@ -203,6 +206,35 @@ def test_no_client_is_made_for_what_is_no_address(address, monkeypatch):
     with pytest.raises(tb.InvalidValue, match="no Dask scheduler answers"):
         connected(address)
     assert made == []
+
+
+@pytest.mark.parametrize(
+    ("answer", "timeout", "why"),
+    [
+        (b"", 1, "no answer within 1 s"),
+        (b"HTTP/1.1 400 Bad Request\r\n\r\n", 60, "is no scheduler"),
+    ],
+    ids=["silent", "http"],
+)
+def test_who_listens_there_may_be_no_scheduler(answer, timeout, why):
+    """A client would wait for it without an end, or ask for exbibytes."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def serve():
+            with contextlib.suppress(OSError):
+                while True:
+                    one, _ = server.accept()
+                    callers.append(one)
+                    if answer:
+                        one.recv(1000)
+                        one.sendall(answer)
+
+        callers = []
+        threading.Thread(target=serve, daemon=True).start()
+        with pytest.raises(tb.InvalidValue, match=f"no Dask scheduler answers.*{why}"):
+            connected(f"tcp://127.0.0.1:{server.getsockname()[1]}", timeout=timeout)
+    for one in callers:
+        one.close()
 
 
 def test_missing_package_has_one_message(monkeypatch):

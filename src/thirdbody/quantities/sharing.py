@@ -11,6 +11,7 @@ import queue
 import secrets
 import threading
 from collections.abc import Callable, Generator, Iterable
+from concurrent.futures import ThreadPoolExecutor
 from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -75,6 +76,8 @@ def connected(address: str, *, timeout: float | None = None) -> Client:
     InvalidValue
         Dask is not installed, or no scheduler answers.
     """
+    import asyncio
+
     try:
         from distributed import Client
         from distributed.comm import resolve_address
@@ -82,15 +85,38 @@ def connected(address: str, *, timeout: float | None = None) -> Client:
         raise InvalidValue(
             "a Dask cluster needs the package distributed: pip install 'thirdbody[cluster]'"
         ) from None
+    seconds = timeout or TIMEOUT
     try:
         resolve_address(address)  # a client that finds the mistake dies with a traceback
-        return Client(address, timeout=timeout or TIMEOUT, set_as_default=False)
-    except (OSError, ValueError) as error:
+        with ThreadPoolExecutor(1) as pool:  # a notebook has a loop of its own in this thread
+            pool.submit(asyncio.run, _greeted(address, seconds)).result()
+        return Client(address, timeout=seconds, set_as_default=False)
+    except Exception as error:  # what answers there may be anything
         why = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise InvalidValue(
             f"no Dask scheduler answers at {address} ({why}); start one with `dask scheduler` and "
             "give the address that it prints"
         ) from None
+
+
+async def _greeted(address: str, seconds: float) -> None:
+    """A scheduler says there who it is; a client would wait for that without an end."""
+    import asyncio
+
+    from distributed.core import rpc
+    from distributed.security import Security
+
+    scheduler = rpc(address, connection_args=Security().get_connection_args("client"))
+    try:
+        found = await asyncio.wait_for(scheduler.identity(), seconds)
+    except TimeoutError:
+        raise TimeoutError(f"no answer within {seconds:g} s") from None
+    except MemoryError:  # words of another protocol read as the length of an answer
+        raise ValueError("what answers there is no scheduler") from None
+    finally:
+        await scheduler.close_rpc()
+    if found.get("type") != "Scheduler":
+        raise ValueError(f"{found.get('type')} answers there")
 
 
 def _in_line(parts: Parts[Result]) -> Results[Result]:
