@@ -743,7 +743,7 @@ def run(seed: int, index: int, limit: int = 0, *, shares: int = 1) -> dict[str, 
     try:
         drawn = draw(seed, index)
         found, states = hold(drawn, shares=shares)
-    except tb.InvalidValue as error:
+    except (tb.InvalidValue, tb.NoEquilibrium) as error:
         refused = str(error)
     except Exception as error:
         where = traceback.extract_tb(error.__traceback__)[-1]

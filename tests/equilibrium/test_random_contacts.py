@@ -28,6 +28,19 @@ def test_contact(index):
     hold(SEED, index)
 
 
+@pytest.mark.parametrize(
+    "index",
+    [
+        256,  # soft grains of 50 to 370 µm on a seat of 6 nm
+        495,  # fine dust beside millimetres, by the printed integrals
+        1325,  # adhesive asperities far apart
+        6345,  # areas that change order on a jump of JG
+    ],
+)
+def test_contact_that_failed_once(index):
+    hold(1, index)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("block", range(12))
 def test_more_contacts(block):

@@ -303,10 +303,15 @@ class SqueezedParticle(OneParticle):
             wide = np.maximum(*areas(grid)) / self.great_circle
             smallest = 1e-12 * self.great_circle * np.maximum(wide, 1.0) ** 2
         sign = np.where(np.abs(values) > smallest, np.sign(values), 0.0)
-        return [
-            brentq(lambda e: float(difference(e)[0]), grid[i], grid[i + 1], xtol=1e-16)
-            for i in np.flatnonzero(sign[1:] * sign[:-1] < 0)
-        ]
+
+        def crossing(i: int) -> float:
+            low, high = grid[i], grid[i + 1]
+            ends = [float(difference(end)[0]) for end in (low, high)]
+            if ends[0] * ends[1] > 0:  # one lies on a jump, to rounding: seen from its other side
+                return float(low if np.sign(ends[0]) != sign[i] else high)
+            return float(brentq(lambda e: float(difference(e)[0]), low, high, xtol=1e-16))
+
+        return [crossing(int(i)) for i in np.flatnonzero(sign[1:] * sign[:-1] < 0)]
 
     def indentations(self, eps: Array) -> tuple[Array, Array]:
         """δ_1 and δ_2 over x."""
