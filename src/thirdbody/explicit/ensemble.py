@@ -230,13 +230,7 @@ def ensemble(
     """
     loads = _loads(F_star)
     rule = seats_named(seats)
-    given = None if isinstance(surfaces, int) and not isinstance(surfaces, bool) else surfaces
-    if given is None and not (isinstance(surfaces, int) and surfaces >= 1):
-        raise InvalidValue(f"surfaces = {surfaces!r} must be a whole number, at least 1")
-    if given is not None and (not isinstance(given, Sequence) or not given):
-        raise InvalidValue("surfaces must be a number of them or a list of Topography")
-    total = surfaces if given is None else len(given)
-    assert isinstance(total, int)
+    given, total = _counted(surfaces)
     if isinstance(rule, GivenSeats) and total > 1:
         raise InvalidValue("seats: positions belong to one surface; give surfaces = 1")
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
@@ -258,10 +252,7 @@ def ensemble(
         numbers = (total, size, spacing, seed, cap, tol, max_iterations)
         key = _key(contact, given, rule, numbers, grid)
         kept = None if folder is None else Path(folder)
-        records: dict[int, dict[str, Any]] = {}
-        if kept is not None:
-            found = ((i, _read(kept, i, key)) for i in range(total))
-            records = {i: record for i, record in found if record is not None}
+        records = {} if kept is None else _finished(kept, total, key)
         left = [(i, task(i, grid)) for i in range(total) if i not in records]
         results = shared(
             left, workers=workers, client=client, part="surface", smaller="a smaller size"
@@ -279,6 +270,25 @@ def ensemble(
     return _ensemble(
         contact, [records[i] for i in range(total)], loads, grid, gaussian=given is None
     )
+
+
+def _finished(kept: Path, total: int, key: str) -> dict[int, dict[str, Any]]:
+    """What an earlier run with the same key kept, by the number of the surface."""
+    found = ((i, _read(kept, i, key)) for i in range(total))
+    return {i: record for i, record in found if record is not None}
+
+
+def _counted(
+    surfaces: int | Sequence[Topography],
+) -> tuple[Sequence[Topography] | None, int]:
+    """The surfaces that are given, None for synthetic ones, and how many there are."""
+    if isinstance(surfaces, int):
+        if isinstance(surfaces, bool) or surfaces < 1:
+            raise InvalidValue(f"surfaces = {surfaces!r} must be a whole number, at least 1")
+        return None, surfaces
+    if not isinstance(surfaces, Sequence) or not surfaces:
+        raise InvalidValue("surfaces must be a number of them or a list of Topography")
+    return surfaces, len(surfaces)
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

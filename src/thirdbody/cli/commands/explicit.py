@@ -58,13 +58,7 @@ def command(
     """The loads of a study on maps of heights, with every particle at its place."""
     from ...study.run_explicit import run_explicit
 
-    problems = not_a_folder(out)
-    if maps not in MAPS:
-        problems.append(f"--maps {maps} must be last or all")
-    if workers < 1:
-        problems.append(f"--workers {workers} must be at least 1")
-    if problems:
-        raise InvalidValue(*problems)
+    _check(maps, workers, out)
     short = {"surfaces": surfaces, "size": size, "spacing": spacing, "seats": seats}
     own = [
         f"explicit.{name}={json.dumps(value)}" for name, value in short.items() if value is not None
@@ -88,6 +82,16 @@ def command(
     if not result.converged:
         warn("some states did not converge to the certificate asked for; see states.csv")
         raise typer.Exit(NO_ANSWER)
+
+
+def _check(maps: str, workers: int, out: Path | None) -> None:
+    problems = not_a_folder(out)
+    if maps not in MAPS:
+        problems.append(f"--maps {maps} must be last or all")
+    if workers < 1:
+        problems.append(f"--workers {workers} must be at least 1")
+    if problems:
+        raise InvalidValue(*problems)
 
 
 def _write(out: Path, result: Any) -> None:
