@@ -412,13 +412,21 @@ def test_interrupt_exits_130_with_one_line_and_no_file(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+INTERRUPT = "os.kill(os.getpid(), signal.SIGINT)"
+IN_FINALIZER = f"type('Removed', (), {{'__del__': lambda self: {INTERRUPT}}})()"
+IN_CALLBACK = f"ctypes.CFUNCTYPE(None)(lambda: {INTERRUPT})()"
+SWALLOWED = f"exec('try: {INTERRUPT}\\nexcept BaseException: pass')"
+
+
 @pytest.mark.skipif(os.name == "nt", reason="signals")
+@pytest.mark.parametrize("statement", [INTERRUPT, IN_FINALIZER, IN_CALLBACK, SWALLOWED])
 @pytest.mark.parametrize("module", ["pydantic", "numba"])
-def test_interrupt_while_modules_load(tmp_path, module):
-    """At the start, and in the command; through exec of a text, as in numba and dataclasses."""
+def test_interrupt_while_modules_load(tmp_path, module, statement):
+    """At the start, and in the command; through exec of a text, as in numba and dataclasses; and
+    where Python ignores what is raised."""
     fake = tmp_path / "fake"
     fake.mkdir()
-    text = "import os, signal, time; os.kill(os.getpid(), signal.SIGINT); time.sleep(20)"
+    text = f"import ctypes, os, signal, time; {statement}; time.sleep(20)"
     (fake / f"{module}.py").write_text(f"exec({text!r})")
     path = os.pathsep.join(filter(None, (str(fake), os.environ.get("PYTHONPATH"))))
     command = [sys.executable, "-m", "thirdbody", "solve", str(DUSTY), "--csv", "states.csv"]

@@ -8,12 +8,18 @@ import signal
 import sys
 from collections.abc import Iterator
 from itertools import pairwise
+from types import FrameType
 from typing import Any, NoReturn
 
-__all__ = ["INTERRUPTED", "Interrupted", "command_line", "interruptible"]
+__all__ = ["INTERRUPTED", "Interrupted", "command_line", "interruptible", "leave"]
 
 INTERRUPTED = 130
 """Exit status, 128 + SIGINT as in a shell."""
+
+SOON = 0.05
+"""Seconds after which it is seen whether `Interrupted` was ignored or put off."""
+
+REPEATS = hasattr(signal, "setitimer")  # not on Windows
 
 
 class Interrupted(KeyboardInterrupt):
@@ -33,27 +39,71 @@ def command_line() -> bool:
 
 @contextlib.contextmanager
 def interruptible() -> Iterator[None]:
-    """Ctrl-C raises `Interrupted` inside, where there may be files to tidy up; a command only."""
-    if signal.getsignal(signal.SIGINT) is not _leave:
+    """Ctrl-C raises `Interrupted` inside, where there may be files to tidy up; a command only.
+
+    Python ignores what is raised while an object is being removed or a library calls back, so it
+    is raised again until it is being handled; and not while LLVM's memory is being handed back,
+    which would be freed twice.
+    """
+    if signal.getsignal(signal.SIGINT) is not _leave_at_once:
         yield
         return
+    usual = sys.unraisablehook
+    sys.unraisablehook = lambda ignored: (
+        None if isinstance(ignored.exc_value, Interrupted) else usual(ignored)
+    )
+    if REPEATS:
+        signal.signal(signal.SIGALRM, _raise_again)
     signal.signal(signal.SIGINT, _raise)
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, _leave)
+        signal.signal(signal.SIGINT, _leave_at_once)
+        if REPEATS:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.signal(signal.SIGALRM, signal.SIG_IGN)
+        sys.unraisablehook = usual
 
 
-def _leave(*_: Any) -> NoReturn:
+def leave() -> None:
+    """End the command line, with nothing removed that was interrupted half-way."""
+    if command_line():
+        sys.stderr.flush()
+        os._exit(INTERRUPTED)
+
+
+def _leave_at_once(*_: Any) -> NoReturn:
     with contextlib.suppress(OSError):
         os.write(2, b"error: interrupted\n")
     os._exit(INTERRUPTED)
 
 
-def _raise(*_: Any) -> NoReturn:
-    raise Interrupted
+def _raise(_: int, frame: FrameType | None) -> None:
+    if REPEATS:
+        signal.setitimer(signal.ITIMER_REAL, SOON)
+        if _in_llvm(frame):
+            return
+    raise Interrupted("interrupted")
+
+
+def _raise_again(signum: int, frame: FrameType | None) -> None:
+    handled = sys.exc_info()[1]
+    while handled is not None and not isinstance(handled, Interrupted):
+        handled = handled.__context__
+    if handled is None:
+        _raise(signum, frame)
+    else:
+        signal.setitimer(signal.ITIMER_REAL, SOON)
+
+
+def _in_llvm(frame: FrameType | None) -> bool:
+    while frame is not None:
+        if frame.f_globals.get("__name__", "").startswith("llvmlite.binding"):
+            return True
+        frame = frame.f_back
+    return False
 
 
 if command_line() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
     # while the rest loads there is nothing to tidy up yet
-    signal.signal(signal.SIGINT, _leave)
+    signal.signal(signal.SIGINT, _leave_at_once)

@@ -20,10 +20,9 @@ import typer
 from typer.core import TyperGroup
 
 from ..errors import InvalidValue, NoEquilibrium, NoTransition
-from .interrupt import INTERRUPTED, interruptible
+from .interrupt import INTERRUPTED, interruptible, leave
 
 __all__ = [
-    "INTERRUPTED",
     "Commands",
     "TableFiles",
     "complain",
@@ -52,8 +51,9 @@ class Commands(TyperGroup):
             except (NoEquilibrium, NoTransition) as error:
                 complain([str(error)])
                 raise typer.Exit(NO_ANSWER) from None
-            except KeyboardInterrupt:
-                complain(["interrupted"])
+            except KeyboardInterrupt as error:
+                complain([str(error) or "interrupted"])
+                leave()
                 raise typer.Exit(INTERRUPTED) from None
             except BrokenPipeError:
                 # whoever read the output has gone: leave quietly, also at the last flush

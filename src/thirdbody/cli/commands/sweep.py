@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...errors import InvalidValue, NoEquilibrium
-from ..interrupt import INTERRUPTED
+from ..interrupt import Interrupted
 from ..options import Settings
-from ..streams import complain, warn
+from ..streams import warn
 
 if TYPE_CHECKING:
     from ...analysis.sweep.plan import Plan
@@ -57,8 +57,9 @@ def command(
         folder = run(plan, out, format=format, workers=workers, client=client, progress=True)
     except KeyboardInterrupt:
         done = len(list((out / "done").glob("*.json")))
-        complain([f"interrupted after {done} of {plan.count} blocks; the same command goes on"])
-        raise typer.Exit(INTERRUPTED) from None
+        raise Interrupted(
+            f"interrupted after {done} of {plan.count} blocks; the same command goes on"
+        ) from None
     finally:
         if client is not None:
             client.close()
