@@ -1,7 +1,11 @@
 """What an engineer types in an empty folder, from the drawing to the number."""
 
 import json
+import os
 import re
+import shutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -13,24 +17,61 @@ from thirdbody import cli
 ROOT = Path(__file__).parents[2]
 
 
-def run(*arguments):
-    done = CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+def here(*arguments):
+    done = CliRunner().invoke(cli.app, arguments)
     assert done.exit_code == 0, done.stderr
-    return done
+    return done.stdout
 
 
-@pytest.fixture(autouse=True)
-def empty_folder(tmp_path, monkeypatch):
+@pytest.fixture(scope="session")
+def wheel(tmp_path_factory):
+    """A folder that the wheel is installed in, and nothing else."""
+    folder = tmp_path_factory.mktemp("wheel")
+    left_out = shutil.ignore_patterns(".*", "build", "*.egg-info", "__pycache__", "tests", "docs")
+    shutil.copytree(ROOT, folder / "source", ignore=left_out)
+    pip = [sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check"]
+    subprocess.run(
+        [*pip, "install", "--no-deps", "--target", str(folder / "site"), str(folder / "source")],
+        check=True,
+    )
+    shutil.rmtree(folder / "source")
+    return folder / "site"
+
+
+def installed(site):
+    """The command of the wheel, in a process of its own."""
+    told = os.environ | {"PYTHONPATH": str(site), "PYTHONDONTWRITEBYTECODE": "1"}
+
+    def call(*arguments):
+        found = [sys.executable, "-c", "import thirdbody; print(thirdbody.__file__)"]
+        found = subprocess.run(found, env=told, capture_output=True, text=True, check=True)
+        assert Path(found.stdout.strip()).is_relative_to(site)
+        command = [sys.executable, str(site / "bin" / "thirdbody"), *arguments]
+        done = subprocess.run(command, env=told, capture_output=True, text=True, encoding="utf-8")
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    return call
+
+
+@pytest.fixture(params=["here", pytest.param("installed", marks=pytest.mark.check)])
+def run(request, tmp_path, monkeypatch):
+    """``thirdbody ...`` in an empty folder, at 80 columns; answers with standard output."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "80")
+    return here if request.param == "here" else installed(request.getfixturevalue("wheel"))
 
 
-def solved(file, *settings):
-    sets = [word for each in settings for word in ("--set", each)]
-    return json.loads(run("solve", file, "--json", *sets).stdout)
+@pytest.fixture
+def solved(run):
+    def call(file, *settings):
+        sets = [word for each in settings for word in ("--set", each)]
+        return json.loads(run("solve", file, "--json", *sets))
+
+    return call
 
 
-def test_a_ball_screw_nut_from_ra_newtons_and_cleanliness():
+def test_a_ball_screw_nut_from_ra_newtons_and_cleanliness(run, solved):
     run("new", "ball-screw")
     usual = solved("ball-screw.toml")
     (force,) = usual["body"]["forces"]
@@ -43,11 +84,11 @@ def test_a_ball_screw_nut_from_ra_newtons_and_cleanliness():
     assert heavier["maximum"] == pytest.approx(force["maximum"] * 2 ** (1 / 3), rel=1e-12)
     dirty = solved("ball-screw.toml", 'particles.iso4406="21/19/16"')["body"]["forces"][0]
     assert dirty["particle_load_share"] == pytest.approx(8 * force["particle_load_share"], rel=0.1)
-    shown = run("solve", "ball-screw.toml").stdout
+    shown = run("solve", "ball-screw.toml")
     assert "2000 N on the body ball-in-groove shared by 60" in " ".join(shown.split())
 
 
-def test_an_additive_by_size_and_weight_per_cent():
+def test_an_additive_by_size_and_weight_per_cent(run, solved):
     run("new", "additive")
     usual, more = (
         solved("additive.toml", f'particles.concentration="{c} wt%"', "load.pressure=1 MPa")
@@ -61,7 +102,7 @@ def test_an_additive_by_size_and_weight_per_cent():
     assert larger["inputs"]["particles"]["diameter"]["median"] == 200e-9
 
 
-def test_the_contact_of_the_paper_with_a_material_of_ones_own():
+def test_the_contact_of_the_paper_with_a_material_of_ones_own(run, solved):
     Path("mine.toml").write_text(
         '[our-oxide]\nE = "150 GPa"\nnu = 0.25\nH = "12 GPa"\nsource = "our laboratory"\n', "utf-8"
     )

@@ -5,15 +5,17 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ..contact.contact import Contact
 from ..equilibrium.critical_loads import CRITICAL
 from ..equilibrium.solve import given_load, solve
+from ..equilibrium.states import tables_each, varied
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..quantities.say import percent, value_of
 from ..quantities.value import problem_with
@@ -22,6 +24,7 @@ from .assessment import (
     EACH,
     FAR,
     FINER,
+    HALVES,
     SHOWN,
     UNMOVED,
     Assessment,
@@ -41,7 +44,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["assess"]
+__all__ = ["assess", "assess_each"]
 
 
 # -------------------------------------------------------------------------- making it
@@ -69,7 +72,8 @@ def assess(
     pressure, F_star : float
         The operating load: p [Pa] or F* [1]; exactly one.
     samples, seed : int, optional
-        As in `propagate`; 64 where particles break, each of which builds tables of its own.
+        As in `propagate`; 4096 without, or 64 where each sample takes tables of its own, as
+        particles that break or are squashed do.
     title : str, optional
         Over the page.
     progress : callable, optional
@@ -109,48 +113,118 @@ def assess(
     >>> page.mode, page.decisive, page.changes[0].mode
     ('hybrid', 'F_cr1', 'p-s')
     """
-    given = {"pressure": pressure, "F_star": F_star}
-    load, values, one = given_load(contact, pressure, F_star, None)
+    load, _, one = given_load(contact, pressure, F_star, None)
+    given = pressure if load == "pressure" else F_star
     if not one:
-        raise InvalidValue(f"{load}: an assessment is of one operating load, not {len(values)}")
+        count = np.size(given)  # type: ignore[arg-type]
+        raise InvalidValue(f"{load}: an assessment is of one operating load, not {count}")
+    (page,) = assess_each(
+        contact,
+        load,
+        [float(given or 0.0)],
+        vary=vary,
+        samples=samples,
+        seed=seed,
+        title=title,
+        progress=progress,
+    )
+    if isinstance(page, NoEquilibrium):
+        raise page
+    return page
+
+
+def assess_each(
+    contact: Contact,
+    load: str,
+    loads: Sequence[float],
+    *,
+    vary: Mapping[str, Uncertain | tuple[float, float]] | None = None,
+    samples: int | None = None,
+    seed: int = 0,
+    title: str = "",
+    progress: Callable[[str], None] = lambda part: None,
+) -> list[Assessment | NoEquilibrium]:
+    """As `assess`, at each of several loads ("pressure" or "F_star"), or why there is no page.
+
+    Samples, critical loads, and contacts on the way to another mode are those of all.
+    """
     notes: list[str] = []
     none = False
     if vary is None:
         vary = stated_ranges(contact)
         none = not vary
         notes += _whence(contact, vary)
-    with warnings.catch_warnings(record=True) as heard:
-        warnings.simplefilter("always", RangeWarning)
-        state = solve(contact, **{load: given[load]})  # type: ignore[arg-type]
-    notes += [f"Warning: {text}." for text in dict.fromkeys(str(item.message) for item in heard)]
-    notes += about_fragments(contact, {load: given[load]})
+    own = [_own_state(contact, load, value) for value in loads]
+    held = [value for value, state in zip(loads, own, strict=True) if isinstance(state, _Own)]
     progress(PARTS[0])
-    if none:
-        found = certain(contact, load, float(given[load] or 0.0))
+    if none or not held:
+        bands = iter(certain(contact, load, held))
     else:
         count = enough(contact, samples, vary)
-        found = propagate(contact, vary=vary, **{load: given[load]}, samples=count, seed=seed)  # type: ignore[arg-type]
-    if found.solved == 0:
-        raise NoEquilibrium("no sample has an equilibrium; check the unit of the load")
-    notes += _outside(found)
+        at: Any = held if len(held) > 1 else held[0]
+        found = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
+        bands = (found.at_load(i) for i in range(len(held)))
     progress(PARTS[1])
+    slopes: dict[str, dict[str, float]] = {}
+    out = [
+        _page(title, next(bands), state, notes, slopes) if isinstance(state, _Own) else state
+        for state in own
+    ]
+    progress(PARTS[2])
+    changes = iter(_changes([page for page in out if isinstance(page, Assessment)]))
+    return [
+        replace(page, changes=next(changes)) if isinstance(page, Assessment) else page
+        for page in out
+    ]
+
+
+class _Own(NamedTuple):
+    """The state with the contact's own inputs: its mode, and what is to be said of it."""
+
+    mode: str
+    notes: list[str]
+
+
+def _own_state(contact: Contact, load: str, value: float) -> _Own | NoEquilibrium:
+    given: dict[str, Any] = {load: value}
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", RangeWarning)
+        try:
+            state = solve(contact, **given)
+        except NoEquilibrium as error:
+            return error
+    told = dict.fromkeys(str(item.message) for item in heard)
+    notes = [f"Warning: {text}." for text in told]
+    return _Own(str(state.mode), notes + about_fragments(contact, given))
+
+
+def _page(
+    title: str,
+    found: Propagation,
+    own: _Own,
+    notes: list[str],
+    slopes: dict[str, dict[str, float]],
+) -> Assessment | NoEquilibrium:
+    """The page of one load, but for what would change its mode; ``slopes`` are those known."""
+    if found.solved == 0:
+        return NoEquilibrium("no sample has an equilibrium; check the unit of the load")
     decisive = _decisive(found)
     others = [name for name in SHOWN[:4] if name in found.bands and name != decisive]
     tornado = found.tornado([decisive, *others]) if found.inputs else {decisive: {}}
     moved = {name.strip() for label in found.inputs for name in label.split("+")}
-    elasticity = _elasticities(found, decisive)
-    progress(PARTS[2])
+    if decisive not in slopes:
+        slopes[decisive] = _elasticities(found, decisive)
     return Assessment(
         title=title,
         propagation=found,
-        mode=str(state.mode),
+        mode=own.mode,
         decisive=decisive,
         matter=_parts(tornado[decisive], logarithm=decisive in CRITICAL),
         tornado=tornado,
-        elasticity=elasticity,
-        changes=_changes(found, str(state.mode)),
-        exact=tuple(name for name in all_inputs(contact) if name not in moved),
-        notes=tuple(notes),
+        elasticity=slopes[decisive],
+        changes=(),
+        exact=tuple(name for name in all_inputs(found.contact) if name not in moved),
+        notes=(*notes, *own.notes, *_outside(found)),
     )
 
 
@@ -263,39 +337,47 @@ def _elasticities(found: Propagation, decisive: str) -> dict[str, float]:
     return out
 
 
-def _changes(found: Propagation, mode: str) -> tuple[Change, ...]:
-    """Where along each input, on either side, the mode ceases to be what it is."""
-    out: list[Change] = []
-    if found.contact.two_body:
-        return ()
+def _changes(pages: Sequence[Assessment]) -> list[tuple[Change, ...]]:
+    """For each load where along each input, on either side, the mode ceases to be what it is."""
+    if not pages or pages[0].propagation.contact.two_body:
+        return [()] * len(pages)
+    one = pages[0].propagation
     ways: dict[tuple[str, int], tuple[Drawn, Array]] = {}
-    inputs = found.inputs or _usual(found.contact)
+    inputs = one.inputs or _usual(one.contact)
     for label, known in inputs.items():
-        if label != found.load:
-            drawn = drawn_inputs(found.contact, {label: known}, found.load, float(found.loads))
+        if label != one.load:
+            drawn = drawn_inputs(one.contact, {label: known}, one.load, float(one.loads))
             for side in (-1, 1):
-                ways[label, side] = drawn, _path(found.contact, drawn, known, side)
-    steps = _departures(found, ways, mode)
-    for count in FINER:
-        within = {
-            way: (ways[way][0], np.linspace(low, high, count))
-            for way, (low, high, _) in steps.items()
-        }
-        steps = _departures(found, within, mode)
-    for (label, side), (low, high, other) in steps.items():
+                ways[label, side] = drawn, _path(one.contact, drawn, known, side)
+    every = {(i, *way): where for i in range(len(pages)) for way, where in ways.items()}
+    steps = _departures(pages, every)
+
+    def costly(way: Way) -> bool:
+        start = {name: float(v) for name, v in every[way][0].at([steps[way][0]]).items()}
+        return tables_each(varied(one.contact, start), start)
+
+    halved = {way for way in steps if costly(way)}
+    for counts, some in (
+        (FINER, [way for way in steps if way not in halved]),
+        (HALVES, [way for way in steps if way in halved]),
+    ):
+        for count in counts:
+            within = {way: np.linspace(*steps[way][:2], count) for way in some}
+            steps |= _departures(pages, {way: (every[way][0], v) for way, v in within.items()})
+    out: list[list[Change]] = [[] for _ in pages]
+    for (i, label, side), (low, high, other) in steps.items():
         value, beyond = 0.5 * (low + high), math.nan
-        if found.inputs:
-            known = found.inputs[label]
+        if one.inputs:
+            known = one.inputs[label]
             beyond = known.cdf(value) if side < 0 else 1 - known.cdf(value)
-        out.append(Change(label, value, other, beyond))
-    near = {
-        label: abs(math.log(change.value / start)) if change.value * start > 0 else math.inf
-        for change in out
-        for label, start in [(change.input, _nominal(found, change.input))]
-    }
-    return tuple(
-        sorted(out, key=lambda change: (-np.nan_to_num(change.beyond), near[change.input]))
-    )
+        out[i].append(Change(label, value, other, beyond))
+
+    def likely(change: Change) -> tuple[float, float]:
+        start = _nominal(one, change.input)
+        near = abs(math.log(change.value / start)) if change.value * start > 0 else math.inf
+        return -float(np.nan_to_num(change.beyond)), near
+
+    return [tuple(sorted(changes, key=likely)) for changes in out]
 
 
 def _usual(contact: Contact) -> dict[str, Uncertain]:
@@ -341,25 +423,31 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int) -> Array:
     return open_way[np.unique(np.append(np.arange(0, last, EACH), last))]
 
 
+Way = tuple[int, str, int]
+"""Which page, along which input, and to which side."""
+
+
 def _departures(
-    found: Propagation, ways: Mapping[tuple[str, int], tuple[Drawn, Array]], mode: str
-) -> dict[tuple[str, int], tuple[float, float, str]]:
+    pages: Sequence[Assessment], ways: Mapping[Way, tuple[Drawn, Array]]
+) -> dict[Way, tuple[float, float, str]]:
     """The step at which the first other mode comes, and that mode, on each way that has one."""
     if not ways:
         return {}
-    own = all_inputs(found.contact)
-    moved = [drawn.at([values]) for drawn, values in ways.values()]
-    ends = np.cumsum([0, *(len(values) for _, values in ways.values())])
+    one = pages[0].propagation
+    own = all_inputs(one.contact)
+    counts = [len(values) for _, values in ways.values()]
+    ends = np.cumsum([0, *counts])
     pieces = [slice(*pair) for pair in itertools.pairwise(ends.tolist())]
     vary: dict[str, Array] = {}
-    for some, piece in zip(moved, pieces, strict=True):
-        for name, values in some.items():
-            vary.setdefault(name, np.full(ends[-1], own[name]))[piece] = values
-    states = columns_at(found.contact, found.load, float(found.loads), vary, int(ends[-1]))
+    for (drawn, values), piece in zip(ways.values(), pieces, strict=True):
+        for name, moved in drawn.at([values]).items():
+            vary.setdefault(name, np.full(ends[-1], own[name]))[piece] = moved
+    loads = np.repeat([float(pages[i].propagation.loads) for i, _, _ in ways], counts)
+    states = columns_at(one.contact, one.load, loads, vary, int(ends[-1]))
     out = {}
     for (way, (_, values)), piece in zip(ways.items(), pieces, strict=True):
         modes = [str(word) for word in states["mode"][piece]]
-        step = next((i for i, other in enumerate(modes) if other != mode), 0)
+        step = next((k for k, other in enumerate(modes) if other != pages[way[0]].mode), 0)
         if step > 0 and modes[step] != "":
             out[way] = float(values[step - 1]), float(values[step]), modes[step]
     return out

@@ -36,6 +36,8 @@ FAR, COARSE, FINER = 10.0, 41, (18, 18)
 """Factor within which a change of mode is sought in an input, values on the way to it of which
 every EACH-th is tried, and values tried within the step in which it lies, and within that."""
 EACH = 4
+HALVES = (3,) * 8
+"""As FINER, where each contact takes tables of its own."""
 UNMOVED = 1e-5
 """Part of a result below which its differences are not known."""
 RARE = 1e-4

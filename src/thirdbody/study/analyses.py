@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..analysis.assess import PARTS, assess
+from ..analysis.assess import PARTS, assess_each
 from ..analysis.assessment import Assessment
 from ..analysis.assessments import Assessments
 from ..equilibrium.modes import FAINT
@@ -53,10 +53,13 @@ def assess_study(study: Study, *, progress: bool = False) -> Assessment | Assess
             "The loads are those that the values of the study carry at its separations; what is "
             "uncertain or moved changes the separation, not the load.",
         )
-    if len(study.values) == 1 and not len(apart):
-        with stages("assess", len(PARTS), progress) as report:
-            return _assess(study, name, float(loads[0]), report)
-    return _assess_each(study, name, loads, apart, notes, progress)
+    with stages("assess", len(PARTS), progress) as report:
+        if len(study.values) == 1 and not len(apart):
+            (page,) = _assess(study, name, loads.tolist(), report)
+            if isinstance(page, NoEquilibrium):
+                raise page
+            return page
+        return _assess_each(study, name, loads, apart, notes, report)
 
 
 def _some(total: int) -> list[int]:
@@ -71,26 +74,26 @@ def _assess_each(
     loads: np.ndarray,
     apart: np.ndarray,
     notes: tuple[str, ...],
-    progress: bool,
+    report: Callable[[str], None],
 ) -> Assessments:
     """A page for every load."""
-    pages, unsolved, where = [], [], []
-    scatters = study.uncertainty is not None and name in study.uncertainty.inputs
-    if scatters:
+    if study.uncertainty is not None and name in study.uncertainty.inputs:
         notes += ("Each load is taken as exactly known: its own scatter is left out.",)
-    with stages("assess", len(PARTS) * len(loads), progress) as report:
-        for i, load in enumerate(loads.tolist()):
-            told = value_of(apart[i], "m") if len(apart) else value_of(load, LOADS[name]["unit"])
-            if not load > FAINT:
-                unsolved.append(f"At {told} nothing is in contact.")
-                continue
-            try:
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore", RangeWarning)  # the page tells of them
-                    pages.append(_assess(study, name, load, report, alone=True))
-                where += apart[i : i + 1].tolist()
-            except NoEquilibrium as error:
-                unsolved.append(f"At {told} there is {error}.")
+    touching = loads > FAINT
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)  # the pages tell of them
+        found = iter(_assess(study, name, loads[touching].tolist(), report, alone=True))
+    pages, unsolved, where = [], [], []
+    for i, load in enumerate(loads.tolist()):
+        told = value_of(apart[i], "m") if len(apart) else value_of(load, LOADS[name]["unit"])
+        page = next(found) if touching[i] else None
+        if page is None:
+            unsolved.append(f"At {told} nothing is in contact.")
+        elif isinstance(page, NoEquilibrium):
+            unsolved.append(f"At {told} there is {page}.")
+        else:
+            pages.append(page)
+            where += apart[i : i + 1].tolist()
     if not pages:
         raise NoEquilibrium(" ".join(unsolved))
     return Assessments(
@@ -108,37 +111,45 @@ def _assess_body(study: Study, progress: bool) -> Assessment | Assessments:
     assert study.body is not None
     assert study.forces is not None
     some = study.forces[_some(len(study.forces))].tolist()
+    pressed = [press(study.contact, study.body, force) for force in some]
+    means = [found.mean for found in pressed]
+    with stages("assess", len(PARTS), progress) as report:
+        bare = _assess(study, study.load, means, report, alone=len(some) > 1)
     pages = []
-    with stages("assess", len(PARTS) * len(some), progress) as report:
-        for force in some:
-            found = press(study.contact, study.body, force)
-            page = _assess(study, study.load, found.mean, report, alone=len(some) > 1)
-            notes = [found.sentence(), *(f"Warning: {text}." for text in found.warnings)]
-            if found.kind != "flat":
-                largest = value_of(found.maximum, "Pa")
-                notes.append(
-                    "This page is for the mean pressure; for the largest: "
-                    f"--set load.pressure={largest!r}."
-                )
-            pages.append(replace(page, notes=(*notes, *page.notes)))
+    for found, page in zip(pressed, bare, strict=True):
+        if isinstance(page, NoEquilibrium):
+            raise page
+        notes = [found.sentence(), *(f"Warning: {text}." for text in found.warnings)]
+        if found.kind != "flat":
+            largest = value_of(found.maximum, "Pa")
+            notes.append(
+                "This page is for the mean pressure; for the largest: "
+                f"--set load.pressure={largest!r}."
+            )
+        pages.append(replace(page, notes=(*notes, *page.notes)))
     if len(pages) == 1:
         return pages[0]
     return Assessments(title=study.title, pages=tuple(pages), asked=len(study.forces))
 
 
 def _assess(
-    study: Study, name: str, load: float, report: Callable[[str], None], *, alone: bool = False
-) -> Assessment:
-    """At one load; ``alone`` without its own scatter."""
+    study: Study,
+    name: str,
+    loads: list[float],
+    report: Callable[[str], None],
+    *,
+    alone: bool = False,
+) -> list[Assessment | NoEquilibrium]:
+    """At each load; ``alone`` without its own scatter."""
     asked = study.uncertainty
-    value: dict[str, Any] = {name: load}
+    value: dict[str, Any] = {}
     if asked is not None:
         inputs = {label: known for label, known in asked.inputs.items() if label not in OF_LOADS}
-        value |= {"vary": inputs if alone else asked.inputs}
+        value = {"vary": inputs if alone else asked.inputs}
         value |= {"samples": asked.samples, "seed": asked.seed}
         if not value["vary"]:
-            value = {name: load}
-    return assess(study.contact, **value, title=study.title, progress=report)
+            value = {}
+    return assess_each(study.contact, name, loads, **value, title=study.title, progress=report)
 
 
 OF_LOADS = ("pressure", "F_star", "d")

@@ -24,13 +24,12 @@ from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.critical_loads import CRITICAL, critical_loads
 from ...equilibrium.solve import given_load
-from ...equilibrium.states import FEWEST
+from ...equilibrium.states import FEWEST, tables_each
 from ...errors import InvalidValue
 from ...quantities import notebook
 from ...quantities.say import percent
 from .inputs import Drawn, Uncertain, drawn_inputs
 from .samples import (
-    LEAST,
     MARGINS,
     MODES,
     MOST_CRITICAL,
@@ -38,8 +37,11 @@ from .samples import (
     OUTPUTS,
     PROBABILITIES,
     REPLICATES,
+    about_loads,
     about_result,
+    check_counts,
     columns_at,
+    critical_of,
     evaluated,
     output_of,
     outputs_of,
@@ -101,11 +103,13 @@ class Propagation:
     mode_error: dict[str, Any]
     critical_status: dict[str, dict[str, float]]
     solved: Any
+    _critical_at_ends: dict[tuple[float, float], Arrays] = field(default_factory=dict, repr=False)
+    """Critical loads at the ends of each input, by the probabilities of the ends."""
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the contact, ready for JSON: None for what is not a finite number."""
         out = {item.name: getattr(self, item.name) for item in dataclasses.fields(self)}
-        del out["contact"]
+        del out["contact"], out["_critical_at_ends"]
         out["inputs"] = {name: known.to_dict() for name, known in self.inputs.items()}
         return plain(out)
 
@@ -160,6 +164,25 @@ class Propagation:
             rows.append(notebook.Row(mode, values, "probability of the contact mode"))
         return notebook.card(f"Propagation, {self.samples} samples", rows)
 
+    def at_load(self, at: int) -> Propagation:
+        """What is said of one of several loads."""
+        if np.ndim(self.loads) == 0:
+            return self
+
+        def own(table: Mapping[str, Any], dims: int) -> dict[str, Any]:
+            return {n: v[at] if np.ndim(v) > dims else v for n, v in table.items()}
+
+        return dataclasses.replace(
+            self,
+            loads=float(self.loads[at]),
+            nominal={name: float(value) for name, value in own(self.nominal, 0).items()},
+            bands=own(self.bands, 1),
+            error=own(self.error, 1),
+            mode_probability={n: float(v) for n, v in own(self.mode_probability, 0).items()},
+            mode_error={n: float(v) for n, v in own(self.mode_error, 0).items()},
+            solved=float(self.solved[at]),
+        )
+
     # ------------------------------------------------------------------ one input at a time
     def tornado(
         self,
@@ -186,23 +209,13 @@ class Propagation:
             strongest input of the first output comes first.
         """
         names = outputs_of([of] if isinstance(of, str) else of, self.contact)
-        problem = self._problem()
-        rows: list[list[float]] = []
-        for j, known in enumerate(problem.known):
-            for probability in probabilities:
-                row = list(problem.nominal)
-                row[j] = known.at(probability)
-                rows.append(row)
-        values = np.array(rows)
         load = float(np.atleast_1d(self.loads)[at])
-        values[np.isnan(values)] = load
-        # the compiled engine takes no fewer states
-        spare = problem.points(points_of(FEWEST, len(self.inputs), 0, 0))
-        vary = {
-            name: np.append(column, spare[name])
-            for name, column in problem.at(list(values.T)).items()
-        }
-        solved = evaluated(self.contact, self.load, load, vary, len(values) + FEWEST, names)
+        vary, count = self._ends(probabilities, load)
+        critical = self._critical_at_ends.get(probabilities, {})
+        if about_loads(names) and not critical:
+            critical = critical_of(self.contact, self.load, vary, count)
+            self._critical_at_ends[probabilities] = critical
+        solved = evaluated(self.contact, self.load, load, vary, count, names, critical)
         out = {
             name: {
                 label: (float(solved[name][2 * j]), float(solved[name][2 * j + 1]))
@@ -268,7 +281,9 @@ class Propagation:
         u = sample.sample(cube, samples, calc_second_order=False, seed=self.seed)
         load = float(np.atleast_1d(self.loads)[at])
         vary = self._problem().points(u)
-        solved = evaluated(self.contact, self.load, load, vary, len(u), names)
+        asked = about_loads(names)
+        critical = critical_of(self.contact, self.load, vary, len(u)) if asked else {}
+        solved = evaluated(self.contact, self.load, load, vary, len(u), names, critical)
         out: dict[str, dict[str, dict[str, float]]] = {}
         for name in names:
             values = solved[name]
@@ -298,6 +313,24 @@ class Propagation:
                 for j, label in enumerate(self.inputs)
             }
         return out
+
+    def _ends(self, probabilities: tuple[float, float], load: float) -> tuple[Arrays, int]:
+        """Inputs of states, of two for each input, with it at each end; and how many states."""
+        problem = self._problem()
+        rows: list[list[float]] = []
+        for j, known in enumerate(problem.known):
+            for probability in probabilities:
+                row = list(problem.nominal)
+                row[j] = known.at(probability)
+                rows.append(row)
+        values = np.array(rows)
+        values[np.isnan(values)] = load
+        vary, count = problem.at(list(values.T)), len(values)
+        if not tables_each(self.contact, vary):  # the compiled engine takes no fewer
+            spare = problem.points(points_of(FEWEST, len(self.inputs), 0, 0))
+            vary = {name: np.append(column, spare[name]) for name, column in vary.items()}
+            count += FEWEST
+        return vary, count
 
     def _problem(self) -> Drawn:
         one = np.asarray(self.loads).flat[0]
@@ -405,7 +438,7 @@ def propagate(
     drawn = drawn_inputs(contact, vary, load, loads[0] if one else loads)
     names = outputs_of(outputs, contact)
     probabilities = tuple(float(q) for q in quantiles)
-    _check_counts(probabilities, samples, critical_samples, seed)
+    check_counts(probabilities, samples, critical_samples, seed)
     each = power_of_two(samples) // REPLICATES
     few = min(each, power_of_two(critical_samples or MOST_CRITICAL) // REPLICATES)
     u = points_of(each, len(vary), int(seed), REPLICATES)
@@ -414,8 +447,12 @@ def propagate(
     sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
     some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
     found = _Bands(names, probabilities, first_few, _sought(contact, sought, some, first_few))
-    for value in loads:
-        found.add(*_at_load(contact, load, value, drawn_values, len(u), names, first_few))
+    of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
+    told = _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
+    for i, value in enumerate(loads.tolist()):
+        state = columns_at(contact, load, value, drawn_values, len(u))
+        state |= {name: told[name][i] for name in names if name in of_outputs}
+        found.add(state, columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs)))
 
     fixed = {name for name in names if name in CRITICAL}
 
@@ -442,21 +479,6 @@ def propagate(
     )
 
 
-def _check_counts(
-    probabilities: Sequence[float], samples: Any, critical_samples: Any, seed: Any
-) -> None:
-    problems = [f"quantiles: {q:g} must be between 0 and 1" for q in probabilities if not 0 < q < 1]
-    for name, value, least in (
-        ("samples", samples, LEAST),
-        ("critical_samples", LEAST if critical_samples is None else critical_samples, LEAST),
-        ("seed", seed, 0),
-    ):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
-            problems.append(f"{name} = {value!r} must be a whole number, at least {least}")
-    if problems:
-        raise InvalidValue(*problems)
-
-
 class _Critical(NamedTuple):
     """Critical loads of the first few samples, the shares of their statuses, and nominal ones."""
 
@@ -481,25 +503,15 @@ def _sought(
     return _Critical(loads, statuses, nominal)
 
 
-def _at_load(
-    contact: Contact,
-    load: str,
-    value: float,
-    drawn: Arrays,
-    count: int,
-    names: Sequence[str],
-    first_few: NDArray[np.intp],
-) -> tuple[Arrays, Arrays]:
-    """States of all samples at one load, outputs of a few of them, and the nominal state."""
-    of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
-    state = columns_at(contact, load, value, drawn, count)
-    middle = columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs))
-    if of_outputs:
-        which = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)]
-        some = {n: v[which.ravel()] for n, v in drawn.items()}
-        told = columns_at(contact, load, value, some, which.size, outputs=True)
-        state |= {name: told[name] for name in of_outputs}
-    return state, middle
+def _outputs(
+    contact: Contact, load: str, loads: Array, drawn: Arrays, first_few: NDArray[np.intp]
+) -> Arrays:
+    """Columns (L, n) of a few samples with outputs, at every load: loads share their contacts."""
+    which = first_few[:, : max(1, MOST_OUTPUTS // REPLICATES)].ravel()
+    some = {name: np.tile(values[which], len(loads)) for name, values in drawn.items()}
+    every = np.repeat(loads, len(which))
+    told = columns_at(contact, load, every, some, len(every), outputs=True)
+    return {name: values.reshape(len(loads), -1) for name, values in told.items()}
 
 
 class _Bands:
@@ -540,8 +552,8 @@ class _Bands:
         self.solved.append(float(np.mean(state["status"] == "ok")))
 
 
-def certain(contact: Contact, load: str, value: float) -> Propagation:
-    """What a `Propagation` is where nothing is uncertain: every quantile is the value itself."""
+def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propagation]:
+    """A `Propagation` a load where nothing is uncertain: every quantile is the value itself."""
     names = outputs_of(None, contact)
     critical: Arrays = {}
     statuses: dict[str, dict[str, float]] = {}
@@ -549,24 +561,29 @@ def certain(contact: Contact, load: str, value: float) -> Propagation:
         found = critical_loads(contact, vary={}, count=1)
         critical = {name: values for name, (values, _) in found.items()}
         statuses = {name: {str(words[0]): 1.0} for name, (_, words) in found.items()}
-    state = columns_at(contact, load, value, {}, 1, outputs=bool(contact.outputs))
     few = np.zeros(1, int)
-    nominal = {name: float(output_of(name, state, critical, few).flat[0]) for name in names}
-    mode = str(state["mode"][0]) or "none"
-    return Propagation(
-        contact=contact,
-        inputs={},
-        load=load,
-        loads=value,
-        samples=1,
-        critical_samples=len(critical) and 1,
-        seed=0,
-        probabilities=PROBABILITIES,
-        nominal=nominal,
-        bands={name: np.full(len(PROBABILITIES), one) for name, one in nominal.items()},
-        error={name: np.zeros(len(PROBABILITIES)) for name in names},
-        mode_probability={each: float(each == mode) for each in MODES},
-        mode_error=dict.fromkeys(MODES, 0.0),
-        critical_status=statuses,
-        solved=1.0,
-    )
+    out = []
+    for value in loads:
+        state = columns_at(contact, load, value, {}, 1, outputs=bool(contact.outputs))
+        nominal = {name: float(output_of(name, state, critical, few).flat[0]) for name in names}
+        mode = str(state["mode"][0]) or "none"
+        out.append(
+            Propagation(
+                contact=contact,
+                inputs={},
+                load=load,
+                loads=value,
+                samples=1,
+                critical_samples=len(critical) and 1,
+                seed=0,
+                probabilities=PROBABILITIES,
+                nominal=nominal,
+                bands={name: np.full(len(PROBABILITIES), one) for name, one in nominal.items()},
+                error={name: np.zeros(len(PROBABILITIES)) for name in names},
+                mode_probability={each: float(each == mode) for each in MODES},
+                mode_error=dict.fromkeys(MODES, 0.0),
+                critical_status=statuses,
+                solved=1.0,
+            )
+        )
+    return out

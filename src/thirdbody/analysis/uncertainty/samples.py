@@ -26,7 +26,7 @@ __all__ = ["OUTPUTS", "about_result", "columns_at", "enough"]
 
 REPLICATES = 8
 """Scramblings of the sequence."""
-LEAST, MOST_CRITICAL, USUAL = 64, 2_048, 2**14
+LEAST, MOST_CRITICAL, USUAL = 64, 2_048, 2**12
 """Fewest samples, those for which critical loads are sought unless more are asked for, and usual
 ones."""
 PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
@@ -86,6 +86,21 @@ def outputs_of(asked: Sequence[str] | None, contact: Contact) -> list[str]:
     return names
 
 
+def check_counts(
+    probabilities: Sequence[float], samples: Any, critical_samples: Any, seed: Any
+) -> None:
+    problems = [f"quantiles: {q:g} must be between 0 and 1" for q in probabilities if not 0 < q < 1]
+    for name, value, least in (
+        ("samples", samples, LEAST),
+        ("critical_samples", LEAST if critical_samples is None else critical_samples, LEAST),
+        ("seed", seed, 0),
+    ):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+            problems.append(f"{name} = {value!r} must be a whole number, at least {least}")
+    if problems:
+        raise InvalidValue(*problems)
+
+
 def power_of_two(count: int) -> int:
     return 1 << (int(count) - 1).bit_length()
 
@@ -98,9 +113,16 @@ def points_of(each: int, width: int, seed: int, replicates: int) -> Array:
 
 
 def columns_at(
-    contact: Contact, load: str, value: float, vary: Arrays, count: int, *, outputs: bool = False
+    contact: Contact,
+    load: str,
+    value: float | Array,
+    vary: Arrays,
+    count: int,
+    *,
+    outputs: bool = False,
 ) -> Arrays:
-    """States at one load, bare unless outputs are asked; the load may be among what varies."""
+    """States at a load, or each at its own, bare unless outputs are asked; the load may be among
+    what varies."""
     if outputs:
         vary = dict(vary)
     else:
@@ -109,16 +131,27 @@ def columns_at(
     return state_columns(contact, **{load: loads}, vary=vary or None)
 
 
+def about_loads(names: Iterable[str]) -> bool:
+    """Whether an output is a critical load, or a margin to one."""
+    return any(name in CRITICAL or name in MARGINS for name in names)
+
+
+def critical_of(contact: Contact, load: str, vary: Arrays, count: int) -> Arrays:
+    """Critical loads of samples; a load that varies changes none."""
+    rest = {name: values for name, values in vary.items() if name != load}
+    return {name: v[0] for name, v in critical_loads(contact, vary=rest, count=count).items()}
+
+
 def evaluated(
-    contact: Contact, load: str, value: float, vary: Arrays, count: int, names: Sequence[str]
+    contact: Contact,
+    load: str,
+    value: float,
+    vary: Arrays,
+    count: int,
+    names: Sequence[str],
+    critical: Arrays,
 ) -> dict[str, Array]:
-    """Outputs (N,) of samples at one load."""
-    critical: Arrays = {}
-    if any(name in CRITICAL or name in MARGINS for name in names):
-        rest = {n: v for n, v in vary.items() if n != load}
-        critical = {
-            name: v[0] for name, v in critical_loads(contact, vary=rest, count=count).items()
-        }
+    """Outputs (N,) of samples at one load, of which the critical loads are known."""
     asked = any(name in each.columns for each in contact.outputs for name in names)
     state = columns_at(contact, load, value, vary, count, outputs=asked)
     return {name: output_of(name, state, critical, np.arange(count)) for name in names}
