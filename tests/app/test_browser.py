@@ -474,11 +474,11 @@ def test_a_film_is_added_changed_and_removed(visit):
     field.fill("20 mPa")
     entry = page.locator(".q-field", has=field)
     entry.get_by_text("is a pressure, but a viscosity").wait_for()
-    before = fact(page, "film: lambda = h_T/sigma")
+    before = fact(page, "film: film over roughness λ = h_T/σ")
     field.fill("60 mPa s")
     when(
         page,
-        "old => document.querySelector(`[data-fact='film: lambda = h_T/sigma']`).innerText !== old",
+        "old => document.querySelector(`[data-fact='film: film over roughness λ = h_T/σ']`).innerText !== old",
         arg=before,
     )
     assert not page.locator('[data-said="page"]').inner_text()

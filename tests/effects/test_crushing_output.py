@@ -120,7 +120,7 @@ def sentences(contact):
 def test_warnings():
     strength = tb.WeibullStrength.of(QUARTZ)
     (said,) = sentences(contact_of(strength))
-    assert "x from 5e-06 to 4e-05 m lies outside the sizes of the strength data (0.001 m)" in said
+    assert "x from 5 µm to 40 µm lies outside the sizes of the strength data (1 mm)" in said
     assert "extrapolated by a factor 18" in said
     no_toughness = contact_of(strength, material=QUARTZ.replace(K_c=None))
     assert any("x_c is 0" in said for said in sentences(no_toughness))

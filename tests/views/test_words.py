@@ -1,6 +1,7 @@
 """Numbers and sentences have one home each, and it holds."""
 
 import dataclasses
+import math
 import re
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from thirdbody.equilibrium.columns import COLUMNS, MODES
 from thirdbody.quantities import say
 from thirdbody.quantities.units import EXAMPLES
 from thirdbody.quantities.value import Value
+from thirdbody.views import html
 
 SOURCE = Path(tb.__file__).parent
 SPEAK = ("analysis/assess", "app", "cli", "views", "study/run")
@@ -132,18 +134,40 @@ def test_a_critical_load_that_does_not_exist_is_a_dash():
     assert words.critical_load(None, "none") == words.critical_load(float("nan")) == "-"
 
 
-def test_no_unit_stands_as_a_file_writes_it():
-    """Of every declared quantity and every column: powers are raised, products have no sign."""
-    units = {about["unit"] for about in COLUMNS.values()} | set(EXAMPLES)
-    units |= {column.unit for each in effects.REGISTRY.values() for column in each.columns.values()}
-    units |= {
-        item.metadata["quantity"]["unit"]
+def declared(what):
+    """A word of every declared quantity and every column: "unit" or "symbol"."""
+    found = {about[what] for about in COLUMNS.values()}
+    for each in effects.REGISTRY.values():
+        found |= {getattr(column, what) for column in each.columns.values()}
+    return found | {
+        item.metadata["quantity"][what]
         for kind in Value._classes.values()
         if dataclasses.is_dataclass(kind)
         for item in dataclasses.fields(kind)
         if "quantity" in item.metadata
     }
+
+
+def test_no_unit_stands_as_a_file_writes_it():
+    """Powers are raised, products have no sign."""
+    units = declared("unit") | set(EXAMPLES)
     assert len(units) > 15
     for unit in units - {"1"}:
         assert not re.search(r"[\^*]|1/|/.*/", say.unit_of(unit)), unit
     assert say.value_of(6.7e5, "Pa m^0.5") == "0.67 MPa √m"
+    assert say.value_of(math.radians(35), "rad") == "35 deg"
+    assert say.value_of(1e-6, "m^2") == "1 mm²"
+
+
+def test_every_symbol_is_set_with_its_subscript():
+    found = declared("symbol") - {None}
+    assert len(found) > 100
+    for symbol in sorted(found):
+        shown = html.words(symbol)
+        assert "_" not in shown, symbol
+        assert not re.search(r"</sub>,\w", shown), symbol
+
+
+def test_names_and_lists_are_no_subscripts():
+    assert html.words("particle_law.zeta_mean") == "particle_law.zeta_mean"
+    assert html.words("A_ss, F_cr1,F_cr2") == "A<sub>ss</sub>, F<sub>cr1</sub>,F<sub>cr2</sub>"

@@ -33,7 +33,7 @@ import numpy as np
 from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule, subdivide
 from ..quantities.say import percent
-from ..quantities.value import Value, problem_with, quantity
+from ..quantities.value import Value, problem_with, quantity, several
 from .distributions import Distribution
 
 if TYPE_CHECKING:
@@ -124,9 +124,9 @@ class Ellipticity(Value):
     [(1.0, 1.0, 0.5), (2.0, 1.0, 0.3), (5.0, 1.0, 0.2)]
     """
 
-    ratios: tuple[float, ...]
-    weights: tuple[float, ...] | None = None
-    radii: tuple[float, ...] | None = None
+    ratios: tuple[float, ...] = several("1", "ratios λ of the radii")
+    weights: tuple[float, ...] | None = several("1", "asperities in each class", default=None)
+    radii: tuple[float, ...] | None = several("1", "R_g over R of each class", default=None)
 
     def __post_init__(self) -> None:
         problems = []

@@ -20,7 +20,7 @@ from scipy import special
 
 from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule
-from ..quantities.value import Value, quantity
+from ..quantities.value import Value, quantity, several
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -427,8 +427,8 @@ class HistogramHeights(Heights):
     [-1.732051, 0.0, 1.732051]
     """
 
-    edges: tuple[float, ...]
-    counts: tuple[float, ...]
+    edges: tuple[float, ...] = several("1", "edges of the classes of height, in any unit")
+    counts: tuple[float, ...] = several("1", "asperities in each class")
 
     def __post_init__(self) -> None:
         for name in ("edges", "counts"):

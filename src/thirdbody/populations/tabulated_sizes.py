@@ -10,7 +10,7 @@ import numpy as np
 from scipy import special
 
 from ..errors import InvalidValue
-from ..quantities.value import Value
+from ..quantities.value import Value, several
 from .size_base import (
     ONE_SIZE,
     Distribution,
@@ -44,8 +44,8 @@ class Histogram(Distribution):
     125.0
     """
 
-    edges: tuple[float, ...]
-    counts: tuple[float, ...]
+    edges: tuple[float, ...] = several("m", "edges of the classes of size")
+    counts: tuple[float, ...] = several("1", "particles in each class")
 
     def __post_init__(self) -> None:
         for name in ("edges", "counts"):
@@ -147,9 +147,9 @@ class PowerLaw(Distribution):
     5.5787
     """
 
-    edges: tuple[float, ...]
-    counts: tuple[float, ...]
-    slopes: tuple[float, ...]
+    edges: tuple[float, ...] = several("m", "edges of the classes of size")
+    counts: tuple[float, ...] = several("1", "particles in each class")
+    slopes: tuple[float, ...] = several("1", "exponents of the number over size")
 
     def __post_init__(self) -> None:
         for name in ("edges", "counts", "slopes"):
@@ -273,7 +273,7 @@ class Mixture(Distribution):
     """
 
     parts: tuple[Distribution, ...]
-    weights: tuple[float, ...]
+    weights: tuple[float, ...] = several("1", "weights of the parts")
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "parts", tuple(self.parts))

@@ -33,8 +33,10 @@ PREFIXED = {
     "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")),
     "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
     "Pa m^0.5": ((1e6, "MPa √m"),),
+    "m^2": ((1.0, "m²"), (1e-6, "mm²"), (1e-12, "µm²")),
+    "rad": ((math.pi / 180, "deg"),),
 }
-SMALLEST, LARGEST = 1e-11, 1e13
+SMALLEST, LARGEST = 1e-12, 1e13
 """Magnitudes between which units take a prefix."""
 UNITS = {
     "um": "µm",
@@ -96,7 +98,7 @@ def number(value: float | None, digits: int = 4, *, least: float = 0.0) -> str:
 
 
 def value_of(value: float | None, unit: str, digits: int = 4) -> str:
-    """A number with its unit, metres and pascals with a prefix.
+    """A number with its unit, metres and pascals with a prefix, angles in degrees.
 
     >>> value_of(3e-7, "m"), value_of(5e6, "Pa"), value_of(1e11, "1/m^2"), value_of(0.3, "1")
     ('300 nm', '5 MPa', '1×10¹¹ m⁻²', '0.3')

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from .notebook import Row
 
-__all__ = ["Value", "choice", "quantity"]
+__all__ = ["Value", "choice", "quantity", "several"]
 
 
 def quantity(
@@ -61,6 +61,11 @@ def quantity(
     if usual is not None:
         about["usual"] = usual
     return field(default=default, metadata={"quantity": about})
+
+
+def several(unit: str, meaning: str, *, default: Any = MISSING) -> Any:
+    """A dataclass field that holds a tuple of numbers in SI."""
+    return field(default=default, metadata={"several": {"unit": unit, "meaning": meaning}})
 
 
 def choice(meaning: str, *options: str, default: str) -> Any:

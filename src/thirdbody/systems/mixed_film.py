@@ -522,17 +522,17 @@ def _ranges(bodies: Lubricated, u: Array, ratio: Array) -> list[str]:
     out = bodies.film.warnings(at.regime, conjunction.ratio)
     if np.any(ratio < 1):
         out.append(
-            f"mixed_film: the film is down to {float(ratio.min()):.2g} sigma; below 1 sigma "
+            f"the film is down to {float(ratio.min()):.2g} sigma; below 1 sigma "
             "roughness hinders the flow, and no flow factors are applied"
         )
     if heights != GaussianHeights():
         out.append(
-            "mixed_film: the mean gap is that of a Gaussian surface, and the asperities here have "
+            "the mean gap of the film is that of a Gaussian surface, and the asperities here have "
             f"{type(heights).__name__}"
         )
     if not load_scan(interface(bodies.contact)).monotone:
         out.append(
-            "mixed_film: the load of these particles does not fall with the separation, so "
+            "the load of these particles does not fall with the separation, so "
             "another balance may exist"
         )
     return out

@@ -16,7 +16,7 @@ def point(result: dict[str, Any], i: int) -> dict[str, str]:
     rows = {
         "film thickness, mean gap h_T": value_of(at["h_T"], "m"),
         "film of smooth bodies": value_of(at["h_smooth"], "m"),
-        "lambda = h_T/sigma": value_of(at["lambda_ratio"], "1"),
+        "film over roughness λ = h_T/σ": value_of(at["lambda_ratio"], "1"),
         "separation of the mean planes h": value_of(at["h"], "m"),
         "load on the film": share(at["film_share"]),
         "load on asperities": share(at["ss_share"]),

@@ -56,6 +56,7 @@ h1,h2,h3,.lead-in{break-after:avoid}
 h2{margin:.9rem 0 .3rem}p{max-width:none;orphans:3;widows:3}
 figure,tr,li{break-inside:avoid}thead{display:table-header-group}
 .scroll{overflow:visible;break-inside:avoid}.scroll.long{break-inside:auto}
+pre{orphans:6;widows:6}
 table{font-size:7.5pt}th,td{padding:.1rem .35rem}td.words{min-width:0}
 figure img{width:11cm}
 .figures{grid-template-columns:1fr 1fr;gap:.5rem}
@@ -68,7 +69,7 @@ figure img{width:11cm}
 """Every colour is a variable that the dark scheme sets anew; paper is always light."""
 
 
-LONG = 25
+LONG = 15
 """Rows beyond which a table may be continued on the next page."""
 
 
@@ -133,9 +134,9 @@ def figure(svg: bytes, caption: str, *, about: str | None = None, name: str = ""
 
 
 def symbols(text: str) -> str:
-    """Escaped text with subscripts set: H_s, A_ss,t*, F_cr1*; dotted names stay as they are."""
+    """Escaped text with subscripts set: H_s, A_ss,t*, δ_max,1; dotted names stay as they are."""
     return re.sub(
-        r"(?<![A-Za-z_.])([A-Za-zσηωχφμκρτ])_([A-Za-z0-9ζ]+(?:,[tn](?![A-Za-z]))?)",
+        r"(?<![A-Za-z_.])([A-Za-zΑ-Ωα-ω])_([A-Za-zΑ-Ωα-ω0-9]+(?:,[A-Za-zα-ω0-9]+(?!\w))?)",
         r"\1<sub>\2</sub>",
         escape(text),
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
 
+from ...quantities.say import span, value_of
 from .tension import Tension, tension
 
 if TYPE_CHECKING:
@@ -121,11 +122,11 @@ def about_strength(particles: Grains, surfaces: MaterialPair) -> list[str]:
     low = max(low, strength.least(material), 1e-3 * high)
     p, q = strength.tested
     if high >= low and (low < p or high > q):
-        tested = f"{p:.3g}" if p == q else f"{p:.3g} to {q:.3g}"
+        tested = value_of(p, "m", 3) if p == q else span(p, q, "m")
         factor = max((p / low) ** strength.b, (high / q) ** strength.b)
         out.append(
-            f"the strength of {name}: x from {low:.3g} to {high:.3g} m lies outside the sizes of "
-            f"the strength data ({tested} m): strengths are extrapolated by a factor "
+            f"the strength of {name}: x from {span(low, high, 'm')} lies outside the sizes "
+            f"of the strength data ({tested}): strengths are extrapolated by a factor "
             f"{factor:.2g}"
         )
     softer = material.H < max(surfaces.first.H, surfaces.second.H)

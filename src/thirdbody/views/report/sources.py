@@ -197,9 +197,11 @@ def _rows(value: Value, path: str) -> Iterator[Row]:
                 if isinstance(each, Value):
                     label = each.name if isinstance(each, AbstractOutput) else place
                     yield from _rows(each, f"{name}.{label}.")
-            if all(isinstance(each, (int, float)) for each in part):
-                text = f"{len(part)} values, {span(min(part), max(part), '1')}"
-                yield Row(name, "", text, item.name.replace("_", " "), default)
+            if about := item.metadata.get("several"):
+                text = f"{len(part)} values, {span(min(part), max(part), about['unit'])}"
+                if min(part) == max(part):
+                    text = value_of(part[0], about["unit"])
+                yield Row(name, "", text, about["meaning"], default)
 
 
 def _is_default(item: dataclasses.Field[Any], value: Any) -> bool:
