@@ -17,7 +17,7 @@ from browser import chromium  # noqa: E402
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 pytestmark = [pytest.mark.check, pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")]
-LONGEST, LEAST = 8, 0.5
+LONGEST, LEAST = 8, 0.6
 """Pages of a report; how far down a page is filled before the next one begins."""
 
 
