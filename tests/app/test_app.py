@@ -33,7 +33,7 @@ from thirdbody.app.python_text import to_python
 from thirdbody.app.sizing import size_of, with_size
 from thirdbody.app.sliders import at_position, position_of
 from thirdbody.app.state import State
-from thirdbody.app.tabs.error_bars import _ranges
+from thirdbody.app.tabs.error_bars import _ranges, tornado_figure
 from thirdbody.app.tabs.interface import _drawn, headline, told
 from thirdbody.app.tabs.outputs import output_figures
 from thirdbody.app.uploads import harmless
@@ -687,6 +687,10 @@ def test_error_bars_are_those_of_the_library():
     # another process may have another engine: they agree to 1e-12
     np.testing.assert_allclose(found["bands"], own.bands["A_t"], rtol=1e-11)
     np.testing.assert_allclose(found["nominal"], own.nominal["A_t"], rtol=1e-11)
+    assert found["words"] == {"roughness.sigma": "RMS of equivalent surface heights"}
+    assert found["ends"] == {"roughness.sigma": ["91 nm", "109 nm"]}
+    bars = tornado_figure(found)["data"]
+    assert {"".join(each["y"]) for each in bars} == {"RMS of equivalent surface<br>heights"}
 
 
 def test_a_bad_request_is_told_and_a_slow_one_is_ended(tmp_path):

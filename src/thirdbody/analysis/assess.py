@@ -30,7 +30,7 @@ from .assessment import (
     Assessment,
     Change,
     _nominal,
-    _unit,
+    unit_of,
 )
 from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
@@ -284,7 +284,7 @@ def about_fragments(contact: Contact, load: dict[str, Any]) -> list[str]:
 def _outside(found: Propagation) -> list[str]:
     """Inputs whose own value their range does not allow."""
     return [
-        f"The value {value_of(_nominal(found, label), _unit(found.contact, label))} of the "
+        f"The value {value_of(_nominal(found, label), unit_of(found.contact, label))} of the "
         f"{words_of(found.contact, label)} lies outside what its range says; nominal results and "
         "bands do not belong together."
         for label, known in found.inputs.items()

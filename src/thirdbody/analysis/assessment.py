@@ -219,6 +219,8 @@ class Assessment:
                 sentences.append(not_met(name, found.nominal[name]))
                 continue
             band = f"{number(low, 3)} to {times(high)}"
+            if times(low) == times(high):
+                band = times(high)
             if low == 0 or math.isinf(high):
                 band = f"at most {times(high)}" if low == 0 else f"at least {times(low)}"
             cases = f"; in nine of ten cases it is {band} that load" * uncertain
@@ -254,7 +256,7 @@ class Assessment:
         rows = []
         for label, part in self.matter.items():
             known = found.inputs[label]
-            unit, value = _unit(found.contact, label), _nominal(found, label)
+            unit, value = unit_of(found.contact, label), _nominal(found, label)
             low, high = self.tornado[self.decisive][label]
             slope = self.elasticity.get(label, math.nan)
             rows.append(
@@ -318,7 +320,7 @@ class Assessment:
                 f"{value_of(load, 'Pa')} ({times(ratio)} the operating load) for {other}."
             )
         for change in self.changes:
-            unit, value = _unit(found.contact, change.input), _nominal(found, change.input)
+            unit, value = unit_of(found.contact, change.input), _nominal(found, change.input)
             word = "falling" if change.value < value else "rising"
             where = ": outside its range"
             if change.beyond >= RARE:
@@ -421,7 +423,8 @@ def _error(error: float, name: str) -> str:
     return percent(error, digits=1) if share else value_of(error, unit, 1)
 
 
-def _unit(contact: Contact, label: str) -> str:
+def unit_of(contact: Contact, label: str) -> str:
+    """The unit of an uncertain input."""
     units = {"pressure": "Pa", "F_star": "1", "d": "m"}
     return units.get(label) or declared(contact, label.split("+")[0])["unit"]
 

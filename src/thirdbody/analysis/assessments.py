@@ -11,7 +11,7 @@ from ..contact.citations import cite
 from ..equilibrium.words import load_of, mode_path
 from ..quantities.say import number, percent, plural, value_of
 from ..quantities.tables import WIDER
-from .assessment import NO_RANGES, RARE, Assessment, Section, _nominal, _unit, printed
+from .assessment import NO_RANGES, RARE, Assessment, Section, _nominal, printed, unit_of
 from .inputs import words_of
 
 __all__ = ["Assessments"]
@@ -145,7 +145,7 @@ class Assessments:
                 share = "" if self._uncertain else None
                 rows.append(_row(load, "load", load, value_of(to, "Pa"), other, share))
             for change in page.changes:
-                unit, value = _unit(found.contact, change.input), _nominal(found, change.input)
+                unit, value = unit_of(found.contact, change.input), _nominal(found, change.input)
                 cells = value_of(value, unit, 3), value_of(change.value, unit, 3)
                 share = percent(change.beyond, least=RARE) if self._uncertain else None
                 words = words_of(found.contact, change.input)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import re
+import textwrap
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,7 @@ __all__ = [
     "plain",
     "span",
     "symbol",
+    "wrapped",
 ]
 
 INKS = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")]
@@ -66,6 +68,11 @@ def plain(text: str) -> str:
     """
     # %{...} stands for a variable there
     return html.escape(text, quote=False).replace("%{", "%&#123;")
+
+
+def wrapped(text: str, wide: int) -> str:
+    """A text for Plotly in lines of so many characters."""
+    return "<br>".join(map(plain, textwrap.wrap(text, wide)))
 
 
 def symbol(text: str) -> str:

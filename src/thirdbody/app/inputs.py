@@ -77,9 +77,17 @@ def in_words(entry: Any) -> str:
 
     >>> in_words({"low": "95 nm", "high": "105 nm"})
     'between 95 nm and 105 nm'
+    >>> in_words({"mean": "5 GPa", "std": "0.3 GPa"}), in_words({"median": "1 um", "gsd": 1.5})
+    ('5 GPa ± 0.3 GPa', '1 µm, two of three cases within a factor of 1.5')
     """
-    if isinstance(entry, dict) and list(entry) == ["low", "high"]:
-        return f"between {shown(entry['low'])} and {shown(entry['high'])}"
+    if isinstance(entry, dict) and len(entry) == 2:
+        keys, (one, two) = list(entry), map(shown, entry.values())
+        if keys == ["low", "high"]:
+            return f"between {one} and {two}"
+        if keys == ["mean", "std"]:
+            return f"{one} ± {two}"
+        if keys == ["median", "gsd"]:
+            return f"{one}, two of three cases within a factor of {two}"
     return say(entry)
 
 
@@ -285,15 +293,19 @@ class Inputs(ParticleInputs):
     # ------------------------------------------------------------------ uncertainty
     def uncertain(self) -> None:
         """What is known of the inputs: a row each."""
-        names = [e.name for e in inputs_of(self.state.study) if e.quantity and not e.idle]
-        names += [f"load.{name}" for name in LOADS if self.state.get("load", name) is not None]
+        known = [e for e in inputs_of(self.state.study) if e.quantity and not e.idle]
+        meanings = {e.name: str(e.quantity["meaning"]) for e in known if e.quantity}
+        names = {name: f"{name}: {meaning}" for name, meaning in meanings.items()}
+        given_loads = [name for name in LOADS if self.state.get("load", name) is not None]
+        names |= {f"load.{name}": f"load.{name}" for name in given_loads}
         given = self.table("uncertainty", "inputs")
         flat = _flat(given)
         for label, entry in flat.items():
             with ui.row().classes("w-full items-center no-wrap gap-2"):
                 with ui.column().classes("grow gap-0"):
-                    ui.label(label).classes("break-any")
-                    ui.label(with_micro(in_words(entry))).classes("hint")
+                    parts = dict.fromkeys(meanings.get(name, name) for name in label.split("+"))
+                    ui.label(f"{', '.join(parts)}: {with_micro(in_words(entry))}")
+                    ui.label(label).classes("hint break-any")
                 drop = ui.button(icon="delete", on_click=lambda _, k=label: self._known(k, None))
                 put(drop.props("flat dense"), {"aria-label": f"remove {label}"})
         kinds = {
@@ -304,7 +316,7 @@ class Inputs(ParticleInputs):
         }
         with ui.row().classes("w-full items-end gap-2"):
             which = ui.select(names, label="input, or several that move together", multiple=True)
-            which.set_value(names[:1])
+            which.set_value(list(names)[:1])
             which.props('dense options-dense data-path="uncertain.name"').classes("wide")
             how = (
                 ui.select(

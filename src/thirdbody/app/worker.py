@@ -184,9 +184,12 @@ def error_bars(
     """
     import thirdbody as tb
 
+    from ..analysis.assessment import unit_of
+    from ..analysis.inputs import words_of
     from ..analysis.uncertainty.inputs import stated_ranges
     from ..equilibrium.critical_loads import CRITICAL
     from ..errors import InvalidValue
+    from ..quantities.say import value_of
 
     asked = _study(study, folder)
     known = asked.uncertainty
@@ -221,7 +224,11 @@ def error_bars(
         "band_at": point.bands[of],
         "nominal_at": point.nominal[of],
         "tornado": point.tornado(of)[of],
-        "ends": {label: [one.at(0.05), one.at(0.95)] for label, one in point.inputs.items()},
+        "words": {label: words_of(asked.contact, label) for label in point.inputs},
+        "ends": {
+            label: [value_of(one.at(q), unit_of(asked.contact, label)) for q in (0.05, 0.95)]
+            for label, one in point.inputs.items()
+        },
     }
 
 

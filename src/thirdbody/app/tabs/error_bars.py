@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
+from ...analysis.assessment import unit_of
+from ...analysis.inputs import words_of
 from ...analysis.uncertainty.inputs import KINDS, stated_ranges
 from ...analysis.uncertainty.propagation import about_result
 from ...equilibrium.critical_loads import CRITICAL
-from ...quantities.say import number, percent, value_of
-from ...study.inputs import inputs_of
+from ...quantities.say import percent, value_of
 from ...views.plot.style import OKABE_ITO
-from ..figures import AXES, GREY, INKS, SCALES, empty, figure, line, listed, mark, plain
+from ..figures import AXES, GREY, INKS, SCALES, empty, figure, line, listed, mark, wrapped
 from ..inputs import Inputs
 from ..state import State
 from ..widgets import put
@@ -24,6 +25,8 @@ __all__ = ["TITLE", "band_figure", "build", "critical_figure", "results_of", "to
 
 TITLE = "Error bars"
 LOADS = 21
+WIDE = 26
+"""Characters of an input beside its bar."""
 PLAIN = ("particle_load_share", "particle_area_share", "plastic_share", "A_t", "d", "h")
 
 
@@ -151,13 +154,13 @@ def tornado_figure(found: dict[str, Any]) -> dict[str, Any]:
             {
                 "type": "bar",
                 "orientation": "h",
-                "y": [plain(label) for label in labels],
+                "y": [wrapped(found["words"][label], WIDE) for label in labels],
                 "x": [None if v is None or middle is None else v - middle for v in ends],
                 "base": middle,
                 "name": name,
                 "marker": {"color": colour, "pattern": {"shape": pattern}},
                 "customdata": [found["ends"][label][side] for label in labels],
-                "hovertemplate": "%{y} = %{customdata:.4g}<extra></extra>",
+                "hovertemplate": "%{y}: %{customdata}<extra></extra>",
             }
         )
     made = figure(
@@ -171,7 +174,7 @@ def tornado_figure(found: dict[str, Any]) -> dict[str, Any]:
         hovermode="closest",
     )
     made["layout"]["yaxis"] |= {"autorange": "reversed", "type": "category"}
-    made["layout"]["margin"]["l"] = 130
+    made["layout"]["margin"]["l"] = 190
     return made
 
 
@@ -259,9 +262,10 @@ class ErrorBars:
         self.plots["tornado"].update_figure(tornado_figure(result))
         low, middle, high = result["band_at"][0], result["nominal_at"], result["band_at"][-1]
         start = result["of"] if critical else "At the operating load"
+        unit = about_result(result["of"])["unit"]
         self.said.set_text(
-            f"{start}: {number(middle)}, in nine of ten cases between {number(low)} and "
-            f"{number(high)} ({result['samples']} samples)."
+            f"{start}: {value_of(middle, unit)}, in nine of ten cases between "
+            f"{value_of(low, unit)} and {value_of(high, unit)} ({result['samples']} samples)."
             if None not in (low, middle, high)
             else f"{result['of']} is not known at every end of the inputs."
         )
@@ -297,17 +301,16 @@ def _ranges(state: State) -> dict[str, dict[str, Any]]:
 def _offer(inputs: Inputs, state: State) -> None:
     """The ranges of the library: what they are, and a button that writes them into the study."""
     ranges, own = _ranges(state), state.get("uncertainty", "inputs")
-    if not ranges:
+    if not ranges or state.answer is None:
         said = "The materials library states no range for the materials of this study."
         ui.label(said).classes("hint")
         return
-    units = {e.name: e.quantity["unit"] for e in inputs_of(state.study) if e.quantity}
+    contact = state.answer.contact
     counts = "is not used, as the study has entries of its own" if own else "counts"
     ui.label(f"What the materials library states {counts}:").classes("hint")
     for name, ends in ranges.items():
-        unit = units.get(name.split("+")[0], "Pa")
-        low, high = (value_of(end, unit) for end in ends.values())
-        ui.label(f"{name} between {low} and {high}").classes("hint")
+        low, high = (value_of(end, unit_of(contact, name)) for end in ends.values())
+        ui.label(f"{words_of(contact, name)} between {low} and {high}").classes("hint")
     known = own if isinstance(own, dict) else {}
     put(
         ui.button(

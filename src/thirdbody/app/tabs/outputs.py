@@ -12,7 +12,7 @@ from nicegui import ui
 
 from ...equilibrium.columns import about
 from ...quantities.say import prefixed, value_of
-from ..figures import AXES, SCALES, figure, line, mark, plain, symbol
+from ..figures import AXES, SCALES, figure, line, mark, plain, symbol, wrapped
 from ..inputs import Inputs
 from ..state import Answer, State
 from ..widgets import Plot, shown
@@ -49,7 +49,7 @@ def output_figures(answer: Answer, at: float) -> dict[str, dict[str, Any]]:
             what = quantity_of(columns, unit)
             title = str(output.title) if len(units) == 1 else f"{output.title}: {what}"
             made = _figure(answer, columns, unit, what, AXES[load], scale)
-            made["layout"]["title"]["text"] = _wrapped(title, WIDE)
+            made["layout"]["title"]["text"] = wrapped(title, WIDE)
             made["layout"]["shapes"] = [mark(at * scale, "", dash="solid")[0]]
             out[f"{output.name} [{unit}]"] = made
     return out
@@ -72,7 +72,7 @@ def _figure(
             for i, (y, each) in enumerate(zip(values, names, strict=True))
         ],
         x=x,
-        y=_wrapped(what + (f" [{name}]" if name else ""), WIDE),
+        y=wrapped(what + (f" [{name}]" if name else ""), WIDE),
         xlog=answer.load != "d",
         ylog=bool(wide),
         height=HEIGHT + LINE * sum(each.count("<br>") + 1 for each in names),
@@ -90,10 +90,6 @@ def quantity_of(columns: list[str], unit: str) -> str:
     while len(columns) > 1 and words and words[-1] in LINKS:
         words = words[:-1]
     return " ".join(words).rstrip(":,") or QUANTITIES.get(unit, "value")
-
-
-def _wrapped(text: str, wide: int) -> str:
-    return "<br>".join(map(plain, textwrap.wrap(text, wide)))
 
 
 def _folded(name: str) -> str:
