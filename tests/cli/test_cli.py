@@ -415,11 +415,14 @@ def test_interrupt_exits_130_with_one_line_and_no_file(tmp_path):
 INTERRUPT = "os.kill(os.getpid(), signal.SIGINT)"
 IN_FINALIZER = f"type('Removed', (), {{'__del__': lambda self: {INTERRUPT}}})()"
 IN_CALLBACK = f"ctypes.CFUNCTYPE(None)(lambda: {INTERRUPT})()"
+IN_COMPILED = f"exec('try: {INTERRUPT}\\nexcept BaseException as e: raise SystemError from e')"
 SWALLOWED = f"exec('try: {INTERRUPT}\\nexcept BaseException: pass')"
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals")
-@pytest.mark.parametrize("statement", [INTERRUPT, IN_FINALIZER, IN_CALLBACK, SWALLOWED])
+@pytest.mark.parametrize(
+    "statement", [INTERRUPT, IN_FINALIZER, IN_CALLBACK, IN_COMPILED, SWALLOWED]
+)
 @pytest.mark.parametrize("module", ["pydantic", "numba"])
 def test_interrupt_while_modules_load(tmp_path, module, statement):
     """At the start, and in the command; through exec of a text, as in numba and dataclasses; and

@@ -11,7 +11,7 @@ from itertools import pairwise
 from types import FrameType
 from typing import Any, NoReturn
 
-__all__ = ["INTERRUPTED", "Interrupted", "command_line", "interruptible", "leave"]
+__all__ = ["INTERRUPTED", "Interrupted", "command_line", "interruptible", "interruption", "leave"]
 
 INTERRUPTED = 130
 """Exit status, 128 + SIGINT as in a shell."""
@@ -72,6 +72,13 @@ def leave() -> None:
         os._exit(INTERRUPTED)
 
 
+def interruption(error: BaseException | None) -> Interrupted | None:
+    """What an error came of, where that is Ctrl-C."""
+    while error is not None and not isinstance(error, Interrupted):
+        error = error.__context__
+    return error
+
+
 def _leave_at_once(*_: Any) -> NoReturn:
     with contextlib.suppress(OSError):
         os.write(2, b"error: interrupted\n")
@@ -87,10 +94,7 @@ def _raise(_: int, frame: FrameType | None) -> None:
 
 
 def _raise_again(signum: int, frame: FrameType | None) -> None:
-    handled = sys.exc_info()[1]
-    while handled is not None and not isinstance(handled, Interrupted):
-        handled = handled.__context__
-    if handled is None:
+    if interruption(sys.exc_info()[1]) is None:
         _raise(signum, frame)
     else:
         signal.setitimer(signal.ITIMER_REAL, SOON)

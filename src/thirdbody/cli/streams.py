@@ -20,7 +20,7 @@ import typer
 from typer.core import TyperGroup
 
 from ..errors import InvalidValue, NoEquilibrium, NoTransition
-from .interrupt import INTERRUPTED, interruptible, leave
+from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
 __all__ = [
     "Commands",
@@ -51,8 +51,12 @@ class Commands(TyperGroup):
             except (NoEquilibrium, NoTransition) as error:
                 complain([str(error)])
                 raise typer.Exit(NO_ANSWER) from None
-            except KeyboardInterrupt as error:
-                complain([str(error) or "interrupted"])
+            except (KeyboardInterrupt, SystemError) as error:
+                # a compiled function in which it arrives makes it a SystemError
+                pressed = interruption(error)
+                if pressed is None and isinstance(error, SystemError):
+                    raise
+                complain([str(pressed or "interrupted")])
                 leave()
                 raise typer.Exit(INTERRUPTED) from None
             except BrokenPipeError:
