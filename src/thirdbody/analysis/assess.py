@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -157,9 +157,10 @@ def assess_each(
     own = [_own_state(contact, load, value) for value in loads]
     held = [value for value, state in zip(loads, own, strict=True) if isinstance(state, _Own)]
     progress(PARTS[0])
-    if none or not held:
+    bands: Iterator[Propagation] = iter(())
+    if held and none:
         bands = iter(certain(contact, load, held))
-    else:
+    elif held:
         count = enough(contact, samples, vary)
         at: Any = held if len(held) > 1 else held[0]
         found = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
