@@ -5,6 +5,7 @@ work is done once. Screenshots of every tab, at two widths, light and dark, land
 $THIRDBODY_SCREENSHOTS where it names a folder.
 """
 
+import contextlib
 import os
 import re
 import sys
@@ -215,6 +216,9 @@ def looked_at(page, name):
             f"document.body.classList.contains('body--dark') === {str(scheme == 'dark').lower()}",
         )
         when(page, FITS)
+        # the words of a figure follow its width late
+        with contextlib.suppress(sync_api.TimeoutError):
+            page.wait_for_function(f"() => !({CUT})().length", polling=100, timeout=5000)
         assert not page.evaluate(CUT), (name, width)
         if width == 1280:
             assert not page.evaluate(UNREADABLE), (name, scheme)
