@@ -312,6 +312,8 @@ class Squeezed(NamedTuple):
     """Indentations δ_1 and δ_2 over x, ε in sum."""
     areas: tuple[Array, Array]
     """Contact areas over x² [1]."""
+    sinks: tuple[Array, Array] | None = None
+    """Depths of the impressions in the surfaces over x, where they are not the indentations."""
 
 
 class OneParticle(ABC):
@@ -365,7 +367,7 @@ class OneParticle(ABC):
     def __call__(self, eps: Array) -> Array:
         """The seven `COLUMNS` per x² at ε: (N, 7)."""
         eps = np.asarray(eps, dtype=float)
-        load, depths, (one, two) = self.at(eps)
+        load, depths, (one, two), _ = self.at(eps)
         regime = self.regime(0, depths[0])
         out = np.empty((len(eps), len(COLUMNS)))
         out[:, 0] = load
@@ -385,6 +387,9 @@ class OneParticle(ABC):
         first, second = (
             x**2 * np.where(eps > 0, area, 0.0).reshape(x.shape) for area in found.areas
         )
+        first_sink, second_sink = (
+            x * sink.reshape(x.shape) for sink in found.sinks or found.depths
+        )
         regimes = [self.regime(i, found.depths[i]).reshape(x.shape) for i in (0, 1)]
         return ParticleSpots(
             share=share,
@@ -393,6 +398,7 @@ class OneParticle(ABC):
             x=x,
             radius=self.tip_radius * x,
             depths=(one, two),
+            sinks=(first_sink, second_sink),
             areas=(first, second),
             regimes=(regimes[0], regimes[1]),
             yields=self.yields,

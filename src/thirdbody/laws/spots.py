@@ -74,8 +74,9 @@ class ParticleSpots(Spots):
     ----------
     x, radius : array (M, n)
         Diameter (thickness of flakes), and radius of its tips [m].
-    depths, areas : two arrays (M, n)
-        Indentation δ_1, δ_2 [m], and contact area a_1, a_2 [m²].
+    depths, sinks, areas : two arrays (M, n)
+        Indentation δ_1, δ_2 [m]; depth of the impression in each surface [m], the indentation less
+        what the particle itself is squashed; contact area a_1, a_2 [m²].
     regimes : two arrays (M, n)
         Index into `thirdbody.laws.base.REGIMES`.
     yields : two floats
@@ -96,6 +97,7 @@ class ParticleSpots(Spots):
     x: Array
     radius: Array
     depths: tuple[Array, Array]
+    sinks: tuple[Array, Array]
     areas: tuple[Array, Array]
     regimes: tuple[NDArray[np.intp], NDArray[np.intp]]
     yields: tuple[float, float]
@@ -129,6 +131,7 @@ class ParticleSpots(Spots):
         """So many particles per nominal area, every length ``scale`` times as large."""
         one, two = self.depths
         first, second = self.areas
+        first_sink, second_sink = self.sinks
         return replace(
             self,
             number=density * self.number,
@@ -137,5 +140,6 @@ class ParticleSpots(Spots):
             x=scale * self.x,
             radius=scale * self.radius,
             depths=(scale * one, scale * two),
+            sinks=(scale * first_sink, scale * second_sink),
             areas=(scale**2 * first, scale**2 * second),
         )

@@ -53,7 +53,7 @@ def own_particles(contact: Contact, arrays: Mapping[str, Array]) -> bool:
 
 
 def squashed(contact: Contact, arrays: Mapping[str, Array], count: int) -> NDArray[np.bool_]:
-    """States whose particles are softer than a surface, and squashed there."""
+    """States whose particles are squashed: softer than a surface, or of the deep law."""
     law, out = contact.particle_law, np.zeros(count, bool)
     if not isinstance(law, ParticleSeries) or law.soft != "squashed" or bare(contact, arrays):
         return out
@@ -61,6 +61,8 @@ def squashed(contact: Contact, arrays: Mapping[str, Array], count: int) -> NDArr
         return out  # it never yields
     if isinstance(contact.particles, Particles) and isinstance(contact.particles.shape, Angular):
         return out
+    if law.deep == "table":
+        return ~out
     varied = contact.with_arrays({k: v for k, v in arrays.items() if k.startswith(MATERIALS)})
     if isinstance(varied.particles, Particles):
         for surface in (varied.surfaces.first, varied.surfaces.second):

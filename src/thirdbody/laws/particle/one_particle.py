@@ -139,6 +139,10 @@ class Side:
     def area(self, delta: Array) -> Array:
         return self.R * math.pi * self.delta_1 * self.reduced_area(delta / self.delta_1)
 
+    def sink(self, delta: Array) -> Array:
+        """Depth of the impression in the surface, of an indentation δ; both over x."""
+        return delta
+
     def regime(self, delta: Array) -> Index:
         """Index into `REGIMES`; beyond the great circle a contact that can yield is plastic."""
         y = delta / self.delta_1
@@ -356,6 +360,7 @@ class SqueezedParticle(OneParticle):
             load=self.force(eps, one),
             depths=depths,
             areas=(first.area(one), second.area(two)),
+            sinks=(first.sink(one), second.sink(two)),
         )
 
     def __call__(self, eps: Array) -> Array:

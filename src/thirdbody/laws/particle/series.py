@@ -10,8 +10,9 @@ from ...populations.shape import Angular
 from ...quantities.value import choice, quantity
 from ..asperity.hermite import Hermite
 from ..base import AbstractAsperityLaw, AbstractParticleLaw, OneParticle, SeatedLaw
+from .deep import DeepSqueeze
 from .faces import FacedSide, Faces
-from .one_particle import SqueezedParticle, contact_sides, squeezed_particle
+from .one_particle import SideForm, SqueezedParticle, contact_sides, squeezed_particle
 from .squashed import Squash
 
 if TYPE_CHECKING:
@@ -131,6 +132,8 @@ class Series(SeatedLaw, _OfTips):
         "m_f", "1", "shear factor on the faces of squashed particles", default=0.2, le=1
     )
     onset: str = choice("how squashed particles set in", "hermite", "jg", default="hermite")
+    deep: str = choice("particles beyond small indentations", "off", "table", default="off")
+    collar: str = choice("load on touching collars of the surfaces", "own", "all", default="own")
 
     @property
     def tip_radius(self) -> float:
@@ -151,6 +154,13 @@ class Series(SeatedLaw, _OfTips):
             out.append(
                 f"{name}.friction_factor and onset need soft = 'squashed', not {self.soft!r}"
             )
+        if self.deep == "table" and (self.soft, self.onset) != ("squashed", "hermite"):
+            out.append(
+                f"{name}.deep = 'table' says what soft particles do: remove soft = {self.soft!r} "
+                f"and onset = {self.onset!r}, or set deep = 'off'"
+            )
+        if self.deep == "off" and self.collar != "own":
+            out.append(f"{name}.collar needs deep = 'table', not {self.deep!r}")
         if not self.friction_factor > 0:
             out.append(
                 f"{name}.friction_factor = {self.friction_factor:g} must be > 0: without friction "
@@ -160,10 +170,12 @@ class Series(SeatedLaw, _OfTips):
 
     def forms(
         self, surfaces: MaterialPair, particle: Material
-    ) -> tuple[Squash | None, Squash | None]:
-        """How each side of the particle is squashed, where it is softer than the surface."""
+    ) -> tuple[SideForm | None, SideForm | None]:
+        """What each side of the particle does that is no sphere's of constant hardness."""
 
-        def form(surface: Material) -> Squash | None:
+        def form(surface: Material) -> SideForm | None:
+            if self.deep == "table":
+                return DeepSqueeze(particle.H / surface.H, self.friction_factor, self.collar)
             if self.soft != "squashed" or not particle.H < surface.H:
                 return None
             return Squash(surface.H, self.friction_factor, self.onset)
