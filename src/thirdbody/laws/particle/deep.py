@@ -10,7 +10,9 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebval
 
+from ...numerics.chebyshev import chebyshev_transform
 from .one_particle import Side
 from .squashed import FULL, GRADING
 
@@ -22,29 +24,32 @@ __all__ = ["DeepSide", "DeepSqueeze", "SqueezeCurve", "squeeze_curve"]
 
 LAW_ENDS, TABLE_BEGINS = 0.05, 0.15
 """Squeezes ε up to which the law of one contact holds, and from which the table does."""
+TABLE_ENDS = 0.93
+"""Largest squeeze ε of the table."""
+SPLITS = (0.45, 0.75)
+"""Squeezes at which panels end, so that series of the table resolve it."""
+TERMS = 14
+"""Of its series."""
+COLUMNS = ("own", "all", "area", "share")
 RIGID = 10.0
 """Hardness ratio from which a particle counts as rigid."""
-NO_SINK = 0.25
-"""Hardness ratio at which the table's smallest sink is taken to have gone to zero."""
 SOFTEST_KAPPA = 8.0
 """E*/H below which the elastic part of the table is not extrapolated further."""
 
 
 class SqueezeCurve(NamedTuple):
-    """What one side of a particle does at the squeezes ε of the table: arrays (K,)."""
+    """What one side of a particle does: Chebyshev series on the table's range of ln ε/(1 − ε)."""
 
-    eps: Array
-    """Squeeze ε = δ/R of this side [1], increasing."""
     log_load: Array
-    """ln F/(Y R²), with the yield strength Y of the softer body [1]."""
+    """ln F/(πR²H), with the hardness H of the softer body [1]: (TERMS,)."""
     log_area: Array
-    """ln A/(πR²) [1]."""
+    """ln A/(πR²) [1]: (TERMS,)."""
     share: Array
-    """Sink of the particle into the surface over its squeeze [1]."""
+    """Sink of the particle into the surface over its squeeze [1]: (TERMS,)."""
 
 
 class _Run(NamedTuple):
-    """One computed curve of the table."""
+    """One computed curve, at the nodes of the series."""
 
     kind: str
     """``two-sided``, ``one-sided``, or ``platens``, the limit of a soft particle."""
@@ -54,42 +59,52 @@ class _Run(NamedTuple):
     """Friction factor of its faces [1]."""
     softness: float
     """H/E* [1]; 0 for rigid-plastic bodies."""
-    eps: Array
-    load: Array
-    """F/(Y_s R²), of platens F/(Y_p R²)."""
     own: Array
-    """The same without what touching collars carry."""
+    """ln F/(Y_s R²), of platens ln F/(Y_p R²), without what touching collars carry."""
+    all: Array
+    """The same with it."""
     area: Array
-    """A/(πR²)."""
-    sink: Array
-    """Sink into each surface over R."""
+    """ln A/(πR²)."""
+    share: Array
+    """Sink into each surface over the squeeze."""
 
 
 @lru_cache(maxsize=1)
 def _runs() -> tuple[_Run, ...]:
-    """The computed curves, as they are stored."""
+    """The computed curves of the table."""
     text = resources.files("thirdbody").joinpath("data/deep_squeeze.json").read_text("utf-8")
+    nodes, _ = chebyshev_transform(TERMS)
+    eps = squeeze_at(nodes)
 
     def run(data: dict[str, Any]) -> _Run:
-        load, eps = np.array(data["F"]), np.array(data["eps"])
-        collar = np.array(data["collar"] or 0.0)
+        low, high = data["eps"][0], data["eps"][-1]
+        place = place_of(np.clip(eps, low, high), low, high)
+        columns = {name: chebval(place, data["series"].get(name, [0.0])) for name in COLUMNS}
         return _Run(
-            kind=data["kind"],
-            ratio=RIGID if data["rho"] is None else data["rho"],
-            friction=data["m"],
-            softness=0.0 if data["kappa"] is None else 1 / data["kappa"],
-            eps=eps,
-            load=load,
-            own=np.maximum.accumulate(load * (1 - collar)),
-            area=np.array(data["A"]),
-            sink=np.array(data["sink"] or 0.0 * eps),
+            data["kind"],
+            RIGID if data["rho"] is None else data["rho"],
+            data["m"],
+            0.0 if data["kappa"] is None else 1 / data["kappa"],
+            *(columns[name] for name in COLUMNS),
         )
 
     return tuple(run(data) for data in json.loads(text)["curves"])
 
 
+def place_of(eps: Any, low: float, high: float) -> Any:
+    """Place on [−1, 1] of squeezes between two, in ln ε/(1 − ε)."""
+    first, last = (math.log(end / (1 - end)) for end in (low, high))
+    return (2 * np.log(eps / (1 - eps)) - first - last) / (last - first)
+
+
+def squeeze_at(place: Any) -> Any:
+    """Squeeze ε at a place on [−1, 1] of the table."""
+    first, last = (math.log(end / (1 - end)) for end in (LAW_ENDS, TABLE_ENDS))
+    return 1 / (1 + np.exp(-(first + last + place * (last - first)) / 2))
+
+
 class _Family(NamedTuple):
-    """Runs of one friction and stiffness against the hardness ratio: (N,) and (N, K)."""
+    """Runs of one friction, rigid-plastic, against the hardness ratio: (N,) and (N, TERMS)."""
 
     ratio: Array
     log_load: Array
@@ -98,20 +113,21 @@ class _Family(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def _family(friction: float, softness: float, collar: str) -> _Family:
+def _family(friction: float, collar: str) -> _Family:
     """Loads are over the yield strength of the softer body; platens stand at the least ratio."""
-    sided = [run for run in _runs() if run.kind == "two-sided"]
-    least = min(run.ratio for run in sided)
+    rigid = [run for run in _runs() if run.softness == 0 and run.friction == friction]
+    platens = any(run.kind == "platens" for run in rigid)
+    least = min(run.ratio for run in _runs() if run.kind == "two-sided")
     rows = []
-    for run in _runs():
-        soft = run.kind == "platens"
-        if (run.friction, run.softness) != (friction, softness) or run.kind == "one-sided":
+    for run in rigid:
+        # at the least ratio the faces of coupled runs read high where the disc is thin
+        if run.kind == "one-sided" or (platens and run.kind == "two-sided" and run.ratio == least):
             continue
-        if not soft and run.ratio == least and any(it.kind == "platens" for it in _runs()):
-            continue  # its faces read high where the disc is thin; the limit holds there
-        ratio = least if soft else run.ratio
-        load = (run.load if collar == "all" else run.own) / (1.0 if soft else min(ratio, 1.0))
-        rows.append((ratio, np.log(load), np.log(run.area), np.clip(run.sink / run.eps, 0.0, 1.0)))
+        ratio = least if run.kind == "platens" else run.ratio
+        log_load = run.all if collar == "all" else run.own
+        if run.kind == "two-sided":
+            log_load = log_load - math.log(min(ratio, 1.0))
+        rows.append((ratio, log_load, run.area, run.share))
     rows.sort(key=lambda row: row[0])
     return _Family(*(np.array(column) for column in zip(*rows, strict=True)))
 
@@ -131,7 +147,7 @@ def squeeze_curve(ratio: float, friction: float, kappa: float, collar: str) -> S
     r"""What one side of a round particle does, between the computed runs.
 
     Logarithms of load and area are interpolated in ln ρ; what friction and elasticity change is
-    the ratio of two runs of one ρ, taken monotone in m and linear in 1/κ.
+    the ratio of two runs of one ρ, monotone in m and, to first order, linear in 1/κ.
 
     Parameters
     ----------
@@ -145,37 +161,53 @@ def squeeze_curve(ratio: float, friction: float, kappa: float, collar: str) -> S
         Without or with what the touching collars of the two surfaces carry.
     """
     x = math.log(ratio)
-    welded = _family(1.0, 0.0, collar)
-    eps = _runs()[0].eps
-    log_load = _between(x, np.log(welded.ratio), welded.log_load)
-    log_area = _between(x, np.log(welded.ratio), welded.log_area)
-    share = _between(x, np.log(welded.ratio), welded.share)
-    # of friction: ratios of load and area to those of welded faces
+    welded = _family(1.0, collar)
+    log_load, log_area, share = (_between(x, np.log(welded.ratio), v) for v in welded[1:])
     frictions = sorted({run.friction for run in _runs() if run.softness == 0})
-    change = np.array([_change(x, m, 0.0, collar) for m in frictions])
-    log_load, log_area = (
-        values + np.log(_between(friction, np.array(frictions), np.exp(change[:, i])))
-        for i, values in enumerate((log_load, log_area))
-    )
-    # of elasticity
-    stiff = sorted({run.softness for run in _runs() if run.softness > 0 and run.kind != "platens"})
     softness = 1 / max(kappa, SOFTEST_KAPPA)
+    changes = np.array([_friction_change(x, m, collar) for m in frictions])
+    elastic = softness * _elastic_slope(x, softness, collar)
     for i, values in enumerate((log_load, log_area)):
-        values += softness * np.mean([_change(x, 1.0, s, collar)[i] / s for s in stiff], axis=0)
-    return SqueezeCurve(eps, log_load, log_area, share)
+        rubbing = _between(friction, np.array(frictions), np.exp(changes[:, i]))
+        values += np.log(rubbing) + elastic[i]
+    log_load -= math.log(math.pi * FULL)
+    _, transform = chebyshev_transform(TERMS)
+    return SqueezeCurve(*(transform @ values for values in (log_load, log_area, share)))
 
 
-def _change(x: float, friction: float, softness: float, collar: str) -> Array:
-    """ln of load and of area over those of welded, rigid-plastic runs, at ln ρ = x: (2, K)."""
-    family, welded = _family(friction, softness, collar), _family(1.0, 0.0, collar)
-    here = np.isin(welded.ratio, family.ratio)
-    nodes = np.log(family.ratio)
-    return np.array(
-        [
-            _between(x, nodes, family.log_load - welded.log_load[here]),
-            _between(x, nodes, family.log_area - welded.log_area[here]),
-        ]
-    )
+def _friction_change(x: float, friction: float, collar: str) -> Array:
+    """ln of load and of area over those of welded runs, at ln ρ = x: (2, TERMS)."""
+    family, welded = _family(friction, collar), _family(1.0, collar)
+    here, there = np.isin(family.ratio, welded.ratio), np.isin(welded.ratio, family.ratio)
+    nodes = np.log(family.ratio[here])
+    load = family.log_load[here] - welded.log_load[there]
+    area = family.log_area[here] - welded.log_area[there]
+    return np.array([_between(x, nodes, load), _between(x, nodes, area)])
+
+
+def _elastic_slope(x: float, softness: float, collar: str) -> Array:
+    """ln of load and of area over those of rigid-plastic runs, over H/E*: (2, TERMS)."""
+    welded = _family(1.0, collar)
+    runs = [run for run in _runs() if run.softness > 0 and run.kind == "two-sided"]
+    slopes = []
+    ratios = sorted({run.ratio for run in runs})
+    for ratio in ratios:
+        rigid = int(np.flatnonzero(welded.ratio == ratio)[0])
+        here = sorted((run for run in runs if run.ratio == ratio), key=lambda run: run.softness)
+        change = np.array(
+            [
+                [
+                    (run.all if collar == "all" else run.own)
+                    - math.log(min(ratio, 1.0))
+                    - welded.log_load[rigid],
+                    run.area - welded.log_area[rigid],
+                ]
+                for run in here
+            ]
+        )
+        known = np.array([run.softness for run in here])
+        slopes.append(_between(softness, known, change / known[:, None, None]))
+    return _between(x, np.log(ratios), np.array(slopes))
 
 
 @dataclass(frozen=True)
@@ -235,25 +267,21 @@ class DeepSide(Side):
         nu: float,
         R: float,
     ):
-        from scipy.interpolate import PchipInterpolator
-
         self.law, self.H, self.R = law.bound(R=R, E_star=E_star, H=H, nu=nu), H, R
         self.delta_1 = self.law.yield_interference(R=R, E_star=E_star, H=H)
         self.unit = R * math.pi * self.delta_1 * H
         self.plateau = True
         self.hill = form.friction / (3 * math.sqrt(3))
         curve = squeeze_curve(form.ratio, form.friction, E_star / H, form.collar)
-        # loads over πR²H and areas over πR² of ln ε; the yield strength is H/2.84
-        columns = np.stack([curve.log_load - math.log(math.pi * FULL), curve.log_area], axis=-1)
-        self._table = PchipInterpolator(np.log(curve.eps), columns)
-        self._share = PchipInterpolator(curve.eps, curve.share)
-        self.top = float(curve.eps[-1])
-        self._at_top = np.exp(columns[-1])
+        self._table = np.stack([curve.log_load, curve.log_area], axis=-1)
+        self._share = curve.share
+        self._at_top = np.exp(chebval(1.0, self._table))
         self.end = self._sinks(max(1 / form.ratio, 1.0))
         turns = [y for y in self.law.breakpoints if y < self._reduced(LAW_ENDS)]
-        turns += self._reduced(np.array([LAW_ENDS, TABLE_BEGINS, *curve.eps])).tolist()
+        turns += self._reduced(np.array([LAW_ENDS, TABLE_BEGINS, *SPLITS, TABLE_ENDS])).tolist()
+        turns += self._wide()
         turns += [y for y in self.law.breakpoints if LAW_ENDS < self._squeeze(y) < TABLE_BEGINS]
-        t, last = 1 - self.top, 1 - self.end
+        t, last = 1 - TABLE_ENDS, 1 - self.end
         while t > GRADING * last:
             t /= GRADING
             turns.append(float(self._reduced(1 - t)))
@@ -269,10 +297,26 @@ class DeepSide(Side):
         """y = δ/δ_1 at a squeeze ε."""
         return eps * self.R / self.delta_1
 
+    def _wide(self) -> list[float]:
+        """y at which the contact becomes as wide as the particle was."""
+        eps = np.linspace(TABLE_BEGINS, self.end, 400)
+        area = self._columns(self._reduced(eps))[1]
+        after = int(np.argmax(area > 1.0))
+        if after == 0:
+            return []
+
+        from scipy.optimize import brentq
+
+        def excess(y: float) -> float:
+            return float(self._columns(np.array([y]))[1][0]) - 1.0
+
+        low, high = self._reduced(eps[[after - 1, after]])
+        return [float(brentq(excess, low, high, xtol=1e-15 * high, rtol=1e-15))]
+
     def _disc(self, t: Any) -> tuple[Any, Any]:
         """Load over πR²H and area over πR² of a disc of the height t left, beyond the table."""
         load, area = self._at_top
-        thick = 1 - self.top
+        thick = 1 - TABLE_ENDS
         wide = area * thick / t
 
         def rise(area: Any, t: Any) -> Any:
@@ -288,11 +332,11 @@ class DeepSide(Side):
             load, area = self._disc(math.exp(log_t))
             return float(load / area) - surface
 
-        low = high = math.log(1 - self.top)
+        low = high = math.log(1 - TABLE_ENDS)
         while excess(low) < 0 and low > THINNEST:
             high, low = low, low - math.log(2)
         if low == high:
-            return self.top
+            return TABLE_ENDS
         if low <= THINNEST:
             return -math.expm1(low)
         return -math.expm1(brentq(excess, low, high, xtol=1e-15, rtol=1e-15))
@@ -309,11 +353,11 @@ class DeepSide(Side):
         w = u * u * (3 - 2 * u)
         inside = w > 0
         if np.any(inside):
-            table = self._table(np.minimum(place[inside], math.log(self.top)))
-            for i, values in enumerate((load, area)):
+            at = place_of(np.minimum(eps[inside], TABLE_ENDS), LAW_ENDS, TABLE_ENDS)
+            for values, table in zip((load, area), chebval(at, self._table), strict=True):
                 start = np.log(values[inside])
-                values[inside] = np.exp(start + w[inside] * (table[..., i] - start))
-        over = eps > self.top
+                values[inside] = np.exp(start + w[inside] * (table - start))
+        over = eps > TABLE_ENDS
         if np.any(over):
             load[over], area[over] = self._disc(1 - eps[over])
         return load, area
@@ -326,8 +370,9 @@ class DeepSide(Side):
 
     def sink(self, delta: Array) -> Array:
         """How deep the particle sinks into the surface, of an approach δ; both over x."""
-        first, last = self._share.x[[0, -1]]
-        return delta * self._share(np.clip(delta / self.R, first, last))
+        eps = np.clip(delta / self.R, LAW_ENDS, TABLE_ENDS)
+        share = chebval(place_of(eps, LAW_ENDS, TABLE_ENDS), self._share)
+        return delta * np.clip(share, 0.0, 1.0)
 
 
 THINNEST = -30.0
