@@ -1,0 +1,215 @@
+"""Particles at any squeeze and any hardness ratio: the law that follows a computed table."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.laws.particle import Series
+from thirdbody.laws.particle.deep import (
+    LAW_ENDS,
+    TABLE_BEGINS,
+    TABLE_ENDS,
+    DeepSqueeze,
+    squeeze_curve,
+)
+
+E, NU, H = 206e9, 0.3, 5e9
+STEEL = tb.Material(E=E, nu=NU, H=H)
+PAIR = tb.MaterialPair(STEEL, STEEL)
+DEEP = Series(deep="table")
+RNG = np.random.default_rng(5)
+
+
+def particle_of(ratio):
+    return tb.Material(E=E, nu=NU, H=ratio * H)
+
+
+def single(eps, ratio, surfaces=PAIR, particle=None, **options):
+    law = Series(**({"deep": "table"} | options))
+    particle = particle or particle_of(ratio)
+    return law.single(1.0, 1 - np.asarray(eps), surfaces=surfaces, particle=particle)
+
+
+def load(eps, ratio, **options):
+    """F/(Y_s R²)."""
+    return 4 * 2.84 / H * single(eps, ratio, **options)["force"]
+
+
+def side(ratio, m=0.2, kappa=30.0, collar="own"):
+    E_star = kappa * H * min(ratio, 1.0)
+    return DeepSqueeze(ratio, m, collar).side(
+        tb.asperity.Hermite(), E_star, H * min(ratio, 1.0), NU, 0.5
+    )
+
+
+SQUEEZES = np.geomspace(1e-4, 1.0, 3000)
+
+
+# ---------------------------------------------------------------------------- exact
+def test_small_squeezes_follow_the_law_of_one_contact():
+    eps = np.geomspace(1e-6, LAW_ENDS, 40)
+    for ratio in (0.4, 1.0, 3.0):
+        old = single(eps, ratio, deep="off", soft="sphere")
+        new = single(eps, ratio)
+        for name in ("force", "area_1", "area_2"):
+            np.testing.assert_allclose(new[name], old[name], rtol=1e-12)
+
+
+def test_a_law_that_never_yields_keeps_its_own_response():
+    eps = np.array([0.02, 0.3, 0.7])
+    for ratio in (0.5, 2.0):
+        old, new = (single(eps, ratio, law=tb.asperity.GW(), deep=it) for it in ("off", "table"))
+        np.testing.assert_array_equal(old["force"], new["force"])
+
+
+@pytest.mark.parametrize("ratio", [0.3, 1.0, 2.6])
+def test_loads_change_with_the_unit_of_stress(ratio):
+    eps = np.array([0.02, 0.1, 0.4, 0.9])
+    soft = tb.Material(E=E / 7, nu=NU, H=H / 7)
+    other = single(
+        eps,
+        ratio,
+        surfaces=tb.MaterialPair(soft, soft),
+        particle=tb.Material(E=E / 7, nu=NU, H=ratio * H / 7),
+    )
+    one = single(eps, ratio)
+    np.testing.assert_allclose(7 * other["force"], one["force"], rtol=1e-12)
+    np.testing.assert_allclose(other["area_1"], one["area_1"], rtol=1e-12)
+
+
+def test_surfaces_may_change_places():
+    soft = tb.Material(E=120e9, nu=0.34, H=2e9)
+    eps = np.linspace(0.01, 0.99, 60)
+    one = single(eps, 0.8, surfaces=tb.MaterialPair(STEEL, soft))
+    two = single(eps, 0.8, surfaces=tb.MaterialPair(soft, STEEL))
+    np.testing.assert_allclose(one["force"], two["force"], rtol=1e-9)
+    np.testing.assert_allclose(one["delta_1"], two["delta_2"], rtol=1e-7)
+
+
+def test_a_soft_particle_carries_in_proportion_to_its_hardness():
+    """ρ → 0: hard surfaces only know the particle's yield strength, at one E*/H."""
+    curves = [squeeze_curve(ratio, 0.2, 30.0, "own") for ratio in (0.05, 0.2, 0.49)]
+    for curve in curves[1:]:
+        np.testing.assert_array_equal(curve.log_load, curves[0].log_load)
+
+
+def test_the_volume_of_half_a_sphere_bounds_a_disc():
+    for m in (0.05, 0.2, 1.0):
+        one = side(0.2, m)
+        eps = np.linspace(TABLE_BEGINS, 0.999 * one.end, 500)
+        area = one.area(0.5 * eps) / (math.pi * 0.25)
+        assert np.all(area * (1 - eps) <= 2 / 3 * 1.04)
+
+
+# ---------------------------------------------------------------------------- between the runs
+@pytest.mark.parametrize("collar", ["own", "all"])
+def test_loads_rise_at_any_hardness_friction_and_stiffness(collar):
+    for _ in range(150):
+        ratio, m, kappa = (
+            math.exp(RNG.uniform(math.log(low), math.log(high)))
+            for low, high in ((0.05, 20), (0.02, 1), (6, 300))
+        )
+        one = side(ratio, m, kappa, collar)
+        assert np.all(np.diff(one.force(0.5 * SQUEEZES)) >= -1e-12 * one.limit), (ratio, m, kappa)
+
+
+def test_no_hardness_is_a_cliff():
+    """One per cent of the hardness of a particle never moves its load by three."""
+    for ratio in np.geomspace(0.2, 12, 120):
+        one, two = (load(SQUEEZES, factor * ratio) for factor in (0.99, 1.01))
+        assert np.max(np.abs(np.log(two / one))) < 0.03, ratio
+
+
+def test_sums_over_squeezes_meet_every_kink():
+    """Between kinks load and areas are smooth: 40 terms leave nothing."""
+    from thirdbody.numerics.chebyshev import chebyshev_transform
+
+    nodes, transform = chebyshev_transform(40)
+    for ratio in (0.3, 1.0, 1.7, 6.0):
+        one = DEEP.one(surfaces=PAIR, particle=particle_of(ratio))
+        for a, b in itertools.pairwise(one.panels):
+            values = one(0.5 * (a + b) + 0.5 * (b - a) * nodes)
+            tail = np.abs(transform @ values)[-3:].max(axis=0)
+            assert np.all(tail <= 1e-11 * np.maximum(np.abs(values).max(axis=0), 1e-300))
+
+
+# ---------------------------------------------------------------------------- what holds
+@pytest.mark.parametrize("ratio", [1.0, 1.4, 2.0, 3.0, 5.0])
+def test_a_particle_takes_the_easier_way(ratio):
+    """Load near the smaller of two upper bounds: it is flattened, or the surfaces flow."""
+    for eps in (0.15, 0.3, 0.5):
+        flattened, embedded = load(eps, 0.01) / 0.01, load(eps, 50.0)
+        assert float(load(eps, ratio)) == pytest.approx(min(ratio * flattened, embedded), rel=0.25)
+
+
+def test_who_is_dented():
+    """A particle as hard as the surfaces is squashed; one three times as hard embeds."""
+    sinks = {}
+    for ratio in (1.0, 2.0, 3.0):
+        spots = DEEP.probe(np.array([0.3, 0.5, 0.9]), surfaces=PAIR, particle=particle_of(ratio))
+        sinks[ratio] = np.ravel(spots.sinks[0]) / 0.5
+    assert np.all(sinks[1.0] < 0.2)
+    assert sinks[2.0][0] < 0.25
+    assert sinks[3.0][1] > 0.4
+    hard = DEEP.probe(np.array([0.5]), surfaces=PAIR, particle=particle_of(100.0))
+    assert float(hard.sinks[0][0, 0]) == pytest.approx(0.25, rel=0.02)
+
+
+def test_collars_carry_only_where_they_touch():
+    gap = [0.2, 0.5, 0.7]
+    np.testing.assert_allclose(load(gap, 6.0), load(gap, 6.0, collar="all"), rtol=0.02)
+    assert load(0.92, 6.0, collar="all") > 2 * load(0.92, 6.0)
+
+
+def test_options_that_contradict_each_other_are_refused():
+    with pytest.raises(tb.InvalidValue, match="deep"):
+        Series(deep="table", soft="sphere")
+    with pytest.raises(tb.InvalidValue, match="collar"):
+        Series(collar="all")
+
+
+def test_thin_discs_go_on_until_they_sink_into_the_surface():
+    one = side(0.3, m=0.2)
+    assert one.end > TABLE_ENDS
+    pressure = float(
+        one.force(np.array([0.5 * one.end]))[0] / one.area(np.array([0.5 * one.end]))[0]
+    )
+    assert pressure == pytest.approx(H, rel=1e-9)
+
+
+def test_tables_and_definition_agree():
+    rough = tb.Roughness(sigma=100e-9, R=2.8e-6)
+    dust = tb.Particles(
+        material=particle_of(1.3),
+        areal_density=1e11,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+    )
+    contact = tb.Contact(surfaces=PAIR, roughness=rough, particles=dust, particle_law=DEEP)
+    h = np.array([150e-9, 220e-9, 300e-9])
+    from scipy import integrate, stats
+
+    one = DEEP.one(surfaces=PAIR, particle=dust.material)
+    sizes = dust.diameter
+    states = tb.solve(contact, d=h - rough.y_s)
+    for i, gap in enumerate(h):
+
+        def inner(x, gap=gap):
+            seats = np.sort([gap - x * (1 - k) for k in [0.0, *one.kinks]])
+            f = lambda z: (
+                x * x * one(np.array([1 - (gap - z) / x]))[0, 0] * stats.norm.pdf(z, 0, 100e-9)
+            )
+            ends = [*np.clip(seats, -9e-7, 9e-7), 9e-7]
+            return (
+                sum(
+                    integrate.fixed_quad(np.vectorize(f), a, b, n=24)[0]
+                    for a, b in itertools.pairwise(ends)
+                    if b > a
+                )
+                * sizes.pdf(np.array([x]))[0]
+            )
+
+        total = integrate.fixed_quad(np.vectorize(inner), *sizes.support, n=40)[0]
+        assert states.F_sa_star[i] * contact.E_ss == pytest.approx(1e11 * total, rel=2e-6)
