@@ -117,7 +117,10 @@ def errors(folder: Path, key: str, relative: bool) -> Array:
     """Error of a quantity at each ε: parts of `FINER` added in squares, largest over the probes."""
     worst = np.zeros(len(EPSILON))
     for rho in PROBES:
-        base = at(read(folder, Case(rho, 1.0))["rows"], key, EPSILON)
+        plain = read(folder, Case(rho, 1.0))
+        if plain is None:
+            continue
+        base = at(plain["rows"], key, EPSILON)
         total = np.zeros(len(EPSILON))
         for change, factor in FINER.values():
             other = read(folder, Case(rho, 1.0, **change))
