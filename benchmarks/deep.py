@@ -1,0 +1,277 @@
+"""One particle squeezed between two surfaces at any squeeze: makes `data/deep_squeeze.json`.
+
+    python benchmarks/deep.py --quick           three points again, about two minutes
+    python benchmarks/deep.py --runs FOLDER     all curves, one file each; those there stay
+    python benchmarks/deep.py --write FOLDER    the table from these files
+
+The computation is in `benchmarks/squeeze`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import hashlib
+import json
+import math
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+from squeeze import squeeze
+from squeeze.shapes import Case
+
+Array = NDArray[np.float64]
+
+TABLE = Path(__file__).parent.parent / "src" / "thirdbody" / "data" / "deep_squeeze.json"
+EPSILON = [round(0.05 * k, 2) for k in range(1, 20)]
+RATIOS = (math.inf, 5.0, 3.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.0)
+FRICTION = (1.0, 0.2, 0.0)
+MODULI = {11: 28.5, 31: 80.0, 77: 200.0}
+"""E*/H and E/Y: E* = E/(1 - 0.3²) beside a rigid body, H = 2.84 Y."""
+FINER = {
+    "grid": ({"fine": 1.6}, 1 / (1 - 1 / 1.6)),
+    "step": ({"step": 0.004}, 2.0),
+    "domain": ({"domain": 12.0}, 1.8),
+}
+"""What an error is read from: a run refined so, and what its difference is multiplied by.
+
+Richardson: a difference at h and h/1.6 of an error ~ h, at Δε and Δε/2 of an error ~ Δε, at
+domains L and 1.5 L of an error ~ 1/L² is that part of the whole error.
+"""
+PROBES = (math.inf, 1.0, 0.0)
+FLOOR = 0.01
+"""Least relative error said of any load or area: stopping of the solver, interpolation."""
+QUICK = ((math.inf, 1.0, 0.2), (0.0, 0.2, 0.5), (1.0, 1.0, 0.2))
+"""ρ, m and ε of the points of --quick."""
+
+
+def name(case: Case) -> str:
+    """Name of a case's file: what differs from the plainest case."""
+    plain = Case(rho=case.rho)
+    parts = [f"rho={case.rho:g}", f"m={case.m:g}"]
+    for field in dataclasses.fields(Case)[2:]:
+        value = getattr(case, field.name)
+        if value != getattr(plain, field.name):
+            parts.append(f"{field.name}={value:g}" if field.name != "both" else "one-sided")
+    return ",".join(parts)
+
+
+def cases() -> list[Case]:
+    """All curves of the table, those most needed first."""
+    out = [Case(rho, m) for m in FRICTION for rho in RATIOS]
+    out.append(Case(math.inf, 1.0, both=False))
+    for rho in PROBES:
+        out += [Case(rho, 1.0, **change) for change, _ in FINER.values()]
+    return out
+
+
+def elastic_cases() -> list[Case]:
+    """Curves with elastic bodies."""
+    return [Case(rho, 1.0, modulus=e) for e in MODULI.values() for rho in (math.inf, 2.0, 1.0)]
+
+
+def run(case: Case, until: float) -> dict:
+    """States of one curve, with the time it took and why it ended early, if it did."""
+    rows: list[dict] = []
+    start, reason = time.process_time(), None
+    try:
+        for state in squeeze.Squeezing(case).run(until):
+            rows.append(dataclasses.asdict(state))
+    except (squeeze.mesh.MeshError, np.linalg.LinAlgError, RuntimeError, AssertionError) as error:
+        reason = f"{type(error).__name__}: {error}"
+    return {
+        "case": _plain(dataclasses.asdict(case)),
+        "rows": rows,
+        "ended": reason,
+        "cpu_seconds": round(time.process_time() - start, 1),
+    }
+
+
+def _plain(values: dict) -> dict:
+    """Numbers that JSON has: infinity as a word."""
+    return {k: ("inf" if isinstance(v, float) and math.isinf(v) else v) for k, v in values.items()}
+
+
+def at(rows: list[dict], key: str, epsilon: list[float]) -> Array:
+    """A quantity at squeezes, between solved moments; NaN beyond the last."""
+    e = np.array([row["squeeze"] for row in rows])
+    y = np.array([row[key] for row in rows])
+    log = key in ("load", "area")
+    found = PchipInterpolator(e, np.log(y) if log else y, extrapolate=False)(epsilon)
+    return np.exp(found) if log else found
+
+
+def onset(rows: list[dict]) -> float | None:
+    """Squeeze at which collars first carry load: the middle of that step; None: never."""
+    for a, b in zip(rows, rows[1:], strict=False):
+        if b["collar"] > 1e-4:
+            return round((a["squeeze"] + b["squeeze"]) / 2, 4)
+    return None
+
+
+def errors(folder: Path, key: str, relative: bool) -> Array:
+    """Error of a quantity at each ε: parts of `FINER` added in squares, largest over the probes."""
+    worst = np.zeros(len(EPSILON))
+    for rho in PROBES:
+        plain = read(folder, Case(rho, 1.0))
+        if plain is None:
+            continue
+        base = at(plain["rows"], key, EPSILON)
+        total = np.zeros(len(EPSILON))
+        for change, factor in FINER.values():
+            other = read(folder, Case(rho, 1.0, **change))
+            if other is None:
+                continue
+            diff = at(other["rows"], key, EPSILON) - base
+            part = factor * diff / (base if relative else 1.0)
+            total += np.nan_to_num(part) ** 2
+        worst = np.fmax(worst, np.sqrt(total))
+    return np.maximum(worst, FLOOR if relative else 0.001)
+
+
+def read(folder: Path, case: Case) -> dict | None:
+    """A curve's file, or None."""
+    path = folder / f"{name(case)}.json"
+    return json.loads(path.read_text("utf-8")) if path.exists() else None
+
+
+def curve(case: Case, found: dict, error: dict[str, Array]) -> dict:
+    """One curve of the table."""
+    rows = found["rows"]
+    load, area = at(rows, "load", EPSILON), at(rows, "area", EPSILON)
+    sink, collar = at(rows, "sink", EPSILON), at(rows, "collar", EPSILON)
+    sink, collar = np.maximum(sink, 0.0), np.clip(collar, 0.0, 1.0)
+    touch = onset(rows)
+    columns = {
+        "F": load,
+        "F_error": load * error["load"],
+        "A": area,
+        "A_error": area * error["area"],
+        "sink": sink,
+        "sink_error": error["sink"],
+        "collar": collar,
+        "collar_error": np.where(collar > 0, error["collar"], 0.0),
+    }
+    case_words = {"rho": case.rho, "m": case.m, "E_over_Y": case.modulus}
+    return {
+        **_plain(case_words),
+        "surfaces": 2 if case.both else 1,
+        **{k: [_short(v) for v in column] for k, column in columns.items()},
+        "collar_onset": touch,
+        "collar_onset_error": None if touch is None else 0.02,
+        "volume_mended": round(rows[-1]["mended"], 4),
+        "ended": found["ended"],
+    }
+
+
+def _short(value: float) -> float | None:
+    return None if math.isnan(value) else float(f"{value:.5g}")
+
+
+def source_hash() -> str:
+    """SHA-256 of the script and its package."""
+    here = Path(__file__).parent
+    total = hashlib.sha256()
+    for path in [here / "deep.py", *sorted((here / "squeeze").glob("*.py"))]:
+        total.update(path.read_bytes())
+    return total.hexdigest()
+
+
+def table(folder: Path) -> dict:
+    """The table from the files of a folder."""
+    error = {
+        k: errors(folder, k, k in ("load", "area")) for k in ("load", "area", "sink", "collar")
+    }
+    found = [(case, read(folder, case)) for case in cases() + elastic_cases()]
+    plain = [
+        (c, f)
+        for c, f in found
+        if f and c == dataclasses.replace(Case(c.rho), m=c.m, both=c.both, modulus=c.modulus)
+    ]
+    base = Case(1.0)
+    return {
+        "title": "One particle of radius R squeezed between two equal surfaces",
+        "quantities": {
+            "eps": "squeeze 1 - g/(2R), g the distance of the surfaces' planes",
+            "rho": "yield stress of the particle over the surfaces'; inf: rigid particle; 0: rigid"
+            " surfaces (platens)",
+            "m": "friction factor: shear stress of faces that touch over Y/sqrt(3) of the weaker"
+            " body; 1: rough, as good as welded",
+            "E_over_Y": "Young's modulus of what deforms over the surfaces' yield stress (Poisson's"
+            " ratio 0.3); inf: rigid-plastic",
+            "F": "load over Y_s R^2 (rho = 0: over Y_p R^2), collars with it",
+            "A": "contact area of particle and one surface, seen from above, over pi R^2",
+            "sink": "depth of the particle's top below the plane of the surface, over R",
+            "collar": "part of F through the collars of the surfaces, which touch each other",
+            "collar_onset": "eps at which the collars first touch; null: not up to 0.95",
+        },
+        "provenance": {
+            "script": "benchmarks/deep.py",
+            "sha256": source_hash(),
+            "method": "axisymmetric von Mises flow of least power; quadratic velocities with a"
+            " bubble and linear pressures on triangles made anew at each step; faces slide with"
+            " friction m k; boundaries moved by the flow, contact where they meet",
+            "triangle_at_edge": base.edge,
+            "grading": squeeze.mesh.GRADE,
+            "largest_step": base.step,
+            "domain": base.domain,
+            "rest_rate": base.rest,
+            "tolerance": base.tolerance,
+        },
+        "errors": "grid, step and domain refined for rho = inf, 1 and 0 at m = 1, parts added in"
+        " squares, the largest of the three taken for all curves; computation only, not the model",
+        "eps": EPSILON,
+        "curves": [curve(c, f, error) for c, f in plain],
+    }
+
+
+def quick() -> int:
+    """Three points again; 1 where one is outside 5 %."""
+    stored = json.loads(TABLE.read_text("utf-8"))
+    bad = 0
+    for rho, m, epsilon in QUICK:
+        rows = run(Case(rho, m), epsilon + 1e-3)["rows"]
+        load = float(at(rows, "load", [epsilon])[0])
+        key = "inf" if math.isinf(rho) else rho
+        held = next(
+            c for c in stored["curves"]
+            if (c["rho"], c["m"], c["E_over_Y"], c["surfaces"]) == (key, m, "inf", 2)
+        )  # fmt: skip
+        known = held["F"][stored["eps"].index(epsilon)]
+        off = load / known - 1
+        bad += abs(off) > 0.05
+        print(
+            f"rho = {rho:g}, m = {m:g}, eps = {epsilon:g}: F = {load:.4g}, "
+            f"table {known:.4g}, {off:+.2%}"
+        )
+    return int(bad > 0)
+
+
+def main() -> int:
+    words = argparse.ArgumentParser(description=__doc__)
+    words.add_argument("--quick", action="store_true")
+    words.add_argument("--runs", type=Path)
+    words.add_argument("--part", default="0/1", help="k/n: every n-th curve from the k-th")
+    words.add_argument("--elastic", action="store_true")
+    words.add_argument("--write", type=Path)
+    options = words.parse_args()
+    if options.runs:
+        options.runs.mkdir(parents=True, exist_ok=True)
+        first, every = map(int, options.part.split("/"))
+        for case in (elastic_cases() if options.elastic else cases())[first::every]:
+            path = options.runs / f"{name(case)}.json"
+            if not path.exists():
+                found = run(case, 0.952)
+                path.write_text(json.dumps(found), "utf-8")
+                print(name(case), found["cpu_seconds"], found["ended"] or "", flush=True)
+    if options.write:
+        TABLE.write_text(json.dumps(table(options.write), indent=1) + "\n", "utf-8")
+    return quick() if options.quick else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""One particle squeezed between two surfaces, at any squeeze: plastic flow followed in time."""
