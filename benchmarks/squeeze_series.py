@@ -1,4 +1,4 @@
-"""Smooth series of the computed curves of one particle, added to the table that the law reads.
+"""Smooth series of the computed curves of one particle: makes `data/deep_series.json`.
 
     python benchmarks/squeeze_series.py
 
@@ -9,6 +9,7 @@ first contact and a thin disc are both nearly straight lines.
 
 from __future__ import annotations
 
+import hashlib
 import json
 from pathlib import Path
 
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 from scipy.optimize import least_squares
 
-DATA = Path(__file__).parents[1] / "src/thirdbody/data/deep_squeeze.json"
+DATA = Path(__file__).parents[1] / "src/thirdbody/data"
 DEGREE = 6
 """Of the root of the slope."""
 SHARE_DEGREE = 9
@@ -41,26 +42,42 @@ def rising_series(s: np.ndarray, y: np.ndarray) -> Chebyshev:
     return series(best.x)
 
 
-def add_series(curve: dict) -> float:
-    """Adds the series to a curve; the largest relative distance of its load from the runs."""
-    eps, load = np.array(curve["eps"]), np.array(curve["F"])
+def series_of(eps: np.ndarray, curve: dict) -> tuple[dict, float]:
+    """The series of a curve, and the largest relative distance of its load from the runs."""
+    reached = np.array([value is not None for value in curve["F"]])
+    load, area, sink, collar = (
+        np.array(curve[name], dtype=float)[reached] for name in ("F", "A", "sink", "collar")
+    )
+    eps = eps[reached]
     s = place(eps)
-    collar = np.array(curve["collar"]) if curve.get("collar") else 0.0 * eps
     own = np.maximum.accumulate(load * (1 - collar))
-    columns = {"own": own, "all": np.maximum.accumulate(load), "area": np.array(curve["A"])}
+    columns = {"own": own, "all": np.maximum.accumulate(load), "area": area}
     fits = {name: rising_series(s, np.log(values)) for name, values in columns.items()}
-    curve["series"] = {name: np.round(fit.coef, 12).tolist() for name, fit in fits.items()}
-    if curve.get("sink"):
-        share = np.clip(np.array(curve["sink"]) / eps, 0.0, 1.0)
-        fit = Chebyshev.fit(s, share, SHARE_DEGREE, domain=[-1, 1])
-        curve["series"]["share"] = np.round(fit.coef, 12).tolist()
-    return float(np.max(np.abs(np.expm1(fits["own"](s) - np.log(own)))))
+    share = np.clip(sink / eps, 0.0, 1.0)
+    fits["share"] = Chebyshev.fit(s, share, min(SHARE_DEGREE, len(s) - 2), domain=[-1, 1])
+    out = {name: curve[name] for name in ("rho", "m", "E_over_Y", "surfaces")}
+    out["from"], out["to"] = float(eps[0]), float(eps[-1])
+    out |= {name: np.round(fit.coef, 12).tolist() for name, fit in fits.items()}
+    return out, float(np.max(np.abs(np.expm1(fits["own"](s) - np.log(own)))))
+
+
+def main() -> None:
+    """Reads the table and writes the series beside it."""
+    source = (DATA / "deep_squeeze.json").read_text("utf-8")
+    table = json.loads(source)
+    eps, curves = np.array(table["eps"]), []
+    for curve in table["curves"]:
+        series, off = series_of(eps, curve)
+        curves.append(series)
+        print(*(series[key] for key in ("rho", "m", "E_over_Y", "surfaces")), f"{100 * off:.1f} %")
+    out = {
+        "title": "Series of the curves of deep_squeeze.json in ln eps/(1 - eps) on [from, to]",
+        "script": "benchmarks/squeeze_series.py",
+        "sha256": hashlib.sha256(source.encode()).hexdigest(),
+        "curves": curves,
+    }
+    (DATA / "deep_series.json").write_text(json.dumps(out, indent=1) + "\n", "utf-8")
 
 
 if __name__ == "__main__":
-    data = json.loads(DATA.read_text("utf-8"))
-    for curve in data["curves"]:
-        off = add_series(curve)
-        name = [curve[key] for key in ("kind", "rho", "m", "kappa")]
-        print(*name, f"{100 * off:.1f} %")
-    DATA.write_text(json.dumps(data, indent=0) + "\n", "utf-8")
+    main()

@@ -24,15 +24,14 @@ __all__ = ["DeepSide", "DeepSqueeze", "SqueezeCurve", "squeeze_curve"]
 
 LAW_ENDS, TABLE_BEGINS = 0.05, 0.15
 """Squeezes ε up to which the law of one contact holds, and from which the table does."""
-TABLE_ENDS = 0.93
+TABLE_ENDS = 0.95
 """Largest squeeze ε of the table."""
 SPLITS = (0.45, 0.75)
 """Squeezes at which panels end, so that series of the table resolve it."""
 TERMS = 14
 """Of its series."""
-COLUMNS = ("own", "all", "area", "share")
-RIGID = 10.0
-"""Hardness ratio from which a particle counts as rigid."""
+SOFT, RIGID = 0.4, 10.0
+"""Hardness ratios up to which surfaces count as rigid, and from which the particle does."""
 SOFTEST_KAPPA = 8.0
 """E*/H below which the elastic part of the table is not extrapolated further."""
 
@@ -49,46 +48,63 @@ class SqueezeCurve(NamedTuple):
 
 
 class _Run(NamedTuple):
-    """One computed curve, at the nodes of the series."""
+    """One computed curve, as series on its range."""
 
-    kind: str
-    """``two-sided``, ``one-sided``, or ``platens``, the limit of a soft particle."""
     ratio: float
-    """Hardness of the particle over that of the surface; `RIGID` for a rigid one."""
+    """Hardness of the particle over that of the surface: 0 if rigid surfaces, inf if it is rigid."""
     friction: float
     """Friction factor of its faces [1]."""
     softness: float
     """H/E* [1]; 0 for rigid-plastic bodies."""
-    own: Array
-    """ln F/(Y_s R²), of platens ln F/(Y_p R²), without what touching collars carry."""
-    all: Array
-    """The same with it."""
-    area: Array
-    """ln A/(πR²)."""
-    share: Array
-    """Sink into each surface over the squeeze."""
+    low: float
+    high: float
+    """Squeezes ε from and to which it was computed."""
+    series: dict[str, list[float]]
+
+    def values(self, name: str, eps: Array) -> Array:
+        """One of `COLUMNS` at squeezes (N,), beyond the ends as at the ends."""
+        place = place_of(np.clip(eps, self.low, self.high), self.low, self.high)
+        values: Array = chebval(place, self.series[name])
+        # loads are stored over Y_s R², of rigid surfaces over Y_p R²
+        harder = name in ("own", "all") and self.ratio not in (0, math.inf)
+        return values - math.log(min(self.ratio, 1.0)) if harder else values
+
+    @property
+    def node(self) -> float:
+        """ln ρ at which it stands."""
+        return math.log(min(max(self.ratio, SOFT), RIGID))
+
+
+COLUMNS = ("own", "all", "area", "share")
+"""ln F/(Y R²) of the softer body without and with what touching collars carry, ln A/(πR²), and the
+sink into each surface over the squeeze."""
 
 
 @lru_cache(maxsize=1)
 def _runs() -> tuple[_Run, ...]:
-    """The computed curves of the table."""
-    text = resources.files("thirdbody").joinpath("data/deep_squeeze.json").read_text("utf-8")
-    nodes, _ = chebyshev_transform(TERMS)
-    eps = squeeze_at(nodes)
+    """The computed curves between two equal surfaces."""
+    text = resources.files("thirdbody").joinpath("data/deep_series.json").read_text("utf-8")
 
     def run(data: dict[str, Any]) -> _Run:
-        low, high = data["eps"][0], data["eps"][-1]
-        place = place_of(np.clip(eps, low, high), low, high)
-        columns = {name: chebval(place, data["series"].get(name, [0.0])) for name in COLUMNS}
-        return _Run(
-            data["kind"],
-            RIGID if data["rho"] is None else data["rho"],
-            data["m"],
-            0.0 if data["kappa"] is None else 1 / data["kappa"],
-            *(columns[name] for name in COLUMNS),
-        )
+        ratio, modulus = float(data["rho"]), float(data["E_over_Y"])
+        # what deforms has E/(1 - 0.3²); of two bodies that do, E* is half of it
+        E_star = modulus / 0.91 / (1 if ratio in (0, math.inf) else 2)
+        softness = FULL * min(max(ratio, 0.0), 1.0) / E_star if ratio else FULL / E_star
+        series = {name: data[name] for name in COLUMNS}
+        return _Run(ratio, data["m"], softness, data["from"], data["to"], series)
 
-    return tuple(run(data) for data in json.loads(text)["curves"])
+    return tuple(run(data) for data in json.loads(text)["curves"] if data["surfaces"] == 2)
+
+
+def _chosen(friction: float) -> list[_Run]:
+    """Rigid-plastic runs of one friction factor, by increasing hardness of the particle."""
+    runs = [run for run in _runs() if run.softness == 0 and run.friction == friction]
+    return sorted(runs, key=lambda run: run.node)
+
+
+def _welded(run: _Run) -> _Run:
+    """The welded rigid-plastic run of the same hardness ratio."""
+    return next(it for it in _chosen(1.0) if it.ratio == run.ratio)
 
 
 def place_of(eps: Any, low: float, high: float) -> Any:
@@ -101,35 +117,6 @@ def squeeze_at(place: Any) -> Any:
     """Squeeze ε at a place on [−1, 1] of the table."""
     first, last = (math.log(end / (1 - end)) for end in (LAW_ENDS, TABLE_ENDS))
     return 1 / (1 + np.exp(-(first + last + place * (last - first)) / 2))
-
-
-class _Family(NamedTuple):
-    """Runs of one friction, rigid-plastic, against the hardness ratio: (N,) and (N, TERMS)."""
-
-    ratio: Array
-    log_load: Array
-    log_area: Array
-    share: Array
-
-
-@lru_cache(maxsize=64)
-def _family(friction: float, collar: str) -> _Family:
-    """Loads are over the yield strength of the softer body; platens stand at the least ratio."""
-    rigid = [run for run in _runs() if run.softness == 0 and run.friction == friction]
-    platens = any(run.kind == "platens" for run in rigid)
-    least = min(run.ratio for run in _runs() if run.kind == "two-sided")
-    rows = []
-    for run in rigid:
-        # at the least ratio the faces of coupled runs read high where the disc is thin
-        if run.kind == "one-sided" or (platens and run.kind == "two-sided" and run.ratio == least):
-            continue
-        ratio = least if run.kind == "platens" else run.ratio
-        log_load = run.all if collar == "all" else run.own
-        if run.kind == "two-sided":
-            log_load = log_load - math.log(min(ratio, 1.0))
-        rows.append((ratio, log_load, run.area, run.share))
-    rows.sort(key=lambda row: row[0])
-    return _Family(*(np.array(column) for column in zip(*rows, strict=True)))
 
 
 def _between(x: float, nodes: Array, values: Array) -> Array:
@@ -160,54 +147,52 @@ def squeeze_curve(ratio: float, friction: float, kappa: float, collar: str) -> S
     collar : {"own", "all"}
         Without or with what the touching collars of the two surfaces carry.
     """
-    x = math.log(ratio)
-    welded = _family(1.0, collar)
-    log_load, log_area, share = (_between(x, np.log(welded.ratio), v) for v in welded[1:])
+    x, load = math.log(ratio), "all" if collar == "all" else "own"
+    nodes, transform = chebyshev_transform(TERMS)
+    eps = squeeze_at(nodes)
+    welded = _chosen(1.0)
+    places = np.array([run.node for run in welded])
     frictions = sorted({run.friction for run in _runs() if run.softness == 0})
     softness = 1 / max(kappa, SOFTEST_KAPPA)
-    changes = np.array([_friction_change(x, m, collar) for m in frictions])
-    elastic = softness * _elastic_slope(x, softness, collar)
-    for i, values in enumerate((log_load, log_area)):
-        rubbing = _between(friction, np.array(frictions), np.exp(changes[:, i]))
-        values += np.log(rubbing) + elastic[i]
-    log_load -= math.log(math.pi * FULL)
-    _, transform = chebyshev_transform(TERMS)
-    return SqueezeCurve(*(transform @ values for values in (log_load, log_area, share)))
+
+    def values(name: str) -> Array:
+        return _between(x, places, np.array([run.values(name, eps) for run in welded]))
+
+    def logarithm(name: str) -> Array:
+        rubbing = np.array([np.exp(_friction_change(x, name, m, eps)) for m in frictions])
+        rubbed = np.log(_between(friction, np.array(frictions), rubbing))
+        return values(name) + rubbed + softness * _elastic_slope(x, name, softness, eps)
+
+    columns = (logarithm(load) - math.log(math.pi * FULL), logarithm("area"), values("share"))
+    return SqueezeCurve(*(transform @ column for column in columns))
 
 
-def _friction_change(x: float, friction: float, collar: str) -> Array:
-    """ln of load and of area over those of welded runs, at ln ρ = x: (2, TERMS)."""
-    family, welded = _family(friction, collar), _family(1.0, collar)
-    here, there = np.isin(family.ratio, welded.ratio), np.isin(welded.ratio, family.ratio)
-    nodes = np.log(family.ratio[here])
-    load = family.log_load[here] - welded.log_load[there]
-    area = family.log_area[here] - welded.log_area[there]
-    return np.array([_between(x, nodes, load), _between(x, nodes, area)])
+def _change(run: _Run, name: str, eps: Array) -> Array:
+    """ln of load or area of a run over those of the welded rigid-plastic one of its ρ."""
+    within = np.minimum(eps, min(run.high, _welded(run).high))
+    return run.values(name, within) - _welded(run).values(name, within)
 
 
-def _elastic_slope(x: float, softness: float, collar: str) -> Array:
-    """ln of load and of area over those of rigid-plastic runs, over H/E*: (2, TERMS)."""
-    welded = _family(1.0, collar)
-    runs = [run for run in _runs() if run.softness > 0 and run.kind == "two-sided"]
+def _friction_change(x: float, name: str, friction: float, eps: Array) -> Array:
+    """ln of load or area over those of welded faces, at ln ρ = x."""
+    runs = [run for run in _chosen(friction) if any(it.ratio == run.ratio for it in _chosen(1.0))]
+    changes = np.array([_change(run, name, eps) for run in runs])
+    return _between(x, np.array([run.node for run in runs]), changes)
+
+
+def _elastic_slope(x: float, name: str, softness: float, eps: Array) -> Array:
+    """ln of load or area over those of rigid-plastic bodies, over H/E*, at ln ρ = x."""
+    runs = sorted((run for run in _runs() if run.softness > 0), key=lambda run: run.softness)
+    places = sorted({run.node for run in runs})
+    if not runs:
+        return np.zeros_like(eps)
     slopes = []
-    ratios = sorted({run.ratio for run in runs})
-    for ratio in ratios:
-        rigid = int(np.flatnonzero(welded.ratio == ratio)[0])
-        here = sorted((run for run in runs if run.ratio == ratio), key=lambda run: run.softness)
-        change = np.array(
-            [
-                [
-                    (run.all if collar == "all" else run.own)
-                    - math.log(min(ratio, 1.0))
-                    - welded.log_load[rigid],
-                    run.area - welded.log_area[rigid],
-                ]
-                for run in here
-            ]
-        )
+    for place in places:
+        here = [run for run in runs if run.node == place]
         known = np.array([run.softness for run in here])
-        slopes.append(_between(softness, known, change / known[:, None, None]))
-    return _between(x, np.log(ratios), np.array(slopes))
+        changes = np.array([_change(run, name, eps) / run.softness for run in here])
+        slopes.append(_between(softness, known, changes))
+    return _between(x, np.array(places), np.array(slopes))
 
 
 @dataclass(frozen=True)
