@@ -163,16 +163,21 @@ def assemble(x, triangles, yields, elastic, u, bubble, e_given, e0, newton, out)
                     div[a, i] += w * POINTS[p, a] * sum_b[i]
                 for j in range(3):
                     mass[a, j] += w * POINTS[p, a] * POINTS[p, j]
-        held = np.linalg.solve(mass, div)
-        hold = bulk[t] if shear[t] > 0.0 else PENALTY
-        for i in range(14):
-            for j in range(14):
-                value = 0.0
-                for a in range(3):
-                    value += div[a, i] * held[a, j]
-                k[i, j] += hold * value
-                f[i] += hold * value * drive[j]
+        _hold(div, mass, drive, bulk[t] if shear[t] > 0.0 else PENALTY, k, f)
         _condense(k, f, out_k[t], out_g[t], out_b[t], out_c[t])
+
+
+@njit(cache=True)
+def _hold(div: Array, mass: Array, drive: Array, bulk: float, k: Array, f: Array) -> None:
+    """Stiffness and force that hold the volume added to k (14, 14) and f (14)."""
+    held = np.linalg.solve(mass, div)
+    for i in range(14):
+        for j in range(14):
+            value = 0.0
+            for a in range(3):
+                value += div[a, i] * held[a, j]
+            k[i, j] += bulk * value
+            f[i] += bulk * value * drive[j]
 
 
 @njit(cache=True)

@@ -160,7 +160,13 @@ def meet(case: Case, particle: Array, surface: Array, touched: int, squeeze: flo
         surface[:, 1] = 1.0 - squeeze
     elif case.both:
         surface[surface[:, 1] < TOUCH, 1] = 0.0
+    if case.both and case.particle_deforms:
+        down = 1 + int(np.argmax(particle[1:, 1] < 1e-6))  # a flank that has folded onto z = 0
+        particle = particle[: down + 1].copy()
+        particle[-1, 1] = 0.0
     gap, place, _ = curves.nearest(surface, particle)
+    within = mesh.inside(surface, np.concatenate([particle, np.zeros((1, 2))]))
+    gap = np.where(within, -np.abs(gap), np.abs(gap))
     near = gap < np.where(np.arange(len(surface)) < touched, 4 * TOUCH, TOUCH)
     near[surface[:, 0] > 1.5 * particle[:, 0].max() + 0.1] = False
     apart = np.flatnonzero(~near)

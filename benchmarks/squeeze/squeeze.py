@@ -23,6 +23,9 @@ Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 POISSON = 0.3
+"""Poisson's ratio of elastic bodies."""
+TRIES = 4
+"""Shorter steps tried where no triangles fit a shape."""
 
 
 @dataclass(frozen=True)
@@ -217,13 +220,24 @@ class Squeezing:
         self._stress = (points.reshape(-1, 2), s.reshape(-1, 5), owner)
 
     def run(self, until: float) -> Iterator[State]:
-        """States from the start to a squeeze, one a step."""
+        """States from the start to a squeeze, one a step.
+
+        A shape that no triangles fit is left for the one after a shorter step.
+        """
+        moment, tries = None, 0
         while True:
             e = self.shape.squeeze
             step = min(self.case.step, 0.2 * e, max(until - e, 1e-4))
             if self.case.both:
                 step = min(step, 0.12 * (1 - e))
-            moment = self.moment(step)
+            try:
+                moment, tries = self.moment(step), 0
+            except mesh.MeshError:
+                if moment is None or tries == TRIES:
+                    raise
+                tries += 1
+                self.advance(moment, 0.6**tries * (e - moment.shape.squeeze))
+                continue
             yield self.state(moment)
             if e > until - 1e-9:
                 return
