@@ -3,8 +3,9 @@
     python benchmarks/squeeze_series.py
 
 A curve of the table has the scatter of its mesh, 1 to 3 %. The law wants load and area that rise
-smoothly. Each logarithm becomes a polynomial whose slope is a square, in ln ε/(1 − ε), in which
-first contact and a thin disc are both nearly straight lines.
+smoothly, also between the curves. Each logarithm becomes a polynomial whose slope is a square, in
+ln ε/(1 − ε), in which first contact and a thin disc are both nearly straight lines; the root of the
+slope is what the law interpolates.
 """
 
 from __future__ import annotations
@@ -29,17 +30,22 @@ def place(eps: np.ndarray) -> np.ndarray:
     return 2 * (logit - logit[0]) / (logit[-1] - logit[0]) - 1
 
 
-def rising_series(s: np.ndarray, y: np.ndarray) -> Chebyshev:
-    """The polynomial nearest to y(s) of those whose slope is a square."""
+def rising_series(s: np.ndarray, y: np.ndarray) -> tuple[float, Chebyshev]:
+    """First value and root of the slope of the polynomial nearest to y(s) that never falls."""
     slope = np.maximum(np.gradient(y, s), 1e-3)
     start = Chebyshev.fit(s, np.sqrt(slope), DEGREE, domain=[-1, 1])
 
-    def series(p: np.ndarray) -> Chebyshev:
-        root = Chebyshev(p[1:])
-        return (root * root).integ(lbnd=-1) + p[0]
+    def off(p: np.ndarray) -> np.ndarray:
+        return rising(p[0], Chebyshev(p[1:]))(s) - y
 
-    best = least_squares(lambda p: series(p)(s) - y, [y[0], *start.coef], xtol=1e-13, ftol=1e-13)
-    return series(best.x)
+    best = least_squares(off, [y[0], *start.coef], xtol=1e-13, ftol=1e-13)
+    sign = np.sign(Chebyshev(best.x[1:])(0.0))  # roots of neighbours are to have one sign
+    return float(best.x[0]), Chebyshev(sign * best.x[1:])
+
+
+def rising(first: float, root: Chebyshev) -> Chebyshev:
+    """The polynomial of this first value and root of the slope."""
+    return (root * root).integ(lbnd=-1) + first
 
 
 def series_of(eps: np.ndarray, curve: dict) -> tuple[dict, float]:
@@ -53,12 +59,15 @@ def series_of(eps: np.ndarray, curve: dict) -> tuple[dict, float]:
     own = np.maximum.accumulate(load * (1 - collar))
     columns = {"own": own, "all": np.maximum.accumulate(load), "area": area}
     fits = {name: rising_series(s, np.log(values)) for name, values in columns.items()}
+    off = np.expm1(rising(*fits["own"])(s) - np.log(own))
     share = np.clip(sink / eps, 0.0, 1.0)
-    fits["share"] = Chebyshev.fit(s, share, min(SHARE_DEGREE, len(s) - 2), domain=[-1, 1])
+    sunk = Chebyshev.fit(s, share, min(SHARE_DEGREE, len(s) - 2), domain=[-1, 1])
     out = {name: curve[name] for name in ("rho", "m", "E_over_Y", "surfaces")}
     out["from"], out["to"] = float(eps[0]), float(eps[-1])
-    out |= {name: np.round(fit.coef, 12).tolist() for name, fit in fits.items()}
-    return out, float(np.max(np.abs(np.expm1(fits["own"](s) - np.log(own)))))
+    for name, (first, root) in fits.items():
+        out[name] = {"first": round(first, 12), "root": np.round(root.coef, 12).tolist()}
+    out["share"] = np.round(sunk.coef, 12).tolist()
+    return out, float(np.max(np.abs(off)))
 
 
 def main() -> None:

@@ -10,6 +10,7 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial import Chebyshev
 from numpy.polynomial.chebyshev import chebval
 
 from ...numerics.chebyshev import chebyshev_transform
@@ -28,8 +29,8 @@ TABLE_ENDS = 0.95
 """Largest squeeze ε of the table."""
 SPLITS = (0.45, 0.75)
 """Squeezes at which panels end, so that series of the table resolve it."""
-TERMS = 14
-"""Of its series."""
+TERMS = 10
+"""Of series of the roots of its slopes."""
 SOFT, RIGID = 0.4, 10.0
 """Hardness ratios up to which surfaces count as rigid, and from which the particle does."""
 SOFTEST_KAPPA = 8.0
@@ -40,18 +41,18 @@ class SqueezeCurve(NamedTuple):
     """What one side of a particle does: Chebyshev series on the table's range of ln ε/(1 − ε)."""
 
     log_load: Array
-    """ln F/(πR²H), with the hardness H of the softer body [1]: (TERMS,)."""
+    """ln F/(πR²H), with the hardness H of the softer body [1]."""
     log_area: Array
-    """ln A/(πR²) [1]: (TERMS,)."""
+    """ln A/(πR²) [1]."""
     share: Array
-    """Sink of the particle into the surface over its squeeze [1]: (TERMS,)."""
+    """Sink of the particle into the surface over its squeeze [1]."""
 
 
 class _Run(NamedTuple):
     """One computed curve, as series on its range."""
 
     ratio: float
-    """Hardness of the particle over that of the surface: 0 if rigid surfaces, inf if it is rigid."""
+    """Hardness ratio particle over surface: 0 if the surfaces are rigid, inf if the particle is."""
     friction: float
     """Friction factor of its faces [1]."""
     softness: float
@@ -59,15 +60,28 @@ class _Run(NamedTuple):
     low: float
     high: float
     """Squeezes ε from and to which it was computed."""
-    series: dict[str, list[float]]
+    series: dict[str, Any]
 
-    def values(self, name: str, eps: Array) -> Array:
-        """One of `COLUMNS` at squeezes (N,), beyond the ends as at the ends."""
-        place = place_of(np.clip(eps, self.low, self.high), self.low, self.high)
-        values: Array = chebval(place, self.series[name])
+    def first(self, name: str) -> float:
+        """ln of load over Y R² of the softer body, or of area over πR², at the smallest ε."""
+        value: float = self.series[name]["first"]
         # loads are stored over Y_s R², of rigid surfaces over Y_p R²
-        harder = name in ("own", "all") and self.ratio not in (0, math.inf)
-        return values - math.log(min(self.ratio, 1.0)) if harder else values
+        harder = name != "area" and self.ratio not in (0, math.inf)
+        return value - math.log(min(self.ratio, 1.0)) if harder else value
+
+    def root(self, name: str, places: Array) -> Array:
+        """Square root of the slope of that logarithm along the table (N,); 0 beyond the run."""
+        eps = squeeze_at(places)
+        own = place_of(eps, self.low, self.high)
+        step = place_of(np.array([LAW_ENDS, TABLE_ENDS]), self.low, self.high)
+        root: Array = chebval(own, self.series[name]["root"]) * math.sqrt((step[1] - step[0]) / 2)
+        return np.where(eps <= self.high * (1 + 1e-9), root, 0.0)
+
+    def share(self, places: Array) -> Array:
+        """Sink into each surface over the squeeze (N,), beyond the run as at its end."""
+        eps = np.clip(squeeze_at(places), self.low, self.high)
+        share: Array = chebval(place_of(eps, self.low, self.high), self.series["share"])
+        return share
 
     @property
     def node(self) -> float:
@@ -76,8 +90,7 @@ class _Run(NamedTuple):
 
 
 COLUMNS = ("own", "all", "area", "share")
-"""ln F/(Y R²) of the softer body without and with what touching collars carry, ln A/(πR²), and the
-sink into each surface over the squeeze."""
+"""Load without and with what touching collars carry, contact area, and sink over the squeeze."""
 
 
 @lru_cache(maxsize=1)
@@ -133,8 +146,9 @@ def _between(x: float, nodes: Array, values: Array) -> Array:
 def squeeze_curve(ratio: float, friction: float, kappa: float, collar: str) -> SqueezeCurve:
     r"""What one side of a round particle does, between the computed runs.
 
-    Logarithms of load and area are interpolated in ln ρ; what friction and elasticity change is
-    the ratio of two runs of one ρ, monotone in m and, to first order, linear in 1/κ.
+    Load and area rise with the squeeze: the square roots of the slopes of their logarithms are
+    interpolated, in ln ρ and in m by monotone cubics and in 1/κ in straight lines, so that no
+    combination falls.
 
     Parameters
     ----------
@@ -148,51 +162,54 @@ def squeeze_curve(ratio: float, friction: float, kappa: float, collar: str) -> S
         Without or with what the touching collars of the two surfaces carry.
     """
     x, load = math.log(ratio), "all" if collar == "all" else "own"
-    nodes, transform = chebyshev_transform(TERMS)
-    eps = squeeze_at(nodes)
-    welded = _chosen(1.0)
-    places = np.array([run.node for run in welded])
-    frictions = sorted({run.friction for run in _runs() if run.softness == 0})
+    welded, nodes = _chosen(1.0), np.array([run.node for run in _chosen(1.0)])
+    places, transform = chebyshev_transform(TERMS)
+    frictions = np.array(sorted({run.friction for run in _runs() if run.softness == 0}))
     softness = 1 / max(kappa, SOFTEST_KAPPA)
 
-    def values(name: str) -> Array:
-        return _between(x, places, np.array([run.values(name, eps) for run in welded]))
-
     def logarithm(name: str) -> Array:
-        rubbing = np.array([np.exp(_friction_change(x, name, m, eps)) for m in frictions])
-        rubbed = np.log(_between(friction, np.array(frictions), rubbing))
-        return values(name) + rubbed + softness * _elastic_slope(x, name, softness, eps)
+        """First value and roots of the slope, then the series that rises so."""
+        rows = np.array([_row(run, name, places) for run in welded])
+        rubbing = np.array([_friction_change(x, name, m, places) for m in frictions])
+        row = _between(x, nodes, rows) + _between(friction, frictions, rubbing)
+        row += softness * _elastic_slope(x, name, softness, places)
+        root = Chebyshev(transform @ row[1:])
+        return ((root * root).integ(lbnd=-1) + row[0]).coef
 
-    columns = (logarithm(load) - math.log(math.pi * FULL), logarithm("area"), values("share"))
-    return SqueezeCurve(*(transform @ column for column in columns))
+    share = _between(x, nodes, np.array([run.share(places) for run in welded]))
+    log_load = logarithm(load)
+    log_load[0] -= math.log(math.pi * FULL)
+    return SqueezeCurve(log_load, logarithm("area"), transform @ share)
 
 
-def _change(run: _Run, name: str, eps: Array) -> Array:
-    """ln of load or area of a run over those of the welded rigid-plastic one of its ρ."""
-    within = np.minimum(eps, min(run.high, _welded(run).high))
-    return run.values(name, within) - _welded(run).values(name, within)
+def _row(run: _Run, name: str, places: Array) -> Array:
+    """First value, then roots of the slope at places (N,) of the table: (1 + N,)."""
+    return np.concatenate([[run.first(name)], run.root(name, places)])
 
 
-def _friction_change(x: float, name: str, friction: float, eps: Array) -> Array:
-    """ln of load or area over those of welded faces, at ln ρ = x."""
-    runs = [run for run in _chosen(friction) if any(it.ratio == run.ratio for it in _chosen(1.0))]
-    changes = np.array([_change(run, name, eps) for run in runs])
+def _change(run: _Run, name: str, places: Array) -> Array:
+    """A row less that of the welded rigid-plastic run of the same ρ; 0 beyond either."""
+    change = _row(run, name, places) - _row(_welded(run), name, places)
+    change[1:][squeeze_at(places) > min(run.high, _welded(run).high) * (1 + 1e-9)] = 0.0
+    return change
+
+
+def _friction_change(x: float, name: str, friction: float, places: Array) -> Array:
+    """A row less that of welded faces, at ln ρ = x."""
+    runs = _chosen(friction)
+    changes = np.array([_change(run, name, places) for run in runs])
     return _between(x, np.array([run.node for run in runs]), changes)
 
 
-def _elastic_slope(x: float, name: str, softness: float, eps: Array) -> Array:
-    """ln of load or area over those of rigid-plastic bodies, over H/E*, at ln ρ = x."""
+def _elastic_slope(x: float, name: str, softness: float, places: Array) -> Array:
+    """A row less that of rigid-plastic bodies, over H/E*, at ln ρ = x."""
     runs = sorted((run for run in _runs() if run.softness > 0), key=lambda run: run.softness)
-    places = sorted({run.node for run in runs})
-    if not runs:
-        return np.zeros_like(eps)
-    slopes = []
-    for place in places:
-        here = [run for run in runs if run.node == place]
-        known = np.array([run.softness for run in here])
-        changes = np.array([_change(run, name, eps) / run.softness for run in here])
-        slopes.append(_between(softness, known, changes))
-    return _between(x, np.array(places), np.array(slopes))
+    nodes, slopes = sorted({run.node for run in runs}), []
+    for node in nodes:
+        here = [run for run in runs if run.node == node]
+        rows = np.array([_change(run, name, places) / run.softness for run in here])
+        slopes.append(_between(softness, np.array([run.softness for run in here]), rows))
+    return _between(x, np.array(nodes), np.array(slopes))
 
 
 @dataclass(frozen=True)
