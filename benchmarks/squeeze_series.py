@@ -57,7 +57,7 @@ def series_of(eps: np.ndarray, curve: dict) -> tuple[dict, float]:
     eps = eps[reached]
     s = place(eps)
     own = np.maximum.accumulate(load * (1 - collar))
-    columns = {"own": own, "all": np.maximum.accumulate(load), "area": area}
+    columns = {"own": own, "area": np.maximum.accumulate(area)}
     fits = {name: rising_series(s, np.log(values)) for name, values in columns.items()}
     off = np.expm1(rising(*fits["own"])(s) - np.log(own))
     share = np.clip(sink / eps, 0.0, 1.0)

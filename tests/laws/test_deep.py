@@ -1,10 +1,14 @@
 """Particles at any squeeze and any hardness ratio: the law that follows a computed table."""
 
+import hashlib
 import itertools
+import json
 import math
+from importlib import resources
 
 import numpy as np
 import pytest
+from numpy.polynomial.chebyshev import chebval
 
 import thirdbody as tb
 from thirdbody.laws.particle import Series
@@ -13,6 +17,7 @@ from thirdbody.laws.particle.deep import (
     TABLE_BEGINS,
     TABLE_ENDS,
     DeepSqueeze,
+    place_of,
     squeeze_curve,
 )
 
@@ -38,11 +43,9 @@ def load(eps, ratio, **options):
     return 4 * 2.84 / H * single(eps, ratio, **options)["force"]
 
 
-def side(ratio, m=0.2, kappa=30.0, collar="own"):
+def side(ratio, m=0.2, kappa=30.0):
     E_star = kappa * H * min(ratio, 1.0)
-    return DeepSqueeze(ratio, m, collar).side(
-        tb.asperity.Hermite(), E_star, H * min(ratio, 1.0), NU, 0.5
-    )
+    return DeepSqueeze(ratio, m).side(tb.asperity.Hermite(), E_star, H * min(ratio, 1.0), NU, 0.5)
 
 
 SQUEEZES = np.geomspace(1e-4, 1.0, 3000)
@@ -91,7 +94,7 @@ def test_surfaces_may_change_places():
 
 def test_a_soft_particle_carries_in_proportion_to_its_hardness():
     """ρ → 0: hard surfaces only know the particle's yield strength, at one E*/H."""
-    curves = [squeeze_curve(ratio, 0.2, 30.0, "own") for ratio in (0.05, 0.2, 0.49)]
+    curves = [squeeze_curve(ratio, 0.2, 30.0) for ratio in (0.05, 0.2, 0.39)]
     for curve in curves[1:]:
         np.testing.assert_array_equal(curve.log_load, curves[0].log_load)
 
@@ -104,27 +107,80 @@ def test_the_volume_of_half_a_sphere_bounds_a_disc():
         assert np.all(area * (1 - eps) <= 2 / 3 * 1.04)
 
 
+# ---------------------------------------------------------------------------- what was computed
+def test_series_are_those_of_the_table():
+    data = resources.files("thirdbody").joinpath("data")
+    table = data.joinpath("deep_squeeze.json").read_bytes()
+    series = json.loads(data.joinpath("deep_series.json").read_text("utf-8"))
+    assert series["sha256"] == hashlib.sha256(table).hexdigest()
+
+
+@pytest.mark.parametrize("m", [0.0, 0.2, 1.0])
+def test_rigid_plastic_sides_follow_the_computed_curves(m):
+    table = json.loads(
+        resources.files("thirdbody").joinpath("data/deep_squeeze.json").read_text("utf-8")
+    )
+    eps, compared = np.array(table["eps"]), 0
+    for curve in table["curves"]:
+        ratio = float(curve["rho"])
+        if (curve["m"], curve["E_over_Y"], curve["surfaces"]) != (m, "inf", 2) or ratio == 0.5:
+            continue
+        reached = (eps >= TABLE_BEGINS) & np.array([value is not None for value in curve["F"]])
+        load, area, collar = (
+            np.array(curve[name], dtype=float)[reached] for name in ("F", "A", "collar")
+        )
+        own = np.maximum.accumulate(load * (1 - collar)) / (min(ratio, 1) or 1)
+        one = squeeze_curve(min(max(ratio, 0.4), 10.0), m, 1e12)
+        place = place_of(eps[reached], LAW_ENDS, TABLE_ENDS)
+        np.testing.assert_allclose(
+            np.exp(chebval(place, one.log_load)) * np.pi * 2.84, own, rtol=0.05
+        )
+        np.testing.assert_allclose(np.exp(chebval(place, one.log_area)), area, rtol=0.06)
+        compared += 1
+    assert compared >= 7
+
+
+@pytest.mark.parametrize(
+    ("ratio", "m", "loads"),
+    [
+        (50.0, 1.0, {0.2: 4.49, 0.3: 6.36, 0.5: 9.10}),
+        (1.0, 1.0, {0.2: 2.05, 0.5: 4.18}),
+        (1.4, 1.0, {0.2: 2.89, 0.5: 5.86}),
+        (2.0, 1.0, {0.2: 4.32, 0.5: 8.53}),
+        (3.0, 1.0, {0.2: 4.56, 0.5: 9.43}),
+        (50.0, 0.0, {0.2: 3.8, 0.5: 6.7}),
+    ],
+)
+def test_rigid_plastic_loads_against_another_computation(ratio, m, loads):
+    """F/(Y_s R²) of a second program (triangles, remeshed), which shares no line with ours."""
+    curve = squeeze_curve(ratio, m, 1e12)
+    for eps, expected in loads.items():
+        place = place_of(np.array(eps), LAW_ENDS, TABLE_ENDS)
+        load = np.exp(chebval(place, curve.log_load)) * np.pi * 2.84
+        assert float(load) == pytest.approx(expected, rel=0.07)
+
+
 # ---------------------------------------------------------------------------- between the runs
-@pytest.mark.parametrize("collar", ["own", "all"])
-def test_loads_rise_at_any_hardness_friction_and_stiffness(collar):
+def test_loads_rise_at_any_hardness_friction_and_stiffness():
     for _ in range(150):
         ratio, m, kappa = (
             math.exp(RNG.uniform(math.log(low), math.log(high)))
             for low, high in ((0.05, 20), (0.02, 1), (6, 300))
         )
-        one = side(ratio, m, kappa, collar)
+        one = side(ratio, m, kappa)
         assert np.all(np.diff(one.force(0.5 * SQUEEZES)) >= -1e-12 * one.limit), (ratio, m, kappa)
 
 
 def test_no_hardness_is_a_cliff():
-    """One per cent of a particle's hardness moves its load by less than three up to ε = 0.9.
+    """One per cent of a particle's hardness moves its load by less than three up to ε = 0.8.
 
-    Beyond, between ρ = 1.4 and 2, one that embeds and a thin disc lie close together.
+    Beyond, between ρ = 1.4 and 2, one that embeds and one that ends as a thin disc lie close
+    together: their loads differ fourfold at ε = 0.9.
     """
     for ratio in np.geomspace(0.2, 12, 120):
         one, two = (load(SQUEEZES, factor * ratio) for factor in (0.995, 1.005))
         change = np.abs(np.log(two / one))
-        assert np.max(change[SQUEEZES < 0.9]) < 0.03, ratio
+        assert np.max(change[SQUEEZES < 0.8]) < 0.03, ratio
         assert np.max(change) < 0.12, ratio
 
 
@@ -163,17 +219,9 @@ def test_who_is_dented():
     assert float(hard.sinks[0][0, 0]) == pytest.approx(0.25, rel=0.02)
 
 
-def test_collars_carry_only_where_they_touch():
-    gap = [0.2, 0.5, 0.7]
-    np.testing.assert_allclose(load(gap, 6.0), load(gap, 6.0, collar="all"), rtol=0.02)
-    assert load(0.92, 6.0, collar="all") > 2 * load(0.92, 6.0)
-
-
 def test_options_that_contradict_each_other_are_refused():
     with pytest.raises(tb.InvalidValue, match="deep"):
         Series(deep="table", soft="sphere")
-    with pytest.raises(tb.InvalidValue, match="collar"):
-        Series(collar="all")
 
 
 def test_thin_discs_go_on_until_they_sink_into_the_surface():

@@ -71,7 +71,8 @@ def _shares(contact: Contact, d: Array, *, brittle: bool = True) -> tuple[Array,
         strength = _strength(each) if brittle else None
         for spots in groups:
             total += spots.total(spots.load)
-            deep += spots.total(spots.load * (np.maximum(*spots.depths) > spots.half))
+            if split:
+                deep += spots.total(spots.load * (np.maximum(*spots.depths) > spots.half))
             if strength is not None:
                 one = contact.law_of(each).one(surfaces=contact.surfaces, particle=each.material)
                 beyond = _broken(spots, strength, one, each.material)
@@ -179,7 +180,7 @@ def _squeeze_under(
 def _wide_squeeze(law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material) -> float:
     """Squeeze over diameter at which a squashed particle's contact is `WIDE`; inf for others."""
     one = law.one(surfaces=surfaces, particle=particle)
-    if not getattr(one, "spreads", False):
+    if not getattr(one, "spreads", False) or getattr(law, "deep", "off") == "table":
         return math.inf
     squeezes = np.geomspace(1e-6, 2.0, 400)
     wide = np.minimum(*one.at(squeezes).areas) > math.pi * (WIDE / 2) ** 2
@@ -191,6 +192,9 @@ def _radius_squeeze(
     law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
 ) -> tuple[float, ...]:
     """Squeeze over diameter at which a particle sits as deep as its radius."""
+
+    if getattr(law, "deep", "off") == "table":
+        return ()  # it follows particles to any depth
 
     def beyond(eps: Array) -> Array:
         one = law.probe(eps, surfaces=surfaces, particle=particle)

@@ -27,7 +27,7 @@ LAW_ENDS, TABLE_BEGINS = 0.05, 0.15
 """Squeezes ε up to which the law of one contact holds, and from which the table does."""
 TABLE_ENDS = 0.95
 """Largest squeeze ε of the table."""
-SPLITS = (0.45, 0.75)
+SPLITS = (0.45, 0.75, 0.88)
 """Squeezes at which panels end, so that series of the table resolve it."""
 TERMS = 10
 """Of series of the roots of its slopes."""
@@ -89,8 +89,8 @@ class _Run(NamedTuple):
         return math.log(min(max(self.ratio, SOFT), RIGID))
 
 
-COLUMNS = ("own", "all", "area", "share")
-"""Load without and with what touching collars carry, contact area, and sink over the squeeze."""
+COLUMNS = ("own", "area", "share")
+"""Load without what touching collars carry, contact area, and sink over the squeeze."""
 
 
 @lru_cache(maxsize=1)
@@ -143,7 +143,7 @@ def _between(x: float, nodes: Array, values: Array) -> Array:
 
 
 @lru_cache(maxsize=512)
-def squeeze_curve(ratio: float, friction: float, kappa: float, collar: str) -> SqueezeCurve:
+def squeeze_curve(ratio: float, friction: float, kappa: float) -> SqueezeCurve:
     r"""What one side of a round particle does, between the computed runs.
 
     Load and area rise with the squeeze: the square roots of the slopes of their logarithms are
@@ -158,10 +158,8 @@ def squeeze_curve(ratio: float, friction: float, kappa: float, collar: str) -> S
         Shear stress on the faces of the particle over the shear strength, m [1], 0 to 1.
     kappa : float
         E*/H of the softer body, κ [1]; below 8 as at 8.
-    collar : {"own", "all"}
-        Without or with what the touching collars of the two surfaces carry.
     """
-    x, load = math.log(ratio), "all" if collar == "all" else "own"
+    x = math.log(ratio)
     welded, nodes = _chosen(1.0), np.array([run.node for run in _chosen(1.0)])
     places, transform = chebyshev_transform(TERMS)
     frictions = np.array(sorted({run.friction for run in _runs() if run.softness == 0}))
@@ -177,7 +175,7 @@ def squeeze_curve(ratio: float, friction: float, kappa: float, collar: str) -> S
         return ((root * root).integ(lbnd=-1) + row[0]).coef
 
     share = _between(x, nodes, np.array([run.share(places) for run in welded]))
-    log_load = logarithm(load)
+    log_load = logarithm("own")
     log_load[0] -= math.log(math.pi * FULL)
     return SqueezeCurve(log_load, logarithm("area"), transform @ share)
 
@@ -222,13 +220,10 @@ class DeepSqueeze:
         Hardness of the particle over that of the surface, ρ [1].
     friction : float
         Friction factor of the particle's faces, m [1].
-    collar : {"own", "all"}
-        Without or with the load on touching collars.
     """
 
     ratio: float
     friction: float
-    collar: str
 
     def side(
         self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, R: float
@@ -274,7 +269,7 @@ class DeepSide(Side):
         self.unit = R * math.pi * self.delta_1 * H
         self.plateau = True
         self.hill = form.friction / (3 * math.sqrt(3))
-        curve = squeeze_curve(form.ratio, form.friction, E_star / H, form.collar)
+        curve = squeeze_curve(form.ratio, form.friction, E_star / H)
         self._table = np.stack([curve.log_load, curve.log_area], axis=-1)
         self._share = curve.share
         self._at_top = np.exp(chebval(1.0, self._table))
