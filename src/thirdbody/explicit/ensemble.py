@@ -14,6 +14,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import warnings
 from collections.abc import Callable, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, field
@@ -30,8 +31,9 @@ from ..laws.base import SeatedLaw
 from ..populations.measured.spectra import SpectralMoments
 from ..populations.measured.synthetic import from_moments
 from ..populations.measured.topography import Topography
-from ..quantities.files import write_text
+from ..quantities.files import make_folder, write_text
 from ..quantities.progress import reporting
+from ..quantities.records import read_record, sealed
 from ..quantities.say import number, percent, plural
 from ..quantities.sharing import connected, need_version, shared
 from ..quantities.value import Value
@@ -64,6 +66,11 @@ STEP = 0.15
 BELOW, ABOVE = 0.35, 0.6
 """How far separations go beyond those of the statistical model [σ]."""
 HURST = 0.8
+RECORD = {
+    "asperities", "particles", "area", "particle_area", "bearing", "law", "law_area", "bare",
+    "nominal", "sigma", "converged", "columns", "zeta", "warnings", "expected", "key",
+}  # fmt: skip
+"""What files of surfaces say that earlier versions kept, without a digest."""
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
@@ -198,7 +205,8 @@ def ensemble(
         Address of a Dask cluster whose workers press the surfaces instead; this process keeps
         them. The answer is the same, whoever presses them.
     folder : path-like, optional
-        Where finished surfaces are kept: a run that is interrupted goes on from there.
+        Where finished surfaces are kept: a run that is interrupted goes on from there. One that is
+        damaged is pressed again; those of another study are refused.
     progress : bool or callable, optional
         As in `thirdbody.sweep`; counts surfaces.
 
@@ -209,7 +217,8 @@ def ensemble(
     Raises
     ------
     InvalidValue
-        As `solve`; surfaces that do not carry such a load; a scheduler that does not answer.
+        As `solve`; surfaces that do not carry such a load; a scheduler that does not answer; a
+        folder with surfaces of another study.
 
     Notes
     -----
@@ -263,8 +272,7 @@ def ensemble(
         ):
             for i, record in results:
                 if kept is not None:
-                    kept.mkdir(parents=True, exist_ok=True)
-                    write_text(_file(kept, i), json.dumps(record | {"key": key}))
+                    write_text(_file(make_folder(kept), i), sealed(record | {"key": key}))
                 records[i] = record
                 report(len(records))
     return _ensemble(
@@ -273,9 +281,45 @@ def ensemble(
 
 
 def _finished(kept: Path, total: int, key: str) -> dict[int, dict[str, Any]]:
-    """What an earlier run with the same key kept, by the number of the surface."""
-    found = ((i, _read(kept, i, key)) for i in range(total))
-    return {i: record for i, record in found if record is not None}
+    """What an earlier run with the same key kept, by the number of the surface.
+
+    Raises
+    ------
+    InvalidValue
+        It was made for other numbers.
+    """
+    out: dict[int, dict[str, Any]] = {}
+    damaged, others, unchecked = [], [], 0
+    for i in range(total):
+        file = _file(kept, i)
+        if not file.exists():
+            continue
+        found = read_record(file, RECORD)
+        if found is None or not (found.checked or set(found.data) == RECORD):
+            damaged.append(file.name)
+        elif found.data.get("key") != key:
+            others.append(file.name)
+        else:
+            out[i] = found.data
+            unchecked += not found.checked
+    if others:
+        raise InvalidValue(
+            f"{kept} holds surfaces of another study, or of another version of thirdbody "
+            f"({', '.join(others[:3])}); give another folder"
+        )
+    if damaged:
+        _tell(f"{kept} is damaged ({', '.join(damaged[:3])}): these surfaces are pressed again")
+    if unchecked:
+        _tell(
+            f"{kept}: {plural(unchecked, 'surface')} of an earlier version of thirdbody kept no "
+            "digest, so that damage in them is not seen; take another folder where that matters"
+        )
+    return out
+
+
+def _tell(sentence: str) -> None:
+    """What happened to a folder, to whoever called `ensemble`."""
+    warnings.warn(sentence, UserWarning, stacklevel=4)
 
 
 def _counted(
@@ -488,15 +532,6 @@ def _key(
 
 def _file(folder: Path, i: int) -> Path:
     return folder / f"surface_{i:03d}.json"
-
-
-def _read(folder: Path, i: int, key: str) -> dict[str, Any] | None:
-    """A finished surface of the same run; None where there is none."""
-    try:
-        found = json.loads(_file(folder, i).read_text("utf-8"))
-    except (OSError, ValueError):
-        return None
-    return found if isinstance(found, dict) and found.get("key") == key else None
 
 
 # -------------------------------------------------------------------------- what is told

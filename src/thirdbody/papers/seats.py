@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import thirdbody as tb
+from thirdbody.quantities.files import whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -254,7 +255,8 @@ def main(arguments: list[str] | None = None) -> int:
         print("usage: python -m thirdbody.papers.seats OUT.png", file=sys.stderr)
         return 2
     target = Path(arguments[0])
-    figure().savefig(target, dpi=150)
+    with whole(target) as draft:
+        figure().savefig(draft, dpi=150, format=target.suffix.lstrip(".") or "png")
     print(target)
     return 0
 

@@ -4,22 +4,30 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Collection, Mapping
+import os
+import re
+from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import InvalidValue
+from .files import is_draft, make_folder, write_text
 
 __all__ = [
+    "MARK",
     "SEAL",
     "Fingerprint",
     "Record",
+    "claim_folder",
     "differences",
     "fingerprint",
     "misfit",
     "read_json",
     "read_record",
     "refuse_another",
+    "refuse_replaced",
+    "release_folder",
     "sealed",
 ]
 
@@ -109,8 +117,117 @@ def misfit(path: Path, wanted: Fingerprint) -> str:
 
 
 # -------------------------------------------------------------------------- whose study it is
+MARK = "study.json"
+"""The file that says whose a folder is."""
+
+
+def claim_folder(
+    path: str | os.PathLike[str],
+    study: Mapping[str, Any],
+    *,
+    files: re.Pattern[str],
+    unmarked: Callable[[Path], Mapping[str, Any] | None] = lambda _: None,
+    growing: tuple[str, ...] = (),
+) -> Path:
+    """A folder for the results of one study alone, made when missing.
+
+    Parameters
+    ----------
+    path : path-like
+        The folder: a new one, an empty one, or one of the same study.
+    study : mapping
+        What decides the results, ready for JSON, and the command that writes them.
+    files : re.Pattern
+        Names of what the command writes there.
+    unmarked : callable, optional
+        The part of ``study`` that files of these names say themselves, where nothing else says
+        it, as in folders of earlier versions; None where they say nothing of their origin.
+    growing : tuple of str, optional
+        Keys of numbers that may be larger than they were: more of the same.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InvalidValue
+        It holds another study or anything else, or cannot be made.
+    """
+    place = Path(path)
+    if place.exists() and not place.is_dir():
+        raise InvalidValue(f"{place} must be a folder, and a file of that name exists")
+    record = read_record(place / MARK, ())
+    found: Mapping[str, Any] | None = None if record is None else record.data
+    if found is None and place.exists():
+        names = sorted(each.name for each in place.iterdir() if not is_draft(each.name, MARK))
+        found = unmarked(place) if names else None
+        # a mark that cannot be read beside results is a damaged one of theirs
+        ours = [name for name in names if files.fullmatch(name) or name == MARK]
+        strange = [name for name in names if name not in ours] or (ours if found is None else [])
+        if strange:
+            raise InvalidValue(
+                f"{place} holds files that are not of thirdbody {study['command']} "
+                f"({', '.join(strange[:3])}); give a new or an empty folder"
+            )
+    if found is not None:
+        asked = {key: study.get(key) for key in found} if record is None else dict(study)
+        less = [key for key in growing if found.get(key, 0) > study[key]]
+        kept = {key: value for key, value in asked.items() if key not in growing or key in less}
+        there = {key: value for key, value in found.items() if key not in growing or key in less}
+        refuse_another(place, there, kept)
+    make_folder(place)
+    if record is None or differences(record.data, study):
+        write_text(place / MARK, sealed(study))
+    return place
+
+
+def release_folder(place: Path) -> None:
+    """Let go of a claimed folder that holds nothing yet."""
+    if [each.name for each in place.iterdir()] == [MARK]:
+        (place / MARK).unlink()
+        with suppress(OSError):
+            place.rmdir()
+
+
+def refuse_replaced(folder: Path, texts: Mapping[str, str | None]) -> None:
+    """Refuse to put files in the place of others than those of the same study.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+    texts : mapping
+        Names of the files; of those that say what all of them are about, what they will hold.
+
+    Raises
+    ------
+    InvalidValue
+        One of them exists, and is of something else.
+    """
+    there = [name for name in texts if (folder / name).exists()]
+    same = [
+        text is not None and misfit(folder / name, _print_of(text)) == ""
+        for name, text in texts.items()
+        if text is not None
+    ]
+    if there and not all(same):
+        raise InvalidValue(
+            f"{folder} holds {', '.join(there)} of another study, or of another program; "
+            "give another folder, or remove what is not needed"
+        )
+
+
+def _print_of(text: str) -> Fingerprint:
+    held = text.encode()
+    return [len(held), hashlib.sha256(held).hexdigest()]
+
+
 def refuse_another(
-    place: Path, found: Mapping[str, Any], wanted: Mapping[str, Any], *, derived: tuple[str, ...]
+    place: Path,
+    found: Mapping[str, Any],
+    wanted: Mapping[str, Any],
+    *,
+    derived: tuple[str, ...] = (),
 ) -> None:
     """Refuse a place that holds the results of another study.
 
@@ -119,7 +236,7 @@ def refuse_another(
     place : pathlib.Path
     found, wanted : mapping
         What was studied there, and what is asked.
-    derived : tuple of str
+    derived : tuple of str, optional
         Keys that follow from the others, and are no difference of their own.
 
     Raises

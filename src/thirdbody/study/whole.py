@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -131,6 +132,22 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
     (2e-07, [5000000.0])
     """
     return check(override(read(Path(path)), list(overrides)), folder=Path(path).parent)
+
+
+def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> list[Path]:
+    """The files that a study is read from: its own, and those that stand in it by name."""
+    own = Path(path)
+    out, waiting = [own], [override(read(own), list(overrides))] if own.is_file() else []
+    while waiting:
+        value: Any = waiting.pop()
+        if isinstance(value, dict):
+            waiting += value.values()
+        elif isinstance(value, list):
+            waiting += value
+        elif isinstance(value, str):
+            with suppress(OSError, ValueError):  # no name that a file can have
+                out += [file for file in (own.parent / value, Path(value)) if file.is_file()]
+    return out
 
 
 def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:

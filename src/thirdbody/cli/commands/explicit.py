@@ -56,7 +56,8 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The loads of a study on maps of heights, with every particle at its place."""
-    from ...study.run_explicit import run_explicit
+    from ...quantities.records import release_folder
+    from ...study.run_explicit import claim_results, run_explicit
 
     _check(maps, workers, out)
     short = {"surfaces": surfaces, "size": size, "spacing": spacing, "seats": seats}
@@ -65,12 +66,17 @@ def command(
     ]
     asked = read_study(study, [*(settings or ()), *own])
     if out is not None:
-        out.mkdir(parents=True, exist_ok=True)
+        claim_results(out, asked, maps=maps)
     kept = None if out is None else out / "surfaces"
-    result = run_explicit(
-        asked, folder=kept, maps=maps, workers=workers, scheduler=scheduler,
-        progress=sys.stderr.isatty(),
-    )  # fmt: skip
+    try:
+        result = run_explicit(
+            asked, folder=kept, maps=maps, workers=workers, scheduler=scheduler,
+            progress=sys.stderr.isatty(),
+        )  # fmt: skip
+    except BaseException:
+        if out is not None:
+            release_folder(out)
+        raise
     for sentence in result.data["warnings"][len(asked.notes) :]:
         warn(sentence)
     if out is not None:

@@ -68,7 +68,7 @@ def command(
             "--json and --csv, --xlsx or --parquet exclude each other; run the command twice"
         )
     files.need()
-    asked = read_study(study, settings)
+    asked = read_study(study, settings, writes=files.asked)
     result = run_study(asked)
     for sentence in result["warnings"][len(asked.notes) :]:
         warn(sentence)
