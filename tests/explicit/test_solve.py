@@ -95,6 +95,22 @@ def test_load_and_separation_control_are_one():
     assert again.h == pytest.approx(STATE.h, abs=1e-5 * STATE.sigma)
 
 
+@pytest.mark.parametrize("density", [0.0, 5e11])
+def test_without_a_cap_load_and_separation_control_are_one(density):
+    """One by one and as a curve, far to near: no state is its neighbour's."""
+    loads, made = [1e-4, 1e-3, 5e-3], contact(density)
+    there = pressed(made, F_star=loads, cap="none")
+    back = pressed(made, F_star=None, h=there.h, cap="none")
+    alone = [pressed(made, F_star=None, h=h, cap="none") for h in there.h]
+    assert np.all(back.converged)
+    assert back.F_star == pytest.approx(loads, rel=1e-5)
+    assert [each.F_star for each in alone] == pytest.approx(loads, rel=1e-5)
+    assert back.A_t == pytest.approx(there.A_t, rel=1e-6)
+    # a cap that nothing reaches is none
+    high = pressed(made, F_star=None, h=there.h, cap=1e13)
+    assert high.F_star == pytest.approx(loads, rel=1e-5)
+
+
 def test_a_curve_is_its_states():
     loads = [2e-3, 1e-4, 6e-4]
     several = pressed(F_star=loads, tol=1e-9)
@@ -244,6 +260,7 @@ def test_netcdf(tmp_path):
         (dict(F_star=-1.0), "F_star = -1 must be finite and > 0"),
         (dict(F_star="1e-4"), "must be a number"),
         (dict(F_star=0.5), "all that the pixels and particles can carry"),
+        (dict(F_star=None, h=-1e-9, cap="none", made=contact(0.0)), "h = −1 nm must be > 0 where"),
         (dict(seats="vallies"), "seats = 'vallies' must be one of 'random'"),
         (dict(seats=[[0.0, 1.0, 2.0]]), r"must be \(N, 2\)"),
         (dict(cap=-1.0), "cap = -1.0 must be 'hardness'"),

@@ -16,9 +16,9 @@ from ..equilibrium.modes import EPS_1, EPS_2
 from ..equilibrium.solve import only_one
 from ..errors import InvalidValue, RangeWarning
 from ..laws.base import REGIMES
-from ..quantities.say import number, percent, plural
+from ..quantities.say import number, percent, plural, value_of
 from .interface import Interface, interface_of, map_of
-from .press import Pressed, capacity, press
+from .press import HARDEST, Pressed, capacity, press
 from .seats import seats_named
 from .state import CONTACTS, ExplicitState
 
@@ -209,8 +209,16 @@ def curve(
             "particles can carry"
             for each in values[values >= most][:5]
         ]
-        if problems:
-            raise InvalidValue(*problems)
+    elif np.all(inside.c >= HARDEST):
+        problems = [
+            f"h = {value_of(each, 'm')} must be > 0 where asperities have no cap: the flat cannot "
+            "come below the mean plane of a surface that never yields (give a load, or a cap)"
+            for each in values[values <= 0][:5].tolist()
+        ]
+    else:
+        problems = []
+    if problems:
+        raise InvalidValue(*problems)
     order = np.argsort(values, kind="stable")
     if given == "h":
         order = order[::-1]
