@@ -7,7 +7,7 @@ from scipy import optimize
 import thirdbody as tb
 from thirdbody.explicit.bodies import Bodies, LawTable
 from thirdbody.explicit.half_space import HalfSpace, lattice_constant
-from thirdbody.explicit.press import HARDEST, press
+from thirdbody.explicit.press import HARDEST, press, touched
 
 E, SPACING = 112e9, 1e-7
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
@@ -268,6 +268,62 @@ def _filled(q, free):
     out = np.zeros(free.shape)
     out[free] = 1e9 * q
     return out
+
+
+# ---------------------------------------------------------------- areas
+def between(z, k):
+    """The same waves on a grid k times as fine."""
+    n = z.shape[0]
+    at, more = np.fft.fftshift(np.fft.fft2(z)), (n * k - n) // 2
+    return k**2 * np.fft.ifft2(np.fft.ifftshift(np.pad(at, more))).real
+
+
+@pytest.mark.parametrize("hardness", [0.0045, 0.018, 0.0446, 0.1, 0.3, None])
+def test_an_area_is_that_of_a_finer_grid(hardness):
+    """Plastic, elastic and between: where the cap acts no rim is taken off, elsewhere it is."""
+    n, coarse = 64, 4e-7
+    z = tb.synthetic.self_affine(
+        sigma=300e-9, hurst=0.8, shortest=3.2e-6, longest=8e-6, spacing=coarse, points=n, seed=1
+    ).heights
+    H = None if hardness is None else hardness * E
+    load = (n * coarse) ** 2 * (2e-3 * E if H is None else 0.03 * H)
+    counts, areas = [], []
+    for k in (2, 4, 8):
+        fine = between(z, k)
+        c = np.full(fine.shape, H or HARDEST)
+        state = press(fine, coarse / k, E, c=c, load=load, tol=1e-7, max_iterations=1000)
+        counts.append(np.mean(state.p > 0))
+        areas.append(np.mean(touched(state.p, c, H)))
+        if H is not None:
+            assert areas[-1] >= np.mean(state.p) / H
+    assert areas[:2] == pytest.approx([areas[2]] * 2, rel=0.02)
+    assert areas[1] == pytest.approx(areas[2], rel=0.0075)
+    # the count comes from above, the slower
+    assert abs(areas[0] - areas[2]) < abs(counts[0] - counts[2])
+    assert np.all(np.diff(counts) < 0)
+
+
+def test_a_bearing_area_has_no_rim_and_a_sphere_has():
+    """πa² of Hertz at 8 pixels to a; all of the bearing area; what is covered is not touched."""
+    z = rough()
+    h, H = 2 * np.std(z), 1e-6 * E
+    c = np.full(z.shape, H)
+    soft = press(z, SPACING, E, c=c, h=h, tol=1e-10)
+    assert np.array_equal(touched(soft.p, c, H), soft.p / H)
+    assert np.mean(touched(soft.p, c, H)) == pytest.approx(np.mean(z > h), rel=1e-3)
+    n, R, a = 128, 1e-4, 8 * SPACING
+    x = (np.arange(n) - n / 2 + 0.3) * SPACING
+    r2 = x[:, None] ** 2 + (x - 0.2 * SPACING) ** 2
+    c = never(r2.shape)
+    state = press(-r2 / (2 * R), SPACING, E, c=c, load=4 / 3 * E * a**3 / R, tol=1e-9)
+    exact = np.pi * (a / SPACING) ** 2
+    assert np.sum(touched(state.p, c, None)) == pytest.approx(exact, rel=0.025)
+    assert np.count_nonzero(state.p) > 1.03 * exact
+    # a punch ends where its pixels do; half of a pixel under a particle is half a pixel
+    inside = r2 < a**2
+    assert np.sum(touched(1.0 * inside, np.where(inside, HARDEST, 0.0), None)) == inside.sum()
+    half = np.full((8, 8), 0.5 * H)
+    assert np.all(touched(half, half, H) == 0.5)
 
 
 # ---------------------------------------------------------------- the certificate

