@@ -36,8 +36,8 @@ from ..quantities.say import number, percent, plural
 from ..quantities.sharing import connected, need_version, shared
 from ..quantities.value import Value
 from ..version import __version__
-from .interface import Map, map_of
-from .pooling import COMPARED, RATIOS, Pool, pooled_seats
+from .interface import Map, cap_of, map_of
+from .pooling import COMPARED, RATIOS, SHARES, AtLoads, Pool, pooled_seats
 from .seats import AbstractSeats, GivenSeats, SeatHeights, seat_heights, seats_named
 from .solve import FEW, TOL
 from .sums import one_surface, places
@@ -76,7 +76,9 @@ class Ensemble:
         Along ``F_star``: for ``h``, ``A_t``, ``particle_load_share`` and ``particle_area_share``
         the raw number, ``…_raw``, the one without the luck of the draw, ``…_cv``, their jackknife
         errors, ``…_raw_error`` and ``…_cv_error``, the statistical number, ``…_statistical``, and
-        the difference in standard errors, ``…_difference``.
+        the difference in standard errors, ``…_difference``. Where no asperity or no particle
+        carries on any surface, shares have no error: NaN, and bounds, ``…_least`` and ``…_most``
+        (NaN elsewhere).
     at_h : xarray.Dataset
         Along ``h``: pooled loads and areas, and the ratios that say why the two differ.
     seats : SeatHeights
@@ -268,7 +270,7 @@ def ensemble(
                 records[i] = record
                 report(len(records))
     return _ensemble(
-        contact, [records[i] for i in range(total)], loads, grid, gaussian=given is None
+        contact, [records[i] for i in range(total)], loads, grid, cap=cap, gaussian=given is None
     )
 
 
@@ -370,6 +372,7 @@ def _ensemble(
     loads: Array,
     grid: Array,
     *,
+    cap: str | float | None,
     gaussian: bool,
 ) -> Ensemble:
     import xarray
@@ -387,10 +390,16 @@ def _ensemble(
         told.append(
             f"{plural(left_out, 'state')} of {pool.good.size} did not converge and count nowhere"
         )
+    hardest = cap_of(cap, contact)
+    at = {
+        kind: pool.at_loads(loads * contact.E_ss, fair=kind == "cv", cap=hardest)
+        for kind in ("raw", "cv")
+    }
     table = xarray.Dataset(
-        _columns(pool, state, loads * contact.E_ss, gaussian),
+        _columns(at, state, gaussian),
         coords={"F_star": ("F_star", loads, {"units": "1"})},
     )
+    told += _unsure(at["cv" if gaussian else "raw"], loads)
     told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
     columns: dict[str, list[Any]] = {"surface": [i for i in range(len(records)) for _ in grid]}
     for name in records[0]["columns"]:
@@ -409,6 +418,38 @@ def _ensemble(
     )
 
 
+def _unsure(at: AtLoads, loads: Array) -> list[str]:
+    """Where shares are not known, since too little was drawn: what is known, and what to do."""
+    error, least, most = (each["particle_load_share"] for each in (at.errors, at.least, at.most))
+    idle = at.idle.any(axis=0)
+    lone = np.isfinite(least) & ~idle & np.isnan(error)
+    out = []
+    beyond = np.isnan(at.values["h"])
+    if np.any(beyond):
+        out.append(
+            f"F* = {', '.join(number(each, 3) for each in loads[beyond].tolist())}: these surfaces "
+            "carry that at none of the separations pressed, so that nothing is known there; more "
+            "or larger surfaces"
+        )
+    for which, words in (
+        (at.idle[0], "no asperity of any surface carries"),
+        (at.idle[1], "no particle of any surface carries"),
+        (lone, "asperities or particles of too few surfaces carry"),
+    ):
+        if np.any(which):
+            sure = "; ".join(
+                f"{percent(low, digits=3)} to {percent(high, digits=3)} at F* = {number(load, 3)}"
+                for load, low, high in zip(
+                    loads[which].tolist(), least[which].tolist(), most[which].tolist(), strict=True
+                )
+            )
+            out.append(
+                f"{words}: the particles' load share has no error there, and all that is known of "
+                f"it is {sure}; more or larger surfaces draw some"
+            )
+    return out
+
+
 def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> list[str]:
     """Where the smallest load, at separation h, is carried by a few points of all surfaces."""
     each = [
@@ -424,14 +465,17 @@ def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> li
     ]
 
 
-def _columns(pool: Pool, state: Equilibrium, pressure: Array, gaussian: bool) -> dict[str, Any]:
+def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> dict[str, Any]:
     """Along F*: raw, fair and statistical numbers, their errors and how they differ."""
     table: dict[str, Any] = {}
-    for kind in ("raw", "cv"):
-        for name, found, error in pool.at_loads(pressure, fair=kind == "cv"):
-            about = {"units": COMPARED[name][0]}
-            table[f"{name}_{kind}"] = ("F_star", found, about)
-            table[f"{name}_{kind}_error"] = ("F_star", error, about)
+    for kind, at in told.items():
+        for name, (unit, _) in COMPARED.items():
+            about = {"units": unit}
+            table[f"{name}_{kind}"] = ("F_star", at.values[name], about)
+            table[f"{name}_{kind}_error"] = ("F_star", at.errors[name], about)
+            if name in SHARES:
+                table[f"{name}_{kind}_least"] = ("F_star", at.least[name], about)
+                table[f"{name}_{kind}_most"] = ("F_star", at.most[name], about)
     best = "cv" if gaussian else "raw"
     for name, (unit, _) in COMPARED.items():
         model = np.asarray(getattr(state, name))

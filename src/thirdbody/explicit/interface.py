@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Index = NDArray[np.int64]
 
-__all__ = ["Interface", "Map", "interface_of", "map_of"]
+__all__ = ["Interface", "Map", "cap_of", "interface_of", "map_of"]
 
 ARRAYS = 15
 """Arrays of doubles of the size of the map that a solution takes."""
@@ -193,7 +193,7 @@ def interface_of(
 ) -> Interface:
     """A contact on a map, its particles drawn and seated."""
     _fits(surface.z.shape)
-    yields = _cap(cap, contact)
+    yields = cap_of(cap, contact)
     warnings = _doubts(contact, surface)
     c = np.full_like(surface.z, HARDEST if yields is None else yields)
     bodies, overlaps = _drawn(contact, surface, seats, rng, particles)
@@ -223,7 +223,8 @@ def interface_of(
     )  # fmt: skip
 
 
-def _cap(cap: str | float | None, contact: Contact) -> float | None:
+def cap_of(cap: str | float | None, contact: Contact) -> float | None:
+    """The highest pressure of asperities [Pa] that ``cap`` stands for; None for none."""
     if cap == "hardness":
         return contact.surfaces.H
     if cap is None or cap == "none":
