@@ -348,3 +348,28 @@ def test_a_jump_at_the_rim_is_no_short_wave():
     whole, part = map_of(heights, 1e-7), map_of(heights[:100, :90], 1e-7)
     assert whole.shortest_wave() == pytest.approx(1.6e-6, rel=0.05)
     assert part.shortest_wave() == pytest.approx(1.6e-6, rel=0.2)
+
+
+def test_waves_are_left_out_only_where_it_is_said():
+    """A topography is its heights with cutoff=0; without one it is said what is pressed."""
+    fine = tb.synthetic.self_affine(
+        sigma=300e-9, hurst=0.6, shortest=8e-7, longest=6e-6, spacing=SPACING, points=128
+    ).heights
+    given = tb.surfaces.from_topography(fine, spacing=SPACING, periodic=True, cutoff=0)
+    own = tb.surfaces.from_topography(fine, spacing=SPACING, periodic=True)
+    bare, how = contact(0.0), {"tol": 1e-8, "F_star": 1e-3}
+    plain = pressed(bare, surface=fine, spacing=SPACING, **how)
+    whole, smooth = pressed(bare, surface=given, **how), pressed(bare, surface=own, **how)
+    assert whole.h == pytest.approx(plain.h, rel=1e-9)
+    assert not any("cut-off" in each for each in whole.warnings)
+    # what is said is what was done, and lowers the flat
+    (said,) = (each for each in smooth.warnings if "cut-off" in each)
+    assert "without its waves below the recommended cut-off" in said
+    assert "cutoff=0" in said
+    filtered = pressed(bare, surface=own.filtered(), spacing=SPACING, **how)
+    assert smooth.h == pytest.approx(filtered.h, rel=1e-9)
+    assert smooth.h < plain.h - 0.01 * plain.sigma
+    asked = tb.surfaces.from_topography(fine, spacing=SPACING, periodic=True, cutoff=own.cutoff)
+    again = pressed(bare, surface=asked, **how)
+    assert again.h == smooth.h
+    assert not any("cut-off" in each for each in again.warnings)

@@ -76,7 +76,8 @@ def solve(
         the seat of its particle law are not used.
     surface : Topography or array (n, m)
         Composite heights [m], x along the first axis: a `Topography` without the waves below
-        its cut-off, or an array with ``spacing``, less its mean.
+        its cut-off (the recommended one unless another was given, 0 for the heights as they are;
+        synthetic ones have 0), or an array with ``spacing``, less its mean.
     pressure, F_star, h : float or array
         Nominal pressure [Pa], load F/(A_n E*) [1], or separation of the mean planes [m]: one of
         the three. Several are solved as one continuation.
