@@ -399,7 +399,12 @@ def _ensemble(
         _columns(at, state, gaussian),
         coords={"F_star": ("F_star", loads, {"units": "1"})},
     )
-    told += _unsure(at["cv" if gaussian else "raw"], loads)
+    if hardest != contact.surfaces.H:
+        told.append(
+            "asperities are pressed with another cap than the hardness, at which those of the "
+            "statistical model yield: the two differ by that as well"
+        )
+    told += at["cv" if gaussian else "raw"].doubts(loads)
     told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
     columns: dict[str, list[Any]] = {"surface": [i for i in range(len(records)) for _ in grid]}
     for name in records[0]["columns"]:
@@ -416,38 +421,6 @@ def _ensemble(
         left_out=left_out,
         warnings=tuple(told),
     )
-
-
-def _unsure(at: AtLoads, loads: Array) -> list[str]:
-    """Where shares are not known, since too little was drawn: what is known, and what to do."""
-    error, least, most = (each["particle_load_share"] for each in (at.errors, at.least, at.most))
-    idle = at.idle.any(axis=0)
-    lone = np.isfinite(least) & ~idle & np.isnan(error)
-    out = []
-    beyond = np.isnan(at.values["h"])
-    if np.any(beyond):
-        out.append(
-            f"F* = {', '.join(number(each, 3) for each in loads[beyond].tolist())}: these surfaces "
-            "carry that at none of the separations pressed, so that nothing is known there; more "
-            "or larger surfaces"
-        )
-    for which, words in (
-        (at.idle[0], "no asperity of any surface carries"),
-        (at.idle[1], "no particle of any surface carries"),
-        (lone, "asperities or particles of too few surfaces carry"),
-    ):
-        if np.any(which):
-            sure = "; ".join(
-                f"{percent(low, digits=3)} to {percent(high, digits=3)} at F* = {number(load, 3)}"
-                for load, low, high in zip(
-                    loads[which].tolist(), least[which].tolist(), most[which].tolist(), strict=True
-                )
-            )
-            out.append(
-                f"{words}: the particles' load share has no error there, and all that is known of "
-                f"it is {sure}; more or larger surfaces draw some"
-            )
-    return out
 
 
 def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> list[str]:

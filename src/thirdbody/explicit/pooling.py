@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..quantities.say import number, percent
 from .seats import SeatHeights, seat_heights
 from .sums import EXPECTED, SUMS
 
@@ -58,6 +59,38 @@ class AtLoads:
     least: dict[str, Array]
     most: dict[str, Array]
     idle: NDArray[np.bool_]
+
+    def doubts(self, loads: Array) -> list[str]:
+        """Where shares are not known, since too little was drawn: what is known, and what to do."""
+        error, least, most = (
+            each["particle_load_share"] for each in (self.errors, self.least, self.most)
+        )
+        idle = self.idle.any(axis=0)
+        lone = np.isfinite(least) & ~idle & np.isnan(error)
+        out = []
+        beyond = np.isnan(self.values["h"])
+        if np.any(beyond):
+            outside = ", ".join(number(each, 3) for each in loads[beyond].tolist())
+            out.append(
+                f"F* = {outside}: these surfaces carry that at none of the separations pressed, so "
+                "that nothing is known there; more or larger surfaces"
+            )
+        for which, words in (
+            (self.idle[0], "no asperity of any surface carries"),
+            (self.idle[1], "no particle of any surface carries"),
+            (lone, "asperities or particles of too few surfaces carry"),
+        ):
+            if np.any(which):
+                sure = "; ".join(
+                    f"{percent(float(least[i]), digits=3)} to {percent(float(most[i]), digits=3)} "
+                    f"at F* = {number(float(loads[i]), 3)}"
+                    for i in np.flatnonzero(which)
+                )
+                out.append(
+                    f"{words}: the particles' load share has no error there, and all that is known "
+                    f"of it is {sure}; more or larger surfaces draw some"
+                )
+        return out
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
