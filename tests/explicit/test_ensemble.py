@@ -281,6 +281,11 @@ def test_an_ensemble_says_where_nothing_was_drawn():
     assert (
         sum("the particles' load share has no error there" in each for each in found.warnings) == 1
     )
+    # what these surfaces carry at none of the separations pressed is told, not NaN without a word
+    lost = many(2, F_star=[1e-6, 2e-3], size=64, spacing=3e-7)
+    gone = [np.isnan(lost.table[f"h_{kind}"].values[0]) for kind in ("raw", "cv")]
+    assert any(gone)
+    assert sum("at none of the separations" in each for each in lost.warnings) == sum(gone)
     alone = many(1, F_star=[2e-5, 2e-3], size=64, spacing=3e-7)
     assert np.all(np.isnan(alone.table.h_raw_error))
     # without particles their share is nought, and no luck

@@ -404,6 +404,13 @@ def _ensemble(
             "asperities are pressed with another cap than the hardness, at which those of the "
             "statistical model yield: the two differ by that as well"
         )
+    for kind, words in (("raw", "these surfaces"), ("cv", "these surfaces without their luck")):
+        outside = ", ".join(number(each, 3) for each in loads[at[kind].outside].tolist())
+        if outside:
+            told.append(
+                f"F* = {outside}: {words} carry that at none of the separations pressed, so that "
+                "nothing is known there; more or larger surfaces"
+            )
     told += at["cv" if gaussian else "raw"].doubts(loads)
     told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
     columns: dict[str, list[Any]] = {"surface": [i for i in range(len(records)) for _ in grid]}

@@ -60,6 +60,11 @@ class AtLoads:
     most: dict[str, Array]
     idle: NDArray[np.bool_]
 
+    @property
+    def outside(self) -> NDArray[np.bool_]:
+        """Loads that the surfaces carry at none of the separations pressed."""
+        return np.isnan(self.values["h"])
+
     def doubts(self, loads: Array) -> list[str]:
         """Where shares are not known, since too little was drawn: what is known, and what to do."""
         error, least, most = (
@@ -68,13 +73,6 @@ class AtLoads:
         idle = self.idle.any(axis=0)
         lone = np.isfinite(least) & ~idle & np.isnan(error)
         out = []
-        beyond = np.isnan(self.values["h"])
-        if np.any(beyond):
-            outside = ", ".join(number(each, 3) for each in loads[beyond].tolist())
-            out.append(
-                f"F* = {outside}: these surfaces carry that at none of the separations pressed, so "
-                "that nothing is known there; more or larger surfaces"
-            )
         for which, words in (
             (self.idle[0], "no asperity of any surface carries"),
             (self.idle[1], "no particle of any surface carries"),
