@@ -38,8 +38,8 @@ from ..quantities.say import number, percent, plural
 from ..quantities.sharing import connected, need_version, shared
 from ..quantities.value import Value
 from ..version import __version__
-from .interface import Map, map_of
-from .pooling import COMPARED, RATIOS, Pool, pooled_seats
+from .interface import Map, cap_of, map_of
+from .pooling import COMPARED, RATIOS, SHARES, AtLoads, Pool, pooled_seats
 from .seats import AbstractSeats, GivenSeats, SeatHeights, seat_heights, seats_named
 from .solve import FEW, TOL
 from .sums import one_surface, places
@@ -83,7 +83,9 @@ class Ensemble:
         Along ``F_star``: for ``h``, ``A_t``, ``particle_load_share`` and ``particle_area_share``
         the raw number, ``…_raw``, the one without the luck of the draw, ``…_cv``, their jackknife
         errors, ``…_raw_error`` and ``…_cv_error``, the statistical number, ``…_statistical``, and
-        the difference in standard errors, ``…_difference``.
+        the difference in standard errors, ``…_difference``. Where no asperity or no particle
+        carries on any surface, shares have no error: NaN, and bounds, ``…_least`` and ``…_most``
+        (NaN elsewhere).
     at_h : xarray.Dataset
         Along ``h``: pooled loads and areas, and the ratios that say why the two differ.
     seats : SeatHeights
@@ -276,7 +278,7 @@ def ensemble(
                 records[i] = record
                 report(len(records))
     return _ensemble(
-        contact, [records[i] for i in range(total)], loads, grid, gaussian=given is None
+        contact, [records[i] for i in range(total)], loads, grid, cap=cap, gaussian=given is None
     )
 
 
@@ -414,6 +416,7 @@ def _ensemble(
     loads: Array,
     grid: Array,
     *,
+    cap: str | float | None,
     gaussian: bool,
 ) -> Ensemble:
     import xarray
@@ -431,10 +434,28 @@ def _ensemble(
         told.append(
             f"{plural(left_out, 'state')} of {pool.good.size} did not converge and count nowhere"
         )
+    hardest = cap_of(cap, contact)
+    at = {
+        kind: pool.at_loads(loads * contact.E_ss, fair=kind == "cv", cap=hardest)
+        for kind in ("raw", "cv")
+    }
     table = xarray.Dataset(
-        _columns(pool, state, loads * contact.E_ss, gaussian),
+        _columns(at, state, gaussian),
         coords={"F_star": ("F_star", loads, {"units": "1"})},
     )
+    if hardest != contact.surfaces.H:
+        told.append(
+            "asperities are pressed with another cap than the hardness, at which those of the "
+            "statistical model yield: the two differ by that as well"
+        )
+    for kind, words in (("raw", "these surfaces"), ("cv", "these surfaces without their luck")):
+        outside = ", ".join(number(each, 3) for each in loads[at[kind].outside].tolist())
+        if outside:
+            told.append(
+                f"F* = {outside}: {words} carry that at none of the separations pressed, so that "
+                "nothing is known there; more or larger surfaces"
+            )
+    told += at["cv" if gaussian else "raw"].doubts(loads)
     told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
     columns: dict[str, list[Any]] = {"surface": [i for i in range(len(records)) for _ in grid]}
     for name in records[0]["columns"]:
@@ -468,14 +489,17 @@ def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> li
     ]
 
 
-def _columns(pool: Pool, state: Equilibrium, pressure: Array, gaussian: bool) -> dict[str, Any]:
+def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> dict[str, Any]:
     """Along F*: raw, fair and statistical numbers, their errors and how they differ."""
     table: dict[str, Any] = {}
-    for kind in ("raw", "cv"):
-        for name, found, error in pool.at_loads(pressure, fair=kind == "cv"):
-            about = {"units": COMPARED[name][0]}
-            table[f"{name}_{kind}"] = ("F_star", found, about)
-            table[f"{name}_{kind}_error"] = ("F_star", error, about)
+    for kind, at in told.items():
+        for name, (unit, _) in COMPARED.items():
+            about = {"units": unit}
+            table[f"{name}_{kind}"] = ("F_star", at.values[name], about)
+            table[f"{name}_{kind}_error"] = ("F_star", at.errors[name], about)
+            if name in SHARES:
+                table[f"{name}_{kind}_least"] = ("F_star", at.least[name], about)
+                table[f"{name}_{kind}_most"] = ("F_star", at.most[name], about)
     best = "cv" if gaussian else "raw"
     for name, (unit, _) in COMPARED.items():
         model = np.asarray(getattr(state, name))

@@ -137,7 +137,12 @@ def _show(data: dict[str, Any]) -> None:
             kinds = ("raw", "cv") if synthetic else ("raw",)
             for kind in kinds:
                 error = table[f"{name}_{kind}_error"][i] if synthetic else None
-                cells.append(_cell(name, table[f"{name}_{kind}"][i], error))
+                least = table[f"{name}_{kind}_least"][i] if "share" in name and synthetic else None
+                if kind == "cv" and least is not None:
+                    most = percent(table[f"{name}_{kind}_most"][i], digits=3)
+                    cells.append(f"{percent(least, digits=3)} to {most}")
+                else:
+                    cells.append(_cell(name, table[f"{name}_{kind}"][i], error))
             cells.append(_cell(name, table[f"{name}_statistical"][i], None))
             if synthetic and many:
                 away = table[f"{name}_difference"][i]
