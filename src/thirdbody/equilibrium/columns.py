@@ -40,7 +40,9 @@ class Equilibrium:
     """The solved contact: floats for one load, arrays for several.
 
     Areas are real areas per nominal area; F* = F/(A_n E_ss). A state that could not be solved
-    holds NaN and a sentence in `status`.
+    holds NaN and a sentence in `status`. One whose real area is above 0.5 holds what the model
+    says, and a `status` that begins with "crowded": no model that counts contacts one by one is
+    an answer there.
 
     `d` counts from the datum of the particle law: the mean asperity height, except for
     `Horng2022`, which like the paper's eq. (8) puts that height at σ. `h`, from the mean surface
@@ -95,6 +97,8 @@ class Equilibrium:
     """Every column of the outputs that the contact carries, by name."""
     engine: str = "numpy"
     """What found the separations: "compiled", or "numpy: " and why the compiled engine did not."""
+    status_code: int | NDArray[np.int8] = 0
+    """Of each state its `thirdbody.equilibrium.status.Status`, of which `status` is the sentence."""
 
     @property
     def scales(self) -> dict[str, float]:
@@ -231,6 +235,8 @@ POPULATION_COLUMNS = {
 }
 """Attributes of what each of several populations carries."""
 ENGINE = "what found the separation"
+CODE = "status_code"
+"""Column of the codes of `Status`, beside those of a result."""
 
 COLUMNS = {item.name: dict(item.metadata) for item in fields(Equilibrium) if item.metadata}
 """Symbol, unit and meaning of every column of a result."""
@@ -281,7 +287,7 @@ def dataset(
     data = {
         name: ("state", values, labels(name) if name != "engine" else {"long_name": ENGINE})
         for name, values in columns.items()
-        if name not in inputs
+        if name not in inputs and name != CODE
     }
     coords = {
         name: (

@@ -22,6 +22,8 @@ from ...contact.contact import Contact
 from ...equilibrium.columns import labels, labels_of
 from ...equilibrium.solve import about_area, about_particles, solve
 from ...equilibrium.states import state_columns, varied
+from ...equilibrium.status import WORDS as STATUS_WORDS
+from ...equilibrium.status import Status
 from ...errors import RangeWarning
 from ...numerics.sampling import DESIGNS, Span
 from ...quantities.sharing import need_version
@@ -38,10 +40,9 @@ CHUNK = 262_144
 LOOKED_AT = 200
 """States whose inputs are looked at before a run."""
 MODES = ("", "p-s", "hybrid", "s-s")
-STATUSES = ("ok", "no_equilibrium_above", "no_equilibrium_below", "no_equilibrium", "jump")
 CODES = {
     "mode": ("none", *(mode.replace("-", "") for mode in MODES[1:])),
-    "status": STATUSES,
+    "status": STATUS_WORDS,
 }
 """Words of the columns that are stored as codes 0, 1, 2 ... (CF ``flag_meanings``)."""
 STORED = {"mode": "i1", "status": "i1", "iterations": "i2"}
@@ -176,7 +177,7 @@ class Task:
     def __call__(self) -> tuple[Arrays, dict[str, Any]]:
         """The arrays to store, and a summary: states, unsolved states, largest area, shadow."""
         need_version(self.version, "sweep")
-        needed = dict.fromkeys((*self.columns, "status", "engine", "A_t", "shadow"))
+        needed = dict.fromkeys((*self.columns, "status", "status_code", "engine", "A_t", "shadow"))
         solved: Arrays = {}
         for part, block in self.block.parts(CHUNK):
             columns = block.solve()
@@ -186,7 +187,7 @@ class Task:
                 solved[name][part] = columns[name]
         summary: dict[str, Any] = {
             "states": math.prod(self.block.sizes),
-            "unsolved": int(np.sum(solved["status"] != "ok")),
+            "unsolved": int(np.sum(solved["status_code"] != Status.OK)),
             "A_t": _largest(solved["A_t"]),
             "shadow": _largest(solved["shadow"]),
             "engine": dict(Counter(solved["engine"].ravel().tolist())),
@@ -196,7 +197,10 @@ class Task:
             return self.reduction.part(kept, self.outer), summary
         out = {name: solved[name] for name in self.columns}
         if self.coded:
-            out |= {name: _codes(name, values) for name, values in out.items() if name in CODES}
+            if "mode" in out:
+                out["mode"] = _mode_codes(out["mode"])
+            if "status" in out:
+                out["status"] = solved["status_code"]
         for dim in self.block.dims:
             # made by whoever comes first along the other dimensions
             if isinstance(dim, Sampled) and all(d.start == 0 for d in self.block.dims if d != dim):
@@ -411,18 +415,11 @@ def _alike(words: Arrays, count: int) -> Iterator[tuple[dict[str, Any], Any]]:
         yield {name: values[which[0]] for name, values in words.items()}, np.array(which)
 
 
-def _codes(name: str, words: NDArray[Any]) -> NDArray[np.int8]:
-    if name == "mode":
-        return sum(
-            ((words == mode) * np.int8(code) for code, mode in enumerate(MODES)),
-            start=np.zeros(words.shape, np.int8),
-        )
-    codes = np.zeros(words.shape, np.int8)
-    for place in zip(*np.nonzero(words != "ok"), strict=True):
-        text = str(words[place])
-        jump = text.startswith("jump")
-        codes[place] = 4 if jump else 1 if "beyond" in text else 2 if "below the" in text else 3
-    return codes
+def _mode_codes(words: NDArray[Any]) -> NDArray[np.int8]:
+    return sum(
+        ((words == mode) * np.int8(code) for code, mode in enumerate(MODES)),
+        start=np.zeros(words.shape, np.int8),
+    )
 
 
 def _largest(values: NDArray[Any]) -> float:
