@@ -98,7 +98,7 @@ class Equilibrium:
     engine: str = "numpy"
     """What found the separations: "compiled", or "numpy: " and why the compiled engine did not."""
     status_code: int | NDArray[np.int8] = 0
-    """Of each state its `thirdbody.equilibrium.status.Status`, of which `status` is the sentence."""
+    """`thirdbody.equilibrium.status.Status` of each state, of which `status` is the sentence."""
 
     @property
     def scales(self) -> dict[str, float]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -225,8 +224,8 @@ class LoadScan:
         for start in range(0, len(found), CHUNK):
             part = found[start : start + CHUNK]
             d[part], iterations[part], jumps = self.polish(target[part], cells[part])
-            for i, sentence in jumps.items():
-                status.set(part[i], Status.JUMP, sentence)
+            for place, sentence in jumps.items():
+                status.set(part[place], Status.JUMP, sentence)
         for i in np.flatnonzero(cells < 0):
             status.set(i, *self.why_not(float(target[i])))
         return d, iterations, status

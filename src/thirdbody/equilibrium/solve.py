@@ -22,19 +22,20 @@ from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
-from ..laws.base import AbstractParticleLaw, SeatedLaw
 from ..laws.particle.breakage import about_strength
 from ..quantities.say import percent
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
+from .crowding import about_area, crowded
 from .load_scan import DEEPEST, RESIDUAL, explained, load_scan
-from .status import Status, Statuses, crowded
+from .status import Status, Statuses
 
 __all__ = ["pull_off", "roots", "solve"]
 
 Array = NDArray[np.float64]
 
 Index = NDArray[np.intp]
+
 
 def only_one(**quantities: Any) -> tuple[str, Any]:
     """Name and value of the one quantity that is given, not None."""
@@ -153,7 +154,7 @@ def solve(
     # E·F*/E is not F* to the last digit: the given values are kept
     given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
     result = _result(contact, name, values, scalar, given, branch)
-    if scalar and not Status(result.status_code).has_numbers:
+    if scalar and not Status(int(result.status_code)).has_numbers:
         raise NoEquilibrium(result.status)
     for sentence in result.warnings:
         warnings.warn(sentence, RangeWarning, stacklevel=2)
@@ -342,9 +343,7 @@ def pull_off(contact: Contact) -> tuple[float, float]:
     return -float(found.fun), float(found.x)
 
 
-def _compiled(
-    bound: Interface, target: Array
-) -> tuple[Array, Index, Statuses, dict[str, Array]]:
+def _compiled(bound: Interface, target: Array) -> tuple[Array, Index, Statuses, dict[str, Array]]:
     """Separations, evaluations, status and columns by the compiled engine, where it pays."""
     if len(target) < engine.FEWEST:
         raise NotCompiled(f"fewer than {engine.FEWEST} loads of one contact")
@@ -394,7 +393,7 @@ def _state(
     columns = as_columns(
         full, d, bound.mean_plane, rough.sigma, contact.E_ss, target=target, F_star=F_star
     )
-    codes = status.codes
+    codes: Any = status.codes
     columns |= {"status": status.words.astype(str), "iterations": iterations}
     shares = _population_shares(contact, bound, d, columns, scalar)
     outputs, more = evaluate(contact, bound, columns) if contact.outputs else ({}, [])
@@ -527,33 +526,6 @@ def _warnings(
         if np.any(np.isfinite(d)):
             out += about_pressed(contact, d)
     return tuple(out)
-
-
-def about_area(contact: Contact, most: float) -> list[str]:
-    """What states whose real area reaches this leave out."""
-    out = []
-    if most > 0.2:
-        out.append(
-            f"A_t reaches {most:.3g}: above 0.2 neighbouring contacts interact, "
-            "which this model neglects"
-        )
-    if most > CLOSE and any(_lies_anywhere(contact.law_of(p)) for p in contact.populations):
-        out.append(
-            f"A_t reaches {most:.3g}: pressed point by point, surfaces with more than "
-            f"{CLOSE:g} were 0.04 to 0.65 sigma further apart than this model says, and their "
-            "particles carried 7 to 17 % less"
-        )
-    return out
-
-
-CLOSE = 0.05
-"""Real area above which summits grow together that this model counts one by one; the numbers are
-those of the book's page "Point by point"."""
-
-
-def _lies_anywhere(law: AbstractParticleLaw) -> bool:
-    """Whether particles rest on the rough surface itself, as those that were pressed."""
-    return isinstance(law, SeatedLaw) and law.seat == "rough"
 
 
 BROAD = 8.0

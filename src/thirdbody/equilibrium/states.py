@@ -19,8 +19,9 @@ from ..populations.shape import Angular
 from ..quantities.value import warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
+from .crowding import crowded
 from .solve import given_load, solve_untold
-from .status import SENTENCES, Status, crowded
+from .status import SENTENCES, Status
 
 if TYPE_CHECKING:
     import xarray

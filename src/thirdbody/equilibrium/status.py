@@ -123,22 +123,3 @@ class Statuses:
     def solved(self) -> NDArray[np.bool_]:
         """Which states are ok (N,)."""
         return self.codes == Status.OK
-
-
-def crowded(contact: Any, A_t: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which real areas (N,) are more than a model that counts contacts one by one can mean.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import thirdbody as tb
-    >>> steel = tb.materials["S45C"]
-    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
-    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-    >>> crowded(contact, np.array([0.2, 0.6, np.nan])).tolist()
-    [False, True, False]
-    """
-    if not getattr(contact.asperity_law, "counts_summits", True):
-        return np.zeros(np.shape(A_t), bool)
-    with np.errstate(invalid="ignore"):
-        return np.asarray(A_t > MOST_AREA)

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.columns import labels, labels_of
-from ...equilibrium.solve import about_area, about_particles, solve
+from ...equilibrium.crowding import about_area, chi_of
+from ...equilibrium.solve import about_particles, solve
 from ...equilibrium.states import state_columns, varied
 from ...equilibrium.status import WORDS as STATUS_WORDS
 from ...equilibrium.status import Status
@@ -339,20 +340,7 @@ class Plan:
         """
         found: dict[str, str] = {}
         hardest: tuple[float, float, Contact] | None = None
-        listed = [1 if isinstance(dim, Sampled) else dim.size for dim in self.dims]
-        spread = np.linspace(0, math.prod(listed) - 1, LOOKED_AT).astype(np.int64)
-        for i, number in enumerate(spread if self.samples else np.unique(spread)):
-            # the first samples: the later ones cost time to come to
-            place = np.unravel_index(number, listed)
-            at = [
-                i % dim.size if isinstance(dim, Sampled) else int(k)
-                for dim, k in zip(self.dims, place, strict=True)
-            ]
-            one = self.whole.cut(tuple(slice(k, k + 1) for k in at)).inputs()
-            inputs = {name: values[0] for name, values in one.items()}
-            inputs = {k: v.item() if isinstance(v, np.generic) else v for k, v in inputs.items()}
-            load = inputs.pop(self.load)
-            contact = varied(self.contact, inputs)
+        for load, contact in self.looked_at():
             sign = -1 if self.load == "d" else 1
             if hardest is None or sign * load > hardest[0]:
                 hardest = sign * load, load, contact
@@ -368,16 +356,34 @@ class Plan:
                 found.setdefault(_wording(sentence), sentence)
         return list(found.values())
 
+    def looked_at(self) -> Iterator[tuple[float, Contact]]:
+        """Load and contact of some states, evenly spread."""
+        listed = [1 if isinstance(dim, Sampled) else dim.size for dim in self.dims]
+        spread = np.linspace(0, math.prod(listed) - 1, LOOKED_AT).astype(np.int64)
+        for i, number in enumerate(spread if self.samples else np.unique(spread)):
+            # the first samples: the later ones cost time to come to
+            place = np.unravel_index(number, listed)
+            at = [
+                i % dim.size if isinstance(dim, Sampled) else int(k)
+                for dim, k in zip(self.dims, place, strict=True)
+            ]
+            one = self.whole.cut(tuple(slice(k, k + 1) for k in at)).inputs()
+            inputs = {name: values[0] for name, values in one.items()}
+            inputs = {k: v.item() if isinstance(v, np.generic) else v for k, v in inputs.items()}
+            load = inputs.pop(self.load)
+            yield load, varied(self.contact, inputs)
+
 
 def _wording(sentence: str) -> str:
     """A sentence without its numbers, to say it once."""
     return re.sub(r"[\d.e+-]+", "", sentence)
 
 
-def all_notes(contact: Contact, notes: list[str], summary: Mapping[str, Any]) -> list[str]:
+def all_notes(plan: Plan, notes: list[str], summary: Mapping[str, Any]) -> list[str]:
     """The sentences of a finished run: about its inputs, and about its states."""
     out = [note for note in notes if not note.startswith(("A_t reaches", "particles shadow"))]
-    out += about_area(contact, summary["A_t"])
+    chi = [chi_of(contact) for _, contact in plan.looked_at()]
+    out += about_area(plan.contact, summary["A_t"], chi)
     if summary["shadow"] >= 1:
         out.append("particles shadow the whole area: the area correction was cut at zero")
     return out

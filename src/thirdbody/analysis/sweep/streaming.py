@@ -28,7 +28,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from ...contact.contact import Contact
 from ...errors import InvalidValue
 from ...quantities.files import write_text
 from ...quantities.progress import Report, reporting
@@ -95,7 +94,7 @@ def in_memory(
         for name, (dims, _, attrs) in layout.variables.items()
     }
     inputs = {name: variables.pop(name) for name in layout.inputs}
-    attrs = layout.attrs | _attributes(plan.contact, notes, _summary(summaries))
+    attrs = layout.attrs | _attributes(plan, notes, _summary(summaries))
     return xr.Dataset(variables, coords=layout.coords | inputs, attrs=attrs)
 
 
@@ -135,10 +134,10 @@ def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     return out | {"engine": dict(sorted(paths.items()))}
 
 
-def _attributes(contact: Contact, notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
+def _attributes(plan: Plan, notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
     """What a run says of itself, a line each."""
     paths = (f"{word} ({count} states)" for word, count in summary["engine"].items())
-    return {"warnings": "\n".join(all_notes(contact, notes, summary)), "engine": "\n".join(paths)}
+    return {"warnings": "\n".join(all_notes(plan, notes, summary)), "engine": "\n".join(paths)}
 
 
 # -------------------------------------------------------------------------- who solves
@@ -419,7 +418,7 @@ def _carry_out(
             states += summary["states"]
             report(states)
     total = _summary(done.values())
-    attrs: dict[str, Any] = dict(_attributes(plan.contact, notes, total))
+    attrs: dict[str, Any] = dict(_attributes(plan, notes, total))
     if direct:
         store.label(attrs)
     else:
