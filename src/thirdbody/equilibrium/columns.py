@@ -17,6 +17,7 @@ from ..errors import InvalidValue
 from ..quantities import notebook
 from ..version import __version__
 from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S
+from .status import WORDS
 
 if TYPE_CHECKING:
     import pandas
@@ -234,9 +235,14 @@ POPULATION_COLUMNS = {
     "area_share": {"units": "1", "long_name": "area share of a population"},
 }
 """Attributes of what each of several populations carries."""
-ENGINE = "what found the separation"
 CODE = "status_code"
 """Column of the codes of `Status`, beside those of a result."""
+FLAGS = {"flag_values": list(range(len(WORDS))), "flag_meanings": " ".join(WORDS)}
+MARKS: dict[str, dict[str, Any]] = {
+    "engine": {"long_name": "what found the separation"},
+    CODE: {"units": "", "long_name": "code of the status", **FLAGS},
+}
+"""Attributes of what stands beside the columns of a result."""
 
 COLUMNS = {item.name: dict(item.metadata) for item in fields(Equilibrium) if item.metadata}
 """Symbol, unit and meaning of every column of a result."""
@@ -285,9 +291,9 @@ def dataset(
     import xarray
 
     data = {
-        name: ("state", values, labels(name) if name != "engine" else {"long_name": ENGINE})
+        name: ("state", values, MARKS.get(name) or labels(name))
         for name, values in columns.items()
-        if name not in inputs and name != CODE
+        if name not in inputs
     }
     coords = {
         name: (

@@ -144,10 +144,18 @@ class LoadScan:
         E = self.bound.contact.E_ss
         top = float(np.exp(self.log_F.max()))
         if target > top:
+            H = self.bound.contact.surfaces.H
+            why = f"it is above the softer body's hardness, {H:.4g} Pa; check the unit of the load"
+            if target <= H:
+                why = (
+                    f"it is below the hardness, {H:.4g} Pa, so its unit may be right: asperities "
+                    "alone do not carry it, they would be pressed flat; in oil a film carries it "
+                    "(thirdbody film)"
+                )
             return Status.TOO_MUCH, (
                 f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is beyond "
                 f"{top:.4g} Pa (F* = {top / E:.3g}), the most this model carries down to a "
-                f"separation of {DEEPEST:g} sigma_s; check the unit of the load"
+                f"separation of {DEEPEST:g} sigma_s; {why}"
             )
         return Status.TOO_LITTLE, (
             f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is below the "

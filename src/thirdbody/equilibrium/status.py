@@ -72,7 +72,7 @@ SENTENCES = np.array(
     [
         "ok",
         "no equilibrium: the load is beyond the most this model carries down to a separation of "
-        f"{DEEPEST:g} sigma_s; check the unit of the load",
+        f"{DEEPEST:g} sigma_s; check the unit of the load, or let an oil film carry it",
         "no equilibrium: the load is below the smallest load this model resolves; check the unit "
         "of the load",
         "not solved: no separation was found at which the load is in balance",
