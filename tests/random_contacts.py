@@ -37,6 +37,7 @@ from thirdbody.equilibrium.columns import COLUMNS
 from thirdbody.equilibrium.compiled import batch as engine
 from thirdbody.equilibrium.load_scan import DEEPEST
 from thirdbody.equilibrium.states import state_columns
+from thirdbody.equilibrium.status import Status
 from thirdbody.populations.distributions import Distribution
 from thirdbody.quantities.value import Value
 
@@ -467,6 +468,11 @@ def _states(
             lambda i, n=name: f"{n} at F* = {F[i]!r}, d = {columns['d'][i]!r}",
         )
     found.ask(say + "a reason where there is no state", ok | (np.char.str_len(status) > 10))
+    found.ask(
+        say + "no half of the area told as ok",
+        ~(ok & (columns["A_t"] > 0.5)),
+        lambda i: f"A_t = {columns['A_t'][i]!r} at F* = {F[i]!r}",
+    )
     good = ~ok | nothing | (np.char.str_len(np.asarray(columns["mode"], str)) > 0)
     found.ask(say + "mode", good, lambda i: f"empty at F* = {F[i]!r}")
     ok &= np.isfinite(columns["d"]) & np.isfinite(F) & ~nothing
@@ -542,7 +548,7 @@ def _separations(found: Findings, contact: Any, bound: Any, state: Any, columns:
         above = load * (1 + 1e-9) <= F
         below = load * (1 - 1e-9) >= F
         if status[i] != "ok":
-            if "beyond" in status[i]:
+            if state.status_code[i] == Status.TOO_MUCH:
                 found.ask(
                     "beyond the most is true",
                     not above.any(),

@@ -17,6 +17,7 @@ from ..errors import InvalidValue
 from ..quantities import notebook
 from ..version import __version__
 from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S
+from .status import WORDS
 
 if TYPE_CHECKING:
     import pandas
@@ -40,7 +41,9 @@ class Equilibrium:
     """The solved contact: floats for one load, arrays for several.
 
     Areas are real areas per nominal area; F* = F/(A_n E_ss). A state that could not be solved
-    holds NaN and a sentence in `status`.
+    holds NaN and a sentence in `status`. One whose real area is above 0.5 holds what the model
+    says, and a `status` that begins with "crowded": no model that counts contacts one by one is
+    an answer there.
 
     `d` counts from the datum of the particle law: the mean asperity height, except for
     `Horng2022`, which like the paper's eq. (8) puts that height at σ. `h`, from the mean surface
@@ -95,6 +98,8 @@ class Equilibrium:
     """Every column of the outputs that the contact carries, by name."""
     engine: str = "numpy"
     """What found the separations: "compiled", or "numpy: " and why the compiled engine did not."""
+    status_code: int | NDArray[np.int8] = 0
+    """`thirdbody.equilibrium.status.Status` of each state, of which `status` is the sentence."""
 
     @property
     def scales(self) -> dict[str, float]:
@@ -230,7 +235,14 @@ POPULATION_COLUMNS = {
     "area_share": {"units": "1", "long_name": "area share of a population"},
 }
 """Attributes of what each of several populations carries."""
-ENGINE = "what found the separation"
+CODE = "status_code"
+"""Column of the codes of `Status`, beside those of a result."""
+FLAGS = {"flag_values": list(range(len(WORDS))), "flag_meanings": " ".join(WORDS)}
+MARKS: dict[str, dict[str, Any]] = {
+    "engine": {"long_name": "what found the separation"},
+    CODE: {"units": "", "long_name": "code of the status", **FLAGS},
+}
+"""Attributes of what stands beside the columns of a result."""
 
 COLUMNS = {item.name: dict(item.metadata) for item in fields(Equilibrium) if item.metadata}
 """Symbol, unit and meaning of every column of a result."""
@@ -279,7 +291,7 @@ def dataset(
     import xarray
 
     data = {
-        name: ("state", values, labels(name) if name != "engine" else {"long_name": ENGINE})
+        name: ("state", values, MARKS.get(name) or labels(name))
         for name, values in columns.items()
         if name not in inputs
     }

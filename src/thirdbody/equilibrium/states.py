@@ -17,9 +17,11 @@ from ..errors import InvalidValue, NotCompiled
 from ..populations.materials import BULK
 from ..populations.shape import Angular
 from ..quantities.value import warn_of_slip
-from .columns import COLUMNS, as_columns, dataset, quantity_of
+from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
-from .solve import TOO_DEEP, given_load, solve_untold
+from .crowding import crowded
+from .solve import given_load, solve_untold
+from .status import SENTENCES, Status
 
 if TYPE_CHECKING:
     import xarray
@@ -184,18 +186,6 @@ ALIKE = 2.0
 """Spread of particle sizes over roughness within which states take about as many nodes."""
 ROOM = 3_000_000
 """Numbers in the rules of states laid out together, where each has rules of its own."""
-FATES = np.array(
-    [
-        "ok",
-        "no equilibrium: the load is beyond the most this model carries down to a separation of "
-        "-3 sigma_s; check the unit of the load",
-        "no equilibrium: the load is below the smallest load this model resolves; check the unit "
-        "of the load",
-        "not solved: no separation was found at which the load is in balance",
-        TOO_DEEP,
-    ],
-    dtype=object,
-)
 
 Arrays = Mapping[str, NDArray[Any]]
 Columns = dict[str, NDArray[Any]]
@@ -209,7 +199,7 @@ def _joined(count: int, parts: Iterable[tuple[Any, Columns]]) -> Columns:
     """Columns of all states from those of some, in the order in which they come."""
     out: Columns = {}
     for which, columns in parts:
-        for name in (*COLUMNS, "engine"):
+        for name in (*COLUMNS, "engine", CODE):
             if name not in out:
                 # sentences are few and long
                 kind = object if name in ("status", "engine") else columns[name].dtype
@@ -305,7 +295,10 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
         batch = engine.States(contact, _taken(arrays, here), len(given))
         columns = batch.columns(load, given)
         doubt = columns.pop("doubt")
-        words = {"status": FATES[columns["status"]], "engine": np.where(doubt, doubt, "compiled")}
+        code = columns["status"].astype(np.int8)
+        code[(code == Status.OK) & crowded(contact, columns["A_t"])] = Status.CROWDED
+        path = np.where(doubt, doubt, "compiled")
+        words = {"status": SENTENCES[code], CODE: code, "engine": path}
         return here, columns | words, batch.rows.own
 
     here, columns, size = part(slice(0, FIRST))  # refused, or compiled, once
@@ -336,7 +329,8 @@ def _by_groups(
         state = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
         result = solve_untold(state, load, loads[which])
         path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
-        parts.append((which, result.columns() | {"engine": _all(len(which), path)}))
+        more = {"engine": _all(len(which), path), CODE: np.atleast_1d(result.status_code)}
+        parts.append((which, result.columns() | more))
     return _joined(len(loads), parts)
 
 

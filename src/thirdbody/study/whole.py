@@ -25,6 +25,7 @@ from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
 from .body import loads_of
 from .film import on_body
+from .outputs import on_area
 from .overrides import override
 from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names
@@ -196,6 +197,8 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         reader.notes.append("[particle_law] has no effect: all particles have laws of their own")
     asked: Any = own.get("sweep")
     film: Any = own.get("film")
+    if "outputs" in parts:
+        parts["outputs"] = on_area(parts["outputs"], own.get("body"))
     contact = reader.make(Contact, "", parts)
     loaded = own.get("load") or ends(asked or {})
     bodies: Any = own.get("body")

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...contact.contact import Contact
 from ...errors import InvalidValue
 from ...quantities.files import make_folder, remove_files, whole, write_text
 from ...quantities.progress import Report, reporting
@@ -91,7 +90,7 @@ def in_memory(
         for name, (dims, _, attrs) in layout.variables.items()
     }
     inputs = {name: variables.pop(name) for name in layout.inputs}
-    attrs = layout.attrs | _attributes(plan.contact, notes, _summary(summaries))
+    attrs = layout.attrs | _attributes(plan, notes, _summary(summaries))
     return xr.Dataset(variables, coords=layout.coords | inputs, attrs=attrs)
 
 
@@ -131,10 +130,10 @@ def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     return out | {"engine": dict(sorted(paths.items()))}
 
 
-def _attributes(contact: Contact, notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
+def _attributes(plan: Plan, notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
     """What a run says of itself, a line each."""
     paths = (f"{word} ({count} states)" for word, count in summary["engine"].items())
-    return {"warnings": "\n".join(all_notes(contact, notes, summary)), "engine": "\n".join(paths)}
+    return {"warnings": "\n".join(all_notes(plan, notes, summary)), "engine": "\n".join(paths)}
 
 
 # -------------------------------------------------------------------------- who solves
@@ -268,7 +267,7 @@ def _carry_out(
             states += summary["states"]
             report(states)
     total = _summary(done.values())
-    attrs: dict[str, Any] = dict(_attributes(plan.contact, notes, total))
+    attrs: dict[str, Any] = dict(_attributes(plan, notes, total))
     if direct:
         store.label(attrs)
         folder.relabel(name)

@@ -189,7 +189,7 @@ class States(_Batch):
         """
         from ..columns import as_columns
         from ..load_scan import RESIDUAL
-        from .balance import OK, TOO_DEEP, UNSOLVED
+        from ..status import Status
 
         centre, sigma_s = self.rows.interfaces["centre"], self.rows.interfaces["sigma_s"]
         E, rough = self.rows.varied.E_ss, self.rows.varied.roughness
@@ -198,7 +198,7 @@ class States(_Batch):
         h, iterations, fate, raw = self.solve(np.arange(len(loads)), target, given)
         if given is not None:
             deep = given < -GaussianSum.DEEPEST
-            fate[deep], iterations[deep] = TOO_DEEP, 0
+            fate[deep], iterations[deep] = Status.TOO_DEEP, 0
         h[fate != 0] = np.nan
         for values in raw.values():
             values[fate != 0] = np.nan
@@ -209,7 +209,7 @@ class States(_Batch):
         )
         doubt = np.full(len(loads), "", dtype=object)
         balanced = (columns["residual"] <= RESIDUAL) & np.isfinite(raw["A_t"])
-        doubt[(fate == UNSOLVED) | ((fate == OK) & ~balanced)] = NOT_BALANCED
+        doubt[(fate == Status.UNSOLVED) | ((fate == Status.OK) & ~balanced)] = NOT_BALANCED
         if target is not None:
             doubt[~self._monotone(target)] = NOT_MONOTONE
         return columns | {"status": fate, "iterations": iterations, "doubt": doubt}
