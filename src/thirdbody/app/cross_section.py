@@ -65,6 +65,8 @@ class Section:
     grains: tuple[Grain, ...]
     depth: float
     """of the slab whose particles are drawn [m]; 0 without particles"""
+    sparse: float
+    """square metres of surface with one particle [m²]; 0 without particles"""
     names: tuple[str, ...]
     soft: tuple[bool, ...]
     """Populations that are softer than both surfaces: they give way."""
@@ -95,8 +97,13 @@ def profile(sigma: float, R: float, alpha: float, width: float, seed: int) -> tu
     return x, sigma * math.sqrt(2 / WAVES) * waves.sum(axis=1)
 
 
-def section(contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0) -> Section:
-    """One draw from the model at a solved state."""
+def section(
+    contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0, held: float = math.inf
+) -> Section:
+    """One draw from the model at a solved state; with no more particles than one contact holds.
+
+    Where it holds less than one, that one is drawn of each population.
+    """
     rough = contact.roughness
     h, d = float(np.ravel(state.h)[0]), float(np.ravel(state.d)[0])
     dusts = contact.populations
@@ -113,7 +120,7 @@ def section(contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0) -> Sec
     rooms = map(room, range(PLACES))
     x, z, chances = next((r for r in rooms if len(r[2]) == len(carriers)), room(0))
     density = sum(dust.areal_density for dust in dusts)
-    depth = DRAWN / (density * width) if density else 0.0
+    depth = min(DRAWN, max(held, 1.0)) / (density * width) if density else 0.0
     rng = np.random.default_rng(seed + 1)
     grains: list[Grain] = []
     met = False
@@ -140,6 +147,7 @@ def section(contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0) -> Sec
         d=d,
         grains=tuple(grains),
         depth=depth,
+        sparse=1 / density if density else 0.0,
         names=tuple(
             dust.name or dust.material.name or f"particles {i + 1}" for i, dust in enumerate(dusts)
         ),

@@ -105,7 +105,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         await state.settle()  # what is shown belongs to the study as it is asked for
         answer = state.answer
         if answer is None or len(answer.contact.populations) != 1:
-            work.said.set_text("the map needs exactly one population of particles")
+            work.fail("the map needs exactly one population of particles")
             return None
         return {
             "study": state.study,

@@ -167,7 +167,7 @@ class Surface:
             entry.set_value(text if name != "detrend" or text in FORMS else "")
         self.box.set_visibility(False)
         if told["file"] != "example" and not Path(self.file).is_file():
-            self.work.said.set_text(missing(told["file"]))
+            self.work.fail(missing(told["file"]))
             return
         background_tasks.create(self._read())
 
