@@ -114,6 +114,16 @@ class Work:
             with self.said.client:
                 await self.tell(state)
 
+    async def again(self, state: State) -> None:
+        """Another preview in the place of the one that is shown."""
+        self.done = self.tried = None
+        await self.tell(state)
+
+    def forget(self) -> None:
+        """No result is shown any more."""
+        self.done, self.preview = None, False
+        self._fit()
+
     def _fits(self, known: tuple[Any] | None) -> bool:
         """Whether what is known belongs to the study as it is."""
         return known is not None and self.same(known[0], self.key())
