@@ -30,6 +30,8 @@ WAVES = 96
 POINTS = 900
 DRAWN = 12
 """Particles drawn, about; the depth of the slab follows from it."""
+LEAST = 3.0
+"""Half a height in the drawing, of 1000 wide, below which a particle is pointed at."""
 CARRIES = 5e-4
 """Share of the load below which no loaded particle is looked for."""
 PLACES = 64
@@ -270,6 +272,9 @@ def _grain(drawn: Section, grain: Grain, X: Any, Y: Any, scale: float) -> str:
             rx = min(radius * math.sqrt(radius / ry), 2.5 * radius)
     colour = COLOURS[grain.population % len(COLOURS)]
     kind = "loaded" if grain.loaded else "free"
+    place = X(grain.place), Y(middle) - scale * ry - 6
+    # one that is squashed to a line has a mark over it
+    pointer = f'<path class="ink" d="M{place[0]:.1f} {place[1]:.1f}l-6 -11h12z"/>'
     stroke = (
         f'stroke="{OKABE_ITO["vermilion"]}" stroke-width="3"'
         if grain.loaded
@@ -279,7 +284,7 @@ def _grain(drawn: Section, grain: Grain, X: Any, Y: Any, scale: float) -> str:
         f'<ellipse class="grain {kind}" cx="{X(grain.place):.1f}" cy="{Y(middle):.1f}" '
         f'rx="{scale * rx:.1f}" ry="{scale * ry:.1f}" fill="{colour}" '
         f'fill-opacity="{0.95 if grain.loaded else 0.45}" {stroke}/>'
-    )
+    ) + pointer * (scale * ry < LEAST)
 
 
 def _measures(drawn: Section, X: Any, Y: Any, H: float, scale: float) -> list[str]:

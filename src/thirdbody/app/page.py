@@ -172,6 +172,8 @@ class Page:
 
     def __init__(self, state: State, told: str, start: Start) -> None:
         self.state, self.told, self.start = state, told, start
+        self.waiting: dict[str, Any] = {}
+        """What stands in the place of each tab until it is drawn."""
         self.draws: dict[str, Callable[[], Awaitable[None] | None]] = {}
         """How each tab that was opened is drawn."""
         self.travels = 0
@@ -235,7 +237,9 @@ class Page:
         with panels.classes("w-full bg-transparent"):
             for name in TABS:
                 with ui.tab_panel(name).classes("q-px-none"):
+                    self.waiting[name] = ui.element("div").classes("waiting")
                     self.places[name] = ui.column().classes("w-full gap-3")
+                    self.places[name].set_visibility(False)
 
     # ------------------------------------------------------------------ what is shown
     async def _refresh(self) -> None:
@@ -299,9 +303,16 @@ class Page:
             with self.places[name]:
                 module = import_module(f".tabs.{name}", __package__)
                 self.draws[name] = module.build(self.state, self.side.again)
+        self._unveil(name)
         drawing = self.draws[name]()
         if drawing is not None:
             await drawing
+
+    def _unveil(self, name: str) -> None:
+        """Show a tab in the place of what waits for it."""
+        if name in self.waiting:
+            self.waiting.pop(name).delete()
+            self.places[name].set_visibility(True)
 
     def _note(self, notes: list[str], remark: str) -> None:
         """Notes of the answer, and a remark of the page, below the tab."""

@@ -86,8 +86,8 @@ def abouts() -> dict[str, str]:
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """The answer, the drawing, what it shows, and another draw."""
     seed = {"now": 0}
-    answer = ui.label().classes("headline").props('data-fact="headline" role=status')
     force = Force(state)
+    answer = ui.label().classes("headline").props('data-fact="headline" role=status')
     film = ui.label(FILM).classes("hint").props('data-fact="film"')
     picture = (
         ui.html("", sanitize=False)
@@ -149,7 +149,7 @@ class Force:
         self.state = state
         self.box = ui.column().classes("w-full gap-1")
         with self.box:
-            self.said = ui.label().classes("headline").props('data-fact="force" role=status')
+            self.said = ui.label().classes("whole-contact").props('data-fact="force" role=status')
             self.first = ui.label(FIRST).classes("stale").props('data-fact="preliminary"')
             self.warned = ui.label().classes("problem").props('data-fact="force warning"')
             self.place = ui.label(PLACE).classes("hint")

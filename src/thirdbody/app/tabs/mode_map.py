@@ -122,12 +122,19 @@ def inside(found: dict[str, Any], here: tuple[float, float] | None) -> bool:
     return all(axis[0] <= value <= axis[-1] for axis, value in axes)
 
 
-def one_mode(found: dict[str, Any]) -> str:
-    """What is said of a map of one colour."""
-    met = {index for row in found["mode"] for index in row} - {-1}
-    if len(met) != 1:
-        return ""
-    return f"Everywhere on this map {mode_of(MODES[met.pop()])}."
+def about_map(found: dict[str, Any]) -> str:
+    """What is said of a map of one colour, and of one with empty places.
+
+    >>> about_map({"mode": [[2, 2], [2, -1]]})[:60]
+    'Everywhere on this map nearly all real contact is on asperit'
+    """
+    every = [index for row in found["mode"] for index in row]
+    met, said = set(every) - {-1}, []
+    if len(met) == 1:
+        said.append(f"Everywhere on this map {mode_of(MODES[met.pop()])}.")
+    if -1 in every:
+        said.append("Where it is empty no state is solved.")
+    return " ".join(said)
 
 
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
@@ -178,7 +185,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     work = Work("map", "Draw the map", ask, show, key=contact, same=_same_map, little=little)
     plot = ui.plotly(empty(520)).classes("w-full").props('data-figure="map"')
     plot.set_visibility(False)
-    only = ui.label().props('data-fact="one mode"')
+    only = ui.label().classes("hint").props('data-fact="map"')
 
     async def tell() -> None:
         await work.tell(state)
@@ -195,7 +202,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             else:
                 work.fail(OUTSIDE)
             place = None
-        only.set_text(one_mode(found["map"]))
+        only.set_text(about_map(found["map"]))
         plot.update_figure(map_figure(found["map"], place))
 
     def clicked(event: Any) -> None:
