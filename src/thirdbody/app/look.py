@@ -68,6 +68,7 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .subhead { font-weight: 600; margin-top: 0.4rem; }
 .facts { gap: 0.5rem 1.6rem; }
 .headline { font-size: 1.25rem; font-weight: 600; line-height: 1.35; text-wrap: balance; }
+.headline.second { font-size: 0.95rem; }
 .whole-contact { font-size: 1.05rem; font-weight: 600; line-height: 1.4; max-width: 60rem; }
 .waiting { width: 100%; height: 320px; border-radius: 4px; background: rgba(127, 127, 127, 0.1); }
 .words { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1rem; }

@@ -9,9 +9,9 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ...errors import InvalidValue
 from ...equilibrium.columns import COLUMNS
 from ...equilibrium.words import MODES, NO_CONTACT, carried, load_of, meets, mode_of, two_bodies
+from ...errors import InvalidValue
 from ...quantities.say import number, percent, value_of
 from ...study.body import told as told_of
 from ...study.body import told_forces
@@ -118,6 +118,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     async def draw() -> None:
         assert state.answer is not None
         force.draw()
+        answer.classes(**{"add" if state.answer.study.forces is not None else "remove": "second"})
         film.set_visibility(state.answer.study.film is not None)
         bad, found = await state.ask(_drawn, state.at, seed["now"])
         status.set_text(bad)
