@@ -44,7 +44,7 @@ CRITICAL = {
 }
 """What happens at each critical load."""
 FEW, MANY = 0.1, 1e7
-"""Share of contacts below which they are counted as one in so many, and how many are written out."""
+"""Share of contacts below which they are one in so many, and how many are written out."""
 BELOW, ABOVE = ("never p-s", "always s-s"), ("always p-s", "never s-s")
 """Statuses of critical loads that lie below, or above, every load searched."""
 THERE = {
