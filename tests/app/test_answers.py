@@ -107,7 +107,7 @@ def test_the_section_shows_no_more_particles_than_a_contact_holds(tmp_path):
 
 def _drawn(study, folder):
     state = State(study, folder)
-    return interface._drawn(state.answer, state.at, 0)
+    return interface.drawn(state.answer, state.at, 0)
 
 
 # ---------------------------------------------------------------- axes

@@ -34,7 +34,8 @@ from thirdbody.app.sizing import size_of, with_size
 from thirdbody.app.sliders import at_position, position_of
 from thirdbody.app.state import State
 from thirdbody.app.tabs.error_bars import _ranges, tornado_figure
-from thirdbody.app.tabs.interface import _drawn, headline, told
+from thirdbody.app.tabs.interface import drawn as section_drawn
+from thirdbody.app.tabs.interface import headline, told
 from thirdbody.app.tabs.outputs import output_figures
 from thirdbody.app.uploads import harmless
 from thirdbody.equilibrium.words import two_bodies
@@ -445,7 +446,7 @@ def test_a_load_of_the_interface_is_solved_once(state, monkeypatch):
     answer = state.answer
     at = answer.default_at()
     monkeypatch.setattr(tb, "solve", counting)
-    _, found = _drawn(answer, at, 0)
+    _, found = section_drawn(answer, at, 0)
     assert len(asked) == 1
     assert found[3] == told(answer.solve(at))
     assert any(name == "particles loaded" for name, _ in found[3])

@@ -250,6 +250,7 @@ class Page:
         except Died as error:
             self.banner.set_text("; ".join(error.problems))
             self.retry.set_visibility(True)
+            self.clock.set_text("")
         else:
             self.retry.set_visibility(False)
         finally:

@@ -16,6 +16,7 @@ from .guard import Guard, Headers, allowed_hosts
 from .jobs import RUNNING
 from .page import Start, page
 from .solver import solver
+from .warm import warm
 
 __all__ = ["serve"]
 
@@ -92,7 +93,7 @@ def _run(host: str, port: int, browser: bool) -> None:
 async def _warm() -> None:
     """Compile what is compiled on first use while the browser opens."""
     with contextlib.suppress(InvalidValue):
-        await solver().ask(_nothing)
+        await solver(warm).ask(_nothing)
 
 
 def _nothing() -> None:

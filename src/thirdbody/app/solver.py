@@ -176,7 +176,7 @@ class Solver:
                 if self.closed or not wanted():
                     raise asyncio.CancelledError from None
         else:
-            raise Died(f"no answer: {ended(ends)}")
+            raise Died(f"No answer: {ended(ends)}")
         if not known:
             self._kill(process, pipe)
             raise InvalidValue(
@@ -215,7 +215,7 @@ class Solver:
                 self.starts.append((began, time.perf_counter()))
         if not ready:
             self._kill(process, ours)
-            raise Died(f"no answer: a process that computes was not ready after {STARTS:g} s")
+            raise Died(f"No answer: a process that computes was not ready after {STARTS:g} s")
         return process, ours
 
     def prepared(self, since: float) -> float:
@@ -250,26 +250,14 @@ class Solver:
         self.threads.shutdown(wait=False, cancel_futures=True)
 
 
-def _example() -> None:
-    """Load and compile what answers need."""
-    from pathlib import Path
-
-    from .examples import example
-    from .state import State
-
-    answer = State(example(), Path()).answer
-    assert answer is not None
-    assert answer.curves is not None
-
-
 _solver: Solver | None = None
 
 
-def solver() -> Solver:
-    """The one of this server."""
+def solver(warm: Callable[[], Any] | None = None) -> Solver:
+    """The one of this server; who asks for it first says what its processes begin with."""
     global _solver
     if _solver is None:
-        _solver = Solver(warm=_example)
+        _solver = Solver(warm=warm)
     return _solver
 
 

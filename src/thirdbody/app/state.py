@@ -117,7 +117,7 @@ class Answer:
         study, every = self.study, sum(dust.areal_density for dust in self.contact.populations)
         if study.body is not None and study.forces is not None:
             area = study.body.hertz(float(study.forces[-1]), self.contact.E_ss).area
-        elif study.film is not None and not study.own_load:
+        elif study.film is not None and not study.own_load:  # its Hertz pressure is the load
             area = study.film.conjunction.hertz(study.film.load, E=2 * self.contact.E_ss).area
         else:
             return math.inf

@@ -20,7 +20,7 @@ from ..cross_section import section, to_svg
 from ..state import Answer, State
 from ..widgets import Facts
 
-__all__ = ["TITLE", "abouts", "build", "headline", "swatch", "told"]
+__all__ = ["TITLE", "abouts", "build", "drawn", "headline", "swatch", "told"]
 
 TITLE = "Interface"
 LETTERS = {"h": "h", "d": "d", "F*": "F_star"}
@@ -120,7 +120,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         force.draw()
         answer.classes(**{"add" if state.answer.study.forces is not None else "remove": "second"})
         film.set_visibility(state.answer.study.film is not None)
-        bad, found = await state.ask(_drawn, state.at, seed["now"])
+        bad, found = await state.ask(drawn, state.at, seed["now"])
         status.set_text(bad)
         status.set_visibility(bool(bad))
         if bad:
@@ -212,14 +212,14 @@ def _integrated(answer: Answer) -> None:
     _ = answer.forces
 
 
-def _drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
+def drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
     """What is wrong with the state; else the drawing, what it shows, whose, and the state."""
     point = answer.solve(at, tb.outputs.Counts())
     if str(point.status) != "ok":
         return str(point.status), None
-    drawn = section(answer.contact, point, seed=seed, held=answer.held)
-    svg = to_svg(drawn, title="Cross-section of the interface, to scale")
-    return "", (svg, _caption(drawn, answer.held), drawn.names, told(point), headline(point))
+    made = section(answer.contact, point, seed=seed, held=answer.held)
+    svg = to_svg(made, title="Cross-section of the interface, to scale")
+    return "", (svg, _caption(made, answer.held), made.names, told(point), headline(point))
 
 
 def _caption(drawn: Any, held: float) -> str:
