@@ -101,11 +101,9 @@ def _area(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
             line(x, state.A_ss, "asperities A<sub>ss</sub>", 1),
             line(x, state.A_sa, "particles A<sub>sa</sub>", 2),
         ]
-    made = figure(
+    return figure(
         lines, y="real area over A<sub>n</sub>", title="Real contact area", ylog=True, **more
     )
-    fix(made, "yaxis", span([each["y"] for each in lines], log=True))
-    return made
 
 
 def _shares(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
