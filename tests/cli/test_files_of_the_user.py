@@ -218,7 +218,15 @@ def flipped(file):
     file.write_bytes(held)
 
 
-DAMAGES = pytest.mark.parametrize("damage", [missing, empty, truncated, flipped])
+DAMAGES = pytest.mark.parametrize(
+    "damage",
+    [
+        missing,
+        flipped,
+        pytest.param(empty, marks=pytest.mark.slow),
+        pytest.param(truncated, marks=pytest.mark.slow),
+    ],
+)
 WRITERS = {
     "solve.csv": ("solve", STUDY, "--csv"),
     "solve.xlsx": ("solve", STUDY, "--xlsx"),
