@@ -197,3 +197,87 @@ def test_a_draft_that_is_being_written_stays(tmp_path):
         assert first.exists()
     assert file.read_text() == "first"
     assert [each.name for each in tmp_path.iterdir()] == ["old.csv"]
+
+
+# ---------------------------------------------------------------- damage
+def missing(file):
+    file.unlink()
+
+
+def empty(file):
+    file.write_bytes(b"")
+
+
+def truncated(file):
+    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+
+
+def flipped(file):
+    held = bytearray(file.read_bytes())
+    held[len(held) // 2] ^= 4
+    file.write_bytes(held)
+
+
+DAMAGES = pytest.mark.parametrize(
+    "damage",
+    [
+        missing,
+        flipped,
+        pytest.param(empty, marks=pytest.mark.slow),
+        pytest.param(truncated, marks=pytest.mark.slow),
+    ],
+)
+WRITERS = {
+    "solve.csv": ("solve", STUDY, "--csv"),
+    "solve.xlsx": ("solve", STUDY, "--xlsx"),
+    "solve.parquet": ("solve", STUDY, "--parquet"),
+    "film.png": ("film", FILM, "--set", "film.speed.points=3", "--figure"),
+    "film.svg": ("film", FILM, "--set", "film.speed.points=3", "--figure"),
+    "table.csv": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.inp": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.txt": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.avl": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.py": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.c": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+}
+
+
+@DAMAGES
+@pytest.mark.parametrize("name", WRITERS)
+def test_a_damaged_file_is_written_anew(tmp_path, name, damage):
+    """Nobody reads it back, and its place is taken by a whole one."""
+    for library in {"xlsx": ["openpyxl"], "parquet": ["pyarrow"]}.get(name[6:], []):
+        pytest.importorskip(library)
+    file = tmp_path / name
+    assert run(*WRITERS[name], file).exit_code == 0
+    wanted = file.read_bytes()
+    damage(file)
+    assert run(*WRITERS[name], file).exit_code == 0
+    assert contents(tmp_path) == {name: wanted}
+
+
+@DAMAGES
+@pytest.mark.parametrize(
+    ("words", "name"),
+    [
+        (("surface", "example"), "surface.json"),
+        (("surface", "example"), "surface.svg"),
+        (("compare", STUDY, "--laws", "gw"), "compare.csv"),
+        (("compare", STUDY, "--laws", "gw"), "compare.png"),
+    ],
+)
+def test_damaged_files_of_a_folder_are_written_anew_or_left(tmp_path, words, name, damage):
+    """What says whose a folder is, and is damaged, may be somebody else's."""
+    assert run(*words, "--out", tmp_path).exit_code == 0
+    wanted = contents(tmp_path)
+    damage(tmp_path / name)
+    before = contents(tmp_path)
+    done = run(*words, "--out", tmp_path)
+    assert "Traceback" not in done.output
+    if name.endswith(("json", "csv")):
+        assert done.exit_code == 2
+        assert "give another folder, or remove what is not needed" in done.stderr
+        assert contents(tmp_path) == before
+    else:
+        assert done.exit_code == 0
+        assert contents(tmp_path) == wanted

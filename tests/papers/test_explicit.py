@@ -52,7 +52,7 @@ def test_what_varies():
 
 def test_a_run_writes_what_it_says_and_goes_on(few, tmp_path, monkeypatch):
     done = explicit.reproduce(tmp_path, preset="quick")
-    assert {file.name for file in tmp_path.iterdir()} == {*done.files, "surfaces"}
+    assert {file.name for file in tmp_path.iterdir()} == {*done.files, "surfaces", "study.json"}
     told = json.loads((tmp_path / "comparison.json").read_text("utf-8"))
     assert [state["case"] for state in told["states"]] == ["x1", "x1", "bump1", "bump1"]
     assert told["left_out"] == 0

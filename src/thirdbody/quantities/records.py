@@ -23,6 +23,7 @@ __all__ = [
     "differences",
     "fingerprint",
     "misfit",
+    "print_of",
     "read_json",
     "read_record",
     "refuse_another",
@@ -206,7 +207,7 @@ def refuse_replaced(folder: Path, texts: Mapping[str, str | None]) -> None:
     """
     there = [name for name in texts if (folder / name).exists()]
     same = [
-        text is not None and misfit(folder / name, _print_of(text)) == ""
+        text is not None and misfit(folder / name, print_of(text)) == ""
         for name, text in texts.items()
         if text is not None
     ]
@@ -217,7 +218,8 @@ def refuse_replaced(folder: Path, texts: Mapping[str, str | None]) -> None:
         )
 
 
-def _print_of(text: str) -> Fingerprint:
+def print_of(text: str) -> Fingerprint:
+    """The fingerprint of a file of this text."""
     held = text.encode()
     return [len(held), hashlib.sha256(held).hexdigest()]
 

@@ -38,6 +38,7 @@ from ...quantities.records import (
     differences,
     fingerprint,
     misfit,
+    print_of,
     read_json,
     read_record,
     refuse_another,
@@ -343,8 +344,8 @@ class Folder:
     def remove_parts(self) -> None:
         """Remove the parts that have been put together."""
         parts = self.path / "parts"
-        _remove_ours(parts, lambda name: PARTS.fullmatch(name) is not None)
-        with suppress(OSError):  # there is none, or it holds something else
+        with suppress(OSError):  # there is none, it holds something else, or may not be written
+            _remove_ours(parts, lambda name: PARTS.fullmatch(name) is not None)
             parts.rmdir()
 
     def remove_markers(self) -> None:
@@ -353,9 +354,8 @@ class Folder:
 
     # ------------------------------------------------------------------ whose folder it is
     def says(self, study: Mapping[str, Any]) -> bool:
-        """Whether ``study.json`` is that of a study."""
-        found = read_json(self.path / "study.json")
-        return found is not None and not differences(found, study)
+        """Whether ``study.json`` is that of a study, to the last byte."""
+        return misfit(self.path / "study.json", print_of(text_of(study))) == ""
 
     def refuse_others(self, study: dict[str, Any]) -> None:
         """Refuse a folder that holds something else."""
@@ -364,9 +364,11 @@ class Folder:
             raise InvalidValue(f"{path} must be a folder, and a file of that name exists")
         if not path.exists():
             return
-        if self.says(study) or self.holds(name_of(study)):
-            return  # one of them is damaged, and written again
         found = read_json(path / "study.json")
+        if found is not None and not differences(found, study):
+            return
+        if self.holds(name_of(study)):
+            return  # study.json is damaged, and written again
         if found is None:
             self._refuse_strangers()
             return

@@ -191,6 +191,8 @@ def run(
             if shown:
                 print(f"{folder.path} is finished: nothing to do", file=sys.stderr)
             return folder
+        if not os.access(folder.path, os.W_OK):
+            raise InvalidValue(f"{damage_words(folder.path, found)}; but it cannot be written")
     notes = plan.notes()  # refuses inputs before anything is written
     make_folder(folder.path)
     with folder.locked():

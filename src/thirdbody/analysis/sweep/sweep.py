@@ -74,7 +74,9 @@ def sweep(
         for each of some columns; ``extrema``, ``mean``, True or False.
     out : path-like, optional
         A folder to write to block by block, in bounded memory. A run that was interrupted or
-        killed goes on when the same call is made again; a finished one is opened.
+        killed goes on when the same call is made again; a finished one is opened. What is not
+        as it was written is told in a warning and solved again. A folder that holds anything
+        else is refused.
     format : {"zarr", "netcdf"}, optional
         Of the data in ``out``.
     chunk : int, optional

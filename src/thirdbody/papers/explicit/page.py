@@ -91,7 +91,7 @@ def reproduce(
     if preset not in PRESETS:
         raise InvalidValue(f"preset = {preset!r} must be 'full' or 'quick'")
     effort = PRESETS[preset]
-    folder = made(out, "explicit", "quick" if effort is QUICK else None)
+    folder = made(out, "explicit", preset or "full")
     report = progress or (lambda stage, done, total: None)
     total = len(CASES) * effort.surfaces
     points: list[Point] = []
