@@ -223,11 +223,12 @@ def light(data: Any) -> Any:
 
 def commands(data: dict[str, Any]) -> tuple[str, ...]:
     """What may run on a study: most often what answers in a second."""
-    own = ("sweep", "film", "explicit", "design")
+    own = {"sweep": "sweep", "film": "film", "explicit": "explicit", "design": "design"}
+    own |= {"uncertainty": "assess"}
     return (
-        *("solve",) * 6,
-        *("table", "compare", "assess"),
-        *(name for name in own if name in data for _ in range(4)),
+        *("solve",) * 12,
+        *("table", "compare"),
+        *(command for table, command in own.items() if table in data for _ in range(3)),
     )
 
 

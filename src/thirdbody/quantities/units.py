@@ -16,7 +16,7 @@ from typing import Any, NoReturn
 
 from ..errors import InvalidValue
 
-__all__ = ["EXAMPLES", "quantity_to_si", "say", "to_si"]
+__all__ = ["EXAMPLES", "kind_of", "needed", "quantity_to_si", "say", "spelled", "to_si"]
 
 EXAMPLES = {
     "m": '"300 nm"',
@@ -130,6 +130,12 @@ def to_si(value: Any, unit: str) -> float:
         except OverflowError:
             return math.inf
     if not isinstance(value, str):
+        from .carried import carries_unit, in_si
+
+        if carries_unit(value) and not isinstance(value, (list, tuple, dict)):
+            return _one(in_si(value, unit), unit)
+        if hasattr(value, "__float__") and not isinstance(value, bool):  # numpy's numbers
+            return _one(value, unit)
         return _refuse(f"{say(value)} must be {_needed(unit)}")
     text = value.strip()
     shown = say(value)
@@ -186,6 +192,63 @@ def quantity_to_si(value: Any, about: Mapping[str, Any]) -> float:
     except InvalidValue as error:
         told = str(error)
         return _refuse(told if told.startswith('"') else f"{say(value)} cannot be used: {told}")
+
+
+def _one(value: Any, unit: str) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        return _refuse(f"{say(value)} must be {_needed(unit)}")
+
+
+def spelled(unit: str) -> str | None:
+    """A unit in SI as libraries of units read it, "" for a pure number; None if it is none.
+
+    >>> spelled("1/m²"), spelled("Pa m^0.5"), spelled("1"), spelled("N or N/m")
+    ('1/m**2', 'Pa*m**0.5', '', None)
+    """
+    if unit == "1":
+        return ""
+    try:
+        body = _normal(unit, say(unit), unit)
+        _registry().parse_units(body)
+    except Exception:
+        return None
+    return re.sub(r"\*\*\(([\d.]+)\)", r"**\1", body.removeprefix("1 * ").replace(" ", ""))
+
+
+def kind_of(unit: str) -> str:
+    """What a unit of any library measures, in words.
+
+    >>> kind_of("megapascal"), kind_of("furlong^7"), kind_of("wibble")
+    ('a pressure', 'in m**7', 'in wibble')
+    """
+    registry = _registry()
+    try:
+        found = registry.parse_units(unit)
+    except Exception:
+        return f"in {unit}"
+    return _kind(found)
+
+
+def needed(unit: str) -> str:
+    """What a quantity must be, in words.
+
+    >>> needed("m"), needed("1")
+    ('a length [m] is needed', 'a pure number is needed')
+    """
+    kind = _KINDS.get("" if unit == "1" else unit.replace("^", "**"), "a quantity")
+    return f"{kind} is needed" if unit == "1" else f"{kind} [{unit}] is needed"
+
+
+def _kind(found: Any) -> str:
+    registry = _registry()
+    kinds = (
+        name
+        for kind, name in _KINDS.items()
+        if registry.parse_units(kind).dimensionality == found.dimensionality
+    )
+    return next(kinds, f"in {registry.get_base_units(found)[1]:~C}")
 
 
 def _refuse(sentence: str) -> NoReturn:
@@ -253,12 +316,7 @@ def _scaled(number: str, body: str, shown: str, unit: str) -> float:
         if math.isfinite(float(number)) and math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
             return _shifted(number, exponent)
         return float(number) * factor
-    kinds = (
-        name
-        for kind, name in _KINDS.items()
-        if registry.parse_units(kind).dimensionality == found.dimensionality
-    )
-    kind = next(kinds, f"in {registry.get_base_units(found)[1]:~C}")
+    kind = _kind(found)
     if unit == "1":
         return _refuse(f"{shown} is {kind}, but a pure number is needed, e.g. {EXAMPLES['1']}")
     return _refuse(

@@ -19,6 +19,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from ..errors import InvalidValue, NotCompiled, RangeWarning
+from .carried import carries_unit, in_si, takes_units
 
 if TYPE_CHECKING:
     import numpy as np
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
     from .notebook import Row
 
-__all__ = ["Value", "choice", "quantity", "several"]
+__all__ = ["Value", "choice", "quantity", "sequences", "several"]
 
 
 def quantity(
@@ -185,12 +186,21 @@ class Value:
         super().__init_subclass__(**kwargs)
         if not stand_in:
             Value._classes[cls.__name__] = cls
+        for name, member in list(vars(cls).items()):
+            if not name.startswith("_") and (taker := _taker(member)):
+                setattr(cls, name, taker)
 
     def __post_init__(self) -> None:
         problems: list[str] = []
         for name, about, words in _declared(type(self)):  # type: ignore[arg-type]
             value = getattr(self, name)
             why = None
+            if type(value) is not float and carries_unit(value):
+                value, told = _without_unit(type(self), name, value)
+                if told:
+                    problems.append(told)
+                    continue
+                object.__setattr__(self, name, value)
             if about:
                 if value is None and type(self).__dataclass_fields__[name].default is None:  # type: ignore[attr-defined]
                     continue
@@ -314,6 +324,55 @@ class Value:
         if kind not in Value._classes:
             raise InvalidValue(f"type = {kind!r} is not a class of this library")
         return Value._classes[kind](**{k: _revive(v) for k, v in data.items() if k != "type"})
+
+
+def _taker(member: Any) -> Any:
+    """A method that takes quantities with a unit; None for what is no method."""
+    if isinstance(member, types.FunctionType):
+        return takes_units(member)
+    if isinstance(member, (classmethod, staticmethod)):
+        return type(member)(takes_units(member.__func__))
+    return None
+
+
+def _without_unit(kind: type[Value], name: str, value: Any) -> tuple[Any, str]:
+    """The value of a field in SI where it carries a unit, and why it cannot be."""
+    item = kind.__dataclass_fields__[name]  # type: ignore[attr-defined]
+    about = item.metadata.get("quantity") or item.metadata.get("several")
+    try:
+        if about is None:
+            raise InvalidValue(f"{value} carries a unit, which is not understood here")
+        return in_si(value, about["unit"]), ""
+    except InvalidValue as error:
+        return value, f"{kind.__name__}.{name} = {error}"
+
+
+def sequences(value: Value, *names: str) -> None:
+    """Fields of a value that hold several numbers, made tuples of floats in SI.
+
+    Raises
+    ------
+    InvalidValue
+        One is no sequence of numbers, or carries a unit of another dimension.
+    """
+    problems = []
+    for name in names:
+        given = getattr(value, name)
+        if given is None and type(value).__dataclass_fields__[name].default is None:  # type: ignore[attr-defined]
+            continue
+        told = ""
+        if carries_unit(given):
+            given, told = _without_unit(type(value), name, given)
+        if told:
+            problems.append(told)
+            continue
+        try:
+            object.__setattr__(value, name, tuple(float(item) for item in given))
+        except (TypeError, ValueError, OverflowError):
+            where = f"{type(value).__name__}.{name}"
+            problems.append(f"{where} = {given!r} must be a sequence of numbers")
+    if problems:
+        raise InvalidValue(*problems)
 
 
 def _rows(value: Value) -> Iterator[Row]:
