@@ -24,6 +24,7 @@ from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
 from ..laws.base import AbstractParticleLaw, SeatedLaw
 from ..laws.particle.breakage import about_strength
+from ..quantities.carried import takes_units
 from ..quantities.say import percent
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
@@ -77,6 +78,7 @@ def given_load(
     return name, flat * contact.E_ss if name == "F_star" else flat, values.ndim == 0
 
 
+@takes_units
 def solve(
     contact: Contact,
     *,
@@ -232,6 +234,7 @@ def why_deep(contact: Contact) -> str:
     )
 
 
+@takes_units
 def roots(
     contact: Contact, *, pressure: float | None = None, F_star: float | None = None
 ) -> list[tuple[Equilibrium, bool]]:

@@ -16,6 +16,7 @@ from ..contact.interface import Interface, interface
 from ..errors import InvalidValue, NotCompiled
 from ..populations.materials import BULK
 from ..populations.shape import Angular
+from ..quantities.carried import takes_units
 from ..quantities.value import warn_of_slip
 from .columns import COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["solve_states", "state_columns", "varied"]
 
 
+@takes_units
 def solve_states(
     contact: Contact,
     *,

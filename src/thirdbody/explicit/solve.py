@@ -16,6 +16,7 @@ from ..equilibrium.modes import EPS_1, EPS_2
 from ..equilibrium.solve import only_one
 from ..errors import InvalidValue, RangeWarning
 from ..laws.base import REGIMES
+from ..quantities.carried import takes_units
 from ..quantities.say import number, percent, plural
 from .interface import Interface, interface_of, map_of
 from .press import Pressed, capacity, press
@@ -42,6 +43,7 @@ PERIMETER = (math.pi - 1 + math.log(2)) / 24
 """Area that a pixel edge at the rim of a contact counts too much, over Δ²."""
 
 
+@takes_units
 def solve(
     contact: Contact,
     surface: Topography | ArrayLike,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy import special
 
-from ..quantities.value import Value, sequences, several
+from ..quantities.value import Value, items_of, sequences, several
 from .size_base import (
     ONE_SIZE,
     Distribution,
@@ -265,7 +265,7 @@ class Mixture(Distribution):
     weights: tuple[float, ...] = several("1", "weights of the parts")
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "parts", tuple(self.parts))
+        object.__setattr__(self, "parts", items_of(self.parts))
         sequences(self, "weights")
         Value.__post_init__(self)
 

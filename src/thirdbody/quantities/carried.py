@@ -16,6 +16,7 @@ import inspect
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping
+from decimal import Decimal
 from functools import cache, wraps
 from types import FunctionType
 from typing import Any, TypeVar
@@ -23,7 +24,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..errors import InvalidValue
-from .units import kind_of, needed, spelled
+from .kinds import kind_of, needed, registry, spelled
 
 __all__ = ["carries_unit", "in_si", "takes_units"]
 
@@ -156,22 +157,23 @@ def _magnitude(value: Any) -> np.ndarray:
 
 
 def _scaled(given: np.ndarray, factor: float) -> np.ndarray:
-    """Numbers times a factor; powers of ten as they are written: 250 nm is the double 250e-9."""
+    """Numbers times a factor; powers of ten as one writes them: 250 nm is the double 250e-9."""
     exponent = round(math.log10(factor)) if factor > 0 and math.isfinite(factor) else 0
-    if 0 < abs(exponent) <= 22 and math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
-        return given * 10.0**exponent if exponent > 0 else given / 10.0**-exponent
-    return given * factor
+    if not math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
+        return given * factor
+    shifted = [float(Decimal(repr(each)).scaleb(exponent)) for each in given.ravel().tolist()]
+    return np.reshape(shifted, given.shape)
 
 
 def _factor(name: Any, label: str, unit: str) -> float:
     """What an array in the unit of its label is to be taken times."""
-    from .units import to_si
-
+    own = "" if label == "1" else label.replace("^", "**")
+    wanted = spelled(unit) or "dimensionless"
     try:
-        return to_si(f"1 {label}", unit)
-    except InvalidValue as error:
-        said = str(error).removeprefix(f'"1 {label}"')
-        raise InvalidValue(f"{name or 'the array'} [{label}]{said}") from None
+        return float(registry().convert(1.0, own or "dimensionless", wanted))
+    except Exception:
+        shown = f"{name or 'the array'} [{label}]"
+        raise InvalidValue(f"{shown} is {kind_of(own)}, but {needed(unit)}") from None
 
 
 def _why_not(value: Any, unit: str) -> str:
@@ -247,7 +249,7 @@ def _all_in_si(
         elif name == "vary" and isinstance(value, Mapping):
             inputs = {key: _unit_of_input(owner, key) for key in value}
             given.arguments[name] = {k: _of(inputs, k, v, problems) for k, v in value.items()}
-        elif _speaks(value) or _is_number(parameter) or units.get(name):
+        elif units.get(name) or _is_number(parameter) or not hasattr(value, "attrs"):
             given.arguments[name] = _of(units, name, value, problems)
     if problems:
         raise InvalidValue(*problems)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from .notebook import Row
 
-__all__ = ["Value", "choice", "quantity", "sequences", "several"]
+__all__ = ["Value", "choice", "items_of", "quantity", "sequences", "several"]
 
 
 def quantity(
@@ -345,6 +345,14 @@ def _without_unit(kind: type[Value], name: str, value: Any) -> tuple[Any, str]:
         return in_si(value, about["unit"]), ""
     except InvalidValue as error:
         return value, f"{kind.__name__}.{name} = {error}"
+
+
+def items_of(given: Any) -> tuple[Any, ...]:
+    """The items of what should hold several; of anything else itself, to be refused by name."""
+    try:
+        return tuple(given)
+    except TypeError:
+        return (given,)
 
 
 def sequences(value: Value, *names: str) -> None:

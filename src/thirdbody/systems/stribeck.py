@@ -10,6 +10,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import RangeWarning
+from ..quantities.carried import takes_units
 from .film_formulas import AbstractFilm, Line, Oil, Point
 from .mixed_film import (
     COLUMNS,
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["RegimeSpeeds", "regime_speeds", "stribeck", "stribeck_columns"]
 
 
+@takes_units
 def stribeck(
     contact: Contact,
     *,

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from ...contact.contact import Contact
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from .make_plan import make_plan
 from .plan import CHUNK
 
@@ -26,6 +27,7 @@ __all__ = ["sweep"]
 
 
 # -------------------------------------------------------------------------- sweep
+@takes_units
 def sweep(
     contact: Contact,
     *,

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from ...contact.contact import Contact
 from ...contact.interface import Interface, interface
 from ...errors import InvalidValue, RangeWarning
+from ...quantities.carried import takes_units
 from ..load_scan import DEEPEST, LoadScan, load_scan
 from ..solve import pull_off, solve
 from .cubic import _LogCubic
@@ -48,6 +49,7 @@ MOST_PANELS = 20_000
 
 
 # -------------------------------------------------------------------------- making a table
+@takes_units
 def table(
     contact: Contact,
     *,
