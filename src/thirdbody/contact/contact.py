@@ -69,7 +69,7 @@ class Contact(Value):
             object.__setattr__(self, "outputs", (self.outputs,))
         object.__setattr__(self, "outputs", items_of(self.outputs))
         Value.__post_init__(self)
-        warn_of_slips(self, stacklevel=3)
+        warn_of_slips(self)
 
     def _problems(self) -> list[str]:
         kinds = {

@@ -8,7 +8,6 @@ by a safeguarded Halley iteration on :math:`\ln F_t(d) = \ln F` with analytic de
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -21,7 +20,7 @@ from ..contact.evaluation import evaluate
 from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
-from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, NotCompiled, tell_of_range
 from ..laws.base import AbstractParticleLaw, SeatedLaw
 from ..laws.particle.breakage import about_strength
 from ..quantities.carried import takes_units
@@ -163,7 +162,7 @@ def solve(
     if scalar and result.status != "ok":
         raise NoEquilibrium(result.status)
     for sentence in result.warnings:
-        warnings.warn(sentence, RangeWarning, stacklevel=2)
+        tell_of_range(sentence)
     return result
 
 

@@ -143,7 +143,7 @@ def _given(
     for name, values in arrays.items():
         if values.dtype.kind in "iuf" and (told := quantity_of(contact, name)):
             for extreme in dict.fromkeys((float(values.min()), float(values.max()))):
-                warn_of_slip(name, told, extreme, stacklevel=3)
+                warn_of_slip(name, told, extreme)
     return load, loads, arrays
 
 

@@ -62,7 +62,13 @@ def carries_unit(value: Any) -> bool:
         return any(map(carries_unit, value))
     if kind is dict:
         return any(map(carries_unit, value.values()))
-    return _speaks(value) or _labelled(value) is not None or _typed(value)
+    return _may_carry(kind) and (_speaks(value) or _labelled(value) is not None or _typed(value))
+
+
+@cache
+def _may_carry(kind: type) -> bool:
+    """Whether values of a type may carry a unit: those of most types cannot."""
+    return any(hasattr(kind, name) for name in ("to", "attrs", "dtype"))
 
 
 def _speaks(value: Any) -> bool:

@@ -195,7 +195,10 @@ def _needed(unit: str) -> str:
 
 def _shifted(number: str, power: int) -> float:
     """The number times a power of ten: "300 nm" is the double 300e-9, not 300 * 1e-9."""
-    return float(Fraction(number) * Fraction(10) ** power)
+    try:
+        return float(Fraction(number) * Fraction(10) ** power)
+    except OverflowError:
+        return math.copysign(math.inf, float(number))
 
 
 def _scaled(number: str, body: str, shown: str, unit: str) -> float:

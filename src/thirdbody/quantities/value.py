@@ -10,7 +10,6 @@ from __future__ import annotations
 import dataclasses
 import math
 import types
-import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -18,7 +17,7 @@ from dataclasses import MISSING, field
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from ..errors import InvalidValue, NotCompiled, RangeWarning
+from ..errors import InvalidValue, NotCompiled, tell_of_range
 from .carried import carries_unit, in_si, takes_units
 
 if TYPE_CHECKING:
@@ -134,18 +133,16 @@ def slips_are_told() -> Iterator[None]:
         _told.reset(token)
 
 
-def warn_of_slip(where: str, about: Mapping[str, Any], number: float, *, stacklevel: int) -> None:
+def warn_of_slip(where: str, about: Mapping[str, Any], number: float) -> None:
     """Warn of a number that looks like a forgotten unit."""
     if not _told.get() and (meant := unit_meant(about, number)):
-        warnings.warn(
+        tell_of_range(
             f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI; was "
-            f"{number:g} {meant} meant?",
-            RangeWarning,
-            stacklevel=stacklevel + 1,
+            f"{number:g} {meant} meant?"
         )
 
 
-def warn_of_slips(value: Value, *, stacklevel: int, prefix: str = "") -> None:
+def warn_of_slips(value: Value, *, prefix: str = "") -> None:
     """Warn of every number of a value, and of the values in it, that looks like a slip."""
     if _told.get() or not dataclasses.is_dataclass(value):  # an output or law of one's own
         return
@@ -153,10 +150,10 @@ def warn_of_slips(value: Value, *, stacklevel: int, prefix: str = "") -> None:
         part = getattr(value, name)
         if about:
             if part is not None and unit_meant(about, part):
-                warn_of_slip(prefix + name, about, part, stacklevel=stacklevel + 1)
+                warn_of_slip(prefix + name, about, part)
         elif isinstance(part, (Value, tuple)):
             for where, inner in _values_in(prefix + name, part):
-                warn_of_slips(inner, stacklevel=stacklevel + 1, prefix=f"{where}.")
+                warn_of_slips(inner, prefix=f"{where}.")
 
 
 @cache

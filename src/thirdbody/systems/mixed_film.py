@@ -29,7 +29,7 @@ from ..contact.interface import interface
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import solve
-from ..errors import InvalidValue, NoEquilibrium, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, RangeWarning, tell_of_range
 from ..populations.heights import GaussianHeights
 from ..quantities.carried import takes_units
 from .film_formulas import AbstractFilm, Line, Oil, Point, full_range
@@ -351,7 +351,7 @@ def mixed_film(
         "residual": np.abs(film_share + (ss + sa) - 1),
     }
     for sentence in notes:
-        warnings.warn(sentence, RangeWarning, stacklevel=2)
+        tell_of_range(sentence)
     if scalar:
         columns = {name: np.asarray(values)[0].item() for name, values in columns.items()}
         state, _ = _solve_heard(contact, float(d[0]))
