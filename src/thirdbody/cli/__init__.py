@@ -6,6 +6,9 @@ and `streams` says what goes to which stream with which exit status.
 
 from __future__ import annotations
 
+# first of all: Ctrl-C while the rest loads ends the command without a traceback
+from . import interrupt as interrupt  # isort: skip
+
 import io
 import sys
 from importlib import import_module

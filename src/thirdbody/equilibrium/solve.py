@@ -62,8 +62,9 @@ def given_load(
         if np.asarray(value).dtype.kind in "USO":
             raise TypeError
         values = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        raise InvalidValue(f"{name} = {value!r} must be a number or an array of numbers") from None
+    except (TypeError, ValueError, OverflowError):
+        shown = repr(value) if len(repr(value)) <= 80 else repr(value)[:76] + " ..."
+        raise InvalidValue(f"{name} = {shown} must be a number or an array of numbers") from None
     if values.ndim > 1:
         raise InvalidValue(f"{name} has {values.ndim} dimensions; give a number or a 1-D array")
     flat = np.atleast_1d(values)

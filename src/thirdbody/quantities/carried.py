@@ -226,14 +226,28 @@ def takes_units(function: F) -> F:
     if getattr(function, "takes_units", False):
         return function
 
+    of_contact = str(function.__annotations__.get("contact", "")) == "Contact"
+    place = function.__code__.co_varnames.index("contact") if of_contact else 0
+
     @wraps(function)
     def with_units(*args: Any, **named: Any) -> Any:
+        if of_contact and (len(args) > place or "contact" in named):
+            _need_contact(args[place] if len(args) > place else named["contact"])
         if any(map(carries_unit, args)) or (named and any(map(carries_unit, named.values()))):
             args, named = _all_in_si(function, args, named)
         return function(*args, **named)
 
     with_units.takes_units = True  # type: ignore[attr-defined]
     return with_units  # type: ignore[return-value]
+
+
+def _need_contact(given: Any) -> None:
+    """Refuse what is no contact: None, a study, a mapping."""
+    if hasattr(given, "asperity_law"):
+        return
+    shown = f"a {type(given).__name__}" if given is not None else "None"
+    cause = "; of a study take study.contact" if hasattr(given, "contact") else ""
+    raise InvalidValue(f"contact = {shown} must be a Contact: surfaces and roughness{cause}")
 
 
 def _all_in_si(

@@ -9,7 +9,16 @@ import re
 from functools import cache
 from typing import Any
 
-__all__ = ["KINDS", "kind_of", "kind_of_parsed", "needed", "one_spelling", "registry", "spelled"]
+__all__ = [
+    "KINDS",
+    "is_usual",
+    "kind_of",
+    "kind_of_parsed",
+    "needed",
+    "one_spelling",
+    "registry",
+    "spelled",
+]
 
 KINDS = {
     "": "a pure number",
@@ -56,6 +65,33 @@ def registry() -> Any:
     import pint
 
     return pint.UnitRegistry()
+
+
+USUAL = frozenset(
+    (
+        *("meter", "micron", "angstrom", "inch", "thou", "foot"),
+        *("pascal", "bar", "torr", "meter_Hg", "standard_atmosphere", "technical_atmosphere"),
+        *("pound_force_per_square_inch", "kip_per_square_inch"),
+        *("newton", "force_kilogram", "force_gram", "force_pound", "dyne"),
+        *("gram", "metric_ton", "pound", "ounce", "mole", "molar", "liter"),
+        *("second", "minute", "hour", "day", "hertz", "revolutions_per_minute"),
+        *("kelvin", "degree_Celsius", "delta_degree_Celsius"),
+        *("joule", "erg", "electron_volt", "calorie", "watt", "horsepower"),
+        *("volt", "ampere", "ohm", "siemens", "poise", "stokes", "reyn"),
+        *("radian", "degree", "arcminute", "arcsecond", "turn", "revolution"),
+        *("percent", "permille", "ppm", "count", "dimensionless"),
+    )
+)
+"""Units that engineers measure interfaces in, as the registry calls them; any prefix goes."""
+
+
+def is_usual(word: str) -> bool:
+    """Whether a name of a unit is one of those that are used here.
+
+    >>> is_usual("nm"), is_usual("psi"), is_usual("furlong"), is_usual("parsec")
+    (True, True, False, False)
+    """
+    return any(name in USUAL for _, name, _ in registry().parse_unit_name(word))
 
 
 def one_spelling(rest: str) -> str | None:

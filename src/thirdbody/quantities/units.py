@@ -15,7 +15,7 @@ from typing import Any, NoReturn
 
 from ..errors import InvalidValue
 from .carried import carries_unit, in_si
-from .kinds import KINDS, kind_of_parsed, one_spelling, registry
+from .kinds import KINDS, is_usual, kind_of_parsed, one_spelling, registry
 
 __all__ = ["EXAMPLES", "quantity_to_si", "say", "to_si"]
 
@@ -208,6 +208,10 @@ def _scaled(number: str, body: str, shown: str, unit: str) -> float:
         found = units.parse_units(body)
     except Exception:
         return _refuse(_unknown(body, shown, unit))
+    if strange := next((word for word in re.findall(r"[^\W\d_]+", body) if not is_usual(word)), ""):
+        return _refuse(
+            f"{shown} has the unit {strange}, which is not used here; it must be {_needed(unit)}"
+        )
     if found.dimensionality == units.parse_units(wanted).dimensionality:
         factor = units.convert(1.0, found, wanted)
         exponent = round(math.log10(factor)) if factor > 0 else 0

@@ -91,6 +91,8 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
         return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
     try:
         number = float(value)
+    except OverflowError:
+        number = math.inf
     except (TypeError, ValueError):
         return f"must be one number in SI units [{about['unit']}]"
     outside = (
@@ -100,24 +102,55 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
         or (about["lt"] is not None and not number < about["lt"])
         or (about["le"] is not None and not number <= about["le"])
     )
-    if not outside:
+    if outside:
+        return allowed_range(about) + (f"; {about['hint']}" if about["hint"] else "")
+    return why_extreme(number, about["unit"])
+
+
+SMALLEST, LARGEST = 1e-40, 1e40
+"""Sizes of numbers in SI, zero aside, that can be computed with: no product of a few of them is
+beyond what a double holds, and nothing measured is beyond them."""
+
+
+def why_extreme(number: float, unit: str) -> str | None:
+    """Why a number is too small or too large to compute with, or None where it is not."""
+    if number == 0 or SMALLEST <= abs(number) <= LARGEST:
         return None
-    return allowed_range(about) + (f"; {about['hint']}" if about["hint"] else "")
+    shown = "" if unit == "1" else f" [{unit}]"
+    return f"must be of a size from {SMALLEST:g} to {LARGEST:g}{shown}; check its exponent"
 
 
-USUAL_LENGTH, USUAL_STRESS = 0.01, 1e5
-"""What lies in an interface is shorter [m], and what holds it is stiffer [Pa]."""
+USUAL_LENGTH, USUAL_STRESS, USUAL_LOAD = 0.01, 1e5, 100.0
+"""What lies in an interface is shorter [m], what holds it is stiffer [Pa], and what presses it
+together is more [Pa]."""
+SLIPS: dict[str, tuple[float, float, str]] = {
+    "Pa m^0.5": (1e3, math.inf, "MPa m^0.5"),
+    "kg/m^3": (50.0, math.inf, "g/cm^3"),
+    "Pa s": (0.0, 10.0, "mPa s"),
+    "1/Pa": (0.0, 1e-5, "/ GPa"),
+    "J/m^2": (0.0, 5.0, "mJ/m^2"),
+}
+"""Sizes within which numbers in SI are no slip, and what was probably meant outside: a solid is
+tougher than 1 kPa m^0.5, denser than 50 kg/m^3; an oil is thinner than 10 Pa s, its pressure
+coefficient below 10 /MPa; and no surface has 5 J/m^2."""
 
 
-def unit_meant(about: Mapping[str, Any], number: float) -> str | None:
+def unit_meant(about: Mapping[str, Any], number: float, *, load: bool = False) -> str | None:
     """The unit that was probably forgotten, where a number in SI is allowed but looks like a slip.
 
-    Lengths of 1 cm and more, and moduli, hardnesses and stresses below 0.1 MPa.
+    Lengths of 1 cm and more, moduli, hardnesses and stresses below 0.1 MPa, loads below 100 Pa, and
+    what lies outside `SLIPS`.
     """
+    unit, size = about["unit"], abs(number)
     usual = about.get("usual") or USUAL_LENGTH
-    if about["unit"] == "m" and abs(number) >= usual:
-        return "mm" if usual >= 1 else "nm" if abs(number) >= 10 else "um"
-    return "GPa" if about["unit"] == "Pa" and 0 < number < USUAL_STRESS else None
+    if unit == "m" and size >= usual:
+        return "mm" if usual >= 1 else "nm" if size >= 10 else "um"
+    if unit == "Pa" and load:
+        return "MPa" if 0 < number < USUAL_LOAD else None
+    if unit == "Pa":
+        return "GPa" if 0 < number < USUAL_STRESS else None
+    least, most, meant = SLIPS.get(unit, (0.0, math.inf, ""))
+    return meant if size and not least <= size <= most else None
 
 
 _told: ContextVar[bool] = ContextVar("_told", default=False)
@@ -376,6 +409,11 @@ def sequences(value: Value, *names: str) -> None:
         except (TypeError, ValueError, OverflowError):
             where = f"{type(value).__name__}.{name}"
             problems.append(f"{where} = {given!r} must be a sequence of numbers")
+            continue
+        unit = type(value).__dataclass_fields__[name].metadata["several"]["unit"]  # type: ignore[attr-defined]
+        for i, number in enumerate(getattr(value, name)):
+            if math.isfinite(number) and (why := why_extreme(number, unit)):
+                problems.append(f"{type(value).__name__}.{name}[{i}] = {number!r} {why}")
     if problems:
         raise InvalidValue(*problems)
 
