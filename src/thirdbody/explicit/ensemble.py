@@ -31,7 +31,7 @@ from ..populations.measured.spectra import SpectralMoments
 from ..populations.measured.synthetic import from_moments
 from ..populations.measured.topography import Topography
 from ..quantities.carried import takes_units
-from ..quantities.files import write_text
+from ..quantities.files import refused_by_disk, write_text
 from ..quantities.progress import reporting
 from ..quantities.say import number, percent, plural
 from ..quantities.sharing import connected, need_version, shared
@@ -266,7 +266,8 @@ def ensemble(
         ):
             for i, record in results:
                 if kept is not None:
-                    kept.mkdir(parents=True, exist_ok=True)
+                    with refused_by_disk(kept):
+                        kept.mkdir(parents=True, exist_ok=True)
                     write_text(_file(kept, i), json.dumps(record | {"key": key}))
                 records[i] = record
                 report(len(records))

@@ -13,7 +13,7 @@ from typing import Any
 
 from ..errors import InvalidValue
 
-__all__ = ["csv_of", "need_folders", "whole", "with_units", "write_text"]
+__all__ = ["csv_of", "need_folders", "refused_by_disk", "whole", "with_units", "write_text"]
 
 
 @contextmanager
@@ -60,14 +60,41 @@ def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
             draft.touch(exist_ok=False)
         except OSError as error:
             raise InvalidValue(f"cannot write {path}: {_why(error, target)}") from None
-        yield draft
-        with draft.open("rb+") as written:
-            os.fsync(written.fileno())
-        if target.exists():
-            draft.chmod(target.stat().st_mode & 0o777)
-        draft.replace(target)
+        with refused_by_disk(path, draft):
+            yield draft
+            with draft.open("rb+") as written:
+                os.fsync(written.fileno())
+            if target.exists():
+                draft.chmod(target.stat().st_mode & 0o777)
+            draft.replace(target)
     finally:
         draft.unlink(missing_ok=True)
+
+
+@contextmanager
+def refused_by_disk(
+    path: str | os.PathLike[str], draft: str | os.PathLike[str] = ""
+) -> Iterator[None]:
+    """Say in one sentence that a file cannot be written: a full disk, a folder of others.
+
+    Raises
+    ------
+    InvalidValue
+        In place of an OSError about ``path`` or its draft; others, and a reader that has gone,
+        pass.
+    """
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        about = error.filename
+        ours = about is None or any(
+            Path(about).is_relative_to(each) for each in (path, draft) if each
+        )
+        if not ours:
+            raise
+        raise InvalidValue(f"cannot write {path}: {_why(error, Path(path))}") from None
 
 
 def need_folders(*paths: str | os.PathLike[str] | None) -> None:
@@ -96,13 +123,8 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
     InvalidValue
         The file cannot be written.
     """
-    with whole(path) as draft:
-        try:
-            draft.write_text(text, encoding="utf-8", newline="")
-        except BrokenPipeError:
-            raise
-        except OSError as error:
-            raise InvalidValue(f"cannot write {path}: {_why(error, draft)}") from None
+    with whole(path) as draft, refused_by_disk(path, draft):
+        draft.write_text(text, encoding="utf-8", newline="")
 
 
 def _why(error: OSError, target: Path) -> str:
