@@ -302,6 +302,7 @@ def roots(
     ]
 
 
+@takes_units
 def pull_off(contact: Contact) -> tuple[float, float]:
     r"""The largest tension that adhesion holds, and the separation where it does.
 
