@@ -62,7 +62,9 @@ def carries_unit(value: Any) -> bool:
         return any(map(carries_unit, value))
     if kind is dict:
         return any(map(carries_unit, value.values()))
-    return _may_carry(kind) and (_speaks(value) or _labelled(value) is not None or _typed(value))
+    if not _may_carry(kind):  # type: ignore[arg-type]
+        return False
+    return _speaks(value) or _labelled(value) is not None or _typed(value)
 
 
 @cache

@@ -7,7 +7,7 @@ import io
 import os
 import secrets
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -68,7 +68,8 @@ def whole(path: str | os.PathLike[str]) -> Iterator[Path]:
                 draft.chmod(target.stat().st_mode & 0o777)
             draft.replace(target)
     finally:
-        draft.unlink(missing_ok=True)
+        with suppress(OSError):  # where none can be made, none can be removed
+            draft.unlink(missing_ok=True)
 
 
 @contextmanager

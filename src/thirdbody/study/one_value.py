@@ -181,7 +181,8 @@ def numbers(path: str, unit: str) -> Callable[[Any], tuple[float, ...]]:
             raise InvalidValue(
                 f"{path} = {say(value)} must be a list, e.g. [{EXAMPLES[unit]}, ...]"
             )
-        out, problems = [], []
+        out: list[float] = []
+        problems: list[str] = []
         for i, item in enumerate(value):
             try:
                 out.append(number(Unsaid(), f"{path}[{i}]", plain_number(unit))(item))
