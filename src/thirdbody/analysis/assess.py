@@ -17,6 +17,7 @@ from ..equilibrium.critical_loads import CRITICAL
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.states import tables_each, varied
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
+from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
 from ..quantities.value import problem_with
 from .assessment import (
@@ -48,6 +49,7 @@ __all__ = ["assess", "assess_each"]
 
 
 # -------------------------------------------------------------------------- making it
+@takes_units
 def assess(
     contact: Contact,
     *,

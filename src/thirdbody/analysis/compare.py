@@ -31,6 +31,7 @@ from ..equilibrium.columns import COLUMNS, Equilibrium
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, RangeWarning
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
+from ..quantities.carried import takes_units
 from ..quantities.files import csv_of, with_units
 from ..quantities.say import percent
 
@@ -94,6 +95,7 @@ class Persson:
 
 
 # -------------------------------------------------------------------------- comparing
+@takes_units
 def compare(
     contact: Contact,
     *,

@@ -28,6 +28,7 @@ from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue
 from ..quantities import notebook
+from ..quantities.carried import takes_units
 from .differences import FULL, QUICK, Entry, Places, Rule
 from .inputs import NUMBERS, Input, _room, input_of, inputs
 
@@ -104,6 +105,7 @@ class Sensitivity:
         names = (item.name for item in dataclasses.fields(self) if item.name != "contact")
         return {name: _plain(getattr(self, name)) for name in names}
 
+    @takes_units
     def table(self, at: int = 0) -> str:
         """The elasticities at one load as lines of text, the strongest input first.
 
@@ -179,6 +181,7 @@ def _moves(contact: Contact, label: str) -> bool:
 
 
 # -------------------------------------------------------------------------- sensitivities
+@takes_units
 def sensitivity(
     contact: Contact,
     *,

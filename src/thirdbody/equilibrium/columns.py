@@ -15,6 +15,7 @@ from ..contact.contact import Contact
 from ..contact.output import column
 from ..errors import InvalidValue
 from ..quantities import notebook
+from ..quantities.carried import takes_units
 from ..version import __version__
 from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S
 from .status import WORDS
@@ -201,6 +202,7 @@ class Equilibrium:
         states = "1 state" if count == 1 else f"{count} states"
         return notebook.card(f"Equilibrium, {states}", rows, self.warnings)
 
+    @takes_units
     def modes(
         self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: str = "area"
     ) -> str | NDArray[np.str_]:

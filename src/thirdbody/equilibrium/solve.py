@@ -8,7 +8,6 @@ by a safeguarded Halley iteration on :math:`\ln F_t(d) = \ln F` with analytic de
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -21,8 +20,9 @@ from ..contact.evaluation import evaluate
 from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
-from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, NotCompiled, tell_of_range
 from ..laws.particle.breakage import about_strength
+from ..quantities.carried import takes_units
 from ..quantities.say import percent
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
@@ -58,8 +58,9 @@ def given_load(
         if np.asarray(value).dtype.kind in "USO":
             raise TypeError
         values = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        raise InvalidValue(f"{name} = {value!r} must be a number or an array of numbers") from None
+    except (TypeError, ValueError, OverflowError):
+        shown = repr(value) if len(repr(value)) <= 80 else repr(value)[:76] + " ..."
+        raise InvalidValue(f"{name} = {shown} must be a number or an array of numbers") from None
     if values.ndim > 1:
         raise InvalidValue(f"{name} has {values.ndim} dimensions; give a number or a 1-D array")
     flat = np.atleast_1d(values)
@@ -73,6 +74,7 @@ def given_load(
     return name, flat * contact.E_ss if name == "F_star" else flat, values.ndim == 0
 
 
+@takes_units
 def solve(
     contact: Contact,
     *,
@@ -157,7 +159,7 @@ def solve(
     if scalar and not Status(int(result.status_code)).has_numbers:
         raise NoEquilibrium(result.status)
     for sentence in result.warnings:
-        warnings.warn(sentence, RangeWarning, stacklevel=2)
+        tell_of_range(sentence)
     return result
 
 
@@ -228,6 +230,7 @@ def why_deep(contact: Contact) -> str:
     )
 
 
+@takes_units
 def roots(
     contact: Contact, *, pressure: float | None = None, F_star: float | None = None
 ) -> list[tuple[Equilibrium, bool]]:
@@ -295,6 +298,7 @@ def roots(
     ]
 
 
+@takes_units
 def pull_off(contact: Contact) -> tuple[float, float]:
     r"""The largest tension that adhesion holds, and the separation where it does.
 

@@ -16,6 +16,7 @@ from ..contact.interface import Interface, interface
 from ..errors import InvalidValue, NotCompiled
 from ..populations.materials import BULK
 from ..populations.shape import Angular
+from ..quantities.carried import takes_units
 from ..quantities.value import warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 __all__ = ["solve_states", "state_columns", "varied"]
 
 
+@takes_units
 def solve_states(
     contact: Contact,
     *,
@@ -143,7 +145,7 @@ def _given(
     for name, values in arrays.items():
         if values.dtype.kind in "iuf" and (told := quantity_of(contact, name)):
             for extreme in dict.fromkeys((float(values.min()), float(values.max()))):
-                warn_of_slip(name, told, extreme, stacklevel=3)
+                warn_of_slip(name, told, extreme)
     return load, loads, arrays
 
 

@@ -31,6 +31,7 @@ from ..laws.base import SeatedLaw
 from ..populations.measured.spectra import SpectralMoments
 from ..populations.measured.synthetic import from_moments
 from ..populations.measured.topography import Topography
+from ..quantities.carried import takes_units
 from ..quantities.files import make_folder, write_text
 from ..quantities.progress import reporting
 from ..quantities.records import read_record, sealed
@@ -128,6 +129,7 @@ class Ensemble:
         }
 
 
+@takes_units
 def surface_of(contact: Contact, *, size: int, spacing: float, seed: int = 0) -> Topography:
     """A synthetic surface with the σ, R and α of a contact's roughness.
 
@@ -166,6 +168,7 @@ def surface_of(contact: Contact, *, size: int, spacing: float, seed: int = 0) ->
     return from_moments(moments, spacing=spacing, points=size, hurst=HURST, seed=seed)
 
 
+@takes_units
 def ensemble(
     contact: Contact,
     *,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -14,8 +13,9 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import _mode
 from ..equilibrium.modes import EPS_1, EPS_2
 from ..equilibrium.solve import only_one
-from ..errors import InvalidValue, RangeWarning
+from ..errors import InvalidValue, tell_of_range
 from ..laws.base import REGIMES
+from ..quantities.carried import takes_units
 from ..quantities.say import number, percent, plural, value_of
 from .interface import Interface, interface_of, map_of
 from .press import HARDEST, Pressed, capacity, press, touched
@@ -40,6 +40,7 @@ DENSE = 0.5
 LEAST_SINGLE = 1e-7
 
 
+@takes_units
 def solve(
     contact: Contact,
     surface: Topography | ArrayLike,
@@ -163,7 +164,7 @@ def solve(
     columns = [numbers_of(inside, each) for each in found]
     told = (*inside.warnings, *_doubts(columns, found, tol))
     for sentence in told:
-        warnings.warn(sentence, RangeWarning, stacklevel=2)
+        tell_of_range(sentence)
 
     def of(name: str) -> Any:
         every = [each[name] for each in columns]

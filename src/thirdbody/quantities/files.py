@@ -18,6 +18,7 @@ from typing import Any
 
 from ..errors import InvalidValue
 
+<<<<<<< HEAD
 __all__ = [
     "csv_of",
     "is_draft",
@@ -32,6 +33,9 @@ __all__ = [
 
 DAY = 86400.0
 """Seconds after which a draft that another machine wrote is taken for left."""
+=======
+__all__ = ["csv_of", "need_folders", "refused_by_disk", "whole", "with_units", "write_text"]
+>>>>>>> doors
 
 
 @contextmanager
@@ -83,14 +87,42 @@ def whole(path: str | os.PathLike[str], *, tidy: bool = True) -> Iterator[Path]:
             draft.touch(exist_ok=False)
         except OSError as error:
             raise InvalidValue(f"cannot write {path}: {_why(error, target)}") from None
-        yield draft
-        with draft.open("rb+") as written:
-            os.fsync(written.fileno())
-        if target.exists():
-            draft.chmod(target.stat().st_mode & 0o777)
-        draft.replace(target)
+        with refused_by_disk(path, draft):
+            yield draft
+            with draft.open("rb+") as written:
+                os.fsync(written.fileno())
+            if target.exists():
+                draft.chmod(target.stat().st_mode & 0o777)
+            draft.replace(target)
     finally:
-        draft.unlink(missing_ok=True)
+        with suppress(OSError):  # where none can be made, none can be removed
+            draft.unlink(missing_ok=True)
+
+
+@contextmanager
+def refused_by_disk(
+    path: str | os.PathLike[str], draft: str | os.PathLike[str] = ""
+) -> Iterator[None]:
+    """Say in one sentence that a file cannot be written: a full disk, a folder of others.
+
+    Raises
+    ------
+    InvalidValue
+        In place of an OSError about ``path`` or its draft; others, and a reader that has gone,
+        pass.
+    """
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        about = error.filename
+        ours = about is None or any(
+            Path(about).is_relative_to(each) for each in (path, draft) if each
+        )
+        if not ours:
+            raise
+        raise InvalidValue(f"cannot write {path}: {_why(error, Path(path))}") from None
 
 
 def _draft(target: Path) -> Path:
@@ -242,6 +274,7 @@ def write_text(path: str | os.PathLike[str], text: str, *, tidy: bool = True) ->
     InvalidValue
         The file cannot be written.
     """
+<<<<<<< HEAD
     with whole(path, tidy=tidy) as draft:
         try:
             draft.write_text(text, encoding="utf-8", newline="")
@@ -249,6 +282,10 @@ def write_text(path: str | os.PathLike[str], text: str, *, tidy: bool = True) ->
             raise
         except OSError as error:
             raise InvalidValue(f"cannot write {path}: {_why(error, draft)}") from None
+=======
+    with whole(path) as draft, refused_by_disk(path, draft):
+        draft.write_text(text, encoding="utf-8", newline="")
+>>>>>>> doors
 
 
 def _why(error: OSError, target: Path) -> str:

@@ -13,7 +13,6 @@ makes depths upper bounds.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
@@ -24,7 +23,7 @@ from ..contact.broken_averages import broken_average
 from ..effects.single.dent import Dent, dent_of, dents_after, flattened_diameter
 from ..effects.single.ploughing import groove_of
 from ..effects.single.severity import severity, threshold
-from ..errors import InvalidValue, RangeWarning
+from ..errors import InvalidValue, tell_of_range
 from ..laws.asperity.hermite import Hermite
 from ..laws.base import AbstractAsperityLaw
 from ..laws.particle.breakage import Breakage, about_strength
@@ -189,7 +188,7 @@ class FilmParticles(Value):
     def __post_init__(self) -> None:
         Value.__post_init__(self)
         for text in about_strength(self, self.surfaces):
-            warnings.warn(text, RangeWarning, stacklevel=3)
+            tell_of_range(text)
 
     def _problems(self) -> list[str]:
         out = [

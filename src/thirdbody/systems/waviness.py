@@ -24,6 +24,7 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..errors import InvalidValue, NoEquilibrium
+from ..quantities.carried import takes_units
 from .elastic_balance import Balance, Grid, Skin, balance, to_series
 
 if TYPE_CHECKING:
@@ -185,6 +186,7 @@ def _load(skin: Skin, pressure: float | None, F_star: float | None) -> float | N
     return pressure if F_star is None else F_star * skin.E_star
 
 
+@takes_units
 def rigid_wave(
     contact: Contact | Callable[..., Any],
     *,
@@ -246,6 +248,7 @@ def rigid_wave(
     )
 
 
+@takes_units
 def elastic_wave(
     contact: Contact | Callable[..., Any],
     *,
@@ -294,6 +297,7 @@ def elastic_wave(
     return _result(skin, balance(skin, wave, d=d, load=_load(skin, pressure, F_star)), True)
 
 
+@takes_units
 def measured_wave(
     contact: Contact | Callable[..., Any],
     *,

@@ -13,6 +13,8 @@ from numpy.typing import ArrayLike
 
 from ...contact.contact import Contact
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
+from ...quantities.files import refused_by_disk
 from .make_plan import make_plan
 from .plan import CHUNK
 
@@ -26,6 +28,7 @@ __all__ = ["sweep"]
 
 
 # -------------------------------------------------------------------------- sweep
+@takes_units
 def sweep(
     contact: Contact,
     *,
@@ -137,6 +140,7 @@ def sweep(
         raise InvalidValue(f"workers = {workers!r} must be a whole number, at least 1")
     if out is None:
         return streaming.in_memory(plan, workers=workers, client=client, progress=progress)
-    return streaming.run(
-        plan, out, format=format, workers=workers, client=client, progress=progress
-    ).open()
+    with refused_by_disk(out):
+        return streaming.run(
+            plan, out, format=format, workers=workers, client=client, progress=progress
+        ).open()

@@ -27,6 +27,7 @@ from ...equilibrium.solve import given_load
 from ...equilibrium.states import FEWEST, tables_each
 from ...errors import InvalidValue
 from ...quantities import notebook
+from ...quantities.carried import takes_units
 from ...quantities.say import percent
 from .inputs import Drawn, Uncertain, drawn_inputs
 from .samples import (
@@ -164,6 +165,7 @@ class Propagation:
             rows.append(notebook.Row(mode, values, "probability of the contact mode"))
         return notebook.card(f"Propagation, {self.samples} samples", rows)
 
+    @takes_units
     def at_load(self, at: int) -> Propagation:
         """What is said of one of several loads."""
         if np.ndim(self.loads) == 0:
@@ -184,6 +186,7 @@ class Propagation:
         )
 
     # ------------------------------------------------------------------ one input at a time
+    @takes_units
     def tornado(
         self,
         of: str | Sequence[str],
@@ -227,6 +230,7 @@ class Propagation:
         order = sorted(first, key=lambda label: -swing(*first[label]))
         return {name: {label: table[label] for label in order} for name, table in out.items()}
 
+    @takes_units
     def sobol_indices(
         self, of: str | Sequence[str], *, at: int = 0, samples: int = 1024
     ) -> dict[str, dict[str, dict[str, float]]]:
@@ -354,6 +358,7 @@ def swing(low: float, high: float) -> float:
 
 
 # -------------------------------------------------------------------------- propagation
+@takes_units
 def propagate(
     contact: Contact,
     *,

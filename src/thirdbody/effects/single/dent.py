@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...populations.materials import Material
+from ...quantities.carried import takes_units
 from .ploughing import residual_depth
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ __all__ = [
 
 
 # ------------------------------------------------------------------------------ one particle
+@takes_units
 def dent_diameter(depth: ArrayLike, *, radius: ArrayLike) -> Array:
     r"""Diameter of the dent of a hard sphere pressed δ deep.
 
@@ -52,6 +54,7 @@ def dent_diameter(depth: ArrayLike, *, radius: ArrayLike) -> Array:
     return 2 * np.sqrt(depth * (2 * np.asarray(radius) - depth))
 
 
+@takes_units
 def dent_volume(residual: ArrayLike, *, depth: ArrayLike, radius: ArrayLike) -> Array:
     r"""Volume of a dent: a spherical cap as wide as under load and as deep as what stays.
 
@@ -81,6 +84,7 @@ def dent_volume(residual: ArrayLike, *, depth: ArrayLike, radius: ArrayLike) -> 
     return np.pi / 6 * cap * (0.75 * width**2 + cap**2) + np.pi * radius**2 * shaft
 
 
+@takes_units
 def flattened_diameter(x: ArrayLike, *, gap: ArrayLike) -> Array:
     r"""Diameter of the disc that a ductile sphere becomes in a gap, its volume kept.
 
@@ -105,6 +109,7 @@ def flattened_diameter(x: ArrayLike, *, gap: ArrayLike) -> Array:
     return x * np.sqrt(np.maximum(2 * x / (3 * np.asarray(gap)), 1.0))
 
 
+@takes_units
 def fragments(x: ArrayLike, *, size: float) -> Array:
     r"""Fragments of one size that a brittle particle of size x breaks into, its volume kept.
 
@@ -130,6 +135,7 @@ def fragments(x: ArrayLike, *, size: float) -> Array:
     return np.maximum(np.asarray(x, dtype=float) / size, 1.0) ** 3
 
 
+@takes_units
 def dents_after(rate: ArrayLike, *, overrollings: ArrayLike, area: ArrayLike) -> Array:
     r"""Dents that one can tell apart after many overrollings.
 
@@ -185,6 +191,7 @@ class Dent(NamedTuple):
     """Its volume [m³]."""
 
 
+@takes_units
 def dent_of(spots: ParticleSpots, *, side: int, particle: Material) -> Dent:
     """The dents of particles in surface 1 (side 0) or 2 (side 1).
 

@@ -24,6 +24,7 @@ from scipy.special import exprel
 
 from ...errors import InvalidValue
 from ...numerics.quadrature import gauss_legendre
+from ...quantities.carried import takes_units
 from ...quantities.units import say, to_si
 from ...quantities.value import Value, choice
 from ..distributions import (
@@ -53,6 +54,7 @@ _LEFT_OUT = 1e-9
 """Volume (or area) above the largest size that a converted infinite tail keeps."""
 
 
+@takes_units
 def by_number(
     sizes: Distribution, weighting: str, *, smallest: float | None = None
 ) -> Distribution:
@@ -296,6 +298,7 @@ class Fit:
     rms: float
     worst: float
 
+    @takes_units
     def by_number(self, smallest: float | None = None) -> Distribution:
         """The number distribution φ_a.
 
