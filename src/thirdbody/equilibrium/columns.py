@@ -148,6 +148,9 @@ class Equilibrium:
             for name, told in POPULATION_COLUMNS.items():
                 values = np.stack([np.atleast_1d(getattr(part, name)) for part in parts], axis=-1)
                 data[f"population_{name}"] = (dims, values, told)
+            for name in parts[0].outputs:
+                values = np.stack([np.atleast_1d(part.outputs[name]) for part in parts], axis=-1)
+                data[f"population_{name}"] = (dims, values, labels(name))
             data = data.assign_coords(population=[part.name for part in parts])
         return data
 
@@ -226,6 +229,8 @@ class PopulationShare:
     """of the total load [1]"""
     area_share: Number
     """of the total real area [1]"""
+    outputs: Mapping[str, Number] = field(default_factory=dict)
+    """Columns of the outputs that each population has of its own, as its dents, by name."""
 
 
 POPULATION_COLUMNS = {

@@ -82,6 +82,9 @@ def command(
             print(f"{len(statuses)} states written to {path}", file=sys.stderr)
     elif solved:
         _show(result)
+    elif "body" in result:  # what the smooth bodies do is known
+        for sentence in result["body"]["sentences"]:
+            terminal().print(sentence)
     if not solved:
         more = f" (and so for all {len(statuses)} states)" if len(statuses) > 1 else ""
         raise NoEquilibrium(statuses[0] + more)
@@ -96,7 +99,11 @@ def _columns(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, st
     for part in result["populations"]:
         mine = {f"{part['name']}: {key}": part[key] for key in part if key != "name"}
         columns |= mine
-        units |= dict.fromkeys(mine, "1")
+        units |= {
+            f"{part['name']}: {key}": about(key)["unit"] if key in result["states"] else "1"
+            for key in part
+            if key != "name"
+        }
     return columns, units
 
 
