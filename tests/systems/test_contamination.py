@@ -158,7 +158,7 @@ def test_largest_by_change_of_variable():
     assert float(dent.depth) == pytest.approx(
         float(co.dent_of(film.single(at), side=0, particle=SILICA).depth[0, 0]), rel=1e-2
     )
-    assert float(film.largest(1e-9, overrollings=1.0).depth) == 0.0
+    assert math.isnan(film.largest(1e-9, overrollings=1.0).depth)  # even one is unlikely
     assert film.largest(1e-6, overrollings=1e8).depth > dent.depth
 
 

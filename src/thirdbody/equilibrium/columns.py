@@ -69,9 +69,9 @@ class Equilibrium:
     """
 
     contact: Contact = field(repr=False)
-    d: Number = _column("d", "m", "separation from the mean asperity height")
-    h: Number = _column("h", "m", "separation from the mean surface plane")
-    d_star: Number = _column("d*", "1", "separation d/σ")
+    d: Number = _column("d", "m", "separation d, from the mean asperity height")
+    h: Number = _column("h", "m", "separation of the mean planes")
+    d_star: Number = _column("d*", "1", "separation d over σ")
     F_star: Number = _column("F_t*", "1", "load F/(A_n E_ss)")
     pressure: Number = _column("p", "Pa", "nominal pressure")
     F_ss_star: Number = _column("F_ss*", "1", "load on asperities")

@@ -510,7 +510,7 @@ def _warnings(
     height = (d - bound.asperities.centre) / bound.asperities.sigma_s
     if np.any(height < DEEPEST):
         out.append(
-            f"the separation goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
+            f"the separation d goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
             "every asperity is in contact and the model is invalid"
         )
     if np.any(np.isfinite(d)):

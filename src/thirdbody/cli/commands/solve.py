@@ -32,8 +32,9 @@ __all__ = ["command", "summary"]
 MEANS = {
     "F*": "load F/(A_n E_ss), no unit",
     "pressure": "nominal pressure p",
-    "d": "separation from the mean asperity height",
-    "d/sigma": "the same over the RMS roughness, no unit",
+    "h": "separation of the mean planes",
+    "d": "separation d, from the mean asperity height",
+    "d/sigma": "d over the RMS roughness, no unit",
     "A_t": "real contact area over the nominal area, no unit",
     "A_ss": "of it on asperities",
     "A_sa": "of it on particles",
@@ -42,7 +43,7 @@ MEANS = {
     "mode": "p-s on particles, hybrid on both, s-s on asperities",
 }
 """What the heads of the states mean."""
-DROP = ("A_ss", "A_sa", "d/sigma", "particles' area", "F*")
+DROP = ("A_ss", "A_sa", "d/sigma", "d", "particles' area", "F*")
 """Columns in the order in which they go where the width is small."""
 
 Columns = dict[str, Callable[[int], str]]
@@ -125,6 +126,7 @@ def _show(result: dict[str, Any]) -> None:
         "pressure": lambda i: value_of(states["pressure"][i], "Pa"),
     }
     columns = loads | {
+        "h": lambda i: value_of(states["h"][i], "m"),
         "d": lambda i: value_of(states["d"][i], "m"),
         "d/sigma": lambda i: number(states["d_star"][i]),
         "A_t": lambda i: number(states["A_t"][i]),
@@ -218,7 +220,10 @@ def summary(result: dict[str, Any]) -> str:
     three_body = result["inputs"]["particles"] is not None
 
     def state(i: int) -> str:
-        gap = f"separation {value_of(states['d'][i], 'm')} ({number(states['d_star'][i], 3)} sigma)"
+        gap = (
+            f"separation h = {value_of(states['h'][i], 'm')} "
+            f"(d = {value_of(states['d'][i], 'm')}, {number(states['d_star'][i], 3)} sigma)"
+        )
         if not states["A_t"][i]:
             return f"{mode_of(None)}; {gap}"
         area = f"real contact area {percent(states['A_t'][i])} of the nominal area"
