@@ -56,7 +56,7 @@ DERIVED = {
     "A_t_difference": ("ΔA_t", "%", "real area against the contact's own law"),
     "mean_pressure_difference": ("Δp_m", "%", "mean real pressure against the own law"),
     "particle_load_share_difference": ("Δ(F_sa/F_t)", "%", "particles' load against the own law"),
-    "d_star_difference": ("Δd/σ", "1", "separation above that of the own law, over σ"),
+    "d_star_difference": ("Δd/σ", "1", "separation d above that of the own law, over σ"),
 }
 """Symbol, unit and meaning of what a comparison adds."""
 TELLING = 0.01

@@ -151,7 +151,11 @@ def _laid_out_together(d: Array, bound: Interface) -> Iterator[NDArray[np.intp]]
 
 
 def evaluate(
-    contact: Contact, bound: Interface, columns: Mapping[str, Array], crowd: Array | None = None
+    contact: Contact,
+    bound: Interface,
+    columns: Mapping[str, Array],
+    crowd: Array | None = None,
+    parts: Sequence[dict[str, Array]] = (),
 ) -> tuple[dict[str, Array], list[str]]:
     """Every column of the outputs of a contact, NaN for unsolved states, and the warnings.
 
@@ -164,6 +168,8 @@ def evaluate(
         d, h, pressure, A_t and shadow of the states: arrays (N,).
     crowd : array (N,), optional
         How many particles each state has for one of the contact.
+    parts : sequence of dict, optional
+        One for each population: filled with the outputs that are given `by_population`.
     """
     names = [name for output in contact.outputs for name in output.columns]
     values = {name: np.full(len(columns["d"]), np.nan) for name in names}
@@ -181,6 +187,12 @@ def evaluate(
                 values[name][part] = value
             for note in output.warnings(state, found):
                 notes.setdefault(NUMBERS.sub("", note), note)
+        for population, own in zip(contact.populations, parts, strict=False):
+            mine = [spots for spots in particles if spots.population is population]
+            alone = replace(state, asperities=[], particles=mine)
+            for output in contact.outputs:
+                for name, value in (output.of(alone) if output.by_population else {}).items():
+                    own.setdefault(name, np.full(len(columns["d"]), np.nan))[part] = value
         for note in _about_few(state):
             notes.setdefault(NUMBERS.sub("", note), note)
     return values, list(notes.values())

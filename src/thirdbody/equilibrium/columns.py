@@ -70,9 +70,9 @@ class Equilibrium:
     """
 
     contact: Contact = field(repr=False)
-    d: Number = _column("d", "m", "separation from the mean asperity height")
-    h: Number = _column("h", "m", "separation from the mean surface plane")
-    d_star: Number = _column("d*", "1", "separation d/σ")
+    d: Number = _column("d", "m", "separation d, from the mean asperity height")
+    h: Number = _column("h", "m", "separation of the mean planes")
+    d_star: Number = _column("d*", "1", "separation d over σ")
     F_star: Number = _column("F_t*", "1", "load F/(A_n E_ss)")
     pressure: Number = _column("p", "Pa", "nominal pressure")
     F_ss_star: Number = _column("F_ss*", "1", "load on asperities")
@@ -149,6 +149,9 @@ class Equilibrium:
             for name, told in POPULATION_COLUMNS.items():
                 values = np.stack([np.atleast_1d(getattr(part, name)) for part in parts], axis=-1)
                 data[f"population_{name}"] = (dims, values, told)
+            for name in parts[0].outputs:
+                values = np.stack([np.atleast_1d(part.outputs[name]) for part in parts], axis=-1)
+                data[f"population_{name}"] = (dims, values, labels(name))
             data = data.assign_coords(population=[part.name for part in parts])
         return data
 
@@ -228,6 +231,8 @@ class PopulationShare:
     """of the total load [1]"""
     area_share: Number
     """of the total real area [1]"""
+    outputs: Mapping[str, Number] = field(default_factory=dict)
+    """Columns of the outputs that each population has of its own, as its dents, by name."""
 
 
 POPULATION_COLUMNS = {

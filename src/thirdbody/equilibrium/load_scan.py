@@ -155,7 +155,7 @@ class LoadScan:
             return Status.TOO_MUCH, (
                 f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is beyond "
                 f"{top:.4g} Pa (F* = {top / E:.3g}), the most this model carries down to a "
-                f"separation of {DEEPEST:g} sigma_s; {why}"
+                f"separation d of {DEEPEST:g} sigma_s; {why}"
             )
         return Status.TOO_LITTLE, (
             f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is below the "

@@ -8,7 +8,7 @@ by a safeguarded Halley iteration on :math:`\ln F_t(d) = \ln F` with analytic de
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -399,8 +399,11 @@ def _state(
     )
     codes: Any = status.codes
     columns |= {"status": status.words.astype(str), "iterations": iterations}
-    shares = _population_shares(contact, bound, d, columns, scalar)
-    outputs, more = evaluate(contact, bound, columns) if contact.outputs else ({}, [])
+    parts: list[dict[str, Array]] = [{} for _ in contact.populations]
+    outputs, more = ({}, [])  # type: tuple[dict[str, Any], list[str]]
+    if contact.outputs:
+        outputs, more = evaluate(contact, bound, columns, parts=parts if len(parts) > 1 else ())
+    shares = _population_shares(contact, bound, d, columns, scalar, parts)
     if scalar:
         columns = {name: values[0].item() for name, values in columns.items()}
         codes = int(codes[0])
@@ -453,7 +456,12 @@ def _only_carried(
 
 
 def _population_shares(
-    contact: Contact, bound: Interface, d: Array, columns: Mapping[str, Any], scalar: bool
+    contact: Contact,
+    bound: Interface,
+    d: Array,
+    columns: Mapping[str, Any],
+    scalar: bool,
+    outputs: Sequence[dict[str, Array]],
 ) -> tuple[PopulationShare, ...]:
     """What each of several populations carries at separations d."""
     if len(bound.populations) < 2:
@@ -473,9 +481,12 @@ def _population_shares(
                 "load_share": part["F_sa"] / columns["pressure"],
                 "area_share": part["A_sa"] / columns["A_t"],
             }
+        mine: dict[str, Any] = outputs[number]
         if scalar:
             values = {name: value[0].item() for name, value in values.items()}
-        out.append(PopulationShare(name=particles.name or f"particles {number + 1}", **values))
+            mine = {name: value[0].item() for name, value in mine.items()}
+        name = particles.name or f"particles {number + 1}"
+        out.append(PopulationShare(name=name, outputs=mine, **values))
     return tuple(out)
 
 
@@ -503,7 +514,7 @@ def _warnings(
     height = (d - bound.asperities.centre) / bound.asperities.sigma_s
     if np.any(height < DEEPEST):
         out.append(
-            f"the separation goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
+            f"the separation d goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
             "every asperity is in contact and the model is invalid"
         )
     if np.any(np.isfinite(d)):

@@ -71,13 +71,13 @@ WORDS = (
 SENTENCES = np.array(
     [
         "ok",
-        "no equilibrium: the load is beyond the most this model carries down to a separation of "
+        "no equilibrium: the load is beyond the most this model carries down to a separation d of "
         f"{DEEPEST:g} sigma_s; check the unit of the load, or let an oil film carry it",
         "no equilibrium: the load is below the smallest load this model resolves; check the unit "
         "of the load",
         "not solved: no separation was found at which the load is in balance",
         "jump: the load lies in a jump of the load over the separation, and none carries it",
-        f"not solved: the separation is lower than {-ReducedSum.DEEPEST:g} sigma_s from the mean "
+        f"not solved: the separation d is lower than {-ReducedSum.DEEPEST:g} sigma_s from the mean "
         "asperity height, where no asperity model holds; check its sign and its unit",
         "no equilibrium: the laws give no number",
         f"crowded: more than {MOST_AREA:g} of the nominal area would be in contact, where contacts "

@@ -18,13 +18,13 @@ from typing import Any
 
 from ..errors import InvalidValue
 
-<<<<<<< HEAD
 __all__ = [
     "csv_of",
     "is_draft",
     "make_folder",
     "need_folders",
     "refuse_clashes",
+    "refused_by_disk",
     "remove_files",
     "whole",
     "with_units",
@@ -33,9 +33,6 @@ __all__ = [
 
 DAY = 86400.0
 """Seconds after which a draft that another machine wrote is taken for left."""
-=======
-__all__ = ["csv_of", "need_folders", "refused_by_disk", "whole", "with_units", "write_text"]
->>>>>>> doors
 
 
 @contextmanager
@@ -274,18 +271,8 @@ def write_text(path: str | os.PathLike[str], text: str, *, tidy: bool = True) ->
     InvalidValue
         The file cannot be written.
     """
-<<<<<<< HEAD
-    with whole(path, tidy=tidy) as draft:
-        try:
-            draft.write_text(text, encoding="utf-8", newline="")
-        except BrokenPipeError:
-            raise
-        except OSError as error:
-            raise InvalidValue(f"cannot write {path}: {_why(error, draft)}") from None
-=======
-    with whole(path) as draft, refused_by_disk(path, draft):
+    with whole(path, tidy=tidy) as draft, refused_by_disk(path, draft):
         draft.write_text(text, encoding="utf-8", newline="")
->>>>>>> doors
 
 
 def _why(error: OSError, target: Path) -> str:

@@ -187,7 +187,9 @@ def _populations(state: Equilibrium) -> list[dict[str, Any]]:
     """What each of several populations carries in every state; nothing for one."""
     numbers = ("F_sa_star", "A_sa", "load_share", "area_share")
     return [
-        {"name": part.name} | {name: _listed(getattr(part, name)) for name in numbers}
+        {"name": part.name}
+        | {name: _listed(getattr(part, name)) for name in numbers}
+        | {name: _listed(values) for name, values in part.outputs.items()}
         for part in state.populations
     ]
 

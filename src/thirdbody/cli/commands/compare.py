@@ -25,7 +25,7 @@ MEANS = {
     "A_t": "real contact area over the nominal area, no unit",
     "diff. of A_t": "against the law of the study",
     "F/A_t": "mean real pressure",
-    "d/sigma": "separation over the RMS roughness, no unit",
+    "d/sigma": "separation d over the RMS roughness, no unit",
     "diff. of d/sigma": "against the law of the study",
     "plastic": "as elastic and el.-plastic, that part of the real area",
     "particles' load": "their part of the load",

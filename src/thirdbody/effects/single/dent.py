@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -24,7 +25,9 @@ __all__ = [
     "dent_volume",
     "dents_after",
     "flattened_diameter",
+    "footprint",
     "fragments",
+    "sink",
 ]
 
 
@@ -184,19 +187,80 @@ class Dent(NamedTuple):
     """
 
     depth: Array
-    """Depth left δ_res [m]; 0 where nothing stays."""
+    """Depth left δ_res [m]; 0 where nothing stays, NaN where it is not known."""
     diameter: Array
-    """Its diameter, that under load [m]."""
+    """Its diameter, that under load [m]; of a flattened particle that of its footprint."""
     volume: Array
-    """Its volume [m³]."""
+    """Its volume [m³], NaN where the depth is not known."""
+
+
+def sink(particle: Material, *, hardness: float, debris: str = "by_hardness") -> float:
+    """The part of its squeeze into a surface that stays a dent: what a particle does, decided here.
+
+    A particle harder than the surface sinks into it. One that is not is flattened, and how far it
+    sinks is not known: NaN, never 0.
+
+    Parameters
+    ----------
+    particle : Material
+    hardness : float
+        H of the softer one of particle and surface [Pa], as `ParticleSpots.hardness` has it.
+    debris : {"by_hardness", "hard", "ductile", "brittle"}, optional
+        What the user says: "hard" sinks whatever its hardness, "ductile" is flattened.
+
+    Returns
+    -------
+    float
+        1 for all of it, NaN where it is not known [1].
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> sink(tb.materials["SiO2"], hardness=steel.H), sink(steel, hardness=steel.H)
+    (1.0, nan)
+    """
+    if debris == "hard" or (debris != "ductile" and particle.H > hardness):
+        return 1.0
+    return math.nan
+
+
+def footprint(spots: ParticleSpots, *, side: int, squashed: bool = False) -> Array:
+    """Diameter of the disc to which a particle is flattened (M, n) [m]; 0 where nothing presses.
+
+    Parameters
+    ----------
+    spots : ParticleSpots
+    side : {0, 1}
+        Surface 1 or 2.
+    squashed : bool, optional
+        Whether the areas are those of squashed particles, of which it is the contact; otherwise
+        it is a disc of the particle's volume as high as its gap.
+
+    Returns
+    -------
+    array
+    """
+    if squashed:
+        return 2 * np.sqrt(spots.areas[side] / np.pi)
+    gap = np.maximum(spots.x - spots.depths[0] - spots.depths[1], 1e-3 * spots.x)
+    return (spots.load > 0) * flattened_diameter(spots.x, gap=gap)
 
 
 @takes_units
-def dent_of(spots: ParticleSpots, *, side: int, particle: Material) -> Dent:
+def dent_of(
+    spots: ParticleSpots,
+    *,
+    side: int,
+    particle: Material,
+    debris: str = "by_hardness",
+    squashed: bool = False,
+) -> Dent:
     """The dents of particles in surface 1 (side 0) or 2 (side 1).
 
-    Only a particle that is harder than the surface dents it; otherwise it is deformed itself. No
-    dent is deeper than the particle is thick.
+    A particle that is harder than the surface dents it. One that is not is flattened: the width is
+    that of its footprint, depth and volume are not known (`sink`). No dent is deeper than the
+    particle is thick.
 
     Parameters
     ----------
@@ -206,6 +270,10 @@ def dent_of(spots: ParticleSpots, *, side: int, particle: Material) -> Dent:
         Surface 1 or 2.
     particle : Material
         Of the particles.
+    debris : str, optional
+        What the user says of it, as in `sink`.
+    squashed : bool, optional
+        As in `footprint`.
 
     Returns
     -------
@@ -229,10 +297,15 @@ def dent_of(spots: ParticleSpots, *, side: int, particle: Material) -> Dent:
     >>> f"{depth * 1e6:.2f} µm"
     '0.52 µm'
     """
-    depth = np.minimum(spots.depths[side], spots.x)
+    share = sink(particle, hardness=spots.hardness[side], debris=debris)
+    if math.isnan(share):
+        wide = footprint(spots, side=side, squashed=squashed)
+        unknown = np.where(wide > 0, np.nan, 0.0)
+        return Dent(unknown, wide, unknown)
+    depth = np.minimum(share * spots.depths[side], spots.x)
     first = spots.yields[side] * spots.x
     ratio = np.divide(depth, first, out=np.zeros_like(depth), where=first > 0)
-    left = residual_depth(depth, depth_over_yield=ratio) * (particle.H > spots.hardness[side])
+    left = residual_depth(depth, depth_over_yield=ratio)
     there = left > 0
     volume = dent_volume(left, depth=depth, radius=spots.radius)
     shape = spots.shape
