@@ -746,6 +746,13 @@ def test_memory_of_a_job_is_bounded(monkeypatch):
     code = f"import resource; from thirdbody.app import worker; worker._limit(); bytearray({worker.MEMORY})"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert "MemoryError" in done.stderr
+    code = (
+        "import resource; from thirdbody.app import worker; worker._limit(); "
+        "print(*resource.getrlimit(resource.RLIMIT_CPU))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    soft, hard = map(int, done.stdout.split())
+    assert soft == worker.SECONDS < hard  # the signal at the first says that it was the time
 
 
 # ---------------------------------------------------------------- guard

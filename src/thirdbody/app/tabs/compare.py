@@ -102,7 +102,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         await work.tell(state)
         await draw()
 
-    what.on_value_change(lambda: draw())
+    what.on_value_change(state.tell)
     return tell
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from nicegui import ui
 
 from ...equilibrium.words import critical_load, happens
+from ...errors import InvalidValue
 from ...views.plot.style import HATCHES
 from ..figures import (
     AXES,
@@ -181,7 +182,7 @@ class Curves:
         """What the figures show."""
         self.told: Answer | None = None
         """Whose critical loads the table holds."""
-        self.against.on_value_change(self.draw)
+        self.against.on_value_change(state.tell)
 
     async def draw(self) -> None:
         answer = self.state.answer
@@ -235,7 +236,14 @@ class Curves:
         self.later = None
         answer = self.state.answer
         assert answer is not None
-        await self._show(answer, critical=True)
+        try:
+            await self._show(answer, critical=True)
+        except InvalidValue as error:
+            self.shown = None
+            self.table.clear()
+            with self.table:
+                ui.label("; ".join(error.problems)).classes("problem")
+            return
         if answer is self.state.answer:
             self._tell(answer)
 

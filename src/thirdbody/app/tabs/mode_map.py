@@ -179,7 +179,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
 
     def little(asked: dict[str, Any]) -> dict[str, Any]:
         return asked | {
-            name: [*asked[name][::LITTLE], asked[name][-1]] for name in ("sizes", "loads")
+            name: np.geomspace(asked[name][0], asked[name][-1], POINTS // LITTLE).tolist()
+            for name in ("sizes", "loads")
         }
 
     work = Work("map", "Draw the map", ask, show, key=contact, same=_same_map, little=little)
