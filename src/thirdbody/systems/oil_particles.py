@@ -428,7 +428,7 @@ class FilmParticles(Value):
             raise InvalidValue(f"side = {side!r} must be 1 or 2")
         if not self.sinks(side - 1):
             if self.debris != "ductile":
-                warnings.warn(self._flattened(side), RangeWarning, stacklevel=2)
+                tell_of_range(self._flattened(side))
             return self._footprints()
         lowest = self._first(side - 1)
         count = self._pressed(lowest) if math.isfinite(lowest) else 0.0
