@@ -157,6 +157,8 @@ class BrokenAverage(SizeAverage):
         self, gap: Array, rise: Array, splits: Sequence[float] = (), *, nodes: int, squeezes: Array
     ) -> Pieces:
         """Sizes of sums over what is in gaps (N, 1), with its numbers."""
+        if not len(gap):
+            return Pieces(*np.empty((len(Pieces._fields), 0, 0)))
         if isinstance(self.sizes, Monodisperse):
             return self._of_one_size(gap, rise)
         law, top = self.breakage, self.top

@@ -1,4 +1,5 @@
-"""Output files appear whole or not at all: written beside their place, then renamed."""
+"""Output files appear whole or not at all, written beside their place, then renamed; what is read
+has a size that it may have."""
 
 from __future__ import annotations
 
@@ -6,6 +7,7 @@ import csv
 import io
 import os
 import secrets
+import stat
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +15,46 @@ from typing import Any
 
 from ..errors import InvalidValue
 
-__all__ = ["csv_of", "need_folders", "whole", "with_units", "write_text"]
+__all__ = ["csv_of", "need_folders", "read_bytes", "whole", "with_units", "write_text"]
+
+MOST_BYTES = 2**24
+"""Of a file of text: a study, materials, sizes."""
+
+
+def read_bytes(path: str | os.PathLike[str], what: str, *, most: int = MOST_BYTES) -> bytes:
+    """The bytes of a file or of a pipe that ends.
+
+    Parameters
+    ----------
+    path : path-like
+    what : str
+        What the file should be, for a message: "a study file".
+    most : int, optional
+        Bytes it may have.
+
+    Raises
+    ------
+    OSError, ValueError
+        It cannot be opened: no such file, a folder, no name of a file.
+    InvalidValue
+        It is a device or a socket, which may never end, or longer than that.
+
+    Examples
+    --------
+    >>> read_bytes("/dev/zero", "a study file")
+    Traceback (most recent call last):
+    thirdbody.errors.InvalidValue: cannot read /dev/zero: it is a device, not a study file
+    """
+    mode = os.stat(path).st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISFIFO(mode) or stat.S_ISDIR(mode)):
+        raise InvalidValue(f"cannot read {path}: it is a device, not {what}")
+    with open(path, "rb") as file:
+        found = file.read(most + 1)
+    if len(found) > most:
+        raise InvalidValue(
+            f"cannot read {path}: it is longer than {most // 2**20} MiB, which {what} never is"
+        )
+    return found
 
 
 @contextmanager

@@ -22,13 +22,13 @@ def command(
     settings: Settings = None,
 ) -> None:
     """A report to hand on: answer, figures, tables, error bars and sources, in one file."""
-    from ...quantities.files import need_folders, write_text
+    from ...quantities.files import need_folders, read_bytes, write_text
     from ...quantities.progress import stages
     from ...views.report import PARTS, report
 
     asked = read_study(study, settings)
     need_folders(out)
-    text = study.read_text(encoding="utf-8-sig")
+    text = read_bytes(study, "a study file").decode("utf-8-sig")
     given = "".join(f"# --set {setting}\n" for setting in settings or ())
     with stages("report", len(PARTS)) as progress:
         file = f"{text.rstrip()}\n\n{given}".rstrip() + "\n"
