@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..errors import InvalidValue
 from ..laws.base import COLUMNS, KINDS, OneParticle
 from ..laws.particle.breakage import Breakage
 from ..numerics.chebyshev import PiecewiseChebyshev
@@ -41,6 +42,19 @@ NEGLIGIBLE = 1e-15
 """Part of the load that sizes may leave out."""
 TOLERANCE = 1e-10
 """Of the tables, relative to the largest value on a panel."""
+MOST_GENERATIONS, MOST_STRETCHES, SMALLEST = 40, 80, 1e-60
+"""Times that the smallest particle may break into pieces which break again, steps by the ratio of
+pieces over all sizes, and size of pieces over the largest particle, that are followed."""
+ENDLESS = (
+    "the pieces of particles that break still break after {generations} generations, at {part:.2g} "
+    "of the largest size, and no more are followed: give the size from which down nothing breaks (x_c of "
+    "the strength, or K_c of the material), a larger size_exponent, a smaller ratio of pieces, or "
+    "fragments = 'gone'"
+)
+TOO_ALIKE = (
+    "pieces of {ratio:.6g} times the size of their parent take more than {most} generations over "
+    "sizes from {part:.2g} of the largest on; use a smaller ratio, or narrower sizes"
+)
 AT_ONCE = 300_000
 """Sizes laid out together."""
 NODES, SPOT_NODES, SPOT_GAPS = 16, 8, (10, 6)
@@ -71,9 +85,14 @@ class BrokenAverage(SizeAverage):
         self.particle, self.sizes, self.breakage = particle, sizes, breakage
         self.tension = breakage.tension(particle)
         self.top = sizes.support[1]
+        self.ratio = breakage.ratio if breakage.kept else 0.5
+        """From one stretch of sizes to the next: that of the pieces, if they count."""
         self.kinks = np.array(sorted({*map(float, particle.kinks), *self.tension.kinks.tolist()}))
         last = self.kinks[-1]
         self.least = self._least()
+        if self.least < self.top * self.ratio**MOST_STRETCHES:
+            part, ratio = self.least / self.top, self.ratio
+            raise InvalidValue(TOO_ALIKE.format(ratio=ratio, most=MOST_STRETCHES, part=part))
         self.join = self.bottom = float(
             self.least * (1 - last) if last <= 1 else self.top * (1 - last)
         )
@@ -88,7 +107,7 @@ class BrokenAverage(SizeAverage):
         gaps = {x * (1 - eps) for x in self._first(jumps) for eps in self.kinks}
         x = self.top
         while x > max(self.least, 1e-12 * self.top):
-            x *= breakage.ratio
+            x *= self.ratio
             gaps.add(x)
         self.inside = np.array(sorted(gaps))
         bottom = np.array([self.bottom])
@@ -97,17 +116,20 @@ class BrokenAverage(SizeAverage):
     # ------------------------------------------------------------------ sizes
     def _least(self) -> float:
         """Size below which nothing bears: of particles, or the smallest pieces of theirs."""
-        low, ratio = self.sizes.support[0], self.breakage.ratio
+        low, ratio = self.sizes.support[0], self.ratio
         if not isinstance(self.sizes, Monodisperse):
             least, whole = self.top, self.sizes.moment(2)
             while least > low and self.sizes.partial_moment(2, 0.0, least) > NEGLIGIBLE * whole:
-                least *= ratio
+                least *= min(ratio, 0.9)
             low = max(low, least)
         if self.breakage.kept == 0:
             return low
         gain = self.breakage.kept / ratio
         share, x = max(gain, 1.0) ** math.ceil(math.log(low / self.top) / math.log(ratio)), low
+        generations = 0
         while share > NEGLIGIBLE and x > self.breakage.x_c:
+            if (generations := generations + 1) > MOST_GENERATIONS or x < SMALLEST * self.top:
+                raise InvalidValue(ENDLESS.format(generations=generations - 1, part=x / self.top))
             size, stress = np.array([x]), np.array([self.tension.greatest])
             share *= gain * float(1 - self.breakage.survival(size, stress)[0])
             x *= ratio
@@ -161,8 +183,8 @@ class BrokenAverage(SizeAverage):
             return Pieces(*np.empty((len(Pieces._fields), 0, 0)))
         if isinstance(self.sizes, Monodisperse):
             return self._of_one_size(gap, rise)
-        law, top = self.breakage, self.top
-        shrink = math.log(law.ratio)
+        law, top, ratio = self.breakage, self.top, self.ratio
+        shrink = math.log(ratio)
         lowest = np.maximum(gap, self.least)
         octaves = max(1, math.ceil(math.log(float(lowest.min()) / top) / shrink - 1e-9))
         # panels of one stretch of sizes, from which κ leads to the next: all edges folded into it
@@ -180,9 +202,9 @@ class BrokenAverage(SizeAverage):
                 fold = np.floor(np.log(lowest / size) / shrink + 1e-13)
             inside = np.isfinite(fold) & (fold >= 0)
             fold = np.where(inside, fold, 0.0)
-            folded = np.where(fold == 0, delta, size * law.ratio**fold - gap)
+            folded = np.where(fold == 0, delta, size * ratio**fold - gap)
             edges.append(np.where(inside, folded, -np.inf))
-        first, last = np.maximum(lowest - gap, 0.0), lowest / law.ratio - gap
+        first, last = np.maximum(lowest - gap, 0.0), lowest / ratio - gap
         ends = np.concatenate([first, *edges, last], axis=1)
         ends = np.sort(np.clip(ends, first, last), axis=1)
         root = np.sqrt(ends)
@@ -192,9 +214,9 @@ class BrokenAverage(SizeAverage):
         weight = 2 * at * (half * weight).reshape(len(gap), 1, -1)
         k = np.arange(octaves)[:, None]
         delta = at * at
-        x = (gap[..., None] + delta) * law.ratio**-k
+        x = (gap[..., None] + delta) * ratio**-k
         delta = np.where(k == 0, delta, x - gap[..., None])
-        weight = weight * law.ratio**-k
+        weight = weight * ratio**-k
         used = x <= top
         survival = np.ones_like(x)
         chosen = x[used]
@@ -202,7 +224,7 @@ class BrokenAverage(SizeAverage):
         density = np.zeros_like(x)
         density[used] = self.sizes.pdf(chosen)
         number = density.copy()
-        gain = law.kept * law.ratio**-4
+        gain = law.kept * ratio**-4
         for j in range(octaves - 2, -1, -1):
             number[:, j] += gain * (1 - survival[:, j + 1]) * number[:, j + 1]
         shape = (len(gap), -1)
@@ -250,7 +272,7 @@ class BrokenAverage(SizeAverage):
         start = 0
         while start < len(order):
             lowest = max(float(gap[order[start]]), self.least)
-            octaves = 2 + math.log(lowest / self.top) / math.log(self.breakage.ratio)
+            octaves = 2 + math.log(lowest / self.top) / math.log(self.ratio)
             stop = start + max(1, int(AT_ONCE / (octaves * panels * NODES)))
             part = order[start:stop]
             found = self.pieces(

@@ -77,7 +77,7 @@ class WeibullStrength(Value):
         "σ_0", "Pa", "strength F/x² of particles of size x_0", gt=0, hint="MPa are 67e6 or '67 MPa'"
     )
     x_0: float = quantity("x_0", "m", "size at which the strength was measured", gt=0, usual=1.0)
-    m: float = quantity("m", "1", "Weibull modulus of the strength", gt=0)
+    m: float = quantity("m", "1", "Weibull modulus of the strength", gt=0, le=200)
     size_exponent: float | None = quantity(
         "b", "1", "exponent of the size effect", default=None, ge=0
     )
