@@ -3,7 +3,14 @@
 A message says what, where, what is allowed, and the likely cause.
 """
 
-__all__ = ["InvalidValue", "NoEquilibrium", "NoTransition", "RangeWarning", "ThirdBodyError"]
+__all__ = [
+    "InvalidValue",
+    "NoEquilibrium",
+    "NoTransition",
+    "RangeWarning",
+    "SlowWarning",
+    "ThirdBodyError",
+]
 
 
 class ThirdBodyError(Exception):
@@ -38,3 +45,7 @@ class NotCompiled(Exception):
 
 class RangeWarning(UserWarning):
     """A model is used outside the range for which it was derived or published."""
+
+
+class SlowWarning(UserWarning):
+    """What is asked takes more than some seconds: how long, and why."""
