@@ -191,21 +191,21 @@ def assess_each(
 class _Work:
     """What an assessment tells while it goes on: what it costs, how far it is, first results.
 
-    Nothing where contacts share what they are made of, which takes seconds.
+    Contacts that share what they are made of are not bound one by one, and so not counted.
     """
 
     def __init__(
         self, progress: Callable[[str], None], contact: Contact, vary: Collection[str], count: int
     ):
-        self.costly = costly(contact, vary)
-        self.count = count
         self.ends = (2 + SLOPES) * len(vary) if count else 0
         self.ways = 2 * len(vary) * (len(range(0, COARSE - 1, EACH_COSTLY)) + HALVED)
         self.within: Callable[[int, int], None] | None = None
         self.tell: Callable[[str], None] = lambda sentence: None
-        if self.costly and isinstance(progress, Stages):
-            self.within, self.tell = progress.within, progress.tell
+        if isinstance(progress, Stages):
+            self.within = progress.within
             progress.expect(count + self.ends + self.ways)
+            if costly(contact, vary):
+                self.tell = progress.tell
 
     def part(self, expected: int) -> AbstractContextManager[None]:
         """One part, of so many contacts."""

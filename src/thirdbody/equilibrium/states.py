@@ -85,10 +85,11 @@ def solve_states(
     """
     load, loads, arrays = _given(contact, pressure, F_star, d, vary)
     total = len(loads)
-    with reporting("states", total, 0, progress if total > FEWEST else False) as report:
-        with solving(Cost(total, report, "" if progress else "states")):
+    with reporting("states", total, 0, progress) as report:
+        cost = Cost(total, report, "" if progress else "states")
+        with solving(cost):
             columns = _columns(contact, arrays, load, loads)
-        report(total)
+        cost.finished(total)
     return dataset(contact, columns, {load: loads, **arrays}, {})
 
 

@@ -23,6 +23,7 @@ __all__ = [
     "solved",
     "solving",
     "stages",
+    "watched",
     "weighed",
 ]
 
@@ -118,6 +119,7 @@ class Stages:
         self.title, self.name, self.begun = title, "", -1
         self.expected, self.said = 0, False
         self.seen = self.start = time.monotonic()
+        """When something was shown last, and when the work began that takes so long."""
 
     def __call__(self, name: str) -> None:
         self.name, self.begun = name, self.begun + 1
@@ -140,7 +142,8 @@ class Stages:
                     f"about {self.expected:,} contacts, {each:.2g} s each: some "
                     f"{duration(each * self.expected)}"
                 )
-        self.show(min(done / max(total, 1), 1.0), f"{done:,} of about {max(done, total):,}")
+        if time.monotonic() - self.start > SURE:
+            self.show(min(done / max(total, 1), 1.0), f"{done:,} of about {max(done, total):,}")
 
     def tell(self, sentence: str) -> None:
         """A first result, or what the work costs, on standard error."""
@@ -255,6 +258,30 @@ def nested(outer: Callable[[str], None], count: int) -> Stages:
     return inner
 
 
+@contextmanager
+def watched(what: str, total: int, wanted: bool | Report) -> Iterator[None]:
+    """Contacts that are bound inside are shown, or a `SlowWarning` says how long they take.
+
+    Nothing where somebody counts them already.
+
+    Parameters
+    ----------
+    what : str
+        Whose they are.
+    total : int
+        About how many will be bound.
+    wanted : bool or callable
+        As in `reporting`.
+    """
+    if _TALLY.get() is not None:
+        yield
+        return
+    with reporting(what, total, 0, wanted, "contacts") as report:
+        cost = Cost(total, report, "" if wanted else f"contacts of {what}")
+        with counted(total, lambda done, expected: cost(1.0)):
+            yield
+
+
 # -------------------------------------------------------------------------- states
 Solving = Callable[[float, str], None]
 _SOLVING: ContextVar[Solving | None] = ContextVar("solving", default=None)
@@ -295,24 +322,35 @@ class Cost:
         Gets the number so far, at most twice a second.
     what : str
         What is solved, for the warning; empty for none.
+    done : int
+        States of earlier runs.
     """
 
-    def __init__(self, total: int, report: Report, what: str = ""):
+    def __init__(self, total: int, report: Report, what: str = "", done: int = 0):
         self.total, self.report, self.what = total, report, what
-        self.done = 0.0
-        self.start = self.shown = time.monotonic()
+        self.done, self.told = float(done), done
+        self.start = self.shown = 0.0
+        self.first = 0.0
 
     def __call__(self, count: float, why: str = "") -> None:
         self.done += count
         now = time.monotonic()
-        if self.what and now - self.start > SURE:
-            whole = (now - self.start) * self.total / max(self.done, 1e-9)
+        if not self.start:  # the first of them may have been compiled for
+            self.start, self.first = now, self.done
+        elif self.what and now - self.start > SURE:
+            whole = (now - self.start) * self.total / max(self.done - self.first, 1e-9)
             if whole > LONG and self.done < self.total:
                 self._warn(whole, why)
             self.what = ""
         if now - self.shown > 0.5:
             self.shown = now
-            self.report(min(int(self.done), self.total))
+            self.told = max(self.told, min(int(self.done), self.total))
+            self.report(self.told)
+
+    def finished(self, states: int) -> None:
+        """So many states are solved for good."""
+        self.told = max(self.told, states)
+        self.report(self.told)
 
     def _warn(self, whole: float, why: str) -> None:
         rate = self.total / whole
@@ -321,8 +359,19 @@ class Cost:
             f"{self.total:,} {self.what} take some {duration(whole)}: {rate:.2g} a second, as they "
             f"are solved one by one{reason}; progress=True shows how far they are",
             SlowWarning,
-            stacklevel=2,
+            stacklevel=_outside(),
         )
+
+
+def _outside() -> int:
+    """How many frames up the caller of the library is."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__package__", "").startswith(PACKAGE):
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+PACKAGE = "thirdbody"
 
 
 SURE = 1.0

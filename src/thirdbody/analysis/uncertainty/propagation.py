@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -28,6 +28,7 @@ from ...equilibrium.solve import given_load
 from ...equilibrium.states import FEWEST, tables_each
 from ...errors import InvalidValue
 from ...quantities import notebook
+from ...quantities.progress import watched
 from ...quantities.say import percent
 from .inputs import Drawn, Uncertain, drawn_inputs
 from .samples import (
@@ -369,6 +370,7 @@ def propagate(
     outputs: Sequence[str] | None = None,
     quantiles: Sequence[float] = PROBABILITIES,
     critical_samples: int | None = None,
+    progress: bool | Callable[[int], None] = False,
 ) -> Propagation:
     r"""Bands on results and critical loads from what is known of the inputs.
 
@@ -398,6 +400,9 @@ def propagate(
     critical_samples : int, optional
         Samples in which critical loads are sought, some fifty times the work of a state; by
         default as many as ``samples``, at most 2048.
+    progress : bool or callable, optional
+        Shows on standard error how many contacts are done, where each takes tables of its own; a
+        callable gets their number.
 
     Returns
     -------
@@ -407,6 +412,11 @@ def propagate(
     ------
     InvalidValue
         An unknown name, a range that the input does not take, or no load.
+
+    Warns
+    -----
+    SlowWarning
+        Samples that take more than 10 s, one by one: how long. Without ``progress``.
 
     Notes
     -----
@@ -450,15 +460,16 @@ def propagate(
     first_few = np.arange(len(u)).reshape(REPLICATES, each)[:, :few]
     sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
     some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
-    found = _Bands(names, probabilities, first_few, _sought(contact, sought, some, first_few))
-    of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
-    with roughly():
-        told = _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
-    for i, value in enumerate(loads.tolist()):
+    with watched("propagate", len(u), progress):
+        found = _Bands(names, probabilities, first_few, _sought(contact, sought, some, first_few))
+        of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
         with roughly():
-            state = columns_at(contact, load, value, drawn_values, len(u))
-        state |= {name: told[name][i] for name in names if name in of_outputs}
-        found.add(state, columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs)))
+            told = _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
+        for i, value in enumerate(loads.tolist()):
+            with roughly():
+                state = columns_at(contact, load, value, drawn_values, len(u))
+            state |= {name: told[name][i] for name in names if name in of_outputs}
+            found.add(state, columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs)))
 
     fixed = {name for name in names if name in CRITICAL}
 
