@@ -11,6 +11,7 @@ import numpy as np
 from ...analysis.assess import PARTS as ASSESSED
 from ...analysis.assess import assess
 from ...analysis.assessment import Assessment
+from ...analysis.inputs import inputs
 from ...analysis.sensitivity import Sensitivity, sensitivity
 from ...analysis.uncertainty.inputs import stated_ranges
 from ...analysis.uncertainty.samples import enough
@@ -19,7 +20,7 @@ from ...equilibrium.columns import Equilibrium
 from ...equilibrium.modes import FAINT
 from ...equilibrium.solve import solve
 from ...errors import InvalidValue, NoEquilibrium, RangeWarning, ThirdBodyError
-from ...quantities.progress import nested
+from ...quantities.progress import Stages, counted, nested
 from ...study import Study, run_film, run_study
 from ...study.one_surface import OneSurface, one_surface
 from .found import some_of
@@ -118,7 +119,7 @@ def report(
             result=result,
             curve=curve,
             assessment=assessment,
-            slopes=_slopes(bare, given) if loaded else None,
+            slopes=_slopes(bare, given, progress) if loaded else None,
             at=at,
             file=file,
             film=None if study.film is None else run_film(study),
@@ -159,20 +160,24 @@ def _assessed(
         samples = min(enough(contact, None, ranges), MOST_SAMPLES)
         return assess(contact, **given, samples=samples, progress=inner)
     loads = {"pressure", "F_star", "d"} - set(given)
-    inputs = {label: known for label, known in asked.inputs.items() if label not in loads}
-    if not inputs:
+    vary = {label: known for label, known in asked.inputs.items() if label not in loads}
+    if not vary:
         return None
-    samples = min(enough(contact, asked.samples, inputs), most_samples(contact, inputs))
+    samples = min(enough(contact, asked.samples, vary), most_samples(contact, vary))
     more: dict[str, Any] = {"samples": samples, "seed": asked.seed, "progress": inner}
-    return assess(contact, vary=inputs, **given, **more)
+    return assess(contact, vary=vary, **given, **more)
 
 
-def _slopes(contact: Contact, given: dict[str, float]) -> Sensitivity | None:
+def _slopes(
+    contact: Contact, given: dict[str, Any], progress: Callable[[str], None]
+) -> Sensitivity | None:
     """Of the load share, the area and the separation, to every input."""
     names = ["A_t", "h"]
     if not contact.two_body:
         names.insert(0, "particle_load_share")
+    within = progress.within if isinstance(progress, Stages) else None
     try:
-        return sensitivity(contact, of=names, **given, quick=True)  # type: ignore[arg-type]
+        with counted(4 * len(inputs(contact)), within):
+            return sensitivity(contact, of=names, **given, quick=True)
     except ThirdBodyError:
         return None
