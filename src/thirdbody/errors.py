@@ -15,6 +15,7 @@ __all__ = [
     "NoEquilibrium",
     "NoTransition",
     "RangeWarning",
+    "SlowWarning",
     "ThirdBodyError",
     "tell_of_range",
 ]
@@ -52,6 +53,10 @@ class NotCompiled(Exception):
 
 class RangeWarning(UserWarning):
     """A model is used outside the range for which it was derived or published."""
+
+
+class SlowWarning(UserWarning):
+    """What is asked takes more than some seconds: how long, and why."""
 
 
 _HERE = os.path.dirname(os.path.abspath(__file__)) + os.sep

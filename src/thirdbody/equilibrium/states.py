@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -17,6 +17,7 @@ from ..errors import InvalidValue, NotCompiled
 from ..populations.materials import BULK
 from ..populations.shape import Angular
 from ..quantities.carried import takes_units
+from ..quantities.progress import Cost, reporting, solved, solving, weighed
 from ..quantities.value import warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
@@ -38,6 +39,7 @@ def solve_states(
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
     vary: Mapping[str, ArrayLike] | None = None,
+    progress: bool | Callable[[int], None] = False,
 ) -> xarray.Dataset:
     """N states of a contact: state i has the i-th load and the i-th value of every varied input.
 
@@ -51,6 +53,8 @@ def solve_states(
         Dotted names of inputs and their values, each a number or an array (N,), e.g.
         ``{"roughness.sigma": sigma, "particles.diameter.mean": x_a}``. A mean diameter or an
         areal density of zero stands for two-body contact.
+    progress : bool or callable, optional
+        Shows rate and time left on standard error; a callable gets the number of states solved.
 
     Returns
     -------
@@ -65,6 +69,12 @@ def solve_states(
     InvalidValue
         An unknown name, lengths that do not fit, or a value that the field refuses.
 
+    Warns
+    -----
+    SlowWarning
+        States that cannot share what they are made of, so many that they take more than 10 s:
+        how long, and why. Without ``progress``.
+
     Examples
     --------
     >>> import numpy as np
@@ -78,7 +88,12 @@ def solve_states(
     (('state',), 'm')
     """
     load, loads, arrays = _given(contact, pressure, F_star, d, vary)
-    columns = _columns(contact, arrays, load, loads)
+    total = len(loads)
+    with reporting("states", total, 0, progress) as report:
+        cost = Cost(total, report, "" if progress else "states")
+        with solving(cost):
+            columns = _columns(contact, arrays, load, loads)
+        cost.finished(total)
     return dataset(contact, columns, {load: loads, **arrays}, {})
 
 
@@ -220,7 +235,8 @@ def _with_outputs(
 ) -> Columns:
     """Every column of the states, then the outputs of each contact among them."""
     inputs = {name: v for name, v in arrays.items() if carries(name)}
-    out = _columns(contact.replace(outputs=()), inputs, load, loads)
+    with weighed(0.5):
+        out = _columns(contact.replace(outputs=()), inputs, load, loads)
     # states of one contact share their spots; those of one surface share its tables, and those
     # that differ in the number of particles alone share the spots of one particle
     count = arrays.get(DENSITY, np.ones(len(loads)))
@@ -230,6 +246,7 @@ def _with_outputs(
         values, _ = evaluate(own, interface(own), _taken(out, which), crowd)
         for name, column in values.items():
             out.setdefault(name, np.full(len(loads), np.nan))[which] = column
+        solved(0.5 * len(which), "each has spots of its own")
     return out
 
 
@@ -308,7 +325,8 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
     starts = range(FIRST, len(loads), at_once)
     with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
         rest = pool.map(part, (slice(start, start + at_once) for start in starts))
-        out = _joined(len(loads), chain([(here, columns)], (found[:2] for found in rest)))
+        parts = chain([(here, columns)], (found[:2] for found in rest))
+        out = _joined(len(loads), _told(parts))
     # what the compiled engine doubts is for the other one to judge
     for why in (engine.NOT_BALANCED, engine.NOT_MONOTONE):
         if len(which := np.flatnonzero(out["engine"] == why)):
@@ -316,6 +334,12 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
             for name, column in again.items():
                 out[name][which] = column
     return out
+
+
+def _told(parts: Iterable[tuple[Any, Columns]]) -> Iterator[tuple[Any, Columns]]:
+    for here, columns in parts:
+        solved(len(columns["status"]))
+        yield here, columns
 
 
 def _all(count: int, word: str) -> NDArray[Any]:
@@ -333,6 +357,7 @@ def _by_groups(
         path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
         more = {"engine": _all(len(which), path), CODE: np.atleast_1d(result.status_code)}
         parts.append((which, result.columns() | more))
+        solved(len(which), why)
     return _joined(len(loads), parts)
 
 

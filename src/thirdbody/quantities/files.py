@@ -1,4 +1,5 @@
-"""Output files appear whole or not at all: written beside their place, then renamed."""
+"""Output files appear whole or not at all, written beside their place, then renamed; what is read
+has a size that it may have."""
 
 from __future__ import annotations
 
@@ -9,6 +10,7 @@ import os
 import platform
 import re
 import secrets
+import stat
 import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,6 +25,7 @@ __all__ = [
     "is_draft",
     "make_folder",
     "need_folders",
+    "read_bytes",
     "refuse_clashes",
     "refused_by_disk",
     "remove_files",
@@ -33,6 +36,46 @@ __all__ = [
 
 DAY = 86400.0
 """Seconds after which a draft that another machine wrote is taken for left."""
+MOST_BYTES = 2**24
+"""Of a file of text: a study, materials, sizes."""
+
+
+def read_bytes(path: str | os.PathLike[str], what: str, *, most: int = MOST_BYTES) -> bytes:
+    """The bytes of a file or of a pipe that ends.
+
+    Parameters
+    ----------
+    path : path-like
+    what : str
+        What the file should be, for a message: "a study file".
+    most : int, optional
+        Bytes it may have.
+
+    Raises
+    ------
+    OSError, ValueError
+        It cannot be opened: no such file, a folder, no name of a file.
+    InvalidValue
+        It is a device or a socket, which may never end, or longer than that.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> file = Path(tempfile.mkdtemp()) / "study.toml"
+    >>> _ = file.write_text("title = 'short'")
+    >>> read_bytes(file, "a study file")
+    b"title = 'short'"
+    """
+    mode = os.stat(path).st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISFIFO(mode) or stat.S_ISDIR(mode)):
+        raise InvalidValue(f"cannot read {path}: it is a device, not {what}")
+    with open(path, "rb") as file:
+        found = file.read(most + 1)
+    if len(found) > most:
+        raise InvalidValue(
+            f"cannot read {path}: it is longer than {most // 2**20} MiB, which {what} never is"
+        )
+    return found
 
 
 @contextmanager

@@ -390,6 +390,8 @@ class _SelfLoaded:
             return low
         while excess(high) > 0:
             low, high = high, high + 2 * (high - low)
+            if high > 1e6 * self.R:
+                raise NoEquilibrium(f"local interaction carries {pressure:.4g} Pa at every gap")
         return brentq(excess, low, high, xtol=1e-14 * self.sigma_s, rtol=1e-15)
 
 

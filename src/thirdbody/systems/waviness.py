@@ -25,7 +25,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..errors import InvalidValue, NoEquilibrium
 from ..quantities.carried import takes_units
-from .elastic_balance import Balance, Grid, Skin, balance, to_series
+from .elastic_balance import OUT_OF_REACH, WIDENED, Balance, Grid, Skin, balance, to_series
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -129,12 +129,22 @@ class Histogram:
             return self._at(skin, d)
         low = high = skin.origin + float(np.max(self.heights))
         step = float(np.ptp(self.heights)) + (skin.step or abs(skin.one(low)[0] / skin.one(low)[1]))
-        while self._at(skin, low, bare=True).load < load:
+
+        def excess(x: float) -> float:
+            return self._at(skin, x, bare=True).load - load
+
+        for _ in range(WIDENED):
+            if not excess(low) < 0:
+                break
             low -= step
             step *= 1.5
-        while self._at(skin, high, bare=True).load > load:
+        for _ in range(WIDENED):
+            if not excess(high) > 0:
+                break
             high += step
             step *= 1.5
+        if excess(low) < 0 or excess(high) > 0:
+            raise NoEquilibrium(OUT_OF_REACH.format(load=load, low=low, high=high))
         from scipy.optimize import brentq
 
         def miss(x: float) -> float:

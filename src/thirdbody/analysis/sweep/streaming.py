@@ -17,7 +17,7 @@ import numpy as np
 
 from ...errors import InvalidValue
 from ...quantities.files import make_folder, remove_files, whole, write_text
-from ...quantities.progress import Report, reporting
+from ...quantities.progress import Cost, Report, reporting, solving
 from ...quantities.records import sealed
 from ...quantities.sharing import shared
 from .folder import (
@@ -62,17 +62,17 @@ def in_memory(
     }
     summaries = []
     with reporting("sweep", plan.states, 0, progress) as report:
-        done = 0
+        done, cost = 0, Cost(plan.states, report)
         rows: dict[int, Arrays] = {}
-        results = _results(plan, range(plan.count), coded=False, workers=workers, client=client)
-        for number, (arrays, summary) in results:
+        results = partial(_results, plan, cost, coded=False, workers=workers, client=client)
+        for number, (arrays, summary) in results(range(plan.count)):
             summaries.append(summary)
             if plan.reduction is None:
                 _into(data, layout, plan, number, arrays)
             else:
                 rows[number] = arrays
             done += summary["states"]
-            report(done)
+            cost.finished(done)
     if plan.reduction is not None:
         for row in range(plan.count // _parts(plan)):
             numbers = range(row * _parts(plan), (row + 1) * _parts(plan))
@@ -138,11 +138,28 @@ def _attributes(plan: Plan, notes: list[str], summary: Mapping[str, Any]) -> dic
 
 # -------------------------------------------------------------------------- who solves
 def _results(
-    plan: Plan, numbers: Iterable[int], *, coded: bool, workers: int, client: Client | None
+    plan: Plan,
+    cost: Cost,
+    numbers: Iterable[int],
+    *,
+    coded: bool,
+    workers: int,
+    client: Client | None,
 ) -> Iterator[tuple[int, Result]]:
     """Every block's result, in the order in which they come."""
-    tasks = ((number, plan.task(number, coded=coded)) for number in numbers)
+
+    def work(number: int) -> Callable[[], Result]:
+        task = plan.task(number, coded=coded)
+        return task if client is not None else partial(_told, task, cost)
+
+    tasks = ((number, work(number)) for number in numbers)
     return shared(tasks, workers=workers, client=client)
+
+
+def _told(task: Callable[[], Result], cost: Cost) -> Result:
+    """A block whose states are told while they are solved, in whatever thread."""
+    with solving(cost):
+        return task()
 
 
 # -------------------------------------------------------------------------- on disk
@@ -228,7 +245,7 @@ def _carry_out(
     folder: Folder,
     study: dict[str, Any],
     notes: list[str],
-    results: Callable[[Iterable[int]], Iterator[tuple[int, Result]]],
+    results: Callable[[Cost, Iterable[int]], Iterator[tuple[int, Result]]],
     progress: bool | Report,
 ) -> None:
     """What is left of the study, under the lock."""
@@ -258,7 +275,8 @@ def _carry_out(
     more = len(done) < plan.count
     left = (number for number in range(plan.count) if number not in done)
     with reporting(str(path), plan.states, states, progress) as report:
-        for number, (arrays, summary) in results(left):
+        cost = Cost(plan.states, report, done=states)
+        for number, (arrays, summary) in results(cost, left):
             if direct:
                 files = store.write(_where(plan, number), arrays, durable=True)
             else:
@@ -267,7 +285,7 @@ def _carry_out(
             folder.mark(number, name, summary, files)
             done[number] = summary
             states += summary["states"]
-            report(states)
+            cost.finished(states)
     total = _summary(done.values())
     attrs: dict[str, Any] = dict(_attributes(plan, notes, total))
     if direct:

@@ -14,12 +14,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ...contact.broken_averages import roughly
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.critical_loads import CRITICAL, critical_loads
@@ -28,6 +29,7 @@ from ...equilibrium.states import FEWEST, tables_each
 from ...errors import InvalidValue
 from ...quantities import notebook
 from ...quantities.carried import takes_units
+from ...quantities.progress import watched
 from ...quantities.say import percent
 from .inputs import Drawn, Uncertain, drawn_inputs
 from .samples import (
@@ -215,10 +217,11 @@ class Propagation:
         load = float(np.atleast_1d(self.loads)[at])
         vary, count = self._ends(probabilities, load)
         critical = self._critical_at_ends.get(probabilities, {})
-        if about_loads(names) and not critical:
-            critical = critical_of(self.contact, self.load, vary, count)
-            self._critical_at_ends[probabilities] = critical
-        solved = evaluated(self.contact, self.load, load, vary, count, names, critical)
+        with roughly():
+            if about_loads(names) and not critical:
+                critical = critical_of(self.contact, self.load, vary, count)
+                self._critical_at_ends[probabilities] = critical
+            solved = evaluated(self.contact, self.load, load, vary, count, names, critical)
         out = {
             name: {
                 label: (float(solved[name][2 * j]), float(solved[name][2 * j + 1]))
@@ -286,8 +289,9 @@ class Propagation:
         load = float(np.atleast_1d(self.loads)[at])
         vary = self._problem().points(u)
         asked = about_loads(names)
-        critical = critical_of(self.contact, self.load, vary, len(u)) if asked else {}
-        solved = evaluated(self.contact, self.load, load, vary, len(u), names, critical)
+        with roughly():
+            critical = critical_of(self.contact, self.load, vary, len(u)) if asked else {}
+            solved = evaluated(self.contact, self.load, load, vary, len(u), names, critical)
         out: dict[str, dict[str, dict[str, float]]] = {}
         for name in names:
             values = solved[name]
@@ -371,6 +375,7 @@ def propagate(
     outputs: Sequence[str] | None = None,
     quantiles: Sequence[float] = PROBABILITIES,
     critical_samples: int | None = None,
+    progress: bool | Callable[[int], None] = False,
 ) -> Propagation:
     r"""Bands on results and critical loads from what is known of the inputs.
 
@@ -400,6 +405,9 @@ def propagate(
     critical_samples : int, optional
         Samples in which critical loads are sought, some fifty times the work of a state; by
         default as many as ``samples``, at most 2048.
+    progress : bool or callable, optional
+        Shows on standard error how many contacts are done, where each takes tables of its own; a
+        callable gets their number.
 
     Returns
     -------
@@ -409,6 +417,11 @@ def propagate(
     ------
     InvalidValue
         An unknown name, a range that the input does not take, or no load.
+
+    Warns
+    -----
+    SlowWarning
+        Samples that take more than 10 s, one by one: how long. Without ``progress``.
 
     Notes
     -----
@@ -420,7 +433,8 @@ def propagate(
     On the rough seat a state costs about 12 µs of a core where sizes vary, or the hardness of both
     surfaces alike; 80 µs and more where the contacts of a particle with both surfaces become
     unlike. On the plane seat, under `asperity_law` options and for heights that are not Gaussian,
-    states with other inputs are solved one by one, tens in a second.
+    states with other inputs are solved one by one, tens in a second. Each sample of particles
+    that break takes a second or so; its sums over them are to 1e-3, mostly to 1e-6, of the load.
 
     References
     ----------
@@ -451,13 +465,16 @@ def propagate(
     first_few = np.arange(len(u)).reshape(REPLICATES, each)[:, :few]
     sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
     some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
-    found = _Bands(names, probabilities, first_few, _sought(contact, sought, some, first_few))
-    of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
-    told = _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
-    for i, value in enumerate(loads.tolist()):
-        state = columns_at(contact, load, value, drawn_values, len(u))
-        state |= {name: told[name][i] for name in names if name in of_outputs}
-        found.add(state, columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs)))
+    with watched("propagate", len(u), progress):
+        found = _Bands(names, probabilities, first_few, _sought(contact, sought, some, first_few))
+        of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
+        with roughly():
+            told = _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
+        for i, value in enumerate(loads.tolist()):
+            with roughly():
+                state = columns_at(contact, load, value, drawn_values, len(u))
+            state |= {name: told[name][i] for name in names if name in of_outputs}
+            found.add(state, columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs)))
 
     fixed = {name for name in names if name in CRITICAL}
 
@@ -497,7 +514,8 @@ def _sought(
 ) -> _Critical:
     if not sought:
         return _Critical({}, {}, {})
-    found = critical_loads(contact, vary=some, count=first_few.size)
+    with roughly():
+        found = critical_loads(contact, vary=some, count=first_few.size)
     loads = {name: found[name][0].reshape(first_few.shape) for name in CRITICAL}
     statuses = {}
     for name in (name for name in CRITICAL if name in sought):

@@ -27,7 +27,7 @@ def command(
     settings: Settings = None,
 ) -> None:
     """A report to hand on: answer, figures, tables, error bars and sources, in one file."""
-    from ...quantities.files import need_folders, write_text
+    from ...quantities.files import need_folders, read_bytes, write_text
     from ...quantities.progress import stages
     from ...views.html import is_page
     from ...views.report import PARTS, report
@@ -39,7 +39,7 @@ def command(
         raise InvalidValue(
             f"{target} exists and is no report of thirdbody; choose another name: --out NAME.html"
         )
-    text = study.read_text(encoding="utf-8-sig")
+    text = read_bytes(study, "a study file").decode("utf-8-sig")
     given = "".join(f"# --set {setting}\n" for setting in settings or ())
     with stages("report", len(PARTS)) as progress:
         file = f"{text.rstrip()}\n\n{given}".rstrip() + "\n"

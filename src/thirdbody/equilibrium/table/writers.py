@@ -396,7 +396,16 @@ class ContactTable:
             bad = np.flatnonzero(error > tolerance)
             if not len(bad):
                 return x, float(error.max())
+            if len(x) > MOST_ROWS:
+                raise InvalidValue(
+                    f"tolerance = {tolerance!r} takes more than {MOST_ROWS:,} straight lines: the "
+                    "error no longer falls with their length; ask for less"
+                )
             x = np.insert(x, bad + 1, 0.5 * (x[bad] + x[bad + 1]))
+
+
+MOST_ROWS = 200_000
+"""Straight lines of a table."""
 
 
 def _is_number(value: Any) -> bool:

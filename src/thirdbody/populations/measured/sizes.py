@@ -25,6 +25,7 @@ from scipy.special import exprel
 from ...errors import InvalidValue
 from ...numerics.quadrature import gauss_legendre
 from ...quantities.carried import takes_units
+from ...quantities.files import read_bytes
 from ...quantities.units import say, to_si
 from ...quantities.value import Value, choice
 from ..distributions import (
@@ -418,7 +419,7 @@ def read_sizes(path: str | os.PathLike[str], *, weighting: str = "number") -> Me
 def _lines(path: Path) -> list[tuple[int, list[str]]]:
     """Numbered lines of cells, without comments and empty lines."""
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        text = read_bytes(path, "a CSV file of sizes").decode("utf-8-sig")
     except FileNotFoundError:
         raise InvalidValue(f"cannot read {path}: there is no such file") from None
     except IsADirectoryError:
@@ -427,6 +428,8 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
         raise InvalidValue(
             f"cannot read {path}: it is not UTF-8 text; save the sheet as CSV UTF-8"
         ) from None
+    except InvalidValue:
+        raise
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         raise InvalidValue(f"cannot read {path}: {why.lower()}") from None
