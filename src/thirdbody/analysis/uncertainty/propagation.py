@@ -400,8 +400,7 @@ def propagate(
         Samples in which critical loads are sought, some fifty times the work of a state; by
         default as many as ``samples``, at most 2048.
     progress : bool or callable, optional
-        Shows on standard error how many contacts are done, where each takes tables of its own, or
-        gets their number; without it a `SlowWarning` tells of more than 10 s.
+        Shows, or gets, how many contacts are done; a `SlowWarning` of more than 10 s without it.
 
     Returns
     -------
