@@ -323,7 +323,7 @@ class Propagation:
         return out
 
     def _ends(self, probabilities: tuple[float, float], load: float) -> tuple[Arrays, int]:
-        """Inputs of states, of two for each input, with it at each end; and how many states."""
+        """Inputs of two states for each input, with it at each end; and how many states."""
         problem = self._problem()
         rows: list[list[float]] = []
         for j, known in enumerate(problem.known):
@@ -357,8 +357,7 @@ def plain(value: Any) -> Any:
 
 def swing(low: float, high: float) -> float:
     """How far an output goes from end to end; beyond everything where one end is not finite."""
-    swing = abs(high - low)
-    return swing if math.isfinite(swing) else (0.0 if low == high else math.inf)
+    return way if math.isfinite(way := abs(high - low)) else (0.0 if low == high else math.inf)
 
 
 # -------------------------------------------------------------------------- propagation
@@ -406,8 +405,7 @@ def propagate(
         Samples in which critical loads are sought, some fifty times the work of a state; by
         default as many as ``samples``, at most 2048.
     progress : bool or callable, optional
-        Shows on standard error how many contacts are done, where each takes tables of its own; a
-        callable gets their number.
+        Shows, or gets, how many contacts are done; a `SlowWarning` of more than 10 s without it.
 
     Returns
     -------
@@ -417,11 +415,6 @@ def propagate(
     ------
     InvalidValue
         An unknown name, a range that the input does not take, or no load.
-
-    Warns
-    -----
-    SlowWarning
-        Samples that take more than 10 s, one by one: how long. Without ``progress``.
 
     Notes
     -----
@@ -434,7 +427,7 @@ def propagate(
     surfaces alike; 80 µs and more where the contacts of a particle with both surfaces become
     unlike. On the plane seat, under `asperity_law` options and for heights that are not Gaussian,
     states with other inputs are solved one by one, tens in a second. Each sample of particles
-    that break takes a second or so; its sums over them are to 1e-3, mostly to 1e-6, of the load.
+    that break takes a second or so, and its sums are to 1e-3, mostly to 1e-6, of the load.
 
     References
     ----------
