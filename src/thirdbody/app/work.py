@@ -201,7 +201,7 @@ class Work:
             key = self.key()
             result = await job.run(**asked)
         except Stopped:
-            self.fail("cancelled", key)
+            self.said.set_text("cancelled")  # which is true of every study
         except InvalidValue as error:
             self.fail("; ".join(error.problems), key)
         else:
