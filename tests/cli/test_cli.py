@@ -65,6 +65,14 @@ WARNED |= {
     name: [SQUASHED, *WARNED.get(name, [])]
     for name in ("soft_ptfe_particles", "steel_debris_in_film")
 }
+CHI = "from 0.005 on particles carried 3 to 4 % less"
+WARNED |= {
+    name: [CHI, *WARNED.get(name, [])]
+    for name in (
+        "bearing_wear_debris", "dusty_ball_screw", "iso4406", "nanoparticle_additive",
+        "soft_ptfe_particles", "steel_debris_in_film", "sweep",
+    )
+}  # fmt: skip
 """What examples are warned of, and not of anything else."""
 
 
