@@ -104,20 +104,25 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
     )
     if outside:
         return allowed_range(about) + (f"; {about['hint']}" if about["hint"] else "")
-    return why_extreme(number, about["unit"])
+    return why_extreme(number, about["unit"], positive=about["gt"] is not None and about["gt"] >= 0)
 
 
 SMALLEST, LARGEST = 1e-40, 1e40
-"""Sizes of numbers in SI, zero aside, that can be computed with: no product of a few of them is
-beyond what a double holds, and nothing measured is beyond them."""
+"""Sizes of numbers in SI that can be computed with: no product or ratio of a few of them is beyond
+what a double holds, and nothing measured is beyond them."""
 
 
-def why_extreme(number: float, unit: str) -> str | None:
-    """Why a number is too small or too large to compute with, or None where it is not."""
-    if number == 0 or SMALLEST <= abs(number) <= LARGEST:
-        return None
+def why_extreme(number: float, unit: str, *, positive: bool) -> str | None:
+    """Why a number is too small or too large to compute with, or None where it is not.
+
+    Only what must be positive is divided by: a number that may be 0 may be as small as it likes.
+    """
     shown = "" if unit == "1" else f" [{unit}]"
-    return f"must be of a size from {SMALLEST:g} to {LARGEST:g}{shown}; check its exponent"
+    if abs(number) > LARGEST:
+        return f"must be at most {LARGEST:g}{shown} in size; check its exponent"
+    if positive and number < SMALLEST:
+        return f"must be at least {SMALLEST:g}{shown}; check its exponent"
+    return None
 
 
 USUAL_LENGTH, USUAL_STRESS, USUAL_LOAD = 0.01, 1e5, 100.0
@@ -412,7 +417,8 @@ def sequences(value: Value, *names: str) -> None:
             continue
         unit = type(value).__dataclass_fields__[name].metadata["several"]["unit"]  # type: ignore[attr-defined]
         for i, number in enumerate(getattr(value, name)):
-            if math.isfinite(number) and (why := why_extreme(number, unit)):
+            positive = unit == "m" and number > 0  # a size; the first class may begin at 0
+            if math.isfinite(number) and (why := why_extreme(number, unit, positive=positive)):
                 problems.append(f"{type(value).__name__}.{name}[{i}] = {number!r} {why}")
     if problems:
         raise InvalidValue(*problems)

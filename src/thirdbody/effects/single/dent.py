@@ -194,6 +194,7 @@ class Dent(NamedTuple):
     """Its volume [m³], NaN where the depth is not known."""
 
 
+@takes_units
 def sink(particle: Material, *, hardness: float, debris: str = "by_hardness") -> float:
     """The part of its squeeze into a surface that stays a dent: what a particle does, decided here.
 
@@ -225,6 +226,7 @@ def sink(particle: Material, *, hardness: float, debris: str = "by_hardness") ->
     return math.nan
 
 
+@takes_units
 def footprint(spots: ParticleSpots, *, side: int, squashed: bool = False) -> Array:
     """Diameter of the disc to which a particle is flattened (M, n) [m]; 0 where nothing presses.
 
