@@ -319,15 +319,20 @@ class Cost:
     total : int
         States.
     report : callable
-        Gets the number so far, at most twice a second.
+        Gets the number so far, at most twice a second, and only once it has grown.
     what : str
         What is solved, for the warning; empty for none.
     done : int
         States of earlier runs.
+    early : bool
+        Whether states are told before they are `finished`: not where each number must be one
+        that lasts, as every time the same.
     """
 
-    def __init__(self, total: int, report: Report, what: str = "", done: int = 0):
-        self.total, self.report, self.what = total, report, what
+    def __init__(
+        self, total: int, report: Report, what: str = "", done: int = 0, early: bool = True
+    ):
+        self.total, self.report, self.what, self.early = total, report, what, early
         self.done, self.told = float(done), done
         self.start = self.shown = 0.0
         self.first = 0.0
@@ -342,15 +347,19 @@ class Cost:
             if whole > LONG and self.done < self.total:
                 self._warn(whole, why)
             self.what = ""
-        if now - self.shown > 0.5:
+        if self.early and now - self.shown > 0.5:
             self.shown = now
-            self.told = max(self.told, min(int(self.done), self.total))
-            self.report(self.told)
+            self._tell(min(int(self.done), self.total))
 
     def finished(self, states: int) -> None:
         """So many states are solved for good."""
-        self.told = max(self.told, states)
-        self.report(self.told)
+        self._tell(states)
+
+    def _tell(self, states: int) -> None:
+        """Report a number that is higher than every one before: no state is told twice."""
+        if states > self.told:
+            self.told = states
+            self.report(states)
 
     def _warn(self, whole: float, why: str) -> None:
         rate = self.total / whole

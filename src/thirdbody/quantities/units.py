@@ -14,7 +14,6 @@ from fractions import Fraction
 from typing import Any, NoReturn
 
 from ..errors import InvalidValue
-from .carried import carries_unit, in_si
 from .kinds import KINDS, is_usual, kind_of_parsed, one_spelling, registry
 
 __all__ = ["EXAMPLES", "quantity_to_si", "say", "to_si"]
@@ -96,6 +95,8 @@ def to_si(value: Any, unit: str) -> float:
         except OverflowError:
             return math.inf
     if not isinstance(value, str):
+        from .carried import carries_unit, in_si  # numpy, which `thirdbody --help` does not need
+
         if carries_unit(value) and not isinstance(value, (list, tuple, dict)):
             return _one(in_si(value, unit), unit)
         if hasattr(value, "__float__") and not isinstance(value, bool):  # numpy's numbers

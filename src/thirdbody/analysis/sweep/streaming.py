@@ -62,7 +62,7 @@ def in_memory(
     }
     summaries = []
     with reporting("sweep", plan.states, 0, progress) as report:
-        done, cost = 0, Cost(plan.states, report)
+        done, cost = 0, Cost(plan.states, report, early=not callable(progress))
         rows: dict[int, Arrays] = {}
         results = partial(_results, plan, cost, coded=False, workers=workers, client=client)
         for number, (arrays, summary) in results(range(plan.count)):
@@ -275,7 +275,7 @@ def _carry_out(
     more = len(done) < plan.count
     left = (number for number in range(plan.count) if number not in done)
     with reporting(str(path), plan.states, states, progress) as report:
-        cost = Cost(plan.states, report, done=states)
+        cost = Cost(plan.states, report, done=states, early=not callable(progress))
         for number, (arrays, summary) in results(cost, left):
             if direct:
                 files = store.write(_where(plan, number), arrays, durable=True)

@@ -89,7 +89,8 @@ def sweep(
     client : distributed.Client, optional
         An existing Dask cluster that solves the blocks instead; this process writes them.
     progress : bool or callable, optional
-        Show rate and time left on standard error; or a function of the number of states solved.
+        Show rate and time left on standard error; or a function of the number of states solved
+        for good (in ``out``: written), called after each block.
 
     Returns
     -------
