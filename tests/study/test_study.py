@@ -177,6 +177,10 @@ def test_every_registered_law_can_be_named(write, kind):
             '{ name = "histogram", edges = [0, "100 nm", 3e-7], counts = [1, 2] }',
             tb.HistogramHeights(edges=(0, 1e-7, 3e-7), counts=(1, 2)),
         ),
+        (
+            '{ name = "histogram", edges = [-2, 0, 250], counts = [1, 2] }',  # in any unit
+            tb.HistogramHeights(edges=(-2, 0, 250), counts=(1, 2)),
+        ),
     ],
     ids=lambda value: type(value).__name__ if not isinstance(value, str) else "",
 )
@@ -483,7 +487,7 @@ def test_rules_of_the_objects_are_told_with_the_keys_of_the_file(problems, old, 
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ('"histogram"\nedges = [3, 2, 1]\ncounts = [1, 2]', ["particles.edges", "increase"]),
+        ('"histogram"\nedges = [3e-6, 2e-6, 1e-6]\ncounts = [1, 2]', ["particles.edges", "increase"]),
         ('"histogram"\nedges = ["1 GPa"]\ncounts = "x"', ["particles.edges[0]", "pressure"]),
         ('"uniform"\nlow = "3 nm"\nhigh = "1 nm"', ["particles.high", "above particles.low"]),
         ('"mixture"\nweights = [1]\nparts = []', ["particles.parts = []", "list of size"]),
@@ -1091,6 +1095,7 @@ def test_examples_are_sensible(path):
         "sit deeper than their radius",
         "strengths are extrapolated by a factor",
         "soft particles squashed to contacts",
+        "at chi = H/(E* g)",
     )
     assert [text for text in result["warnings"] if not any(each in text for each in known)] == []
     assert max(states["residual"]) < 1e-9

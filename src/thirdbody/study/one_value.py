@@ -173,8 +173,11 @@ def switch(path: str) -> Callable[[Any], bool]:
     return read
 
 
-def numbers(path: str, unit: str) -> Callable[[Any], tuple[float, ...]]:
-    """A list of numbers; the class of the table checks their range."""
+def numbers(path: str, unit: str, *, usual: float | None = None) -> Callable[[Any], Any]:
+    """A list of numbers; the class of the table checks their range.
+
+    Lengths up to ``usual`` are no slip: infinity where numbers without a unit may be in any unit.
+    """
 
     def read(value: Any) -> tuple[float, ...]:
         if not isinstance(value, list):
@@ -185,7 +188,8 @@ def numbers(path: str, unit: str) -> Callable[[Any], tuple[float, ...]]:
         problems: list[str] = []
         for i, item in enumerate(value):
             try:
-                out.append(number(Unsaid(), f"{path}[{i}]", plain_number(unit))(item))
+                about = plain_number(unit) | {"usual": usual}
+                out.append(number(Unsaid(), f"{path}[{i}]", about)(item))
             except InvalidValue as error:
                 problems += error.problems
         if problems:
