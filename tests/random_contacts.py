@@ -33,10 +33,11 @@ import numpy as np
 import thirdbody as tb
 from thirdbody.contact.interface import interface
 from thirdbody.equilibrium import solve as solving
-from thirdbody.equilibrium.columns import COLUMNS
+from thirdbody.equilibrium.columns import COLUMNS, about
 from thirdbody.equilibrium.compiled import batch as engine
 from thirdbody.equilibrium.load_scan import DEEPEST
 from thirdbody.equilibrium.states import state_columns
+from thirdbody.equilibrium.status import Status
 from thirdbody.populations.distributions import Distribution
 from thirdbody.quantities.value import Value
 
@@ -264,6 +265,98 @@ def population(
     )
 
 
+def thermal(pen: Pen, given: tb.Material) -> tb.Material:
+    """A material with what outputs need to know of it."""
+    return given.replace(
+        density=pen.log(1e3, 2e4),
+        thermal_conductivity=pen.log(0.1, 400.0),
+        specific_heat=pen.log(100.0, 4000.0),
+        resistivity=pen.log(1e-8, 1e-3),
+        K_c=pen.log(0.3e6, 100e6),
+    )
+
+
+def dressed_particles(pen: Pen, given: tb.Particles, law: Any) -> tb.Particles:
+    """Particles that may break, or have faces, by a law that knows such."""
+    given = given.replace(material=thermal(pen, given.material))
+    size, own = given.diameter.mean_diameter, {}
+    if law.name == "series" and law.law.name in ("gw", "hermite", "zmc") and pen.chance(0.4):
+        own["shape"] = tb.Angular(
+            roundness=pen.log(0.05, 1.0),
+            angle=pen.flat(0.2, 1.2),
+            flatness=1.0 if pen.chance(0.5) else pen.flat(1.0, 2.0),
+        )
+    if getattr(law, "breakable", False) and "shape" not in own and pen.chance(0.4):
+        # sizes below a tenth do not break: pieces of pieces end there
+        own["strength"] = tb.WeibullStrength(
+            sigma_0=given.material.H * pen.log(1e-4, 0.1),
+            x_0=size * pen.log(0.1, 1e3),
+            m=pen.flat(1.5, 15.0),
+            x_c=size * pen.log(0.1, 2.0),
+            fragments=pen.one(("footprint", "gone", "all")),
+            ratio=pen.flat(0.3, 0.7),
+            confinement=pen.one(("sphere", "none")),
+        )
+    for name, value in own.items():
+        with contextlib.suppress(tb.InvalidValue):  # a law or a size that it does not go with
+            given = given.replace(**{name: value})
+    return given
+
+
+def outputs(pen: Pen, contact: tb.Contact) -> tuple[Any, ...]:
+    """Outputs with numbers of their own, most often all."""
+    L, H = contact.roughness.sigma, contact.surfaces.H
+    every = {
+        "counts": tb.outputs.Counts(),
+        "dents": tb.outputs.Dents(debris=pen.one(("hard", "ductile")), A_n=1e8 * L**2),
+        "crushing": tb.outputs.Crushing(A_n=1e8 * L**2),
+        "friction": tb.outputs.Friction(
+            tau_ss=H * pen.log(0.01, 0.3), tau_sa=H * pen.log(0.01, 0.3)
+        ),
+        "wear": tb.outputs.Wear(K_ss=pen.log(1e-9, 1e-3), renewal=1 / (1e6 * L)),
+        "static_friction": tb.outputs.StaticFriction(),
+        "thermal_conductance": tb.outputs.ThermalConductance(),
+        "electrical_conductance": tb.outputs.ElectricalConductance(),
+        "flash_temperature": tb.outputs.FlashTemperature(v=pen.log(1e-3, 10.0), A_n=1e8 * L**2),
+    }
+    names = [name for name in every if pen.chance(0.8)]
+    while names:
+        try:
+            return contact.replace(outputs=tuple(every[name] for name in names)).outputs
+        except tb.InvalidValue as error:  # what this contact does not have
+            names = [n for n in names if n not in str(error)] if len(names) > 1 else []
+            names = names[:-1]
+    return ()
+
+
+def dressed(pen: Pen, contact: tb.Contact) -> tb.Contact:
+    """The contact with strengths, shapes, another onset of squashed particles, and outputs."""
+    law = contact.particle_law
+    if law.name == "series" and pen.chance(0.4):
+        law = law.replace(
+            **pen.one(({"onset": "jg"}, {"friction_factor": 0.6}, {"soft": "sphere"}))
+        )
+        with contextlib.suppress(tb.InvalidValue):
+            interface(other := contact.replace(particle_law=law))
+            contact = other
+    pair = tb.MaterialPair(
+        *(thermal(pen, b) for b in (contact.surfaces.first, contact.surfaces.second))
+    )
+    contact = contact.replace(surfaces=pair)
+    grains = tuple(dressed_particles(pen, p, contact.law_of(p)) for p in contact.populations)
+    if grains:
+        with contextlib.suppress(tb.InvalidValue):
+            contact = contact.replace(particles=grains if len(grains) > 1 else grains[0])
+    return contact.replace(outputs=outputs(pen, contact))
+
+
+def draw_whole(seed: int, index: int) -> Drawn:
+    """As `draw`, with what else a contact may have, which its own numbers say."""
+    plain = draw(seed, index)
+    contact = dressed(Pen(np.random.default_rng([seed, index, 2])), plain.contact)
+    return dataclasses.replace(plain, contact=contact)
+
+
 def draw(seed: int, index: int) -> Drawn:
     """The contact of a seed and an index."""
     pen = Pen(np.random.default_rng([seed, index]))
@@ -333,8 +426,13 @@ def quiet() -> Iterator[None]:
         yield
 
 
-LENGTHS = {"1": 0, "m": 1, "Pa": 0, "1/m^2": -2, "J/m^2": 1}
-PRESSURES = {"1": 0, "m": 0, "Pa": 1, "1/m^2": 0, "J/m^2": 1}
+# with seconds, kelvins and amperes as they are: kg = Pa m s², W = Pa m³/s, ohm = W/A²
+LENGTHS = {"1": 0, "m": 1, "Pa": 0, "1/m^2": -2, "J/m^2": 1, "rad": 0, "K": 0, "m^2": 2, "1/m": -1}
+LENGTHS |= {"m/s": 1, "kg/m^3": -2, "W/m/K": 2, "J/kg/K": 2, "ohm*m": 4, "ohm*m^2": 5}
+LENGTHS |= {"m^2*K/W": -1, "S/m^2": -5, "Pa m^0.5": 0.5, "W/m^2/K": 1, "m^3/m^2": 1}
+PRESSURES = {"1": 0, "m": 0, "Pa": 1, "1/m^2": 0, "J/m^2": 1, "rad": 0, "K": 0, "m^2": 0, "1/m": 0}
+PRESSURES |= {"m/s": 0, "kg/m^3": 1, "W/m/K": 1, "J/kg/K": 0, "ohm*m": 1, "ohm*m^2": 1}
+PRESSURES |= {"m^2*K/W": -1, "S/m^2": -1, "Pa m^0.5": 1, "W/m^2/K": 1, "m^3/m^2": 0}
 
 
 def in_other_units(value: Any, length: float, pressure: float) -> Any:
@@ -438,6 +536,7 @@ def hold(drawn: Drawn, *, shares: int = 1) -> tuple[Findings, int]:
         _separations(found, contact, bound, state, columns)
         _round_trip(found, contact, columns)
         _engines(found, drawn, columns)
+        _outputs(found, drawn, at)
         dear = (
             lambda: _units(found, drawn, state, at),
             lambda: _each(found, drawn),
@@ -467,6 +566,11 @@ def _states(
             lambda i, n=name: f"{n} at F* = {F[i]!r}, d = {columns['d'][i]!r}",
         )
     found.ask(say + "a reason where there is no state", ok | (np.char.str_len(status) > 10))
+    found.ask(
+        say + "no half of the area told as ok",
+        ~(ok & (columns["A_t"] > 0.5)),
+        lambda i: f"A_t = {columns['A_t'][i]!r} at F* = {F[i]!r}",
+    )
     good = ~ok | nothing | (np.char.str_len(np.asarray(columns["mode"], str)) > 0)
     found.ask(say + "mode", good, lambda i: f"empty at F* = {F[i]!r}")
     ok &= np.isfinite(columns["d"]) & np.isfinite(F) & ~nothing
@@ -542,7 +646,7 @@ def _separations(found: Findings, contact: Any, bound: Any, state: Any, columns:
         above = load * (1 + 1e-9) <= F
         below = load * (1 - 1e-9) >= F
         if status[i] != "ok":
-            if "beyond" in status[i]:
+            if state.status_code[i] == Status.TOO_MUCH:
                 found.ask(
                     "beyond the most is true",
                     not above.any(),
@@ -621,6 +725,32 @@ def _states_of_engine(found: Findings, contact: Any, columns: Any) -> None:
         residual <= BALANCE + per_ulp,
         lambda i: f"{residual[i]!r} at F* = {F[ok][i]!r}",
     )
+
+
+def _outputs(found: Findings, drawn: Drawn, at: Any) -> None:
+    """What a contact does: the same in other units, and no part of how it carries its load."""
+    contact = drawn.contact
+    if not contact.outputs:
+        return
+    bare = tb.solve(contact.replace(outputs=()), d=drawn.d).columns()
+    want = at.columns()
+    for name in PARTS:
+        same = (want[name] == bare[name]) | (np.isnan(want[name]) & np.isnan(bare[name]))
+        found.ask("outputs change no state", same, name)
+    length, pressure = 2.0**9, 2.0**-7  # exact: no number is rounded another way
+    got = tb.solve(in_other_units(contact, length, pressure), d=drawn.d * length).columns()
+    ok = (np.asarray(want["status"], str) == "ok") & (np.asarray(got["status"], str) == "ok")
+    for name in (each for each in want if each not in COLUMNS):
+        unit = about(name)["unit"]
+        if unit not in LENGTHS or want[name].dtype.kind != "f":
+            continue
+        x, y = want[name][ok] * length ** LENGTHS[unit] * pressure ** PRESSURES[unit], got[name][ok]
+        same = (np.abs(x - y) <= 1e-6 * np.abs(x)) | (np.isnan(x) & np.isnan(y)) | (x == y)
+        found.ask(
+            "units of outputs",
+            same,
+            lambda i, n=name, x=x, y=y: f"{n} at d = {drawn.d[ok][i]!r}: {x[i]!r} or {y[i]!r}",
+        )
 
 
 def _units(found: Findings, drawn: Drawn, state: Any, at: Any) -> None:
@@ -728,7 +858,9 @@ class TooLong(Exception):
     """A contact took longer than the limit."""
 
 
-def run(seed: int, index: int, limit: int = 0, *, shares: int = 1) -> dict[str, Any]:
+def run(
+    seed: int, index: int, limit: int = 0, *, shares: int = 1, whole: bool = False
+) -> dict[str, Any]:
     """One contact: what was asked, and what failed."""
 
     def stop(*_: Any) -> None:
@@ -741,7 +873,7 @@ def run(seed: int, index: int, limit: int = 0, *, shares: int = 1) -> dict[str, 
     refused = ""
     found = Findings()
     try:
-        drawn = draw(seed, index)
+        drawn = draw_whole(seed, index) if whole else draw(seed, index)
         found, states = hold(drawn, shares=shares)
     except (tb.InvalidValue, tb.NoEquilibrium) as error:
         refused = str(error)
@@ -767,9 +899,9 @@ def run(seed: int, index: int, limit: int = 0, *, shares: int = 1) -> dict[str, 
     }
 
 
-def _run(job: tuple[int, int, int, int]) -> dict[str, Any]:
-    *one, shares = job
-    return run(*one, shares=shares)
+def _run(job: tuple[int, int, int, int, bool]) -> dict[str, Any]:
+    *one, shares, whole = job
+    return run(*one, shares=shares, whole=whole)
 
 
 def told(result: dict[str, Any]) -> str:
@@ -813,12 +945,15 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument(
         "--shares", type=int, default=1, help="contacts take turns in the checks that cost most"
     )
+    parser.add_argument(
+        "--plain", action="store_true", help="without strengths, faces, another onset and outputs"
+    )
     parser.add_argument("--out", type=Path, help="a line of JSON for each contact; resumes")
     given = parser.parse_args(words)
     if given.index is not None:
-        drawn = draw(given.seed, given.index)
+        drawn = (draw if given.plain else draw_whole)(given.seed, given.index)
         print(drawn.contact)
-        result = run(given.seed, given.index)
+        result = run(given.seed, given.index, whole=not given.plain)
         print(told(result) or result["refused"] or "every check holds")
         return bool(result["failed"])
     results = []
@@ -828,7 +963,8 @@ def main(words: list[str] | None = None) -> int:
     wanted = range(given.first, given.first + given.contacts)
     results = [r for r in results if r["index"] in wanted]
     done = {r["index"] for r in results}
-    jobs = [(given.seed, i, given.limit, given.shares) for i in wanted if i not in done]
+    whole = not given.plain
+    jobs = [(given.seed, i, given.limit, given.shares, whole) for i in wanted if i not in done]
     sink = given.out.open("a", encoding="utf-8") if given.out else contextlib.nullcontext()
     begun = time.perf_counter()
     # fresh processes now and then: tables of contacts that never come again are kept

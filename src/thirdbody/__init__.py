@@ -31,7 +31,14 @@ if TYPE_CHECKING:
     from .equilibrium.states import solve_states
     from .equilibrium.table.make import table
     from .equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
-    from .errors import InvalidValue, NoEquilibrium, NoTransition, RangeWarning, ThirdBodyError
+    from .errors import (
+        InvalidValue,
+        NoEquilibrium,
+        NoTransition,
+        RangeWarning,
+        SlowWarning,
+        ThirdBodyError,
+    )
     from .laws import asperity, particle
     from .populations import heights as heights
     from .populations.distributions import (
@@ -103,6 +110,7 @@ __all__ = [
     "RangeWarning",
     "Roughness",
     "Sensitivity",
+    "SlowWarning",
     "SpectralMoments",
     "Sphere",
     "Suspension",
@@ -204,6 +212,7 @@ _HOMES = {
     "RangeWarning": "errors",
     "Roughness": "populations.roughness",
     "Sensitivity": "analysis.sensitivity",
+    "SlowWarning": "errors",
     "SpectralMoments": "populations.measured.spectra",
     "Sphere": "populations.shape",
     "Suspension": "analysis.design.problem",

@@ -20,6 +20,7 @@ from scipy.optimize import brentq, minimize_scalar
 from scipy.optimize.elementwise import find_root
 from scipy.special import ndtr
 
+from .errors import NoEquilibrium
 from .laws.asperity.jg import JG
 from .laws.base import REGIMES
 from .laws.particle.tension import confined
@@ -30,6 +31,10 @@ from .populations.shape import Sphere
 __all__ = ["Side", "Tip", "asperities", "particles", "separation", "squeezed", "state"]
 
 
+MOST_STEPS = 100
+"""Steps of a search for a separation: of σ each on the way down, growing on the way up."""
+
+
 def separation(contact: Any, pressure: float) -> float:
     """The separation d [m] that carries a pressure [Pa], where the load falls with d."""
 
@@ -38,10 +43,16 @@ def separation(contact: Any, pressure: float) -> float:
         return float(np.log((found["F_ss"] + found["F_sa"]) / pressure))
 
     low = high = 0.0
-    while excess(low) < 0:
+    for _ in range(MOST_STEPS):
+        if not excess(low) < 0:
+            break
         low -= contact.roughness.sigma
-    while excess(high) > 0:
+    for _ in range(MOST_STEPS):
+        if not excess(high) > 0:
+            break
         high = 1.2 * high + contact.roughness.sigma
+    if excess(low) < 0 or excess(high) > 0:
+        raise NoEquilibrium(f"no separation from {low:.3g} to {high:.3g} m carries {pressure:g} Pa")
     return brentq(excess, low, high, xtol=1e-14 * contact.roughness.sigma)
 
 

@@ -3,7 +3,22 @@
 A message says what, where, what is allowed, and the likely cause.
 """
 
-__all__ = ["InvalidValue", "NoEquilibrium", "NoTransition", "RangeWarning", "ThirdBodyError"]
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from types import FrameType
+
+__all__ = [
+    "InvalidValue",
+    "NoEquilibrium",
+    "NoTransition",
+    "RangeWarning",
+    "SlowWarning",
+    "ThirdBodyError",
+    "tell_of_range",
+]
 
 
 class ThirdBodyError(Exception):
@@ -38,3 +53,26 @@ class NotCompiled(Exception):
 
 class RangeWarning(UserWarning):
     """A model is used outside the range for which it was derived or published."""
+
+
+class SlowWarning(UserWarning):
+    """What is asked takes more than some seconds: how long, and why."""
+
+
+_HERE = os.path.dirname(os.path.abspath(__file__)) + os.sep
+_DATACLASSES = os.sep + "dataclasses.py"
+
+
+def tell_of_range(message: str | Warning, kind: type[Warning] = RangeWarning) -> None:
+    """Warn at the line outside this library from which it was called."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and _is_inside(frame):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, kind, stacklevel=level)
+
+
+def _is_inside(frame: FrameType) -> bool:
+    """Whether code is this library's, or what Python writes for its classes."""
+    code = frame.f_code
+    of_dataclass = code.co_filename == "<string>" and code.co_name == "__init__"
+    return of_dataclass or code.co_filename.startswith(_HERE) or _DATACLASSES in code.co_filename

@@ -14,6 +14,7 @@ from scipy import special
 from scipy.special import elliprd, elliprf
 
 from .errors import InvalidValue
+from .quantities.carried import takes_units
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -66,6 +67,7 @@ class HertzPoint(NamedTuple):
     """dF/dω = 2E*a [N/m]"""
 
 
+@takes_units
 def hertz_point(force: ArrayLike, *, R: float, E_star: float) -> HertzPoint:
     r"""Hertz's elastic contact of a sphere with a flat, from the load.
 
@@ -100,6 +102,7 @@ def hertz_point(force: ArrayLike, *, R: float, E_star: float) -> HertzPoint:
     return HertzPoint(a, a * a / R, math.pi * a * a, 2 / 3 * peak, peak, 2 * E_star * a)
 
 
+@takes_units
 def gaussian_integral(h: ArrayLike, *, n: float) -> Array:
     r"""Greenwood and Williamson's integrals over Gaussian heights, to full precision.
 
@@ -175,6 +178,7 @@ def _touching(h: ArrayLike, eta: float, sigma_s: float, R: float) -> Array:
     return eta * R * sigma_s * np.exp(-h - 1)
 
 
+@takes_units
 def exponential_gw(
     h: ArrayLike, *, eta: float, sigma_s: float, R: float, E_star: float
 ) -> SummitSum:
@@ -216,6 +220,7 @@ def exponential_gw(
     return SummitSum(4 / 3 * special.gamma(2.5) * E_star * math.sqrt(sigma_s / R) * n, math.pi * n)
 
 
+@takes_units
 def exponential_ceb(
     h: ArrayLike, *, eta: float, sigma_s: float, R: float, E_star: float, H: float, K: float = 0.6
 ) -> SummitSum:
@@ -258,6 +263,7 @@ def exponential_ceb(
     )
 
 
+@takes_units
 def exponential_plastic(
     h: ArrayLike, *, eta: float, sigma_s: float, R: float, H: float
 ) -> SummitSum:
@@ -288,6 +294,7 @@ def exponential_plastic(
     return SummitSum(H * area, area)
 
 
+@takes_units
 def exponential_ke(
     h: ArrayLike, *, eta: float, sigma_s: float, R: float, E_star: float, H: float, K: float
 ) -> SummitSum:
@@ -351,6 +358,7 @@ def _slope_problem(E_star: float, g: float) -> None:
         raise InvalidValue(f"E_star = {E_star!r} and g = {g!r} must be > 0")
 
 
+@takes_units
 def persson_area(pressure: ArrayLike, *, E_star: float, g: float) -> Array:
     r"""Persson's real area of an elastic, randomly rough surface.
 
@@ -387,6 +395,7 @@ def persson_area(pressure: ArrayLike, *, E_star: float, g: float) -> Array:
     return special.erf(math.sqrt(2) * np.asarray(pressure, dtype=float) / (E_star * g))
 
 
+@takes_units
 def bush_gibson_thomas_area(pressure: ArrayLike, *, E_star: float, g: float) -> Array:
     r"""Bush, Gibson and Thomas' real area in the limit of vanishing load.
 

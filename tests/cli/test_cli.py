@@ -65,6 +65,14 @@ WARNED |= {
     name: [SQUASHED, *WARNED.get(name, [])]
     for name in ("soft_ptfe_particles", "steel_debris_in_film")
 }
+CHI = "from 0.005 on particles carried 3 to 4 % less"
+WARNED |= {
+    name: [CHI, *WARNED.get(name, [])]
+    for name in (
+        "bearing_wear_debris", "dusty_ball_screw", "iso4406", "nanoparticle_additive",
+        "soft_ptfe_particles", "steel_debris_in_film", "sweep",
+    )
+}  # fmt: skip
 """What examples are warned of, and not of anything else."""
 
 
@@ -286,9 +294,41 @@ def test_warnings_are_one_line_each_on_standard_error():
 
 
 def test_likely_slips_are_told_even_when_the_study_fails():
-    result = run("solve", DUSTY, "--set", "roughness.sigma=100", "--set", "load.F_star=5e6")
+    result = run("solve", DUSTY, "--set", 'roughness.sigma="100 m"', "--set", "load.F_star=5e6")
     assert result.exit_code in (2, 3)
-    assert "warning: roughness.sigma = 100 is taken as 100 m" in result.stderr
+    assert 'warning: roughness.sigma = "100 m" is taken as 100 m' in result.stderr
+
+
+def test_a_forgotten_unit_is_an_error_before_any_answer():
+    result = run("solve", DUSTY, "--set", "roughness.sigma=120")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert 'was "120 nm" meant?' in result.stderr
+
+
+@pytest.mark.parametrize(
+    "where", [">&-", ">/dev/full", "<&- >&-", ">&- 2>&-", ">/dev/full 2>/dev/full"]
+)
+@pytest.mark.parametrize("command", ["laws", "--version", "solve --help", f"solve {DUSTY} --json"])
+def test_an_answer_that_cannot_be_written_is_an_error(command, where):
+    words = f"{sys.executable} -m thirdbody {command} {where}"
+    result = subprocess.run(words, shell=True, capture_output=True, text=True, timeout=300)
+    assert result.returncode == 2
+    if "2>" not in where:
+        assert re.fullmatch(r"error: cannot read or write the output: .*\n", result.stderr)
+
+
+def test_odd_numbers_of_threads_are_refused():
+    for value in ("abc", "0", "-2", "1.5", "²", "9" * 30):
+        words = [sys.executable, "-m", "thirdbody", "solve", str(DUSTY)]
+        done = subprocess.run(
+            words,
+            env=os.environ | {"THIRDBODY_THREADS": value},
+            capture_output=True,
+            text=True,
+            timeout=300,
+        )
+        assert done.returncode == 2, value
+        assert done.stderr.startswith("error: THIRDBODY_THREADS = ")
 
 
 # ---------------------------------------------------------------------------- --csv

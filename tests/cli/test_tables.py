@@ -123,7 +123,10 @@ def test_every_cell_shown_stands_whole(seed):
 # ---------------------------------------------------------------------------- words and units
 def test_every_head_of_the_states_is_told():
     text = " ".join(run(120, "solve", DUSTY).split())
-    for told in ("d: separation from the mean asperity height", "F*: load F/(A_n E_ss), no unit"):
+    for told in (
+        "d: separation d, from the mean asperity height",
+        "F*: load F/(A_n E_ss), no unit",
+    ):
         assert told in text
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
-from thirdbody.contact.broken_averages import BrokenAverage
+from thirdbody.contact.broken_averages import BrokenAverage, roughly
 from thirdbody.contact.interface import interface
 from thirdbody.laws.base import OneParticle, Squeezed
 from thirdbody.laws.particle.breakage import Breakage, crush_embed_size
@@ -406,3 +406,127 @@ def test_explicit_grains_break_one_by_one(fragments):
     error = loads[at].std(axis=1) / math.sqrt(loads.shape[1])
     assert np.all(np.abs(loads[at].mean(axis=1) - expected) < 4 * error)
     assert np.all(error < 0.15 * expected)
+
+
+# ---------------------------------------------------------------- where nothing is
+ABOVE = {
+    "monodisperse": tb.Monodisperse(mean=6e-6),
+    "gaussian": tb.TruncatedGaussian(mean=6e-6, std=6e-7),
+    "log-normal": tb.LogNormal(median=6e-6, gsd=1.2),
+    "power law": tb.PowerLaw(edges=(2e-6, 9e-6), counts=(1,), slopes=(3.0,)),
+    "histogram": tb.Histogram(edges=(2e-6, 5e-6, 9e-6), counts=(3, 1)),
+    "down to nothing": tb.Uniform(low=0.0, high=8e-6),
+}
+
+
+def complete(material):
+    return material.replace(
+        thermal_conductivity=40.0, resistivity=2e-7, density=7800.0, specific_heat=480.0
+    )
+
+
+def outputs_of_all():
+    needed = {
+        "friction": {"tau_ss": 0.2e9, "tau_sa": 0.2e9},
+        "flash_temperature": {"speed": 1.0},
+        "wear": {"k": 1e-4},
+    }
+    for name, kind in tb.outputs.REGISTRY.items():
+        try:
+            yield kind(**needed.get(name, {}))
+        except TypeError:
+            try:
+                yield kind()
+            except (TypeError, tb.InvalidValue):
+                continue
+        except tb.InvalidValue:
+            continue
+
+
+@pytest.mark.parametrize("sizes", ABOVE.values(), ids=ABOVE)
+@pytest.mark.parametrize("seat", ["rough", "plane"])
+@pytest.mark.parametrize("fragments", FRAGMENTS)
+def test_no_particle_is_loaded_in_a_gap_above_the_largest(sizes, seat, fragments):
+    """Every output has an answer, alone and beside a gap in which there are some."""
+    steel, quartz = complete(STEEL), complete(QUARTZ)
+    outputs = tuple(outputs_of_all())
+    assert {"counts", "dents", "crushing"} <= {each.name for each in outputs}
+    contact = contact_of(
+        STRENGTH.replace(fragments=fragments),
+        seat=seat,
+        sizes=sizes,
+        material=quartz,
+        pair=tb.MaterialPair(steel, steel),
+        outputs=outputs,
+    )
+    state = tb.solve(contact, d=60e-6)
+    assert state.pressure == state.A_t == 0
+    assert state.outputs["n_sa"] == 0
+    both = tb.solve(contact, d=[60e-6, 3e-6])
+    assert both.outputs["n_sa"][0] == 0 < both.outputs["n_sa"][1]
+
+
+# ---------------------------------------------------------------- what has no end
+@pytest.mark.parametrize("seat", ["rough", "plane"])
+@pytest.mark.parametrize("sizes", [tb.Monodisperse(mean=1e-5), tb.Uniform(low=0.0, high=1e-5)])
+@pytest.mark.parametrize("fragments", ["footprint", "all"])
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"size_exponent": 0.0},
+        {"size_exponent": 0.05},
+        {"ratio": 0.999999},
+        {"ratio": 1e-300, "size_exponent": 0.0},
+        {"size_exponent": 0.0, "x_c": 1e-300},
+    ],
+    ids=str,
+)
+def test_pieces_that_break_for_ever_are_refused(seat, sizes, fragments, changes):
+    strength = STRENGTH.replace(**{"x_c": 0.0, "fragments": fragments, **changes})
+    with pytest.raises(tb.InvalidValue, match="generations"):
+        tb.solve(contact_of(strength, seat=seat, sizes=sizes), pressure=1e5)
+
+
+def test_pieces_that_end_are_followed_to_the_end():
+    """A smaller share of what is left changes nothing: the bound is far beyond what bears."""
+    strength = STRENGTH.replace(x_c=0.0, size_exponent=0.3)
+    average, scale = average_of(strength, tb.Monodisperse(mean=1e-5))
+    assert average.least * scale < 1e-10
+    shallow, _ = average_of(strength.replace(x_c=1e-10), tb.Monodisperse(mean=1e-5))
+    gap = np.array([1e-4])
+    np.testing.assert_allclose(
+        average.average(gap, 1 - gap)[0, 0], shallow.average(gap, 1 - gap)[0, 0], rtol=1e-9
+    )
+
+
+def test_pieces_that_bear_nothing_need_no_ratio():
+    """Where fragments are gone, their size decides nothing."""
+    gone = STRENGTH.replace(fragments="gone")
+    gaps = np.array([5e-6, 3e-6, 1e-6])
+    one, other = (
+        pressure_of(contact_of(gone.replace(ratio=ratio)), gaps) for ratio in (0.5, 0.999999)
+    )
+    np.testing.assert_array_equal(one, other)
+
+
+# ---------------------------------------------------------------- samples
+@pytest.mark.parametrize("fragments", FRAGMENTS)
+@pytest.mark.parametrize("sigma", [5e-8, 5e-7, 5e-6])
+@pytest.mark.parametrize(
+    "sizes", [UNIFORM, tb.LogNormal(median=6e-6, gsd=1.4), ABOVE["power law"]], ids=repr
+)
+def test_rough_sums_of_samples_are_near(sizes, sigma, fragments):
+    """To 1e-3 of the load, as they promise, and the same contact is exact again afterwards."""
+    contact = contact_of(
+        STRENGTH.replace(fragments=fragments),
+        sizes=sizes,
+        roughness=tb.Roughness(sigma=sigma, R=1e-4),
+    )
+    F_star = np.geomspace(1e-8, 1e-4, 7)
+    exact = tb.solve(contact, F_star=F_star)
+    with roughly():
+        near = tb.solve(contact, F_star=F_star)
+    assert list(near.status) == list(exact.status)
+    np.testing.assert_allclose(near.particle_load_share, exact.particle_load_share, atol=1e-3)
+    np.testing.assert_allclose(near.A_t, exact.A_t, rtol=1e-3)
+    np.testing.assert_array_equal(tb.solve(contact, F_star=F_star).d, exact.d)

@@ -136,7 +136,7 @@ def test_warnings():
     ("change", "said"),
     [
         (dict(ratio=1.0), "WeibullStrength.ratio = 1.0 must be > 0 and < 1"),
-        (dict(m=0), "WeibullStrength.m = 0 must be > 0"),
+        (dict(m=0), "WeibullStrength.m = 0 must be >= 0.1 and <= 200"),
         (dict(sigma_0=-1.0), "WeibullStrength.sigma_0 = -1.0 must be > 0"),
         (dict(fragments="some"), "must be one of 'footprint', 'gone', 'all'"),
         (dict(confinement="box"), "must be one of 'sphere', 'none'"),

@@ -71,7 +71,7 @@ def columns(result) -> dict[str, np.ndarray]:
 
 def reason(status) -> list[str]:
     """Which kind of sentence: the numbers in it belong to one engine."""
-    kinds = ("ok", "is beyond", "is below", "jump")
+    kinds = ("ok", "is beyond", "is below", "jump", "crowded")
     return [next(kind for kind in kinds if kind in str(sentence)) for sentence in status]
 
 

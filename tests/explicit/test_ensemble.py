@@ -9,12 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.special import ndtr
 from typer.testing import CliRunner
 
 import thirdbody as tb
 from thirdbody import cli
 from thirdbody.explicit import ensemble as function
-from thirdbody.explicit import sums
+from thirdbody.explicit import pooling, sums
 from thirdbody.explicit.interface import law_tables, map_of
 from thirdbody.study import load_study
 from thirdbody.study.run_explicit import run_explicit
@@ -150,9 +151,10 @@ def test_an_interrupted_run_goes_on(tmp_path):
     again = many(3, folder=tmp_path)
     assert again.to_dict() == whole.to_dict()
     assert [file.read_bytes() for file in kept] == before
-    # what was made for other numbers does not count
-    other = many(3, folder=tmp_path, seats="valleys")
-    assert other.seats.mean < -1
+    # what was made for other numbers stays
+    with pytest.raises(tb.InvalidValue, match=r"surfaces of another study.*surface_000\.json"):
+        many(3, folder=tmp_path, seats="valleys")
+    assert [file.read_bytes() for file in kept] == before
 
 
 def test_shared_among_threads_it_is_the_same(tmp_path):
@@ -182,6 +184,115 @@ def test_states_that_did_not_converge_are_left_out():
     short = many(2, max_iterations=2, tol=1e-10)
     assert short.left_out > 0
     assert "did not converge and count nowhere" in " ".join(short.warnings)
+
+
+# ---------------------------------------------------------------- what nobody drew
+def pool_of(drawn, *, cap=5e9, particles=1.0, surfaces=4):
+    """Asperities that carry 0.6 of the cap on a Gaussian bearing area, cut off at ``drawn``/σ."""
+    h = np.linspace(5, 2, 31)
+    area, law = 1e-8, 3e8 * particles * np.exp(-1.2 * h)
+    bearing = area * ndtr(-h)
+    luck = np.linspace(0.8, 1.2, surfaces)[:, None]
+    seen = luck * bearing * (h <= np.broadcast_to(drawn, surfaces)[:, None])
+    every = np.ones((surfaces, 1))
+    sums_of = {
+        "asperities": 0.6 * cap * seen * luck**0.01, "area": 0.7 * seen, "bearing": seen, "bare": seen,
+        "particles": every * law * area, "law": every * law * area,
+        "particle_area": every * law * area / cap, "law_area": every * law * area / cap,
+    }  # fmt: skip
+    expected = {"bearing": every * bearing, "law": every * law * area,
+                "law_area": every * law * area / cap}  # fmt: skip
+    truth = law / (law + 0.6 * cap * bearing / area)
+    pool = pooling.Pool(
+        h=h * 3e-7, nominal=np.full(surfaces, area), good=np.ones((surfaces, 31), bool),
+        sums=sums_of, expected=expected,
+    )  # fmt: skip
+    return pool, law + 0.6 * cap * bearing / area, truth
+
+
+@pytest.mark.parametrize("fair", [True, False])
+def test_a_share_that_nobody_drew_is_bounded(fair):
+    """All agree that no asperity carries: no number, no error, and the truth within the bounds."""
+    pool, load, truth = pool_of(3.55)
+    far = np.arange(3, 13)  # 4.7 to 3.8 sigma
+    at = pool.at_loads(load[far], fair=fair, cap=5e9)
+    assert np.all(at.idle[0])
+    assert np.all(np.isnan(at.errors["particle_load_share"]))
+    share = at.values["particle_load_share"]
+    assert np.all(np.isnan(share)) if fair else np.all(share == 1)
+    least, most = at.least["particle_load_share"], at.most["particle_load_share"]
+    assert np.all((least < truth[far]) & (truth[far] <= most))
+    assert np.all(least > 1 - 2.5 * (1 - truth[far]))  # 0.6 of the cap, at a lower flat
+    # the separation and the area know what is missing
+    error = at.errors["h"]
+    assert np.all(np.abs(at.values["h"] - pool.h[far]) < 1.01 * error)
+    # without a cap there is no bound
+    open_ = pool.at_loads(load[far], fair=fair, cap=None)
+    assert np.all(open_.least["particle_load_share"] == 0)
+    assert not np.any(np.isfinite(open_.errors["h"]))
+    # nearer the luck is taken out, and no bound is needed
+    near = pool.at_loads(load[22:30], fair=True, cap=5e9)
+    assert near.values["particle_load_share"] == pytest.approx(truth[22:30], rel=2e-3)
+    assert np.all(np.isnan(near.least["particle_load_share"]))
+
+
+def test_one_surface_alone_is_no_error():
+    pool, load, truth = pool_of([2.0, 2.0, 2.0, 4.5])
+    at = pool.at_loads(load[8:20], fair=True, cap=5e9)
+    share = at.values["particle_load_share"]
+    assert share == pytest.approx(truth[8:20], rel=5e-3)
+    assert np.all(np.isnan(at.errors["particle_load_share"]))
+    assert np.all(at.least["particle_load_share"] <= truth[8:20])
+
+
+def test_particles_that_nobody_drew_are_bounded_too():
+    pool, load, truth = pool_of(9.0, particles=1e-11)
+    pool.sums["particles"][:] = 0
+    pool.sums["particle_area"][:] = 0
+    at = pool.at_loads(load[5:20], fair=True, cap=5e9)
+    assert np.all(at.idle[1])
+    assert np.all(np.isnan(at.values["particle_load_share"]))
+    assert np.all(at.least["particle_load_share"] == 0)
+    most = at.most["particle_load_share"]
+    assert np.all((truth[5:20] < 1.02 * most) & (most < 1.1 * truth[5:20]))
+
+
+def test_loads_that_tie_stand_for_the_first():
+    """All that carries is embedded: the load is the same over a stretch of separations."""
+    pool, _, _ = pool_of(2.5)
+    for name in ("particles", "law"):
+        values = pool.sums[name]
+        values[:, 10:16] = values[:, 10:11]
+    values = pool.sums["asperities"]
+    values[:] = 0
+    at = pool.at_loads(pool.sums["particles"][0, 10:11] / 1e-8, fair=False, cap=5e9)
+    assert at.values["h"] == pytest.approx(pool.h[10], rel=1e-12)
+
+
+def test_an_ensemble_says_where_nothing_was_drawn():
+    """Surfaces too small for an asperity at this load: once 100 ± 0 %, infinitely far from any."""
+    found = many(3, F_star=[2e-5, 2e-3], size=64, spacing=3e-7)
+    table, bound = found.table, found.table.particle_load_share_cv_least.values
+    error = np.stack([table[f"particle_load_share_{k}_error"] for k in ("raw", "cv")])
+    assert not np.any(error == 0)
+    assert np.all(np.isnan(error[:, 0]))
+    assert np.isnan(table.particle_load_share_difference.values[0])
+    assert 0 <= bound[0] <= float(table.particle_load_share_statistical[0])
+    assert np.isnan(bound[1])
+    assert (
+        sum("the particles' load share has no error there" in each for each in found.warnings) == 1
+    )
+    # what these surfaces carry at none of the separations pressed is told, not NaN without a word
+    lost = many(2, F_star=[1e-6, 2e-3], size=64, spacing=3e-7)
+    gone = [np.isnan(lost.table[f"h_{kind}"].values[0]) for kind in ("raw", "cv")]
+    assert any(gone)
+    assert sum("at none of the separations" in each for each in lost.warnings) == sum(gone)
+    alone = many(1, F_star=[2e-5, 2e-3], size=64, spacing=3e-7)
+    assert np.all(np.isnan(alone.table.h_raw_error))
+    # without particles their share is nought, and no luck
+    clean = many(2, CONTACT.replace(particles=None), size=64, spacing=3e-7)
+    assert np.all(clean.table.particle_load_share_cv_error == 0)
+    assert not any("no error" in each for each in clean.warnings)
 
 
 def test_a_load_on_a_few_points_is_told():
@@ -221,7 +332,7 @@ def test_the_command_writes_what_it_says(tmp_path):
     assert data == json.loads((out / "explicit.json").read_text("utf-8"))
     assert data["table"]["F_star"] == [1e-4, 1e-3]
     assert data["surfaces"] == 2
-    names = {"states.csv", "maps.nc", "explicit.json", "explicit.png", "surfaces"}
+    names = {"states.csv", "maps.nc", "explicit.json", "explicit.png", "surfaces", "study.json"}
     assert {file.name for file in out.iterdir()} == names
     with (out / "states.csv").open(encoding="utf-8") as file:
         head, *rows = csv.reader(file)

@@ -7,7 +7,7 @@ from scipy import optimize
 import thirdbody as tb
 from thirdbody.explicit.bodies import Bodies, LawTable
 from thirdbody.explicit.half_space import HalfSpace, lattice_constant
-from thirdbody.explicit.press import HARDEST, press
+from thirdbody.explicit.press import HARDEST, press, touched
 
 E, SPACING = 112e9, 1e-7
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
@@ -115,6 +115,101 @@ def test_a_flat_punch(per_radius, most):
     assert 1.0 < depth / (load / (2 * E * a)) < most
 
 
+# ---------------------------------------------------------------- to a separation, without a cap
+def test_hertz_to_a_separation():
+    """The load of Hertz at his approach, the images taken off."""
+    n, R, a = 128, 1e-4, 8 * SPACING
+    load = 4 / 3 * E * a**3 / R
+    x = (np.arange(n) - n / 2 + 0.3) * SPACING
+    r2 = x[:, None] ** 2 + (x - 0.2 * SPACING) ** 2
+    h = load / (np.pi * E) * lattice_constant((n * SPACING, n * SPACING)) - a**2 / R
+    state = press(-r2 / (2 * R), SPACING, E, c=never(r2.shape), h=h, tol=1e-9)
+    assert state.converged
+    assert state.p.sum() * SPACING**2 == pytest.approx(load, rel=3e-3)
+    exact = 1.5 * load / (np.pi * a**2) * np.sqrt(np.maximum(1 - r2 / a**2, 0))
+    assert np.abs(state.p - exact).sum() < 0.012 * exact.sum()
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.5, 0.9])
+def test_westergaard_to_a_separation(ratio):
+    """h = Δ₀ (1 − ψ + ψ ln ψ) of pressure ψp*, from the wave of the mean gap (Johnson 1985, 13.2)."""
+    n, height = 256, 1e-7
+    z = np.repeat(height * np.cos(2 * np.pi * np.arange(n) / n)[:, None], n, axis=1)
+    full = np.pi * E * height / (n * SPACING)
+    h = height * (1 - ratio + ratio * np.log(ratio))
+    state = press(z, SPACING, E, c=never(z.shape), h=h, tol=1e-9)
+    assert state.converged
+    assert np.mean(state.p) == pytest.approx(ratio * full, rel=2e-3)
+
+
+@pytest.mark.parametrize("load", [1e-5, 1e-3, 3e-2])
+def test_a_load_gives_the_separation_that_gives_the_load(load):
+    z = rough()
+    side = z.shape[0] * SPACING
+    there = press(z, SPACING, E, c=never(z.shape), load=load * E * side**2, tol=1e-10)
+    back = press(z, SPACING, E, c=never(z.shape), h=there.h, tol=1e-10)
+    assert there.converged
+    assert back.converged
+    assert np.mean(back.p) == pytest.approx(load * E, rel=1e-6)
+    assert np.count_nonzero(back.p) == np.count_nonzero(there.p)
+
+
+def test_no_pressure_is_no_answer_below_the_summits():
+    """Cut short, or begun from the answer of another separation, a state does not pass."""
+    z = rough()
+    none, all_of_it = 1.01 * z.max(), 0.6 * z.max()
+    held = {"c": never(z.shape), "tol": 1e-6}
+    apart = press(z, SPACING, E, h=none, **held)
+    assert apart.converged
+    assert not np.any(apart.p)
+    cut = press(z, SPACING, E, h=all_of_it, **(held | {"max_iterations": 1}))
+    assert not cut.converged
+    fresh = press(z, SPACING, E, h=all_of_it, **held)
+    near = press(z, SPACING, E, h=0.65 * z.max(), **held)
+    again = press(z, SPACING, E, h=all_of_it, start=(near.p, near.f), **held)
+    assert np.sum(near.p) < 0.9 * np.sum(fresh.p)
+    assert np.sum(again.p) == pytest.approx(np.sum(fresh.p), rel=1e-5)
+
+
+def test_without_a_cap_the_answer_is_that_of_least_squares():
+    """Ten by ten points: ½|√K p − K^(−½)z|² + hΣp is a square but for ½δ(Σp)², which lowers h."""
+    rng = np.random.default_rng(7)
+    n = 10
+    z = rng.normal(0, 2e-9, (n, n))
+    z -= z.mean()
+    green = HalfSpace((n, n), SPACING, E).green()
+    i, j = (each.ravel() for each in np.indices((n, n)))
+    values, vectors = np.linalg.eigh(green[(i[:, None] - i) % n, (j[:, None] - j) % n])
+    root = np.sqrt(values[1:])  # without that of a constant, which is 0
+    assert abs(values[0]) < 1e-9 * values[-1]
+    soft = 1e-3 * root.min()
+    for h in (3e-9, 1e-9):
+        A = np.vstack([root[:, None] * vectors[:, 1:].T, np.full(n * n, soft)])
+        b = np.append(vectors[:, 1:].T @ z.ravel() / root, -h / soft)
+        scale = np.max(values) ** 0.5
+        expected, _ = optimize.nnls(A / scale, b / scale, maxiter=20 * n * n)
+        state = press(z, SPACING, E, c=never(z.shape), h=h + soft**2 * expected.sum(), tol=1e-12)
+        assert state.converged
+        assert 0.02 < np.mean(expected > 0) < 0.9
+        assert np.abs(state.p.ravel() - expected).sum() < 1e-5 * expected.sum()
+
+
+def test_to_a_separation_the_certificate_bounds_the_energy_too():
+    """Φ falls by no more than ε σ Σp, from wherever the iteration is cut."""
+    z = rough()
+    space = HalfSpace(z.shape, SPACING, E)
+    for h in (2.5e-7, 7e-7):
+        best = press(z, SPACING, E, c=never(z.shape), h=h, tol=1e-12, max_iterations=1000)
+
+        def energy(state, h=h):
+            return np.sum(state.p * (0.5 * space.displacement(state.p) - z + z.mean() + h))
+
+        for most in (1, 2, 3, 5, 8):
+            state = press(z, SPACING, E, c=never(z.shape), h=h, tol=1e-12, max_iterations=most)
+            bound = state.certificate * np.std(z) * np.sum(state.p)
+            assert 0 < energy(state) - energy(best) <= bound
+
+
 # ---------------------------------------------------------------- caps
 def rough(points=128, seed=0, sigma=300e-9):
     return tb.synthetic.self_affine(
@@ -173,6 +268,62 @@ def _filled(q, free):
     out = np.zeros(free.shape)
     out[free] = 1e9 * q
     return out
+
+
+# ---------------------------------------------------------------- areas
+def between(z, k):
+    """The same waves on a grid k times as fine."""
+    n = z.shape[0]
+    at, more = np.fft.fftshift(np.fft.fft2(z)), (n * k - n) // 2
+    return k**2 * np.fft.ifft2(np.fft.ifftshift(np.pad(at, more))).real
+
+
+@pytest.mark.parametrize("hardness", [0.0045, 0.018, 0.0446, 0.1, 0.3, None])
+def test_an_area_is_that_of_a_finer_grid(hardness):
+    """Plastic, elastic and between: where the cap acts no rim is taken off, elsewhere it is."""
+    n, coarse = 64, 4e-7
+    z = tb.synthetic.self_affine(
+        sigma=300e-9, hurst=0.8, shortest=3.2e-6, longest=8e-6, spacing=coarse, points=n, seed=1
+    ).heights
+    H = None if hardness is None else hardness * E
+    load = (n * coarse) ** 2 * (2e-3 * E if H is None else 0.03 * H)
+    counts, areas = [], []
+    for k in (2, 4, 8):
+        fine = between(z, k)
+        c = np.full(fine.shape, H or HARDEST)
+        state = press(fine, coarse / k, E, c=c, load=load, tol=1e-7, max_iterations=1000)
+        counts.append(np.mean(state.p > 0))
+        areas.append(np.mean(touched(state.p, c, H)))
+        if H is not None:
+            assert areas[-1] >= np.mean(state.p) / H
+    assert areas[:2] == pytest.approx([areas[2]] * 2, rel=0.02)
+    assert areas[1] == pytest.approx(areas[2], rel=0.0075)
+    # the count comes from above, the slower
+    assert abs(areas[0] - areas[2]) < abs(counts[0] - counts[2])
+    assert np.all(np.diff(counts) < 0)
+
+
+def test_a_bearing_area_has_no_rim_and_a_sphere_has():
+    """πa² of Hertz at 8 pixels to a; all of the bearing area; what is covered is not touched."""
+    z = rough()
+    h, H = 2 * np.std(z), 1e-6 * E
+    c = np.full(z.shape, H)
+    soft = press(z, SPACING, E, c=c, h=h, tol=1e-10)
+    assert np.array_equal(touched(soft.p, c, H), soft.p / H)
+    assert np.mean(touched(soft.p, c, H)) == pytest.approx(np.mean(z > h), rel=1e-3)
+    n, R, a = 128, 1e-4, 8 * SPACING
+    x = (np.arange(n) - n / 2 + 0.3) * SPACING
+    r2 = x[:, None] ** 2 + (x - 0.2 * SPACING) ** 2
+    c = never(r2.shape)
+    state = press(-r2 / (2 * R), SPACING, E, c=c, load=4 / 3 * E * a**3 / R, tol=1e-9)
+    exact = np.pi * (a / SPACING) ** 2
+    assert np.sum(touched(state.p, c, None)) == pytest.approx(exact, rel=0.025)
+    assert np.count_nonzero(state.p) > 1.03 * exact
+    # a punch ends where its pixels do; half of a pixel under a particle is half a pixel
+    inside = r2 < a**2
+    assert np.sum(touched(1.0 * inside, np.where(inside, HARDEST, 0.0), None)) == inside.sum()
+    half = np.full((8, 8), 0.5 * H)
+    assert np.all(touched(half, half, H) == 0.5)
 
 
 # ---------------------------------------------------------------- the certificate

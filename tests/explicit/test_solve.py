@@ -95,6 +95,37 @@ def test_load_and_separation_control_are_one():
     assert again.h == pytest.approx(STATE.h, abs=1e-5 * STATE.sigma)
 
 
+@pytest.mark.parametrize("density", [0.0, 5e11])
+def test_without_a_cap_load_and_separation_control_are_one(density):
+    """One by one and as a curve, far to near: no state is its neighbour's."""
+    loads, made = [1e-4, 1e-3, 5e-3], contact(density)
+    there = pressed(made, F_star=loads, cap="none")
+    back = pressed(made, F_star=None, h=there.h, cap="none")
+    alone = [pressed(made, F_star=None, h=h, cap="none") for h in there.h]
+    assert np.all(back.converged)
+    assert back.F_star == pytest.approx(loads, rel=1e-5)
+    assert [each.F_star for each in alone] == pytest.approx(loads, rel=1e-5)
+    assert back.A_t == pytest.approx(there.A_t, rel=1e-6)
+    # a cap that nothing reaches is none
+    high = pressed(made, F_star=None, h=there.h, cap=1e13)
+    assert high.F_star == pytest.approx(loads, rel=1e-5)
+
+
+@pytest.mark.parametrize("hardness", [5e8, 2e9, 5e9, 2e10])
+@pytest.mark.parametrize("diameter", [1.5e-7, 4e-7])
+def test_no_area_carries_more_than_its_hardness(hardness, diameter):
+    """A ≥ F/H, with and without particles; those of 1.5 pixels cover parts of pixels."""
+    soft = STEEL.replace(H=hardness)
+    made = contact(1e12, diameter=tb.Monodisperse(mean=diameter)).replace(
+        surfaces=tb.MaterialPair(soft, soft)
+    )
+    least = hardness / made.E_ss
+    for each in (made, made.replace(particles=None)):
+        state = pressed(each, F_star=[1e-2 * least, 5e-2 * least, 0.2 * least], tol=1e-7)
+        mean = state.F_ss_star / (least * state.A_ss)
+        assert np.all((mean > 0.2) & (mean <= 1 + 1e-12))
+
+
 def test_a_curve_is_its_states():
     loads = [2e-3, 1e-4, 6e-4]
     several = pressed(F_star=loads, tol=1e-9)
@@ -244,6 +275,7 @@ def test_netcdf(tmp_path):
         (dict(F_star=-1.0), "F_star = -1 must be finite and > 0"),
         (dict(F_star="1e-4"), "must be a number"),
         (dict(F_star=0.5), "all that the pixels and particles can carry"),
+        (dict(F_star=None, h=-1e-9, cap="none", made=contact(0.0)), "h = −1 nm must be > 0 where"),
         (dict(seats="vallies"), "seats = 'vallies' must be one of 'random'"),
         (dict(seats=[[0.0, 1.0, 2.0]]), r"must be \(N, 2\)"),
         (dict(cap=-1.0), "cap = -1.0 must be 'hardness'"),
@@ -292,7 +324,7 @@ def test_what_is_doubtful_is_said():
 
     assert "did not converge" in warned(max_iterations=2, tol=1e-10)
     assert "answer is that of a few points" in warned(F_star=2e-6)
-    assert "real contact area 59.1 %" in warned(F_star=0.6 * contact().surfaces.H / contact().E_ss)
+    assert "real contact area 60.3 %" in warned(F_star=0.6 * contact().surfaces.H / contact().E_ss)
     assert "more than a tenth of the side" in warned(
         particles=told(x=[0.0], y=[0.0], diameter=[2e-6])
     )
@@ -316,3 +348,28 @@ def test_a_jump_at_the_rim_is_no_short_wave():
     whole, part = map_of(heights, 1e-7), map_of(heights[:100, :90], 1e-7)
     assert whole.shortest_wave() == pytest.approx(1.6e-6, rel=0.05)
     assert part.shortest_wave() == pytest.approx(1.6e-6, rel=0.2)
+
+
+def test_waves_are_left_out_only_where_it_is_said():
+    """A topography is its heights with cutoff=0; without one it is said what is pressed."""
+    fine = tb.synthetic.self_affine(
+        sigma=300e-9, hurst=0.6, shortest=8e-7, longest=6e-6, spacing=SPACING, points=128
+    ).heights
+    given = tb.surfaces.from_topography(fine, spacing=SPACING, periodic=True, cutoff=0)
+    own = tb.surfaces.from_topography(fine, spacing=SPACING, periodic=True)
+    bare, how = contact(0.0), {"tol": 1e-8, "F_star": 1e-3}
+    plain = pressed(bare, surface=fine, spacing=SPACING, **how)
+    whole, smooth = pressed(bare, surface=given, **how), pressed(bare, surface=own, **how)
+    assert whole.h == pytest.approx(plain.h, rel=1e-9)
+    assert not any("cut-off" in each for each in whole.warnings)
+    # what is said is what was done, and lowers the flat
+    (said,) = (each for each in smooth.warnings if "cut-off" in each)
+    assert "without its waves below the recommended cut-off" in said
+    assert "cutoff=0" in said
+    filtered = pressed(bare, surface=own.filtered(), spacing=SPACING, **how)
+    assert smooth.h == pytest.approx(filtered.h, rel=1e-9)
+    assert smooth.h < plain.h - 0.01 * plain.sigma
+    asked = tb.surfaces.from_topography(fine, spacing=SPACING, periodic=True, cutoff=own.cutoff)
+    again = pressed(bare, surface=asked, **how)
+    assert again.h == smooth.h
+    assert not any("cut-off" in each for each in again.warnings)

@@ -241,9 +241,11 @@ def test_jackson_green_beyond_its_fits(hardness):
     ):
         ok = found["status"] == "ok"
         assert np.all(np.isfinite(found["A_t"][ok]) & (found["mode"][ok] == "s-s"))
-        assert np.all(np.isnan(found["d"][~ok]))
-        assert ok.all() if hardness < 1 else not ok.any()
-        for word in found["status"][~ok]:
+        crowded = np.array([word.startswith("crowded: ") for word in found["status"]])
+        beyond = ~ok & ~crowded
+        assert np.all(np.isnan(found["d"][beyond]))
+        assert not beyond.any() if hardness < 1 else beyond.all()
+        for word in found["status"][beyond]:
             assert "jg: at a/R above 0.41, out of its fits" in word
 
 

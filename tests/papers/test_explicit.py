@@ -52,7 +52,7 @@ def test_what_varies():
 
 def test_a_run_writes_what_it_says_and_goes_on(few, tmp_path, monkeypatch):
     done = explicit.reproduce(tmp_path, preset="quick")
-    assert {file.name for file in tmp_path.iterdir()} == {*done.files, "surfaces"}
+    assert {file.name for file in tmp_path.iterdir()} == {*done.files, "surfaces", "study.json"}
     told = json.loads((tmp_path / "comparison.json").read_text("utf-8"))
     assert [state["case"] for state in told["states"]] == ["x1", "x1", "bump1", "bump1"]
     assert told["left_out"] == 0
@@ -103,6 +103,27 @@ def test_the_fewer_surfaces_the_wider_what_counts_as_luck():
     assert not dataclasses.replace(at, surfaces=3).off
     assert not dataclasses.replace(at, statistical=0.52).off
     assert dataclasses.replace(at, statistical=0.52).why == ""
+
+
+def test_where_too_little_was_drawn_the_bounds_are_shown():
+    """Neither "100" without an error nor a number of 0/0; off is what lies outside."""
+    nothing = (math.nan, math.nan)
+    point = dataclasses.replace(POINT, share=nothing, bounds=(0.9761, 1.0), statistical=0.983)
+    assert not point.off
+    assert dataclasses.replace(point, statistical=0.97).off
+    assert math.isnan(point.apart)
+    record = {**page._columns(point), "off": point.off}
+    cells = {name: None if v != v else v for name, v in record.items()}
+    assert page._cell(cells) == "≥ 97.6, 98.3"
+    assert page._cell(cells | {"share_least": 0.0, "share_most": 0.0123}) == "≤ 1.3, 98.3"
+    assert page._cell(cells | {"share_most": 0.99}) == "97.6 to 99.0, 98.3"
+    row = page._row(point, False)
+    assert "≥ 97.6 %" in row[3]
+    assert "within" in row[5]
+    drawn = page.figure((point, dataclasses.replace(POINT, F_star=1e-3)))
+    ends = [0.983 / 0.9761, 0.983]
+    bars = [line for line in drawn.axes[0].lines if line.get_marker() == "_"]
+    assert sum(list(bar.get_ydata()) == pytest.approx(ends) for bar in bars) == 1
 
 
 # ---------------------------------------------------------------- a bump
@@ -184,7 +205,7 @@ def test_the_law_of_a_bump_explains_the_earlier_runs():
     """As the book says: eight of nine shares within two of both errors, five without that law."""
     within = dict.fromkeys(("sizes", "bumps"), 0)
     for state in seats.comparison():
-        if state["share_stored"] is not None:
+        if state["share_stored"] is not None and state["share_error"] is not None:
             error = math.hypot(state["share_error"], state["share_stored_error"])
             within[state["group"]] += abs(state["share"] - state["share_stored"]) < 2 * error
     assert within["bumps"] == 8
@@ -205,6 +226,9 @@ def test_where_the_model_may_be_trusted():
 
     for state in seats.comparison():
         group, name = state["group"], state["case"]
+        if state["share_least"] is not None:
+            assert not state["off"], name
+            continue
         if group == "loads":
             assert 0.07 < apart(state) < 0.22, name
             assert 0.035 < state["h_over_sigma"] - state["h_over_sigma_statistical"] < 0.65

@@ -497,7 +497,7 @@ def test_sizes_beside_the_study_file(tmp_path):
         (dict(iso4406="18/16/13", gap="1 kg"), r'particles.gap = "1 kg" is a mass, but a length'),
         (dict(iso4406="18/16/13", gap=1e-6, film=1e-6), r"only one of these can be given"),
         (dict(iso4406="18/16/13", gap=1e-6, areal_density=1e9), r"only one of these can be given"),
-        (dict(iso4406="18/16/13", gap=1e-6, smallest=1), r"particles.smallest = 1 must be above 0"),
+        (dict(iso4406="18/16/13", gap=1e-6, smallest="1 m"), r"particles.smallest = 1 must be above 0"),
         (dict(iso4406="18/16/13", gap=1e-6, level="top"), r'particles.level = "top" must be one of'),
         (dict(iso4406="18/16/13", test_dust="A2", gap=1e-6), r"each of these gives the sizes"),
         (dict(nas1638="99", gap="1 um"), r'particles.nas1638: NAS 1638 class "99" must be one of'),

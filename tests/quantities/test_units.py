@@ -7,7 +7,8 @@ import sys
 import pytest
 
 from thirdbody.errors import InvalidValue
-from thirdbody.quantities.units import _POWERS, _normal, _registry, _scaled, say, to_si
+from thirdbody.quantities.kinds import one_spelling, registry
+from thirdbody.quantities.units import _POWERS, _scaled, say, to_si
 
 
 @pytest.mark.parametrize(
@@ -109,9 +110,9 @@ def test_pint_is_loaded_only_for_an_unusual_unit():
 @pytest.mark.parametrize(("unit", "name"), [(u, n) for u, names in _POWERS.items() for n in names])
 def test_usual_units_are_those_of_the_registry(unit, name):
     wanted = unit.replace("^", "**")
-    known = _registry()(f"1 {name}" if name[0] in "/1" else name).to(wanted)
+    known = registry()(f"1 {name}" if name[0] in "/1" else name).to(wanted)
     assert known.magnitude == pytest.approx(10.0 ** _POWERS[unit][name], rel=1e-12)
     # the same double as by the registry, which reads a blank in front of the power
     for number in ("0.3", "7e-3", "-1.7", "123456.789"):
-        body = _normal(name, "", unit)
+        body = one_spelling(name)
         assert to_si(f"{number} {name}", unit) == _scaled(number, body, "", unit)

@@ -362,8 +362,10 @@ def test_a_study_file_tells_of_a_slip_once(tmp_path):
     )
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        (note,) = tb.load_study(file).notes
-    assert 'was "2.8 um" meant?' in note
+        with pytest.raises(tb.InvalidValue) as told:
+            tb.load_study(file)
+    (problem,) = told.value.problems
+    assert 'was "2.8 um" meant?' in problem
     with pytest.warns(tb.RangeWarning, match=r"was 2\.8 um meant"):
         contact(roughness=tb.Roughness(sigma=1e-7, R=2.8))
 

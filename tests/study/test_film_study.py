@@ -228,9 +228,11 @@ def test_a_line_a_formula_and_its_options_are_read():
 def test_a_radius_of_centimetres_is_no_slip():
     roller = {"shape": "line", "R": "20 mm", "length": "25 mm"}
     assert check(data_of(conjunction=roller)).notes == ()
-    (note,) = check(data_of(conjunction=roller | {"R": 9.5})).notes
-    assert "film.conjunction.R = 9.5" in note
-    assert "9.5 mm" in note
+    assert check(data_of(conjunction=roller | {"R": 0.5})).notes == ()
+    (note,) = check(data_of(conjunction=roller | {"R": "9.5 m"})).notes  # of a journal in its bush
+    assert 'film.conjunction.R = "9.5 m"' in note
+    with pytest.raises(tb.InvalidValue, match=r'^film\.conjunction\.R = 9\.5 has no unit.*"9\.5 mm"'):
+        check(data_of(conjunction=roller | {"R": 9.5}))
 
 
 # ---------------------------------------------------------------- mistakes

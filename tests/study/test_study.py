@@ -177,6 +177,10 @@ def test_every_registered_law_can_be_named(write, kind):
             '{ name = "histogram", edges = [0, "100 nm", 3e-7], counts = [1, 2] }',
             tb.HistogramHeights(edges=(0, 1e-7, 3e-7), counts=(1, 2)),
         ),
+        (
+            '{ name = "histogram", edges = [-2, 0, 250], counts = [1, 2] }',  # in any unit
+            tb.HistogramHeights(edges=(-2, 0, 250), counts=(1, 2)),
+        ),
     ],
     ids=lambda value: type(value).__name__ if not isinstance(value, str) else "",
 )
@@ -483,7 +487,7 @@ def test_rules_of_the_objects_are_told_with_the_keys_of_the_file(problems, old, 
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ('"histogram"\nedges = [3, 2, 1]\ncounts = [1, 2]', ["particles.edges", "increase"]),
+        ('"histogram"\nedges = [3e-6, 2e-6, 1e-6]\ncounts = [1, 2]', ["particles.edges", "increase"]),
         ('"histogram"\nedges = ["1 GPa"]\ncounts = "x"', ["particles.edges[0]", "pressure"]),
         ('"uniform"\nlow = "3 nm"\nhigh = "1 nm"', ["particles.high", "above particles.low"]),
         ('"mixture"\nweights = [1]\nparts = []', ["particles.parts = []", "list of size"]),
@@ -980,13 +984,59 @@ def test_overrides_that_make_no_sense(problems, override, words):
 
 
 # ---------------------------------------------------------------------------- likely slips
-def test_forgotten_units_are_noted(write):
-    study = load_study(write(('"100 nm"', "100"), ('"205 GPa"', "205"), ('"2.8 um"', "2.8")))
-    assert len(study.notes) == 3
-    assert "surfaces.second.E = 205 is taken as 205 Pa" in study.notes[0]
-    assert 'was "205 GPa" meant?' in study.notes[0]
-    assert 'was "100 nm" meant?' in study.notes[1]
-    assert 'was "2.8 um" meant?' in study.notes[2]
+def test_forgotten_units_are_asked_about(write):
+    with pytest.raises(tb.InvalidValue) as told:
+        load_study(write(('"100 nm"', "100"), ('"205 GPa"', "205"), ('"2.8 um"', "2.8")))
+    assert told.value.problems == (
+        "surfaces.second.E = 205 has no unit, so it would be 205 Pa, which is not plausible; was "
+        '"205 GPa" meant? With its unit any value is taken: "205 Pa"',
+        "roughness.sigma = 100 has no unit, so it would be 100 m, which is not plausible; was "
+        '"100 nm" meant? With its unit any value is taken: "100 m"',
+        "roughness.R = 2.8 has no unit, so it would be 2.8 m, which is not plausible; was "
+        '"2.8 um" meant? With its unit any value is taken: "2.8 m"',
+    )
+
+
+@pytest.mark.parametrize("value", ['"100 m"', '"50 km"', '"0.1 nm"', "1e-7", "0.0005", '"1e-7"'])
+def test_no_length_with_a_unit_and_no_plausible_number_is_refused(write, value):
+    load_study(write(('"100 nm"', value), ('"2.8 um"', '"2.8 km"')))
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "meant"),
+    [
+        ("load.pressure", "5", '"5 MPa"'),
+        ("load.pressure", "[1e6, 5]", '"5 MPa"'),
+        ("load.separation", "250", '"250 nm"'),
+        ("load.pressure", "{ from = 1, to = 1e7, points = 3 }", '"1 MPa"'),
+        ("roughness.sigma", '"120"', '"120 nm"'),
+        ("particles.mean", "300.0", '"300 nm"'),
+        ("surfaces.first", "{ E = 205e9, nu = 0.3, H = 5e9, K_c = 1.2 }", '"1.2 MPa m^0.5"'),
+        ("surfaces.first", "{ E = 205e9, nu = 0.3, H = 5e9, density = 7.8 }", '"7.8 g/cm^3"'),
+        ("film.oil.eta", "20", '"20 mPa s"'),
+        ("asperity_law", '{ name = "jkr", w = 50 }', '"50 mJ/m^2"'),
+        ('uncertainty.inputs."roughness.sigma"', "{ low = 90, high = 110 }", '"90 nm"'),
+    ],
+)
+def test_numbers_that_no_interface_has_are_asked_about(write, key, value, meant):
+    film = "\n".join(
+        (
+            *("[film]", 'load = "20 N"', 'speed = "1 m/s"'),
+            *('conjunction = { shape = "point", R = "9.5 mm" }', "[film.oil]"),
+            *('eta = "20 mPa s"', 'alpha = "20 / GPa"'),
+        )
+    )
+    path = write()
+    path.write_text(path.read_text("utf-8") + "\n" + film, "utf-8")
+    load_study(path)
+    with pytest.raises(tb.InvalidValue) as told:
+        load_study(path, [f"{key}={value}".replace('"roughness.sigma"', "roughness.sigma")])
+    assert any(
+        each.startswith(key) and f"was {meant} meant?" in each for each in told.value.problems
+    )
+
+
+def test_a_unit_of_the_wrong_case_is_noted(write):
     (note,) = load_study(write(('"205 GPa"', '"205 mPa"'))).notes
     assert "0.205 Pa" in note
     assert "case" in note
@@ -1045,6 +1095,7 @@ def test_examples_are_sensible(path):
         "sit deeper than their radius",
         "strengths are extrapolated by a factor",
         "soft particles squashed to contacts",
+        "at chi = H/(E* g)",
     )
     assert [text for text in result["warnings"] if not any(each in text for each in known)] == []
     assert max(states["residual"]) < 1e-9

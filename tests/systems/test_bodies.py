@@ -24,6 +24,7 @@ from thirdbody.systems.bodies import (
     press,
 )
 from thirdbody.systems.rough_body import rough_cylinder, rough_sphere
+from thirdbody.views.film_words import summary
 
 E = CLEAN.E_ss
 STUDY = """
@@ -199,3 +200,23 @@ def test_every_kind_survives_the_round_trip():
     for kind in BODIES.values():
         body = kind(**{name: size for name, size in sizes.items() if name in kind.__slots__})
         assert kind.from_dict(body.to_dict()) == body
+
+
+def test_a_film_says_how_often_its_contact_meets_a_particle():
+    more = """
+[film]
+speed = "1 m/s"
+oil = { eta = "20 mPa s", alpha = "20 / GPa" }
+[particles]
+material = "SiO2"
+distribution = "log-normal"
+median = "1 um"
+gsd = 1.3
+areal_density = "1e6 / m^2"
+"""
+    asked = study(more=more)
+    found = run_film(asked)
+    area = BallOnFlat(diameter=6e-3).hertz(10.0, asked.contact.E_ss).area
+    assert found["particles_held"] == pytest.approx(1e6 * area, rel=1e-12)
+    assert any("one contact in" in text.lower() for text in summary(found))
+    assert run_film(study(more=more.split("[particles]")[0]))["particles_held"] is None

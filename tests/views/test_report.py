@@ -241,8 +241,8 @@ def test_error_bars_are_those_of_assess(dusty):
     assert found.assessment.propagation.bands["h"] == pytest.approx(again.propagation.bands["h"])
     rows = {row[0]: row for row in page.tables["State"][1:]}
     low, high = (again.propagation.bands["h"][i] for i in (0, 4))
-    assert rows["separation from the mean surface plane"][2] == f"{1e9 * low:.4g} nm"
-    assert rows["separation from the mean surface plane"][4] == f"{1e9 * high:.4g} nm"
+    assert rows["separation of the mean planes"][2] == f"{1e9 * low:.4g} nm"
+    assert rows["separation of the mean planes"][4] == f"{1e9 * high:.4g} nm"
     assert "those of the table [uncertainty]" in page.whole
 
 

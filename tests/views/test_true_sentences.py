@@ -305,7 +305,8 @@ class Held:
     def summary(self):
         """What `solve` prints below its tables: the same states in one line."""
         line = summary(self.result)
-        at = rf"At {LOAD} {CARRIES}; separation (?P<d>{AMOUNT}) \((?P<ratio>{NUMBER}) sigma\)(?:, {AREA.replace(' is', '')})?\. ?"
+        gap = rf"separation h = {AMOUNT} \(d = (?P<d>{AMOUNT}), (?P<ratio>{NUMBER}) sigma\)"
+        at = rf"At {LOAD} {CARRIES}; {gap}(?:, {AREA.replace(' is', '')})?\. ?"
         rest = line
         ends = list(dict.fromkeys([self.known[0], self.known[-1]]))
         for i in ends:

@@ -5,18 +5,21 @@ from __future__ import annotations
 import itertools
 import math
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..contact.broken_averages import roughly
 from ..contact.contact import Contact
 from ..equilibrium.critical_loads import CRITICAL
 from ..equilibrium.solve import given_load, solve
-from ..equilibrium.states import tables_each, varied
+from ..equilibrium.states import varied
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
+from ..quantities.carried import takes_units
+from ..quantities.progress import Stages, counted
 from ..quantities.say import percent, value_of
 from ..quantities.value import problem_with
 from .assessment import (
@@ -37,7 +40,7 @@ from .inputs import inputs as all_inputs
 from .sensitivity import sensitivity
 from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
 from .uncertainty.propagation import Propagation, certain, propagate, swing
-from .uncertainty.samples import columns_at, enough
+from .uncertainty.samples import columns_at, costly, enough, power_of_two
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -48,6 +51,7 @@ __all__ = ["assess", "assess_each"]
 
 
 # -------------------------------------------------------------------------- making it
+@takes_units
 def assess(
     contact: Contact,
     *,
@@ -77,7 +81,8 @@ def assess(
     title : str, optional
         Over the page.
     progress : callable, optional
-        Gets the name of each part of the work, as it begins.
+        Gets the name of each part of the work, as it begins; one of
+        `thirdbody.quantities.progress.stages` also how far a part is, and first results.
 
     Returns
     -------
@@ -157,26 +162,80 @@ def assess_each(
     own = [_own_state(contact, load, value) for value in loads]
     held = [value for value, state in zip(loads, own, strict=True) if isinstance(state, _Own)]
     progress(PARTS[0])
+    count = 0 if none else power_of_two(enough(contact, samples, vary))
+    work = _Work(progress, contact, vary or _usual(contact), count)
+    work.first(load, held, own)
     bands: Iterator[Propagation] = iter(())
     if held and none:
         bands = iter(certain(contact, load, held))
     elif held:
-        count = enough(contact, samples, vary)
         at: Any = held if len(held) > 1 else held[0]
-        found = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
+        with work.part(count):
+            found = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
+        work.second(found)
         bands = (found.at_load(i) for i in range(len(held)))
     progress(PARTS[1])
     slopes: dict[str, dict[str, float]] = {}
-    out = [
-        _page(title, next(bands), state, notes, slopes) if isinstance(state, _Own) else state
-        for state in own
-    ]
+    with work.part(work.ends):
+        out = [
+            _page(title, next(bands), state, notes, slopes) if isinstance(state, _Own) else state
+            for state in own
+        ]
     progress(PARTS[2])
-    changes = iter(_changes([page for page in out if isinstance(page, Assessment)]))
+    with work.part(work.ways), roughly():
+        changes = iter(_changes([page for page in out if isinstance(page, Assessment)]))
     return [
         replace(page, changes=next(changes)) if isinstance(page, Assessment) else page
         for page in out
     ]
+
+
+class _Work:
+    """What an assessment tells while it goes on: what it costs, how far it is, first results.
+
+    Contacts that share what they are made of are not bound one by one, and so not counted.
+    """
+
+    def __init__(
+        self, progress: Callable[[str], None], contact: Contact, vary: Collection[str], count: int
+    ):
+        self.ends = (2 + SLOPES) * len(vary) if count else 0
+        self.ways = 2 * len(vary) * (len(range(0, COARSE - 1, EACH_COSTLY)) + HALVED)
+        self.within: Callable[[int, int], None] | None = None
+        self.tell: Callable[[str], None] = lambda sentence: None
+        if isinstance(progress, Stages):
+            self.within = progress.within
+            progress.expect(count + self.ends + self.ways)
+            if costly(contact, vary):
+                self.tell = progress.tell
+
+    def part(self, expected: int) -> AbstractContextManager[None]:
+        """One part, of so many contacts."""
+        return counted(expected, self.within)
+
+    def first(self, load: str, held: Sequence[float], own: Sequence[Any]) -> None:
+        """The mode at each load, before anything is varied."""
+        modes = [state.mode or "none" for state in own if isinstance(state, _Own)]
+        unit = "Pa" if load == "pressure" else "1"
+        for value, mode in zip(held, modes, strict=True):
+            self.tell(f"at {load} {value_of(value, unit)} the mode is {mode}; how sure, comes next")
+
+    def second(self, found: Propagation) -> None:
+        """How probable the modes are, before it is known what decides."""
+        for mode, share in found.mode_probability.items():
+            for value, one in zip(np.ravel(found.loads), np.ravel(share), strict=True):
+                if one > 0:
+                    unit = "Pa" if found.load == "pressure" else "1"
+                    self.tell(
+                        f"at {found.load} {value_of(float(value), unit)} the mode is {mode} in "
+                        f"{percent(float(one))} of {found.samples} samples"
+                    )
+
+
+SLOPES, HALVED = 8, 2
+"""Contacts of the derivatives with one input, and of the mean search for a change of mode."""
+EACH_COSTLY = 10
+"""As EACH, where each contact takes tables of its own."""
 
 
 class _Own(NamedTuple):
@@ -326,7 +385,9 @@ def _elasticities(found: Propagation, decisive: str) -> dict[str, float]:
         return out
 
     def slopes(some: list[str]) -> dict[str, float]:
-        found_here = sensitivity(found.contact, of=decisive, to=some).elasticity[decisive]
+        quick = costly(found.contact, some)
+        of = sensitivity(found.contact, of=decisive, to=some, quick=quick)
+        found_here = of.elasticity[decisive]
         return {label: float(found_here[label]) for label in some}
 
     try:
@@ -345,19 +406,20 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[Change, ...]]:
     one = pages[0].propagation
     ways: dict[tuple[str, int], tuple[Drawn, Array]] = {}
     inputs = one.inputs or _usual(one.contact)
+    each = EACH_COSTLY if costly(one.contact, inputs) else EACH
     for label, known in inputs.items():
         if label != one.load:
             drawn = drawn_inputs(one.contact, {label: known}, one.load, float(one.loads))
             for side in (-1, 1):
-                ways[label, side] = drawn, _path(one.contact, drawn, known, side)
+                ways[label, side] = drawn, _path(one.contact, drawn, known, side, each)
     every = {(i, *way): where for i in range(len(pages)) for way, where in ways.items()}
     steps = _departures(pages, every)
 
-    def costly(way: Way) -> bool:
+    def alone(way: Way) -> bool:
         start = {name: float(v) for name, v in every[way][0].at([steps[way][0]]).items()}
-        return tables_each(varied(one.contact, start), start)
+        return costly(varied(one.contact, start), start)
 
-    halved = {way for way in steps if costly(way)}
+    halved = {way for way in steps if alone(way)}
     for counts, some in (
         (FINER, [way for way in steps if way not in halved]),
         (HALVES, [way for way in steps if way in halved]),
@@ -401,7 +463,7 @@ def _usual(contact: Contact) -> dict[str, Uncertain]:
     }
 
 
-def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int) -> Array:
+def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int, each: int) -> Array:
     """Values of an input from where it is to as far as it may go."""
     (start,) = drawn.nominal
     (moved,) = drawn.moved
@@ -413,15 +475,15 @@ def _path(contact: Contact, drawn: Drawn, known: Uncertain, side: int) -> Array:
         values = np.linspace(start, start + side * (np.ptp(ends) + np.abs(ends).max()), COARSE)
 
     def fits(value: float) -> bool:
-        each = moved.at((value - moved.values[0]) / moved.scales[0])
+        at = moved.at((value - moved.values[0]) / moved.scales[0])
         return all(
-            problem_with(declared(contact, name), float(v)) is None for name, v in each.items()
+            problem_with(declared(contact, name), float(v)) is None for name, v in at.items()
         )
 
     good = [fits(float(value)) for value in values]
     open_way = values[: good.index(False)] if False in good else values
     last = len(open_way) - 1
-    return open_way[np.unique(np.append(np.arange(0, last, EACH), last))]
+    return open_way[np.unique(np.append(np.arange(0, last, each), last))]
 
 
 Way = tuple[int, str, int]

@@ -113,7 +113,7 @@ class Assessments:
             else:
                 own.append(percent(found.nominal["A_t"]))
             rows.append(tuple(own))
-        head = ["pressure", "F*", *["separation"] * bool(self.separations), "mode"]
+        head = ["pressure", "F*", *["separation d"] * bool(self.separations), "mode"]
         if self._two_body:
             head.append("real area")
         else:

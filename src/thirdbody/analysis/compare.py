@@ -31,6 +31,7 @@ from ..equilibrium.columns import COLUMNS, Equilibrium
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, RangeWarning
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
+from ..quantities.carried import takes_units
 from ..quantities.files import csv_of, with_units
 from ..quantities.say import percent
 
@@ -55,7 +56,7 @@ DERIVED = {
     "A_t_difference": ("ΔA_t", "%", "real area against the contact's own law"),
     "mean_pressure_difference": ("Δp_m", "%", "mean real pressure against the own law"),
     "particle_load_share_difference": ("Δ(F_sa/F_t)", "%", "particles' load against the own law"),
-    "d_star_difference": ("Δd/σ", "1", "separation above that of the own law, over σ"),
+    "d_star_difference": ("Δd/σ", "1", "separation d above that of the own law, over σ"),
 }
 """Symbol, unit and meaning of what a comparison adds."""
 TELLING = 0.01
@@ -94,6 +95,7 @@ class Persson:
 
 
 # -------------------------------------------------------------------------- comparing
+@takes_units
 def compare(
     contact: Contact,
     *,

@@ -123,7 +123,7 @@ BODIES = {
 WHOLE = {
     "pressure": "nominal pressure",
     "F_star": "load F/(A_n E_ss)",
-    "d": "separation from the mean asperity height",
+    "d": "separation d, from the mean asperity height",
     "particles.concentration": "concentration of the particles",
     "particles.areal_density": "particles per nominal area",
     "particles.material": "material of the particles",

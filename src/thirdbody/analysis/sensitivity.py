@@ -28,6 +28,8 @@ from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue
 from ..quantities import notebook
+from ..quantities.carried import takes_units
+from ..quantities.progress import watched
 from .differences import FULL, QUICK, Entry, Places, Rule
 from .inputs import NUMBERS, Input, _room, input_of, inputs
 
@@ -104,6 +106,7 @@ class Sensitivity:
         names = (item.name for item in dataclasses.fields(self) if item.name != "contact")
         return {name: _plain(getattr(self, name)) for name in names}
 
+    @takes_units
     def table(self, at: int = 0) -> str:
         """The elasticities at one load as lines of text, the strongest input first.
 
@@ -179,6 +182,7 @@ def _moves(contact: Contact, label: str) -> bool:
 
 
 # -------------------------------------------------------------------------- sensitivities
+@takes_units
 def sensitivity(
     contact: Contact,
     *,
@@ -188,6 +192,7 @@ def sensitivity(
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
     quick: bool = False,
+    progress: bool | Callable[[int], None] = False,
 ) -> Sensitivity:
     r"""Derivatives of columns and critical loads with respect to inputs of the contact.
 
@@ -214,6 +219,8 @@ def sensitivity(
         Elasticities to three digits at least, by fourth-order differences from a third of the
         states, each by quadrature: no table is made for a changed input. ``error`` is then that
         of second order, and ``status`` doubts from 1e-2.
+    progress : bool or callable, optional
+        Shows on standard error how many contacts are done; a callable gets their number.
 
     Returns
     -------
@@ -227,6 +234,11 @@ def sensitivity(
         A name that is no number, or a number that is not given or must not move.
     NoEquilibrium
         A single load that the contact does not carry.
+
+    Warns
+    -----
+    SlowWarning
+        Contacts that take more than 10 s, one by one: how long. Without ``progress``.
 
     Notes
     -----
@@ -267,7 +279,9 @@ def sensitivity(
     labels = _labels(contact, to, load)
     moved = [input_of(contact, name) for name in dict.fromkeys(labels) if name != load]
 
-    value, entries = _derived(contact, results, given, moved, load, QUICK if quick else FULL)
+    rule = QUICK if quick else FULL
+    with watched("sensitivity", 2 * rule.reach * len(moved), progress):
+        value, entries = _derived(contact, results, given, moved, load, rule)
 
     start: dict[str, Any] = {each.label: each.values[0] for each in moved}
     if load in labels:

@@ -30,6 +30,8 @@ WAVES = 96
 POINTS = 900
 DRAWN = 12
 """Particles drawn, about; the depth of the slab follows from it."""
+LEAST = 3.0
+"""Half a height in the drawing, of 1000 wide, below which a particle is pointed at."""
 CARRIES = 5e-4
 """Share of the load below which no loaded particle is looked for."""
 PLACES = 64
@@ -65,6 +67,8 @@ class Section:
     grains: tuple[Grain, ...]
     depth: float
     """of the slab whose particles are drawn [m]; 0 without particles"""
+    sparse: float
+    """square metres of surface with one particle [m²]; 0 without particles"""
     names: tuple[str, ...]
     soft: tuple[bool, ...]
     """Populations that are softer than both surfaces: they give way."""
@@ -95,8 +99,13 @@ def profile(sigma: float, R: float, alpha: float, width: float, seed: int) -> tu
     return x, sigma * math.sqrt(2 / WAVES) * waves.sum(axis=1)
 
 
-def section(contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0) -> Section:
-    """One draw from the model at a solved state."""
+def section(
+    contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0, held: float = math.inf
+) -> Section:
+    """One draw from the model at a solved state; with no more particles than one contact holds.
+
+    Where it holds less than one, that one is drawn of each population.
+    """
     rough = contact.roughness
     h, d = float(np.ravel(state.h)[0]), float(np.ravel(state.d)[0])
     dusts = contact.populations
@@ -113,7 +122,7 @@ def section(contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0) -> Sec
     rooms = map(room, range(PLACES))
     x, z, chances = next((r for r in rooms if len(r[2]) == len(carriers)), room(0))
     density = sum(dust.areal_density for dust in dusts)
-    depth = DRAWN / (density * width) if density else 0.0
+    depth = min(DRAWN, max(held, 1.0)) / (density * width) if density else 0.0
     rng = np.random.default_rng(seed + 1)
     grains: list[Grain] = []
     met = False
@@ -140,6 +149,7 @@ def section(contact: tb.Contact, state: tb.Equilibrium, *, seed: int = 0) -> Sec
         d=d,
         grains=tuple(grains),
         depth=depth,
+        sparse=1 / density if density else 0.0,
         names=tuple(
             dust.name or dust.material.name or f"particles {i + 1}" for i, dust in enumerate(dusts)
         ),
@@ -262,6 +272,9 @@ def _grain(drawn: Section, grain: Grain, X: Any, Y: Any, scale: float) -> str:
             rx = min(radius * math.sqrt(radius / ry), 2.5 * radius)
     colour = COLOURS[grain.population % len(COLOURS)]
     kind = "loaded" if grain.loaded else "free"
+    place = X(grain.place), Y(middle) - scale * ry - 6
+    # one that is squashed to a line has a mark over it
+    pointer = f'<path class="ink" d="M{place[0]:.1f} {place[1]:.1f}l-6 -11h12z"/>'
     stroke = (
         f'stroke="{OKABE_ITO["vermilion"]}" stroke-width="3"'
         if grain.loaded
@@ -271,7 +284,7 @@ def _grain(drawn: Section, grain: Grain, X: Any, Y: Any, scale: float) -> str:
         f'<ellipse class="grain {kind}" cx="{X(grain.place):.1f}" cy="{Y(middle):.1f}" '
         f'rx="{scale * rx:.1f}" ry="{scale * ry:.1f}" fill="{colour}" '
         f'fill-opacity="{0.95 if grain.loaded else 0.45}" {stroke}/>'
-    )
+    ) + pointer * (scale * ry < LEAST)
 
 
 def _measures(drawn: Section, X: Any, Y: Any, H: float, scale: float) -> list[str]:

@@ -121,7 +121,7 @@ class Entries:
         read, show = (
             (lambda text: text.strip() or None, lambda value: str(value or ""))
             if field.kind == "string"
-            else (value_from, shown)
+            else (lambda text: value_from(text, one=field.kind == "number"), shown)
         )
         entry = ui.input(field.label, value=show(self.state.get(*place))).classes("w-full")
         name = dotted(place)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -215,9 +216,18 @@ def shown(value: Any) -> str:
     return with_micro(value if isinstance(value, str) else written(value))
 
 
-def value_from(text: str) -> Any:
-    """What a user wrote: numbers as numbers, tables and lists as in TOML, text as text."""
+DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+(?:[eE][+-]?\d+)?\s*(?:[^\d\s,][^,]*)?)")
+
+
+def value_from(text: str, *, one: bool = False) -> Any:
+    """What a user wrote: numbers as numbers, tables and lists as in TOML, text as text.
+
+    A comma inside a number is a decimal one where ``one`` value is asked for, and where a unit
+    stands behind: "0,4 um" are no two values of which the first has no unit.
+    """
     text = in_ascii(text.strip())
+    if (comma := DECIMAL_COMMA.fullmatch(text)) and (one or comma[2][-1].isalpha()):
+        text = f"{comma[1]}.{comma[2]}"
     if not text:
         return None
     try:

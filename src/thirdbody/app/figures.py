@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import re
 import textwrap
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ __all__ = [
     "MODE_FILLS",
     "REGIME_FILLS",
     "SCALES",
+    "clipped",
     "empty",
     "figure",
     "fix",
@@ -100,7 +102,7 @@ def figure(
     decades = {
         name: _decades(data, name) if log else {} for name, log in (("x", xlog), ("y", ylog))
     }
-    return {
+    made: dict[str, Any] = {
         "data": data,
         "layout": {
             "title": {"text": title, "font": {"size": 15}, "x": 0.02, "xanchor": "left"},
@@ -138,8 +140,16 @@ def figure(
         | layout,
         "config": CONFIG,
     }
+    curves = [each["y"] for each in data if each.get("type") == "scatter" and each.get("y")]
+    if ylog and len(curves) == len(data):
+        fix(made, "yaxis", span(clipped(curves), log=True))
+    return made
 
 
+FOLLOWED = 6
+"""Decades below the largest value of a curve over which an axis follows it."""
+NEGLIGIBLE = 1e-12
+"""Of the largest value of a figure: what is less is not looked for."""
 TICKS = ((1.0, (1, 2, 5)), (0.6, (1, 2, 3, 4, 6, 8)))
 """Ticks inside a decade of axes that are wider than so many decades."""
 
@@ -147,7 +157,7 @@ TICKS = ((1.0, (1, 2, 5)), (0.6, (1, 2, 3, 4, 6, 8)))
 def _decades(data: list[dict[str, Any]], name: str) -> dict[str, Any]:
     """Ticks of a logarithmic axis: powers of ten alone where the traces reach over two or so."""
     known = [np.asarray(each[name], float) for each in data if each.get(name) is not None]
-    every = np.concatenate([*known, [np.nan]])
+    every = clipped(known) if name == "y" else np.concatenate([*known, [np.nan]])
     every = every[np.isfinite(every) & (every > 0)]
     wide = float(np.log10(every.max() / every.min())) if every.size else 0.0
     if wide > 1.9:  # the browser writes powers a quarter larger than other numbers
@@ -176,8 +186,48 @@ def _tick(digit: int, power: int) -> str:
 
 
 def empty(height: int) -> dict[str, Any]:
-    """A place for a figure."""
-    return {"data": [], "layout": {"height": height}, "config": CONFIG}
+    """A place for a figure: a grey field without axes, which nobody takes for an answer."""
+    field = {
+        "type": "rect",
+        "xref": "paper",
+        "yref": "paper",
+        "x0": 0,
+        "x1": 1,
+        "y0": 0,
+        "y1": 1,
+        "fillcolor": GREY,
+        "opacity": 0.1,
+        "line": {"width": 0},
+    }
+    layout = {
+        "height": height,
+        "xaxis": {"visible": False, "fixedrange": True},
+        "yaxis": {"visible": False, "fixedrange": True},
+        "margin": {"l": 16, "r": 16, "t": 16, "b": 16},
+        "paper_bgcolor": "rgba(0,0,0,0)",
+        "plot_bgcolor": "rgba(0,0,0,0)",
+        "shapes": [field],
+    }
+    return {"data": [], "layout": layout, "config": CONFIG | {"staticPlot": True}}
+
+
+def clipped(curves: Iterable[Any]) -> np.ndarray:
+    """What matters of curves on a logarithmic axis: the upper decades of each.
+
+    A curve that dies out has no end: the axis follows each over `FOLLOWED` decades below its
+    largest value, and none below `NEGLIGIBLE` of the largest of all.
+
+    >>> clipped([[1.0, 1e-3, 1e-56], [1e-9, 1e-8]]).tolist()
+    [1.0, 0.001, 1e-09, 1e-08]
+    """
+    every = [np.asarray(curve, float).ravel() for curve in curves]
+    known = [curve[np.isfinite(curve) & (curve > 0)] for curve in every]
+    known = [curve for curve in known if curve.size]
+    if not known:
+        return np.empty(0)
+    least = NEGLIGIBLE * max(curve.max() for curve in known)
+    kept = [c[c >= max(least, c.max() / 10.0**FOLLOWED)] for c in known]
+    return np.concatenate(kept)
 
 
 def listed(values: Any) -> list[float | None]:

@@ -6,11 +6,13 @@ import asyncio
 import contextlib
 import json
 import os
+import signal
 import sys
 from collections.abc import Callable
 from typing import Any
 
 from ..errors import InvalidValue
+from .solver import TRIES, Died, ended, ended_by
 from .text import without_paths
 
 __all__ = ["MOST", "RUNNING", "Job", "Stopped"]
@@ -45,6 +47,8 @@ class Job:
         self.task, self.report, self.seconds = task, report, seconds
         self.process: asyncio.subprocess.Process | None = None
         self.stopped = False
+        self.ends: list[str] = []
+        """How processes ended that were to answer."""
 
     async def run(self, **asked: Any) -> dict[str, Any]:
         """The result of the task.
@@ -53,6 +57,8 @@ class Job:
         ------
         InvalidValue
             What is wrong with the request, or that it took too long.
+        Died
+            One process after another was ended from outside, or ended itself.
         Stopped
             It was cancelled.
         """
@@ -62,7 +68,13 @@ class Job:
         surroundings |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
         RUNNING.add(self)
         try:
-            return await self._run(surroundings, asked)
+            self.ends.clear()
+            while True:
+                try:
+                    return await self._run(surroundings, asked)
+                except Died:  # which the next process need not be
+                    if len(self.ends) == TRIES:
+                        raise
         finally:
             RUNNING.discard(self)
 
@@ -115,7 +127,11 @@ class Job:
             raise InvalidValue(f"{self.task}: the answer cannot be read") from None
         if self.stopped:
             raise Stopped
-        raise InvalidValue(f"{self.task}: it needed more memory or time than the page allows")
+        code = await self.process.wait()
+        if code == -getattr(signal, "SIGXCPU", 0):
+            raise InvalidValue(f"{self.task}: it needed more time than the page allows")
+        self.ends.append(ended_by(code))
+        raise Died(f"{self.task}: no answer: {ended(self.ends)}")
 
     def cancel(self) -> None:
         """Stop at once."""

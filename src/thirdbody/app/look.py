@@ -68,6 +68,9 @@ body { font-family: system-ui, -apple-system, "Segoe UI", sans-serif; }
 .subhead { font-weight: 600; margin-top: 0.4rem; }
 .facts { gap: 0.5rem 1.6rem; }
 .headline { font-size: 1.25rem; font-weight: 600; line-height: 1.35; text-wrap: balance; }
+.headline.second { font-size: 0.95rem; }
+.whole-contact { font-size: 1.05rem; font-weight: 600; line-height: 1.4; max-width: 60rem; }
+.waiting { width: 100%; height: 320px; border-radius: 4px; background: rgba(127, 127, 127, 0.1); }
 .words { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1rem; }
 .fact .value { font-size: 1.05rem; font-weight: 600; }
 .figures { display: grid; gap: 1rem; grid-template-columns: minmax(0, 1fr); }
@@ -173,6 +176,16 @@ window.redraw = async (calls) => {
     return true;
   }));
 };
+const VALUE = ["aria-label", "aria-valuemin", "aria-valuemax", "aria-valuenow", "aria-valuetext"];
+const spoken = (slider) => {
+  const handle = slider.querySelector(".q-slider__track-container");
+  if (!handle) return;
+  slider.setAttribute("role", "group");
+  handle.setAttribute("role", "slider");
+  for (const name of VALUE)
+    if (slider.hasAttribute(name)) handle.setAttribute(name, slider.getAttribute(name));
+};
+const said = new MutationObserver((changes) => changes.forEach(({ target }) => spoken(target)));
 const met = (svg) => {
   const around = svg.parentElement.closest(".scroll-x"), grain = svg.querySelector(".loaded");
   if (!around || !grain || around.scrollWidth <= around.clientWidth) return;
@@ -186,6 +199,11 @@ new MutationObserver(() => {
       svg.dataset.met = "";
       met(svg);
     }
+  for (const slider of document.querySelectorAll(".q-slider:not([data-spoken])")) {
+    slider.dataset.spoken = "";
+    spoken(slider);
+    said.observe(slider, { attributeFilter: VALUE });
+  }
   for (const plot of document.querySelectorAll(".js-plotly-plot:not([data-sized])")) {
     plot.dataset.sized = "";
     sized.observe(plot);
@@ -203,4 +221,5 @@ new MutationObserver(() => document.querySelectorAll("[data-at] .js-plotly-plot"
 """
 """Figures follow the width of their place; one that is out of sight has none. The operating load,
 which moves most, is a line over them: `data-at` around them says where. A cross-section that is
-wider than the window shows a particle that is loaded."""
+wider than the window shows a particle that is loaded. A slider of the framework has its role and
+value beside what takes the focus: readers of the screen say what has it."""

@@ -20,6 +20,7 @@ from .folders import Folders
 from .look import LOOK, RESIZE
 from .side import Side
 from .sliders import Sliders
+from .solver import Died, solver
 from .state import State, files_of
 from .tabs import TABS
 from .text import from_link, with_micro, without_paths
@@ -38,6 +39,9 @@ TURN = '() => setDark(!document.body.classList.contains("body--dark"))'
 """The framework's element for it would set the colours anew at every change of the page."""
 
 
+GETTING = "Getting ready: the page loads and compiles what it needs, once after its start."
+LEAST = 0.5
+"""Seconds of starting that are told of."""
 WITHOUT_ANSWER = ("surface", "dust", "take_away")
 """Tabs that a study with mistakes may need: there files are dropped, and its text stands."""
 
@@ -139,6 +143,15 @@ class Soon:
             self.running = False
 
 
+def _took(seconds: float, since: float) -> str:
+    """How long the answer took, and how long before it a process was being started."""
+    starting = solver().prepared(since)
+    text = f"answered in {1e3 * (seconds - starting):.0f} ms"
+    if starting < LEAST:
+        return text
+    return f"{text}, after {starting:.0f} s in which the page was getting ready"
+
+
 def page(state: State, told: str, start: Start) -> None:
     """Put everything on the page of one visitor; what is computed follows."""
 
@@ -159,6 +172,8 @@ class Page:
 
     def __init__(self, state: State, told: str, start: Start) -> None:
         self.state, self.told, self.start = state, told, start
+        self.waiting: dict[str, Any] = {}
+        """What stands in the place of each tab until it is drawn."""
         self.draws: dict[str, Callable[[], Awaitable[None] | None]] = {}
         """How each tab that was opened is drawn."""
         self.travels = 0
@@ -170,7 +185,13 @@ class Page:
         whole = ui.column().classes("whole gap-2")
         put(skip, {"href": f"#{whole.html_id}"})
         with whole.props('tabindex=-1 role=region aria-label="the answer"'):
-            self.banner = ui.label(told).classes("problem").props('role=alert data-said="page"')
+            with ui.row().classes("w-full items-center gap-3"):
+                self.banner = ui.label(told).classes("problem")
+                self.banner.props('role=alert data-said="page"')
+                self.retry = ui.button("Try again", icon="refresh", on_click=self._again)
+                self.retry.props('flat dense no-caps data-path="again"').set_visibility(False)
+            self.getting = ui.label(GETTING).classes("hint")
+            self.getting.props('role=status data-said="getting ready"').set_visibility(False)
             self.sliders = Sliders(state)
             self._tabs()
             self.notes = ui.column().classes("w-full gap-1")
@@ -216,11 +237,31 @@ class Page:
         with panels.classes("w-full bg-transparent"):
             for name in TABS:
                 with ui.tab_panel(name).classes("q-px-none"):
+                    self.waiting[name] = ui.element("div").classes("waiting")
                     self.places[name] = ui.column().classes("w-full gap-3")
+                    self.places[name].set_visibility(False)
 
     # ------------------------------------------------------------------ what is shown
     async def _refresh(self) -> None:
-        """Show the study as it is now: fields, sliders, the tab in sight."""
+        """Show the study as it is now; where no process lives to say what it is, say that."""
+        self.getting.set_visibility(solver().preparing)
+        try:
+            await self._shown()
+        except Died as error:
+            self.banner.set_text("; ".join(error.problems))
+            self.retry.set_visibility(True)
+            self.clock.set_text("")
+        else:
+            self.retry.set_visibility(False)
+        finally:
+            self.getting.set_visibility(False)
+
+    def _again(self) -> None:
+        self.state.began = time.perf_counter()
+        self.soon()
+
+    async def _shown(self) -> None:
+        """Fields, sliders, the tab in sight."""
         state, library = self.state, self.state.library
         await state.settle()
         if state.library != library:
@@ -237,11 +278,13 @@ class Page:
         wrong = self._wrong()
         try:
             await self._draw(state.tab)
+        except Died:
+            raise
         except ThirdBodyError as error:
             wrong = "; ".join(getattr(error, "problems", None) or [str(error)])
         self.banner.set_text(with_micro(wrong or self.told))
         self._note(state.answer.notes, remark)
-        self.clock.set_text(f"answered in {1e3 * (time.perf_counter() - state.began):.0f} ms")
+        self.clock.set_text(_took(time.perf_counter() - state.began, state.began))
 
     def _wrong(self) -> str:
         """What is told of a study with mistakes."""
@@ -261,9 +304,16 @@ class Page:
             with self.places[name]:
                 module = import_module(f".tabs.{name}", __package__)
                 self.draws[name] = module.build(self.state, self.side.again)
+        self._unveil(name)
         drawing = self.draws[name]()
         if drawing is not None:
             await drawing
+
+    def _unveil(self, name: str) -> None:
+        """Show a tab in the place of what waits for it."""
+        if name in self.waiting:
+            self.waiting.pop(name).delete()
+            self.places[name].set_visibility(True)
 
     def _note(self, notes: list[str], remark: str) -> None:
         """Notes of the answer, and a remark of the page, below the tab."""

@@ -11,6 +11,8 @@ import thirdbody as tb
 
 from ..quantities.value import Value
 from ..study import Study
+from ..study.body import told_forces
+from ..systems.bodies import Body
 
 __all__ = ["to_python"]
 
@@ -26,13 +28,48 @@ def to_python(study: Study, at: float | None = None) -> str:
     """
     contact = study.contact
     load = "d" if study.load == "separation" else study.load
-    lines = ["import numpy as np", "", "import thirdbody as tb", ""]
-    lines += [f"contact = {_code(contact)}"]
+    lines = [f"contact = {_code(contact)}"]
     lines += [f"curves = tb.solve(contact, {load}={_numbers(study.values)})"]
     if at is not None:
         lines += [f"point = tb.solve(contact, {load}={at!r})"]
         lines += ["print(point.mode, point.d, point.A_t, point.particle_load_share)"]
-    return "\n".join(lines) + "\n"
+    homes = _homes((contact, study.body, study.film))
+    if study.body is not None and study.forces is not None:
+        lines += _forces(study.body, study.forces)
+        homes.add(("thirdbody.systems.bodies", "press"))
+    if study.film is not None:
+        lines += [f"film = {_code(study.film)}", "lubricated = film.stribeck_columns(contact)"]
+    head = ["import numpy as np", "", "import thirdbody as tb"]
+    for home in sorted({home for home, _ in homes}):
+        names = sorted((name for each, name in homes if each == home), key=_class_first)
+        head.append(f"from {home} import {', '.join(names)}")
+    return "\n".join([*head, "", *lines]) + "\n"
+
+
+def _forces(body: Body, forces: np.ndarray) -> list[str]:
+    """The lines that integrate over the contact under the forces that are told of."""
+    told = [float(force) for force in told_forces(forces)]
+    return [
+        f"body = {_code(body)}",
+        f"pressed = [press(contact, body, force) for force in {told!r}]",
+        r'print(*(each.sentence() for each in pressed), sep="\n")',
+    ]
+
+
+def _homes(part: Any) -> set[tuple[str, str]]:
+    """Modules and names of what a script imports beside `thirdbody`."""
+    if isinstance(part, tuple):
+        return set().union(*(_homes(item) for item in part))
+    if not isinstance(part, Value):
+        return set()
+    if isinstance(part, tb.Material) and part.name in tb.materials:
+        return set()
+    own = {(type(part).__module__, type(part).__name__)} if "." not in _name(type(part)) else set()
+    return own.union(*(_homes(value) for _, value in _given(part)))
+
+
+def _class_first(name: str) -> tuple[bool, str]:
+    return name[0].islower(), name
 
 
 def _given(value: Any) -> list[tuple[str, Any]]:
@@ -49,6 +86,8 @@ def _given(value: Any) -> list[tuple[str, Any]]:
 
 
 WIDTH = 88
+LONG = 8
+"""Numbers of a tuple beyond which it is looked whether they are a range."""
 
 
 def _code(part: Any, indent: int = 0, used: int = 20) -> str:
@@ -61,6 +100,10 @@ def _code(part: Any, indent: int = 0, used: int = 20) -> str:
         given = [(f"{name}=", own) for name, own in _given(part)]
         return _call(f"{_name(type(part))}(", given, ")", indent, used)
     if isinstance(part, tuple):
+        if len(part) > LONG and all(isinstance(item, float) for item in part):
+            made = _numbers(np.array(part))
+            if made.startswith(("np.geomspace", "np.linspace")):
+                return f"tuple({made}.tolist())"
         return _call("(", [("", item) for item in part], ",)", indent, used)
     return repr(part)
 

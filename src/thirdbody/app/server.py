@@ -11,13 +11,12 @@ from fastapi import Request
 from nicegui import app, run, ui
 
 from ..errors import InvalidValue
-from .examples import example
 from .folders import Folders, remove_left
 from .guard import Guard, Headers, allowed_hosts
 from .jobs import RUNNING
 from .page import Start, page
 from .solver import solver
-from .state import State
+from .warm import warm
 
 __all__ = ["serve"]
 
@@ -94,10 +93,8 @@ def _run(host: str, port: int, browser: bool) -> None:
 async def _warm() -> None:
     """Compile what is compiled on first use while the browser opens."""
     with contextlib.suppress(InvalidValue):
-        await solver().ask(_solve)
+        await solver(warm).ask(_nothing)
 
 
-def _solve() -> None:
-    answer = State(example(), Path()).answer
-    assert answer is not None
-    assert answer.curves is not None
+def _nothing() -> None:
+    """What a process answers that has only to be ready."""

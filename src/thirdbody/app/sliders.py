@@ -63,6 +63,10 @@ class Slider(ui.slider):
 
     LOOPBACK = False
 
+    def speak(self, text: str) -> None:
+        """What is read out in the place of the position."""
+        put(self, {"aria-valuetext": text})
+
 
 @dataclass
 class Knob:
@@ -152,6 +156,7 @@ class Sliders:
             made["slider"] = Slider(min=-STEPS // 2, max=STEPS // 2, step=1, value=0)
             put(made["slider"], {"aria-label": knob.label, "data-slider": knob.place})
         made["box"] = box
+        box.set_visibility(False)  # until its number is known
 
         def moved(event: Any) -> None:
             if self.moving or made["middle"] is None or event.value is None:
@@ -183,6 +188,7 @@ class Sliders:
             part = position_of(answer.loads, at)
             self.load.set_value(round(STEPS * part))
             self.load_label.set_text(_said(answer, at))
+            self.load.speak(_said(answer, at))
             for made in self.knobs:
                 self._tell(made)
         finally:
@@ -198,6 +204,7 @@ class Sliders:
         # the number and its unit stay in one line
         said = knob.say(now).replace(" ", "\u00a0")
         made["label"].set_text(f"{knob.label} = {said}")
+        made["slider"].speak(knob.say(now))
         middle = made["middle"]
         if middle is None or not made.pop("own", False):
             inside = middle is not None and 1 / REACH <= now / middle <= REACH

@@ -10,9 +10,12 @@ import asyncio
 import contextlib
 import multiprocessing
 import queue
+import signal
 import threading
+import time
 import traceback
 import warnings
+from collections import deque
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -22,26 +25,66 @@ from nicegui import ui
 from ..errors import InvalidValue, ThirdBodyError
 from .worker import MEMORY
 
-__all__ = ["MOST", "SECONDS", "Solver", "apart", "solver"]
+__all__ = ["MOST", "SECONDS", "TRIES", "Died", "Solver", "apart", "ended", "ended_by", "solver"]
 
 MOST = 3
 """Processes, started as they are needed."""
+STARTS = 120.0
+"""Seconds that a process may take until it is ready."""
 SECONDS = 60.0
 """An answer that takes longer is refused."""
 
 
-def _serve(pipe: Any) -> None:
-    """Answer calls until the page is gone."""
+TRIES = 3
+"""Processes that may end under one call before it is given up."""
+
+
+class Died(InvalidValue):
+    """Every process that was to answer a call was ended under it: the study is not at fault."""
+
+
+def ended_by(code: int | None) -> str:
+    """How a process ended, by its exit status, in words.
+
+    >>> ended_by(-9), ended_by(1), ended_by(None)
+    ('killed (SIGKILL)', 'ended with status 1', 'ended')
+    """
+    if code is None or code >= 0:
+        return "ended" + ("" if code is None else f" with status {code}")
+    with contextlib.suppress(ValueError):
+        name = signal.Signals(-code).name
+        return f"killed ({name})" if name in ("SIGKILL", "SIGTERM") else f"ended by {name}"
+    return f"ended by signal {-code}"
+
+
+def ended(how: list[str]) -> str:
+    """What is told where processes ended instead of answering.
+
+    >>> ended(["killed (SIGKILL)"] * 3)[:64]
+    'the process that computes was killed (SIGKILL), 3 times in a row'
+    """
+    return (
+        f"the process that computes was {', then '.join(dict.fromkeys(how))}, {len(how)} times in "
+        "a row. That says nothing of the study: somebody ends processes, or the system does where "
+        "its memory runs out. Try again, or ask for less"
+    )
+
+
+def _serve(pipe: Any, warm: Callable[[], Any] | None) -> None:
+    """Get ready, then answer calls until the page is gone."""
     with contextlib.suppress(ImportError):
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     with contextlib.suppress(ValueError):
-        import signal
-
         # Ctrl-C reaches every process of a terminal; the page ends this one
         signal.signal(signal.SIGINT, signal.SIG_IGN)
     warnings.simplefilter("ignore")
+    with contextlib.suppress(Exception):  # what is wrong is told to who asks
+        if warm is not None:
+            warm()
+    with contextlib.suppress(OSError):
+        pipe.send(READY)
     while True:
         try:
             call, args = pipe.recv()
@@ -64,6 +107,10 @@ def _serve(pipe: Any) -> None:
             return
 
 
+READY = "ready"
+"""What a process says once it has loaded and compiled what it needs."""
+
+
 class Solver:
     """A few processes that answer one call each at a time.
 
@@ -73,10 +120,21 @@ class Solver:
         Processes.
     seconds : float
         After so long a process is killed, and its call refused.
+    warm : callable, optional
+        A function of a module that each process calls before its first answer.
     """
 
-    def __init__(self, most: int = MOST, seconds: float = SECONDS) -> None:
-        self.seconds = seconds
+    def __init__(
+        self,
+        most: int = MOST,
+        seconds: float = SECONDS,
+        warm: Callable[[], Any] | None = None,
+    ) -> None:
+        self.seconds, self.warm = seconds, warm
+        self.starts: deque[tuple[float, float]] = deque(maxlen=10 * most)
+        """When processes were started, and when they were ready."""
+        self.starting: set[float] = set()
+        """When those were started that are not ready yet."""
         self.threads = ThreadPoolExecutor(most, "thirdbody-wait")
         self.idle: queue.LifoQueue[tuple[Any, Any]] = queue.LifoQueue()
         self.all: set[Any] = set()
@@ -92,6 +150,8 @@ class Solver:
         ------
         InvalidValue
             What it says is wrong, or that it took too long.
+        Died
+            One process after another was ended from outside, or ended itself.
         CancelledError
             Nobody wants the answer any more.
         """
@@ -101,16 +161,22 @@ class Solver:
     def _ask(self, call: Callable[..., Any], args: Any, wanted: Callable[[], bool]) -> Any:
         if self.closed or not wanted():
             raise asyncio.CancelledError
-        process, pipe = self._free()
-        try:
-            pipe.send((call, args))
-            known = pipe.poll(self.seconds)
-            problems, found = pipe.recv() if known else (None, None)
-        except (EOFError, OSError):
-            self._kill(process, pipe)
-            if self.closed:
-                raise asyncio.CancelledError from None
-            raise InvalidValue("this needs more memory than the page allows") from None
+        ends: list[str] = []
+        while len(ends) < TRIES:
+            process, pipe = self._free()
+            try:
+                pipe.send((call, args))
+                known = pipe.poll(self.seconds)
+                problems, found = pipe.recv() if known else (None, None)
+                break
+            except (EOFError, OSError):
+                process.join(1.0)  # the pipe may close before the process has ended
+                ends.append(ended_by(process.exitcode))
+                self._kill(process, pipe)
+                if self.closed or not wanted():
+                    raise asyncio.CancelledError from None
+        else:
+            raise Died(f"No answer: {ended(ends)}")
         if not known:
             self._kill(process, pipe)
             raise InvalidValue(
@@ -130,14 +196,43 @@ class Solver:
             self._kill(process, pipe)
         context = multiprocessing.get_context("spawn")
         ours, theirs = context.Pipe()
-        process = context.Process(target=_serve, args=(theirs,), daemon=True)
+        process = context.Process(target=_serve, args=(theirs, self.warm), daemon=True)
+        began = time.perf_counter()
         with self.lock:
             if self.closed:
                 raise asyncio.CancelledError
             process.start()
             self.all.add(process)
+            self.starting.add(began)
         theirs.close()
+        try:
+            ready = ours.poll(STARTS) and ours.recv() == READY
+        except (EOFError, OSError):
+            ready = True  # the call that it is for finds it dead, and counts it
+        finally:
+            with self.lock:
+                self.starting.discard(began)
+                self.starts.append((began, time.perf_counter()))
+        if not ready:
+            self._kill(process, ours)
+            raise Died(f"No answer: a process that computes was not ready after {STARTS:g} s")
         return process, ours
+
+    def prepared(self, since: float) -> float:
+        """Seconds since then in which a process was being started."""
+        now = time.perf_counter()
+        with self.lock:
+            every = [*self.starts, *((began, now) for began in self.starting)]
+        total, reached = 0.0, since
+        for began, ready in sorted(every):
+            total += max(ready - max(began, reached), 0.0)
+            reached = max(reached, ready)
+        return total
+
+    @property
+    def preparing(self) -> bool:
+        """Whether a process is being started, so that an answer may wait for it."""
+        return bool(self.starting)
 
     def _kill(self, process: Any, pipe: Any) -> None:
         pipe.close()
@@ -158,11 +253,11 @@ class Solver:
 _solver: Solver | None = None
 
 
-def solver() -> Solver:
-    """The one of this server."""
+def solver(warm: Callable[[], Any] | None = None) -> Solver:
+    """The one of this server; who asks for it first says what its processes begin with."""
     global _solver
     if _solver is None:
-        _solver = Solver()
+        _solver = Solver(warm=warm)
     return _solver
 
 

@@ -6,6 +6,7 @@ import asyncio
 import copy
 import dataclasses
 import json
+import math
 import time
 import warnings
 from collections.abc import Callable, Iterator, Mapping
@@ -19,10 +20,12 @@ import thirdbody as tb
 
 from ..errors import InvalidValue, RangeWarning, ThirdBodyError
 from ..study import Study, check
+from ..study.body import pressed
+from ..systems.bodies import Pressed
 from .bounds import MOST_DRAWN, refuse_large, refuse_large_files
 from .folders import Shelf
 from .jobs import Job, Stopped
-from .solver import apart
+from .solver import Died, apart
 from .text import without_paths
 
 __all__ = [
@@ -100,6 +103,25 @@ class Answer:
         self.notes += [str(item.message) for item in heard]
         self.notes = list(dict.fromkeys(self.notes))
         return state
+
+    @cached_property
+    def forces(self) -> list[Pressed]:
+        """What forces do to their bodies, integrated over the contact as `run_study` does it."""
+        if self.study.body is None or self.study.forces is None:
+            return []
+        return pressed(self.study.body, self.study.forces, self.contact)
+
+    @property
+    def held(self) -> float:
+        """Particles that one contact holds on average; any number where its area is not known."""
+        study, every = self.study, sum(dust.areal_density for dust in self.contact.populations)
+        if study.body is not None and study.forces is not None:
+            area = study.body.hertz(float(study.forces[-1]), self.contact.E_ss).area
+        elif study.film is not None and not study.own_load:  # its Hertz pressure is the load
+            area = study.film.conjunction.hertz(study.film.load, E=2 * self.contact.E_ss).area
+        else:
+            return math.inf
+        return float(every * area)
 
     @cached_property
     def curves(self) -> tb.Equilibrium:
@@ -353,6 +375,8 @@ class State:
             if self._unread():
                 await self._measure()
             found = await apart(look, study, self.folder, self._surface())
+        except Died:
+            raise  # which says nothing of the study: it is read when it is asked for again
         except InvalidValue as error:
             found = None, [without_paths(text) for text in error.problems], None
         self._take(study, found)
@@ -403,6 +427,8 @@ class State:
         self.reading = Job("roughness", seconds=SECONDS)
         try:
             found = await self.reading.run(study=tables, folder=str(self.folder))
+        except Died:
+            raise
         except InvalidValue as error:
             found = {"problems": list(error.problems)}
         except Stopped:

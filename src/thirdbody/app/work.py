@@ -73,7 +73,13 @@ class Work:
         self.task, self.ask, self.show, self.seconds = task, ask, show, seconds
         self.key, self.same, self.little = key, same, little
         self.done: tuple[Any] | None = None
-        """What the result that is shown belongs to."""
+        """What the result that is shown belongs to; None where none is shown."""
+        self.tried: tuple[Any] | None = None
+        """What the last preview was asked for."""
+        self.trying = False
+        """Whether a preview is being computed."""
+        self.failed: tuple[Any] | None = None
+        """What the mistakes that are said belong to."""
         self.preview = False
         """Whether it is a preview."""
         self.job: Job | None = None
@@ -92,12 +98,45 @@ class Work:
     async def tell(self, state: State) -> None:
         """Begin with a preview, and say when what is shown does not fit the study any more."""
         measures = bool(measured(state.study, state.folder))
-        if self.little and self.done is None and not state.problems and not measures:
-            self.done = (self.key(),)
-            background_tasks.create(self._in_little())  # the page does not wait for it
+        wanted = self.little and self.done is None and not state.problems and not measures
+        if wanted and not self.trying and not self._fits(self.tried):
+            self.tried, self.trying = (self.key(),), True
+            background_tasks.create(self._try(state))  # the page does not wait for it
         self._fit()
 
+    async def _try(self, state: State) -> None:
+        """One preview; another one where the study moved on before there was one."""
+        try:
+            await self._in_little()
+        finally:
+            self.trying = False
+        if self.done is None and not self.said.client._deleted and not self._fits(self.tried):
+            with self.said.client:
+                await self.tell(state)
+
+    async def again(self, state: State) -> None:
+        """Another preview in the place of the one that is shown."""
+        self.done = self.tried = None
+        await self.tell(state)
+
+    def forget(self) -> None:
+        """No result is shown any more."""
+        self.done, self.preview = None, False
+        self._fit()
+
+    def _fits(self, known: tuple[Any] | None) -> bool:
+        """Whether what is known belongs to the study as it is."""
+        return known is not None and self.same(known[0], self.key())
+
+    def fail(self, text: str, key: Any = None) -> None:
+        """Say what went wrong with the study, or with that of a key, until there is another."""
+        self.said.set_text(with_micro(text))
+        self.failed = (self.key() if key is None else key,)
+
     def _fit(self) -> None:
+        if self.failed is not None and not self._fits(self.failed):
+            self.said.set_text("")
+            self.failed = None
         text = ""
         if self.done is not None and not self.same(self.done[0], self.key()):
             text = STALE
@@ -107,7 +146,8 @@ class Work:
         self.stale.set_visibility(bool(text))
 
     async def _in_little(self) -> None:
-        asked_for, client = self.done, self.said.client
+        asked_for, client = self.tried, self.said.client
+        assert asked_for is not None
         with client:
             try:
                 asked = self.ask()
@@ -117,11 +157,13 @@ class Work:
                     return
                 result = await apart(in_little, self.task, self.little(asked))
             except InvalidValue as error:
-                self.said.set_text(with_micro("; ".join(error.problems)))
+                if self.tried is asked_for and self.done is None:
+                    self.fail("; ".join(error.problems), asked_for[0])
                 return
-            if self.done is not asked_for or client._deleted:
-                return  # done in full meanwhile, or nobody looks
-            self.preview = True
+            if self.tried is not asked_for or self.done is not None or client._deleted:
+                return  # asked anew or done in full meanwhile, or nobody looks
+            self.preview, self.done, self.failed = True, asked_for, None
+            self.said.set_text("")
             await self._shown(result)
             self._fit()
 
@@ -140,6 +182,7 @@ class Work:
         if self.job is not None:
             return
         self.said.set_text("")
+        self.failed = None
         if len(RUNNING) >= MOST:
             self.said.set_text(f"{MOST} long computations run here already; start when one ends")
             return
@@ -148,6 +191,7 @@ class Work:
         self.bar.set_visibility(True)
         self.stop.set_visibility(True)
         self.start.disable()
+        key = self.key()
         try:
             asked = self.ask()
             if isinstance(asked, Awaitable):
@@ -157,9 +201,9 @@ class Work:
             key = self.key()
             result = await job.run(**asked)
         except Stopped:
-            self.said.set_text("cancelled")
+            self.said.set_text("cancelled")  # which is true of every study
         except InvalidValue as error:
-            self.said.set_text(with_micro("; ".join(error.problems)))
+            self.fail("; ".join(error.problems), key)
         else:
             self.preview, self.done = False, (key,)
             current = self.same(key, self.key())

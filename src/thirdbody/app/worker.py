@@ -18,6 +18,8 @@ from typing import Any
 
 import numpy as np
 
+from ..quantities import progress
+
 __all__ = [
     "TASKS",
     "compare",
@@ -73,7 +75,8 @@ def _limit() -> None:
         import resource
     except ImportError:
         return
-    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+    # at the first limit the signal says that it was the time, which SIGKILL at the last would not
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS + 5))
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
@@ -187,6 +190,7 @@ def error_bars(
     from ..analysis.assessment import unit_of
     from ..analysis.inputs import words_of
     from ..analysis.uncertainty.inputs import stated_ranges
+    from ..analysis.uncertainty.samples import LEAST, costly
     from ..equilibrium.critical_loads import CRITICAL
     from ..errors import InvalidValue
     from ..quantities.say import value_of
@@ -201,15 +205,23 @@ def error_bars(
     if any(of in output.columns for output in asked.contact.outputs):
         # each sample of an output is a contact of its own
         loads, samples = loads[:: len(loads) // MOST_LOADS + 1], min(samples, MOST_SAMPLES)
+    if costly(asked.contact, inputs):
+        samples = min(samples, LEAST)  # each takes tables of its own, which all loads share
     names = list(CRITICAL) if critical else [of]
     asking: dict[str, Any] = {"samples": samples, "seed": seed, "outputs": [*names, "F_star"]}
     rows, nominal = [], []
+
+    def within(done: int, expected: int) -> None:
+        report(0.9 * min(done / expected, 1.0) / (1 if critical else len(loads)))
+
     for number, value in enumerate([] if critical else loads):
-        found = tb.propagate(asked.contact, vary=inputs, **(asking | {load: value}))
+        with progress.counted(samples, None if number else within):
+            found = tb.propagate(asked.contact, vary=inputs, **(asking | {load: value}))
         rows.append(found.bands[of])
         nominal.append(found.nominal[of])
         report(0.9 * (number + 1) / len(loads))
-    point = tb.propagate(asked.contact, vary=inputs, **(asking | {load: at}))
+    with progress.counted(samples, within if critical else None):
+        point = tb.propagate(asked.contact, vary=inputs, **(asking | {load: at}))
     report(0.95)
     return {
         "of": of,
@@ -337,12 +349,24 @@ def handed_on(*, study: dict[str, Any], folder: str, report: Report) -> dict[str
     from ..views.report import report as made
     from .text import to_toml
 
-    def told(part: str) -> None:
-        report(PARTS.index(part) / (len(PARTS) + 1))
-
+    told = _Told(report, len(PARTS) + 1)
     found = made(_study(study, folder), file=to_toml(study), progress=told)
     told(PARTS[-1])
     return {"html": found.html()}
+
+
+class _Told(progress.Stages):
+    """How far a work of several parts is, to the page."""
+
+    def __init__(self, report: Report, parts: int):
+        super().__init__("")
+        self.report, self.parts = report, parts
+
+    def show(self, part: float, more: str) -> None:
+        self.report((self.begun + part) / self.parts)
+
+    def tell(self, sentence: str) -> None:
+        """The page has no place for it."""
 
 
 TASKS: dict[str, Callable[..., dict[str, Any]]] = {

@@ -6,6 +6,9 @@ and `streams` says what goes to which stream with which exit status.
 
 from __future__ import annotations
 
+# first of all: Ctrl-C while the rest loads ends the command without a traceback
+from . import interrupt as interrupt  # isort: skip
+
 import io
 import sys
 from importlib import import_module
@@ -15,7 +18,7 @@ import typer
 
 from .commands import COMMANDS
 from .options import OwnCode, load_own_code, with_own_code
-from .streams import Commands
+from .streams import Commands, open_closed_streams, without_output
 
 __all__ = ["app", "main"]
 
@@ -32,10 +35,17 @@ app = typer.Typer(
 
 def main() -> None:
     """Entry point of the command ``thirdbody``."""
+    open_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
-    app()
+    try:
+        try:
+            app()
+        finally:
+            sys.stdout.flush()
+    except OSError as error:  # --help and --version end before a command begins
+        sys.exit(without_output(error))
 
 
 def _version(wanted: bool) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -90,11 +90,20 @@ def with_own_code(command: Callable[..., Any]) -> Callable[..., Any]:
     return run
 
 
-def read_study(file: Path, settings: list[str] | None) -> Study:
-    """The study with the keys set by --set; what looks like a slip is told at once."""
+def read_study(
+    file: Path, settings: list[str] | None, *, writes: Sequence[Path | None] = ()
+) -> Study:
+    """The study with the keys set by --set; what looks like a slip is told at once.
+
+    Files that are to be written must be none of those that are read.
+    """
+    from ..quantities.files import refuse_clashes
     from ..study import load_study
+    from ..study.whole import files_of
 
     asked = load_study(file, settings or ())
+    if any(writes):
+        refuse_clashes(writes, files_of(file, settings or ()))
     for sentence in asked.notes:
         warn(sentence)
     return asked

@@ -7,6 +7,7 @@ error. Exit status: 0 done, 2 bad input, 3 no equilibrium or no transition in th
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import io
 import os
@@ -27,7 +28,9 @@ __all__ = [
     "TableFiles",
     "complain",
     "figure_format",
+    "open_closed_streams",
     "warn",
+    "without_output",
     "write_figure",
 ]
 
@@ -59,21 +62,40 @@ class Commands(TyperGroup):
                 complain([str(pressed or "interrupted")])
                 leave()
                 raise typer.Exit(INTERRUPTED) from None
-            except BrokenPipeError:
-                # whoever read the output has gone: leave quietly, also at the last flush
-                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-                raise typer.Exit(BROKEN_PIPE) from None
             except OSError as error:
-                where = f" {error.filename}" if error.filename else " the output"
-                complain([f"cannot read or write{where}: {error.strerror or error}"])
-                raise typer.Exit(BAD_INPUT) from None
+                raise typer.Exit(without_output(error)) from None
+
+
+def open_closed_streams() -> None:
+    """Streams that the shell has closed, as by ``>&-``, so that what is written there is refused.
+
+    Left closed, the next file that is opened would take their number.
+    """
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        flags = os.O_WRONLY if name == "stderr" else os.O_RDONLY
+        if getattr(sys, name) is None and os.open(os.devnull, flags) == number:
+            mode = "r" if name == "stdin" else "w"
+            setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115
+
+
+def without_output(error: OSError) -> int:
+    """Say what could not be read or written; what is left of the answer is let go."""
+    if not error.filename:
+        # also at the last flush
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    if isinstance(error, BrokenPipeError):
+        return BROKEN_PIPE  # whoever read the output has gone: leave quietly
+    where = error.filename or "the output"
+    complain([f"cannot read or write {where}: {error.strerror or error}"])
+    return BAD_INPUT
 
 
 def complain(sentences: Iterable[str]) -> None:
-    """Errors, a line each."""
-    for sentence in sentences:
-        for line in sentence.splitlines():
-            print(f"error: {line}", file=sys.stderr)
+    """Errors, a line each; the exit status tells of them where nothing can be written."""
+    with contextlib.suppress(OSError):
+        for sentence in sentences:
+            for line in sentence.splitlines():
+                print(f"error: {line}", file=sys.stderr)
 
 
 def warn(message: Warning | str, *_: Any, **__: Any) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from ..laws.base import Law
+from ..quantities.carried import takes_units
 from .contact import Contact
 
 __all__ = ["cite"]
 
 
+@takes_units
 def cite(contact: Contact) -> str:
     """The works behind a contact, one a line: its laws, outputs and materials.
 

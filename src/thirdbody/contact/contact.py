@@ -10,7 +10,7 @@ from ..laws.particle import AbstractParticleLaw, Series
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
 from ..populations.roughness import Roughness
-from ..quantities.value import Value, warn_of_slips
+from ..quantities.value import Value, items_of, warn_of_slips
 from .output import AbstractOutput, problems_of
 
 __all__ = ["Contact"]
@@ -67,9 +67,9 @@ class Contact(Value):
             object.__setattr__(self, "particles", tuple(self.particles))
         if isinstance(self.outputs, AbstractOutput):
             object.__setattr__(self, "outputs", (self.outputs,))
-        object.__setattr__(self, "outputs", tuple(self.outputs))
+        object.__setattr__(self, "outputs", items_of(self.outputs))
         Value.__post_init__(self)
-        warn_of_slips(self, stacklevel=3)
+        warn_of_slips(self)
 
     def _problems(self) -> list[str]:
         kinds = {

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..quantities.say import number
 from .output import AbstractOutput
 
 if TYPE_CHECKING:
@@ -78,9 +79,30 @@ def _sum(d: Array, groups: Sequence[Any], q: Callable[[Any], Any]) -> Array:
 def bodies_of(contact: Contact) -> dict[str, Material]:
     """The two surfaces and every population's material by what a message calls them."""
     out = {"surface 1": contact.surfaces.first, "surface 2": contact.surfaces.second}
-    for number, each in enumerate(contact.populations):
-        out[f"the particles {each.name or number + 1}"] = each.material
+    for place, each in enumerate(contact.populations):
+        out[f"the particles {each.name or place + 1}"] = each.material
     return out
+
+
+def _about_few(state: Solved) -> list[str]:
+    """Where the area that is asked about holds less than one contact: what the outputs are then."""
+    outputs = state.contact.outputs
+    areas = [getattr(output, "A_n", None) or 0.0 for output in outputs]
+    concerned = [f"outputs.{output.name}" for output in outputs if not output.tells_few]
+    if not concerned or not max(areas) or not len(state.d):
+        return []
+
+    def pressed(spots: Any) -> Any:
+        return spots.load > 0
+
+    count = max(areas) * (state.total(pressed) + state.total_of_particles(pressed))
+    least = float(np.min(count))
+    if not least < 1:
+        return []
+    return [
+        f"A_n = {number(max(areas))} m² holds {number(least)} contacts on average: "
+        f"{', '.join(concerned)} give the mean over many such areas, most of which hold none"
+    ]
 
 
 def spots_of(
@@ -129,7 +151,11 @@ def _laid_out_together(d: Array, bound: Interface) -> Iterator[NDArray[np.intp]]
 
 
 def evaluate(
-    contact: Contact, bound: Interface, columns: Mapping[str, Array], crowd: Array | None = None
+    contact: Contact,
+    bound: Interface,
+    columns: Mapping[str, Array],
+    crowd: Array | None = None,
+    parts: Sequence[dict[str, Array]] = (),
 ) -> tuple[dict[str, Array], list[str]]:
     """Every column of the outputs of a contact, NaN for unsolved states, and the warnings.
 
@@ -142,6 +168,8 @@ def evaluate(
         d, h, pressure, A_t and shadow of the states: arrays (N,).
     crowd : array (N,), optional
         How many particles each state has for one of the contact.
+    parts : sequence of dict, optional
+        One for each population: filled with the outputs that are given `by_population`.
     """
     names = [name for output in contact.outputs for name in output.columns]
     values = {name: np.full(len(columns["d"]), np.nan) for name in names}
@@ -153,9 +181,18 @@ def evaluate(
             particles = [spots.thinned(crowd[part]) for spots in particles]
         state = Solved(contact=contact, **here, asperities=asperities, particles=particles)
         for output in contact.outputs:
-            found = output.of(state)
+            with np.errstate(all="ignore"):  # a spot without a load has no number of its own
+                found = output.of(state)
             for name, value in found.items():
                 values[name][part] = value
             for note in output.warnings(state, found):
                 notes.setdefault(NUMBERS.sub("", note), note)
+        for population, own in zip(contact.populations, parts, strict=False):
+            mine = [spots for spots in particles if spots.population is population]
+            alone = replace(state, asperities=[], particles=mine)
+            for output in contact.outputs:
+                for name, value in (output.of(alone) if output.by_population else {}).items():
+                    own.setdefault(name, np.full(len(columns["d"]), np.nan))[part] = value
+        for note in _about_few(state):
+            notes.setdefault(NUMBERS.sub("", note), note)
     return values, list(notes.values())

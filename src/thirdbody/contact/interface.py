@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..populations.particles import Particles
+from ..quantities.progress import advance
 from .asperity_sums import asperity_sum
+from .broken_averages import is_rough
 from .contact import Contact
 from .particle_sums import particle_sum, together_in
 
@@ -24,6 +26,7 @@ class Interface:
     """A contact bound to its numbers: total load and every field as functions of d [m]."""
 
     def __init__(self, contact: Contact):
+        advance()
         self.contact = contact
         laws = [contact.law_of(each) for each in contact.populations]
         self.asperities = asperity_sum(
@@ -100,7 +103,8 @@ def together(F: Array, areas: Sequence[Array], part: Mapping[str, Array]) -> dic
 
 def interface(contact: Contact) -> Interface:
     """The cached `Interface` of a contact: one for all that carry load alike, whatever else."""
-    return _interface(carrying(contact))
+    rough = is_rough() and any(each.strength is not None for each in contact.populations)
+    return _interface(carrying(contact), rough)
 
 
 def carrying(contact: Contact) -> Contact:
@@ -120,5 +124,5 @@ def _carrying(each: Particles) -> Particles:
 
 
 @lru_cache(maxsize=512)
-def _interface(contact: Contact) -> Interface:
+def _interface(contact: Contact, rough: bool) -> Interface:
     return Interface(contact)

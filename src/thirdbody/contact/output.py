@@ -71,6 +71,10 @@ class AbstractOutput(Law):
     """Name, symbol, unit and meaning of every number it gives."""
     needs: ClassVar[tuple[str, ...]] = ()
     """Names of the outputs that this one reads: the contact must carry them too."""
+    tells_few: ClassVar[bool] = False
+    """Whether it says itself where an area A_n holds less than one contact on average."""
+    by_population: ClassVar[bool] = False
+    """Whether it is given for each of several populations of particles too."""
 
     @abstractmethod
     def of(self, state: Any) -> dict[str, Array]:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column, missing
 from ..populations.materials import Material
-from ..quantities.say import percent
+from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
 from .single.heat import (
     absolute_slope,
@@ -33,9 +34,12 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
     Resistivity = Callable[[Material], float]
+    _Conductance: TypeAlias = "ThermalConductance | ElectricalConductance"
 
 __all__ = ["ElectricalConductance", "ThermalConductance"]
 
+ONE, SMALL = 1.0, 1e-6
+"""Contacts of an area below which it is mostly open, and the area [m²] if none is given."""
 WIDE = 0.5
 """Contact radius over particle radius above which the particle's resistance is far off."""
 
@@ -87,6 +91,48 @@ def _through_particles(
     return state.total_of_particles(conductance)
 
 
+def _conducting(state: Solved, particles: str) -> Array:
+    """Contacts through which something flows, per nominal area (N,) [1/m²]."""
+    n = state.total(lambda spots: spots.area > 0)
+    if particles == "conduct":
+        n = n + state.total_of_particles(lambda spots: (spots.areas[0] > 0) & (spots.areas[1] > 0))
+    return n
+
+
+def _closing(output: _Conductance, state: Solved) -> tuple[Array, NDArray[np.bool_]]:
+    """Probability that A_n holds a contact (N,), and where the answer is that it is open."""
+    if output.A_n is None:
+        return np.full_like(state.d, np.nan), np.zeros(state.d.shape, bool)
+    count = output.A_n * _conducting(state, output.particles)
+    return -np.expm1(-count), (count < ONE) & (output.few == "open")
+
+
+def _about_open(output: _Conductance, state: Solved, numbers: str) -> list[str]:
+    """Where fewer than one contact conducts."""
+    n = _conducting(state, output.particles)
+    if not len(n):
+        return []
+    least = float(np.min(n))
+    say = f"outputs.{output.name}: "
+    if output.A_n is None:
+        if not 0 < least * SMALL < ONE:
+            return []
+        return [
+            f"{say}on average one contact conducts in {number(1 / least)} m²: a smaller area is "
+            "mostly open, and this is the mean over many; give A_n"
+        ]
+    count = output.A_n * least
+    if not count < ONE:
+        return []
+    chance = f"closed with probability {number(-math.expm1(-count))}"
+    told = (
+        f"{say}A_n = {number(output.A_n)} m² holds {number(count)} contacts that conduct on average"
+    )
+    if output.few == "open":
+        return [f'{told}: it is open ({numbers} are NaN), {chance}; few = "mean" gives the mean']
+    return [f"{told}: most such areas are open ({chance}), and this is the mean over all of them"]
+
+
 def _wide(state: Solved) -> float:
     """Largest share of the particle load on particles with contacts wider than half of them."""
     wide = state.total_of_particles(
@@ -96,8 +142,8 @@ def _wide(state: Solved) -> float:
     return float(np.max(wide / np.where(load > 0, load, 1.0), initial=0.0))
 
 
-def _warnings(output: AbstractOutput, state: Solved, particles: str) -> list[str]:
-    out = []
+def _warnings(output: _Conductance, state: Solved, particles: str, numbers: str) -> list[str]:
+    out = _about_open(output, state, numbers)
     if particles == "conduct" and (share := _wide(state)) > 0.01:
         out.append(
             f"outputs.{output.name}: particles with {percent(share, digits=2)} of the particle "
@@ -131,6 +177,11 @@ class ThermalConductance(AbstractOutput):
         0.4 µm (from memory: not confirmed in a source).
     form : {"power", "series", "none"}, optional
         Factor ψ, see `thirdbody.effects.single.heat.spreading`.
+    A_n : float, optional
+        Nominal area of the contact [m²]. Where fewer than one contact conducts in it on average,
+        it is open, closed with the probability :math:`P_c = 1-e^{-A_n n}`: contacts lie at random.
+    few : {"open", "mean"}, optional
+        What is given there: NaN, or the mean over many such areas, most of them open.
 
     Notes
     -----
@@ -166,6 +217,10 @@ class ThermalConductance(AbstractOutput):
     k_gap: float = quantity("k_g", "W/m/K", "conductivity of the gap", default=0.0, ge=0)
     M: float = quantity("M", "m", "length that a gas adds to the gap", default=0.0, ge=0)
     form: str = choice("spreading factor", "power", "series", "none", default="power")
+    A_n: float | None = quantity(
+        "A_n", "m^2", "nominal area of the contact", default=None, gt=0, hint="1 mm² is 1e-6"
+    )
+    few: str = choice("what is given below one contact", "open", "mean", default="open")
 
     name = "thermal_conductance"
     title = "Thermal contact conductance"
@@ -176,11 +231,13 @@ class ThermalConductance(AbstractOutput):
     doi = "10.1016/0017-9310(69)90011-8"
     provenance = "derived"
     valid_range = "A_t < 0.2; b < x/4 for particles"
+    tells_few = True
     columns = {
         "hc": Column("h", "W/m^2/K", "thermal conductance"),
         "hc_ss": Column("h_ss", "W/m^2/K", "thermal conductance of asperities"),
         "hc_sa": Column("h_sa", "W/m^2/K", "thermal conductance of particles"),
         "hc_gap": Column("h_gap", "W/m^2/K", "thermal conductance of the gap"),
+        "hc_closed": Column("P_c", "1", "probability that a contact of A_n conducts heat"),
         "hc_cmy": Column("h_CMY", "W/m^2/K", "thermal conductance of clean plastic surfaces"),
     }
 
@@ -192,6 +249,8 @@ class ThermalConductance(AbstractOutput):
         particles = np.zeros_like(state.d)
         if self.particles == "conduct":
             particles = _through_particles(state, _thermal, film=self.film)
+        closed, open_ = _closing(self, state)
+        asperities, particles = (np.where(open_, np.nan, each) for each in (asperities, particles))
         gap = np.zeros_like(state.d)
         if self.k_gap:
             with np.errstate(divide="ignore"):
@@ -201,6 +260,7 @@ class ThermalConductance(AbstractOutput):
             "hc_ss": asperities,
             "hc_sa": particles,
             "hc_gap": gap,
+            "hc_closed": closed,
             "hc_cmy": self._clean(state),
         }
 
@@ -213,7 +273,7 @@ class ThermalConductance(AbstractOutput):
         return cooper_mikic_yovanovich(part, H=pair.H, k=k, m=float(m), sigma=rough.sigma)
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        return _warnings(self, state, self.particles)
+        return _warnings(self, state, self.particles, "hc, hc_ss and hc_sa")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -237,9 +297,16 @@ class ElectricalConductance(AbstractOutput):
         source); 0 leaves the effect out.
     form : {"power", "series", "none"}, optional
         Factor ψ, see `thirdbody.effects.single.heat.spreading`.
+    A_n : float, optional
+        Nominal area of the contact [m²]. Where fewer than one contact conducts in it on average,
+        it is open, closed with the probability :math:`P_c = 1-e^{-A_n n}`: contacts lie at random.
+    few : {"open", "mean"}, optional
+        What is given there: NaN, or the mean over many such areas, most of them open.
 
     Notes
     -----
+    Two solids that close on dust, a ball on a flat: `thirdbody.systems.contact_probability`.
+
     Without films and with the electrons as the only carriers of heat, the thermal conductance is
     :math:`L\,T` times this one (Wiedemann and Franz; `thirdbody.effects.single.heat.LORENZ`).
 
@@ -264,6 +331,10 @@ class ElectricalConductance(AbstractOutput):
     film: float = quantity("σ_f", "ohm*m^2", "resistance of a film", default=0.0, ge=0)
     mean_free_path: float = quantity("l", "m", "mean free path", default=0.0, ge=0)
     form: str = choice("spreading factor", "power", "series", "none", default="power")
+    A_n: float | None = quantity(
+        "A_n", "m^2", "nominal area of the contact", default=None, gt=0, hint="1 mm² is 1e-6"
+    )
+    few: str = choice("what is given below one contact", "open", "mean", default="open")
 
     name = "electrical_conductance"
     title = "Electrical contact conductance"
@@ -274,11 +345,13 @@ class ElectricalConductance(AbstractOutput):
     doi = "10.1088/0370-1328/89/4/316"
     provenance = "derived"
     valid_range = "A_t < 0.2; b < x/4 for particles"
+    tells_few = True
     columns = {
         "gc": Column("g", "S/m^2", "electrical conductance"),
         "gc_ss": Column("g_ss", "S/m^2", "electrical conductance of asperities"),
         "gc_sa": Column("g_sa", "S/m^2", "electrical conductance of particles"),
         "rho_c": Column("ρ_c", "ohm*m^2", "specific contact resistance"),
+        "gc_closed": Column("P_c", "1", "probability that A_n is closed"),
     }
 
     def problems(self, contact: Contact) -> list[str]:
@@ -290,16 +363,19 @@ class ElectricalConductance(AbstractOutput):
         particles = np.zeros_like(state.d)
         if self.particles == "conduct":
             particles = _through_particles(state, _electrical, **small)
+        closed, open_ = _closing(self, state)
+        asperities, particles = (np.where(open_, np.nan, each) for each in (asperities, particles))
         with np.errstate(divide="ignore"):
             return {
                 "gc": asperities + particles,
                 "gc_ss": asperities,
                 "gc_sa": particles,
                 "rho_c": 1 / (asperities + particles),
+                "gc_closed": closed,
             }
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        return _warnings(self, state, self.particles)
+        return _warnings(self, state, self.particles, "gc, gc_ss, gc_sa and rho_c")
 
 
 def _asked(contact: Contact, particles: str) -> dict[str, Material]:

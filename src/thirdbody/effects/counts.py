@@ -9,6 +9,7 @@ import numpy as np
 
 from ..contact.output import AbstractOutput, Column
 from ..quantities.say import percent
+from ..quantities.value import quantity
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -32,6 +33,11 @@ class Counts(AbstractOutput):
 
     .. math:: n = \sum n_i, \qquad \bar f = F/n, \qquad \bar p = F/A
 
+    Parameters
+    ----------
+    A_n : float, optional
+        Nominal area of the contact [m²]: a warning says where it holds less than one contact.
+
     Examples
     --------
     >>> import thirdbody as tb
@@ -42,6 +48,10 @@ class Counts(AbstractOutput):
     >>> f"{state.outputs['n_ss']:.3g} asperities a square metre"
     '3.84e+09 asperities a square metre'
     """
+
+    A_n: float | None = quantity(
+        "A_n", "m^2", "nominal area of the contact", default=None, gt=0, hint="1 mm² is 1e-6"
+    )
 
     name = "counts"
     title = "Number of contacts"

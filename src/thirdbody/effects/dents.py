@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
 from ..laws.particle.series import Series
+from ..populations.materials import softer_hardness
 from ..quantities.say import number
 from ..quantities.value import choice, quantity
-from .single.dent import Dent, dent_of, flattened_diameter, fragments
+from .single.dent import dent_of, fragments, sink
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -23,15 +24,21 @@ if TYPE_CHECKING:
     from ..contact.evaluation import Solved
     from ..contact.output import Probe
     from ..laws.spots import ParticleSpots
+    from ..populations.particles import Particles
+    from .single.dent import Dent
 
     Array = NDArray[np.float64]
 
 __all__ = ["Dents"]
 
+ONE = 1.0
+"""Dents in A_n on average below which most areas have none."""
 LEVELS = 240
 """Depths and widths at which dents are counted, evenly over their logarithm."""
-FEW = 10
-"""Dents in an area below which its deepest one is a matter of chance."""
+P95 = 0.05
+FEW = 14
+"""Dents in an area below which its deepest one is a matter of chance: of ln 2/0.05 dents and fewer
+the deepest is shallower than what 5 % exceed, in half of all cases."""
 LOWEST = 1e-4
 """The smallest of them over the largest dent."""
 
@@ -43,16 +50,18 @@ class Dents(AbstractOutput):
     .. math:: \delta_{res} = \delta\,(1-s^{-0.28})(1-s^{-0.69}), \qquad
               D = 2\sqrt{2r\delta-\delta^2}
 
-    with s = δ/δ_1 over the depth of first yield. A particle dents a surface that is softer than
-    itself; a softer particle is deformed instead. Nothing is deeper than the particle is thick.
+    with s = δ/δ_1 over the depth of first yield. Nothing is deeper than the particle is thick.
 
     Parameters
     ----------
-    debris : {"hard", "ductile", "brittle"}, optional
-        Hard particles keep their shape. Ductile ones flatten to discs: the widths are their
-        footprints, as `thirdbody.particle.Series` squashes them where they are softer than the
-        surface, and otherwise those of discs as high as the gap; depths are 0. Brittle
-        ones larger than ``fragment`` are replaced by fragments of the same volume in the same gap.
+    debris : {"by_hardness", "hard", "ductile", "brittle"}, optional
+        By hardness a particle dents a surface that is softer than itself, and is flattened by one
+        that is not (`thirdbody.effects.single.dent.sink`); of particles with a strength, what is
+        whole does. Hard ones keep their shape whatever their hardness. Ductile ones flatten to
+        discs: the widths are their footprints, as `thirdbody.particle.Series` squashes them where
+        they are softer than the surface, and otherwise those of discs as high as the gap; depth
+        and volume of these marks are not known, and NaN. Brittle ones larger than ``fragment`` are
+        replaced by fragments of the same volume in the same gap.
     fragment : float, optional
         Size of the fragments [m]; needed for brittle particles.
     shallowest : float, optional
@@ -60,8 +69,9 @@ class Dents(AbstractOutput):
     A_n : float, optional
         Nominal area of which the largest dent is asked [m²]: the depth that the deepest dent of
         A_n exceeds in half of all cases with a dent at all,
-        :math:`A_n N(>\delta)=\ln[2/(1+e^{-A_n N})]`, :math:`\ln 2` for many; where few lie in
-        A_n, at least the mean, and a warning tells of fewer than ten.
+        :math:`A_n N(>\delta)=\ln[2/(1+e^{-A_n N})]`, :math:`\ln 2` for many; at least the mean,
+        and NaN where less than one dent lies in A_n on average. Of fewer than 14 the deepest is
+        mostly shallower than the depth that 5 % exceed, and a warning says so.
 
     Notes
     -----
@@ -72,6 +82,10 @@ class Dents(AbstractOutput):
     gap that does not give way, the recovery fit is one for spheres (from memory, see
     `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half the radius of the
     particle are counted besides as embedded: such particles may stay (assumption).
+
+    Numbers and widths are of all dents, mean depth, percentile and deepest of those whose depth is
+    known; their volume is NaN where some is not. Of several populations the state has the dents of
+    each (``populations``).
 
     Examples
     --------
@@ -87,7 +101,12 @@ class Dents(AbstractOutput):
     """
 
     debris: str = choice(
-        "what particles do when pressed", "hard", "ductile", "brittle", default="hard"
+        "what particles do when pressed",
+        "by_hardness",
+        "hard",
+        "ductile",
+        "brittle",
+        default="by_hardness",
     )
     fragment: float | None = quantity("x_f", "m", "size of fragments", default=None, gt=0)
     shallowest: float = quantity("δ_0", "m", "depth from which a dent counts", default=0.0, ge=0)
@@ -101,6 +120,8 @@ class Dents(AbstractOutput):
     citation = "thirdbody: dents that the particles of a solved state leave"
     provenance = "derived"
     valid_range = "particles harder than the surface; depths up to their radius"
+    tells_few = True
+    by_population = True
     columns = {
         f"{name}_{side}": Column(f"{symbol},{side}", unit, f"{meaning} in surface {side}")
         for side in (1, 2)
@@ -126,6 +147,8 @@ class Dents(AbstractOutput):
         ]
 
     def problems(self, contact: Contact) -> list[str]:
+        if self.debris == "hard":
+            return self._contradictions(contact)
         if self.debris != "brittle":
             return []
         if any(each.strength is not None for each in contact.populations):
@@ -137,6 +160,20 @@ class Dents(AbstractOutput):
         if all(isinstance(law, Series) and law.breakable for law in laws):
             return []
         return ["outputs.dents: fragments of brittle particles need particle.Series"]
+
+    def _contradictions(self, contact: Contact) -> list[str]:
+        """Particles that keep their shape here and are squashed by their law."""
+        names = [
+            each.name or each.material.name or "particles"
+            for each in contact.populations
+            if any(_squashed(contact, each))
+        ]
+        return [
+            f"outputs.dents: debris = 'hard' says that {name} keep their shape, and their law "
+            "squashes them, as they are softer than a surface; give the material the hardness that "
+            "they have, or leave debris out"
+            for name in names
+        ]
 
     def _broken(self, spots: ParticleSpots, contact: Contact) -> ParticleSpots:
         """Particles larger than the fragments replaced by fragments in the same gaps."""
@@ -153,15 +190,13 @@ class Dents(AbstractOutput):
     def _left(self, spots: ParticleSpots, side: int, contact: Contact) -> Dent:
         population = spots.population
         assert population is not None
-        if self.debris != "ductile":
-            return dent_of(spots, side=side, particle=population.material)
-        law = contact.law_of(population)
-        if isinstance(law, Series) and law.forms(contact.surfaces, population.material)[side]:
-            wide = 2 * np.sqrt(spots.areas[side] / math.pi)
-        else:
-            gap = np.maximum(spots.x - spots.depths[0] - spots.depths[1], 1e-3 * spots.x)
-            wide = (spots.load > 0) * flattened_diameter(spots.x, gap=gap)
-        return Dent(np.zeros_like(wide), wide, np.zeros_like(wide))
+        return dent_of(
+            spots,
+            side=side,
+            particle=population.material,
+            debris=self.debris,
+            squashed=_squashed(contact, population)[side],
+        )
 
     def of(self, state: Solved) -> dict[str, Array]:
         groups = list(state.particles)
@@ -173,55 +208,98 @@ class Dents(AbstractOutput):
         return out
 
     def _side(self, state: Solved, groups: Sequence[ParticleSpots], side: int) -> dict[str, Array]:
-        nothing = np.zeros_like(state.d)
-        sums = dict.fromkeys(("n", "depth", "width", "volume", "embedded"), nothing)
-        dents = []
+        names = ("n", "known", "unknown", "depth", "width", "volume", "embedded")
+        sums: dict[str, Array] = dict.fromkeys(names, np.zeros_like(state.d))
+        dents: list[tuple[Any, ...]] = []
         for spots in groups:
             dent = self._left(spots, side, state.contact)
-            counts = (dent.diameter > 0) & (dent.depth >= self.shallowest)
-            dents.append((spots, dent, counts))
-            deep = counts & (2 * spots.depths[side] > spots.half) & (self.debris != "ductile")
+            told = np.isfinite(dent.depth)
+            depth, volume = np.where(told, dent.depth, 0.0), np.where(told, dent.volume, 0.0)
+            there = dent.diameter > 0
+            known: Any = there & told & (depth >= self.shallowest)
+            counts: Any = known | (there & ~told)
+            dents.append((spots, (depth, known), (dent.diameter, counts)))
             for name, q in (
                 ("n", counts.astype(float)),
-                ("depth", counts * dent.depth),
+                ("known", known.astype(float)),
+                ("unknown", (there & ~told).astype(float)),
+                ("depth", known * depth),
                 ("width", counts * dent.diameter),
-                ("volume", counts * dent.volume),
-                ("embedded", deep.astype(float)),
+                ("volume", known * volume),
+                ("embedded", (known & (2 * spots.depths[side] > spots.half)).astype(float)),
             ):
                 sums[name] = sums[name] + spots.total(q)
-        n = sums["n"]
-        quantiles = {}
-        for kind in ("depth", "diameter"):
-            values = [
-                (spots, getattr(dent, kind), counts.astype(float)) for spots, dent, counts in dents
-            ]
-            largest = np.log(2 / (1 + np.exp(-n * self.A_n))) / self.A_n
-            quantiles[kind] = _exceeded(values, [0.05 * n, largest])
-        with np.errstate(invalid="ignore", divide="ignore"):
-            for kind, name in (("depth", "depth"), ("diameter", "width")):
-                at_least = np.where(n > 0, sums[name] / n, 0.0)
-                quantiles[kind][1] = np.maximum(quantiles[kind][1], at_least)
-            return {
-                f"n_dents_{side + 1}": n,
-                f"dent_depth_{side + 1}": sums["depth"] / n,
-                f"dent_depth_p95_{side + 1}": quantiles["depth"][0],
-                f"dent_depth_max_{side + 1}": quantiles["depth"][1],
-                f"dent_width_{side + 1}": sums["width"] / n,
-                f"dent_width_p95_{side + 1}": quantiles["diameter"][0],
-                f"dent_width_max_{side + 1}": quantiles["diameter"][1],
-                f"dent_volume_{side + 1}": sums["volume"],
-                f"embedded_{side + 1}": sums["embedded"],
-            }
+        return self._columns(sums, dents, side)
+
+    def _columns(
+        self, sums: dict[str, Array], dents: Sequence[tuple[Any, ...]], side: int
+    ) -> dict[str, Array]:
+        """The columns of a surface, from sums over its dents, and depths and widths that count."""
+        n, known, unknown = (sums[name] for name in ("n", "known", "unknown"))
+        if self.shallowest > 0:  # whether marks of unknown depth are so deep is not known either
+            n = np.where(unknown > 0, np.nan, n)
+        out = {f"n_dents_{side + 1}": n}
+        for place, (name, count) in enumerate((("depth", known), ("width", n)), start=1):
+            values = [(each[0], each[place][0], each[place][1].astype(float)) for each in dents]
+            few = np.nan_to_num(count)
+            largest = np.log(2 / (1 + np.exp(-few * self.A_n))) / self.A_n
+            p95, most = _exceeded(values, [P95 * few, largest])
+            with np.errstate(invalid="ignore", divide="ignore"):
+                mean = sums[name] / np.where(count > 0, count, np.nan)
+                most = np.where(count * self.A_n >= ONE, np.fmax(most, mean), np.nan)
+            p95 = np.where(count > 0, p95, np.nan)
+            values_of = zip(("", "_p95", "_max"), (mean, p95, most), strict=True)
+            out |= {f"dent_{name}{end}_{side + 1}": value for end, value in values_of}
+        return out | {
+            f"dent_volume_{side + 1}": np.where(unknown > 0, np.nan, sums["volume"]),
+            f"embedded_{side + 1}": np.where(
+                (unknown > 0) & (known == 0), np.nan, sums["embedded"]
+            ),
+        }
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
+        return [*self._about_few(values), *self._about_unknown(state, values)]
+
+    def _about_few(self, values: Mapping[str, Array]) -> list[str]:
+        """Where few dents, or less than one, lie in A_n."""
         found = np.concatenate([values[f"n_dents_{side}"] for side in (1, 2)]) * self.A_n
-        if not np.any((found > 0) & (found < FEW)):
+        if not np.any(few := (found > 0) & (found < FEW)):
             return []
+        least = found[few].min()
+        say = (
+            f"outputs.dents: {number(least)} dents lie in A_n = {number(self.A_n)} m² on average: "
+        )
+        if least < ONE:
+            return [
+                f"{say}one such area in {number(-1 / math.expm1(-least))} has any, and "
+                "the deepest and the widest are NaN; a larger A_n has more"
+            ]
         return [
-            f"outputs.dents: fewer than {FEW} dents lie in A_n = {number(self.A_n)} m² on average: "
-            "the deepest and the widest of so few scatter from one place to the next; a larger "
-            "A_n has more"
+            f"{say}the deepest and the widest of so few scatter from one place to the next, and "
+            "are mostly less than what 5 % of the dents exceed; a larger A_n has more"
         ]
+
+    def _about_unknown(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
+        """Particles that are flattened, whose depth is not known."""
+        if self.debris == "ductile":
+            return []
+        out = []
+        pair = (state.contact.surfaces.first, state.contact.surfaces.second)
+        for each in state.contact.populations:
+            flat = [
+                math.isnan(sink(own, hardness=softer_hardness(own, body), debris=self.debris))
+                for own, body in zip((each.material,) * 2, pair, strict=True)
+            ]
+            sides = [k for k in (1, 2) if flat[k - 1] and np.any(values[f"n_dents_{k}"] != 0)]
+            if not sides:
+                continue
+            where = "either surface" if len(sides) == 2 else f"surface {sides[0]}"
+            out.append(
+                f"outputs.dents: {each.name or each.material.name or 'particles'} are not harder "
+                f"than {where} and are flattened there: their marks are counted, with the widths "
+                "of their footprints; depth and volume are not known (NaN)"
+            )
+        return out
 
     def splits(self, probe: Probe) -> Sequence[float]:
         """Squeezes at which a side reaches half the radius."""
@@ -236,6 +314,14 @@ class Dents(AbstractOutput):
             for side in (0, 1)
             if half(3.0, side) > 0
         ]
+
+
+def _squashed(contact: Contact, population: Particles) -> tuple[bool, ...]:
+    """Whether the law of a population squashes it against each surface."""
+    law = contact.law_of(population)
+    if not isinstance(law, Series):
+        return (False, False)
+    return tuple(bool(form) for form in law.forms(contact.surfaces, population.material))
 
 
 def _exceeded(

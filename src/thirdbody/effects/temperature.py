@@ -10,7 +10,7 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column, missing
-from ..quantities.say import percent
+from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
 from .single.heat import (
     body_conductance,
@@ -331,6 +331,22 @@ class FlashTemperature(AbstractOutput):
             rises = np.where(omega > 0, self.of_asperities(one, state), np.nan)
         return {f"dT_ss_{name}": rises[:, i] for i, name in enumerate(counts)}
 
+    def _about_few(self, state: Solved) -> list[str]:
+        """Where less than half of all areas A_n hold a contact: no hottest one has a median."""
+        out = []
+        for group, kind, n in (
+            ("ss", "asperity contacts", state.total(_pressing)),
+            ("sa", "loaded particles", state.total_of_particles(_pressing)),
+        ):
+            if np.any(few := (n > 0) & (n * self.A_n < math.log(2))):
+                least = number(float(np.min(n[few])) * self.A_n)
+                out.append(
+                    f"outputs.flash_temperature: A_n = {number(self.A_n)} m² holds {least} {kind} "
+                    f"on average: most such areas hold none, and dT_{group}_peak is NaN; a larger "
+                    "A_n has one"
+                )
+        return out
+
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         wide = state.total_of_particles(
             lambda spots: (
@@ -339,12 +355,14 @@ class FlashTemperature(AbstractOutput):
         )
         load = state.total_of_particles(lambda spots: spots.load)
         share = np.max(wide / np.where(load > 0, load, 1.0), initial=0.0)
+        out = self._about_few(state)
         if share < 0.01:
-            return []
+            return out
         return [
+            *out,
             f"outputs.flash_temperature: particles with {percent(share, digits=2)} of the particle "
             "load touch on more than half their radius, where their resistance is overestimated "
-            "by 7 % and more"
+            "by 7 % and more",
         ]
 
 

@@ -15,8 +15,10 @@ from ..contact.contact import Contact
 from ..contact.output import column
 from ..errors import InvalidValue
 from ..quantities import notebook
+from ..quantities.carried import takes_units
 from ..version import __version__
 from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S
+from .status import WORDS
 
 if TYPE_CHECKING:
     import pandas
@@ -40,7 +42,9 @@ class Equilibrium:
     """The solved contact: floats for one load, arrays for several.
 
     Areas are real areas per nominal area; F* = F/(A_n E_ss). A state that could not be solved
-    holds NaN and a sentence in `status`.
+    holds NaN and a sentence in `status`. One whose real area is above 0.5 holds what the model
+    says, and a `status` that begins with "crowded": no model that counts contacts one by one is
+    an answer there.
 
     `d` counts from the datum of the particle law: the mean asperity height, except for
     `Horng2022`, which like the paper's eq. (8) puts that height at σ. `h`, from the mean surface
@@ -66,9 +70,9 @@ class Equilibrium:
     """
 
     contact: Contact = field(repr=False)
-    d: Number = _column("d", "m", "separation from the mean asperity height")
-    h: Number = _column("h", "m", "separation from the mean surface plane")
-    d_star: Number = _column("d*", "1", "separation d/σ")
+    d: Number = _column("d", "m", "separation d, from the mean asperity height")
+    h: Number = _column("h", "m", "separation of the mean planes")
+    d_star: Number = _column("d*", "1", "separation d over σ")
     F_star: Number = _column("F_t*", "1", "load F/(A_n E_ss)")
     pressure: Number = _column("p", "Pa", "nominal pressure")
     F_ss_star: Number = _column("F_ss*", "1", "load on asperities")
@@ -95,6 +99,8 @@ class Equilibrium:
     """Every column of the outputs that the contact carries, by name."""
     engine: str = "numpy"
     """What found the separations: "compiled", or "numpy: " and why the compiled engine did not."""
+    status_code: int | NDArray[np.int8] = 0
+    """`thirdbody.equilibrium.status.Status` of each state, of which `status` is the sentence."""
 
     @property
     def scales(self) -> dict[str, float]:
@@ -143,6 +149,9 @@ class Equilibrium:
             for name, told in POPULATION_COLUMNS.items():
                 values = np.stack([np.atleast_1d(getattr(part, name)) for part in parts], axis=-1)
                 data[f"population_{name}"] = (dims, values, told)
+            for name in parts[0].outputs:
+                values = np.stack([np.atleast_1d(part.outputs[name]) for part in parts], axis=-1)
+                data[f"population_{name}"] = (dims, values, labels(name))
             data = data.assign_coords(population=[part.name for part in parts])
         return data
 
@@ -196,6 +205,7 @@ class Equilibrium:
         states = "1 state" if count == 1 else f"{count} states"
         return notebook.card(f"Equilibrium, {states}", rows, self.warnings)
 
+    @takes_units
     def modes(
         self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: str = "area"
     ) -> str | NDArray[np.str_]:
@@ -221,6 +231,8 @@ class PopulationShare:
     """of the total load [1]"""
     area_share: Number
     """of the total real area [1]"""
+    outputs: Mapping[str, Number] = field(default_factory=dict)
+    """Columns of the outputs that each population has of its own, as its dents, by name."""
 
 
 POPULATION_COLUMNS = {
@@ -230,7 +242,14 @@ POPULATION_COLUMNS = {
     "area_share": {"units": "1", "long_name": "area share of a population"},
 }
 """Attributes of what each of several populations carries."""
-ENGINE = "what found the separation"
+CODE = "status_code"
+"""Column of the codes of `Status`, beside those of a result."""
+FLAGS = {"flag_values": list(range(len(WORDS))), "flag_meanings": " ".join(WORDS)}
+MARKS: dict[str, dict[str, Any]] = {
+    "engine": {"long_name": "what found the separation"},
+    CODE: {"units": "", "long_name": "code of the status", **FLAGS},
+}
+"""Attributes of what stands beside the columns of a result."""
 
 COLUMNS = {item.name: dict(item.metadata) for item in fields(Equilibrium) if item.metadata}
 """Symbol, unit and meaning of every column of a result."""
@@ -279,7 +298,7 @@ def dataset(
     import xarray
 
     data = {
-        name: ("state", values, labels(name) if name != "engine" else {"long_name": ENGINE})
+        name: ("state", values, MARKS.get(name) or labels(name))
         for name, values in columns.items()
         if name not in inputs
     }

@@ -11,6 +11,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import InvalidValue
+from ..quantities.carried import takes_units
 from .load_scan import DEEPEST, load_scan
 from .modes import EPS_1, EPS_2, WINDOW
 from .states import FEWEST, carries, state_columns
@@ -31,6 +32,7 @@ EXACT = 1e-7
 EXACT_PEAK = 1e-4
 
 
+@takes_units
 def critical_loads(
     contact: Contact, *, vary: Mapping[str, ArrayLike], count: int
 ) -> dict[str, tuple[Array, NDArray[np.str_]]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,14 +10,13 @@ from numpy.typing import NDArray
 from ..contact.interface import Interface
 from ..errors import NoEquilibrium
 from ..numerics.roots import halley_root
+from .status import DEEPEST, Status, Statuses
 
 Array = NDArray[np.float64]
 
 Index = NDArray[np.intp]
 
 
-DEEPEST = -3.0
-"""Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
 CHUNK = 16_384
 """States solved together: their arrays stay in the processor's cache."""
 RESIDUAL, ULPS = 1e-9, 4
@@ -141,17 +139,25 @@ class LoadScan:
         begun, ended = (np.searchsorted(np.sort(row), np.log(target)) for row in ends)
         return begun - ended
 
-    def why_not(self, target: float) -> str:
+    def why_not(self, target: float) -> tuple[Status, str]:
         """Why no separation carries this load."""
         E = self.bound.contact.E_ss
         top = float(np.exp(self.log_F.max()))
         if target > top:
-            return (
+            H = self.bound.contact.surfaces.H
+            why = f"it is above the softer body's hardness, {H:.4g} Pa; check the unit of the load"
+            if target <= H:
+                why = (
+                    f"it is below the hardness, {H:.4g} Pa, so its unit may be right: asperities "
+                    "alone do not carry it, they would be pressed flat; in oil a film carries it "
+                    "(thirdbody film)"
+                )
+            return Status.TOO_MUCH, (
                 f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is beyond "
                 f"{top:.4g} Pa (F* = {top / E:.3g}), the most this model carries down to a "
-                f"separation of {DEEPEST:g} sigma_s; check the unit of the load"
+                f"separation d of {DEEPEST:g} sigma_s; {why}"
             )
-        return (
+        return Status.TOO_LITTLE, (
             f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is below the "
             "smallest load this model resolves; check the unit of the load"
         )
@@ -210,25 +216,26 @@ class LoadScan:
         }
         return np.where(closer, less, carries), jumps
 
-    def solve(self, target: Array, branch: str) -> tuple[Array, Array, NDArray[Any]]:
+    def solve(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
         """Separation, number of evaluations and status of every load."""
         d, iterations, status = self.met(target, branch)
-        d[status != "ok"] = np.nan
+        d[~status.solved] = np.nan
         return d, iterations, status
 
-    def met(self, target: Array, branch: str) -> tuple[Array, Array, NDArray[Any]]:
+    def met(self, target: Array, branch: str) -> tuple[Array, Array, Statuses]:
         """As `solve`; where the load jumps over a load, the separation at which it does."""
         d = np.full(len(target), np.nan)
         iterations = np.zeros(len(target), dtype=int)
-        status = np.full(len(target), "ok", dtype=object)
+        status = Statuses.ok(len(target))
         cells = self.cells(target, branch)
         found = np.flatnonzero(cells >= 0)
         for start in range(0, len(found), CHUNK):
             part = found[start : start + CHUNK]
             d[part], iterations[part], jumps = self.polish(target[part], cells[part])
-            status[part[list(jumps)]] = list(jumps.values())
+            for place, sentence in jumps.items():
+                status.set(part[place], Status.JUMP, sentence)
         for i in np.flatnonzero(cells < 0):
-            status[i] = self.why_not(float(target[i]))
+            status.set(i, *self.why_not(float(target[i])))
         return d, iterations, status
 
 

@@ -8,8 +8,7 @@ by a safeguarded Halley iteration on :math:`\ln F_t(d) = \ln F` with analytic de
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -21,24 +20,21 @@ from ..contact.evaluation import evaluate
 from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
-from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
-from ..laws.base import AbstractParticleLaw, SeatedLaw
+from ..errors import InvalidValue, NoEquilibrium, NotCompiled, tell_of_range
 from ..laws.particle.breakage import about_strength
+from ..quantities.carried import takes_units
 from ..quantities.say import percent
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
+from .crowding import about_area, crowded
 from .load_scan import DEEPEST, RESIDUAL, explained, load_scan
+from .status import Status, Statuses
 
 __all__ = ["pull_off", "roots", "solve"]
 
 Array = NDArray[np.float64]
 
 Index = NDArray[np.intp]
-
-TOO_DEEP = (
-    f"not solved: the separation is lower than {-ReducedSum.DEEPEST:g} sigma_s from the mean "
-    "asperity height, where no asperity model holds; check its sign and its unit"
-)
 
 
 def only_one(**quantities: Any) -> tuple[str, Any]:
@@ -62,8 +58,9 @@ def given_load(
         if np.asarray(value).dtype.kind in "USO":
             raise TypeError
         values = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        raise InvalidValue(f"{name} = {value!r} must be a number or an array of numbers") from None
+    except (TypeError, ValueError, OverflowError):
+        shown = repr(value) if len(repr(value)) <= 80 else repr(value)[:76] + " ..."
+        raise InvalidValue(f"{name} = {shown} must be a number or an array of numbers") from None
     if values.ndim > 1:
         raise InvalidValue(f"{name} has {values.ndim} dimensions; give a number or a 1-D array")
     flat = np.atleast_1d(values)
@@ -77,6 +74,7 @@ def given_load(
     return name, flat * contact.E_ss if name == "F_star" else flat, values.ndim == 0
 
 
+@takes_units
 def solve(
     contact: Contact,
     *,
@@ -158,10 +156,10 @@ def solve(
     # E·F*/E is not F* to the last digit: the given values are kept
     given = np.atleast_1d(np.asarray(F_star, dtype=float)) if name == "F_star" else None
     result = _result(contact, name, values, scalar, given, branch)
-    if scalar and result.status != "ok":
+    if scalar and not Status(int(result.status_code)).has_numbers:
         raise NoEquilibrium(result.status)
     for sentence in result.warnings:
-        warnings.warn(sentence, RangeWarning, stacklevel=2)
+        tell_of_range(sentence)
     return result
 
 
@@ -193,7 +191,7 @@ def _result(
         if scalar and deep.any():
             raise InvalidValue(f"d = {values[0]:g} m is refused: {why_deep(contact)}")
         separation = np.where(deep, np.nan, values)
-        status = np.where(deep, TOO_DEEP, "ok").astype(object)
+        status = Statuses.of(np.where(deep, Status.TOO_DEEP, Status.OK))
         iterations, path = np.where(deep, 0, 1), "numpy: the separations are given"
     else:
         try:
@@ -232,6 +230,7 @@ def why_deep(contact: Contact) -> str:
     )
 
 
+@takes_units
 def roots(
     contact: Contact, *, pressure: float | None = None, F_star: float | None = None
 ) -> list[tuple[Equilibrium, bool]]:
@@ -280,7 +279,7 @@ def roots(
     scan = load_scan(bound)
     cells, falling = scan.all_cells(float(values[0]))
     if not len(cells):
-        raise NoEquilibrium(scan.why_not(float(values[0])))
+        raise NoEquilibrium(scan.why_not(float(values[0]))[1])
     target = np.full(len(cells), values[0])
     found, passed = [], []  # type: list[tuple[float, int, bool]], list[str]
     for direction in (True, False):
@@ -292,13 +291,14 @@ def roots(
     if not found:
         raise NoEquilibrium(passed[0])
     found.sort(key=lambda item: -item[0])
-    ok = np.array(["ok"], dtype=object)
+    ok = Statuses.ok(1)
     return [
         (_state(contact, bound, np.array([x]), ok, np.array([n]), values[:1], True), stable)
         for x, n, stable in found
     ]
 
 
+@takes_units
 def pull_off(contact: Contact) -> tuple[float, float]:
     r"""The largest tension that adhesion holds, and the separation where it does.
 
@@ -347,9 +347,7 @@ def pull_off(contact: Contact) -> tuple[float, float]:
     return -float(found.fun), float(found.x)
 
 
-def _compiled(
-    bound: Interface, target: Array
-) -> tuple[Array, Index, NDArray[Any], dict[str, Array]]:
+def _compiled(bound: Interface, target: Array) -> tuple[Array, Index, Statuses, dict[str, Array]]:
     """Separations, evaluations, status and columns by the compiled engine, where it pays."""
     if len(target) < engine.FEWEST:
         raise NotCompiled(f"fewer than {engine.FEWEST} loads of one contact")
@@ -357,13 +355,14 @@ def _compiled(
     which = np.zeros(len(target), np.int64)
     h, iterations, fate, columns = batch.solve(which, target)
     d = bound.asperities.centre + bound.asperities.sigma_s * h
-    status = np.full(len(d), "ok", dtype=object)
+    status = Statuses.ok(len(d))
     residual = np.abs((columns["F_ss"] + columns["F_sa"]) / target - 1)
     rest = np.flatnonzero((fate != 0) | ~(residual <= RESIDUAL))
     if not len(rest):
         return d, iterations, status, columns
     # the other engine says why, or what the load does there
-    d[rest], iterations[rest], status[rest] = load_scan(bound).solve(target[rest], "loading")
+    d[rest], iterations[rest], other = load_scan(bound).solve(target[rest], "loading")
+    status.take(other, rest)
     solved = np.isfinite(d)
     for name, values in bound.fields(d[more := rest[solved[rest]]]).items():
         columns[name][more] = values
@@ -374,7 +373,7 @@ def _state(
     contact: Contact,
     bound: Interface,
     d: Array,
-    status: NDArray[Any],
+    status: Statuses,
     iterations: Array,
     target: Array | None,
     scalar: bool,
@@ -398,11 +397,16 @@ def _state(
     columns = as_columns(
         full, d, bound.mean_plane, rough.sigma, contact.E_ss, target=target, F_star=F_star
     )
-    columns |= {"status": status.astype(str, copy=False), "iterations": iterations}
-    shares = _population_shares(contact, bound, d, columns, scalar)
-    outputs, more = evaluate(contact, bound, columns) if contact.outputs else ({}, [])
+    codes: Any = status.codes
+    columns |= {"status": status.words.astype(str), "iterations": iterations}
+    parts: list[dict[str, Array]] = [{} for _ in contact.populations]
+    outputs, more = ({}, [])  # type: tuple[dict[str, Any], list[str]]
+    if contact.outputs:
+        outputs, more = evaluate(contact, bound, columns, parts=parts if len(parts) > 1 else ())
+    shares = _population_shares(contact, bound, d, columns, scalar, parts)
     if scalar:
         columns = {name: values[0].item() for name, values in columns.items()}
+        codes = int(codes[0])
         outputs = {name: values[0].item() for name, values in outputs.items()}
     notes: tuple[str, ...] = ()
     if told:
@@ -413,39 +417,51 @@ def _state(
         populations=shares,
         outputs=outputs,
         engine=path,
+        status_code=codes,
         **columns,
     )
 
 
 def _only_carried(
-    bound: Interface, d: Array, status: NDArray[Any], target: Array | None, raw: dict[str, Array]
-) -> tuple[Array, NDArray[Any], dict[str, Array]]:
-    """The states without those whose load is not carried: no state is "ok" whose balance is not."""
+    bound: Interface, d: Array, status: Statuses, target: Array | None, raw: dict[str, Array]
+) -> tuple[Array, Statuses, dict[str, Array]]:
+    """The states without those whose load is not carried: no state is "ok" whose balance is not.
+
+    One whose contacts would have grown together keeps its numbers, and is not "ok".
+    """
     where = np.flatnonzero(np.isfinite(d))
     F, at = raw["F_ss"] + raw["F_sa"], d[where]
     known = np.isfinite(F + raw["A_t"])
-    good = known.copy()
+    good, close = known.copy(), crowded(bound.contact, raw["A_t"])
     if target is not None:
         load = target[where]
         good &= np.abs(F - load) <= RESIDUAL * load
         if len(loose := np.flatnonzero(known & ~good)):
             slope, ulp = bound.load(at[loose])[:, 1], load_scan(bound).ulp
             good[loose] = explained(F[loose], slope, load[loose], ulp)
-    if good.all():
+    if good.all() and not close.any():
         return d, status, raw
-    d, status = d.copy(), status.astype(object)
+    d, status = d.copy(), status.copy()
+    status.set(where[close], Status.CROWDED)
     for i in np.flatnonzero(~good):
         law = bound.contact.asperity_law
-        why = "the laws give no number" + f" ({law.name}: {law.beyond})" * bool(law.beyond)
+        code = Status.BEYOND_LAWS
+        why = code.sentence + f" ({law.name}: {law.beyond})" * bool(law.beyond)
         if known[i]:
-            why = f"{F[i]:.6g} Pa do not balance the load {load[i]:.6g} Pa"
-        status[where[i]] = f"no equilibrium: {why} at d = {at[i]:.6g} m"
+            code = Status.UNSOLVED
+            why = f"no equilibrium: {F[i]:.6g} Pa do not balance the load {load[i]:.6g} Pa"
+        status.set(where[i], code, f"{why} at d = {at[i]:.6g} m")
     d[where[~good]] = np.nan
     return d, status, {name: values[good] for name, values in raw.items()}
 
 
 def _population_shares(
-    contact: Contact, bound: Interface, d: Array, columns: Mapping[str, Any], scalar: bool
+    contact: Contact,
+    bound: Interface,
+    d: Array,
+    columns: Mapping[str, Any],
+    scalar: bool,
+    outputs: Sequence[dict[str, Array]],
 ) -> tuple[PopulationShare, ...]:
     """What each of several populations carries at separations d."""
     if len(bound.populations) < 2:
@@ -465,9 +481,12 @@ def _population_shares(
                 "load_share": part["F_sa"] / columns["pressure"],
                 "area_share": part["A_sa"] / columns["A_t"],
             }
+        mine: dict[str, Any] = outputs[number]
         if scalar:
             values = {name: value[0].item() for name, value in values.items()}
-        out.append(PopulationShare(name=particles.name or f"particles {number + 1}", **values))
+            mine = {name: value[0].item() for name, value in mine.items()}
+        name = particles.name or f"particles {number + 1}"
+        out.append(PopulationShare(name=name, outputs=mine, **values))
     return tuple(out)
 
 
@@ -495,7 +514,7 @@ def _warnings(
     height = (d - bound.asperities.centre) / bound.asperities.sigma_s
     if np.any(height < DEEPEST):
         out.append(
-            f"the separation goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
+            f"the separation d goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
             "every asperity is in contact and the model is invalid"
         )
     if np.any(np.isfinite(d)):
@@ -522,33 +541,6 @@ def _warnings(
         if np.any(np.isfinite(d)):
             out += about_pressed(contact, d)
     return tuple(out)
-
-
-def about_area(contact: Contact, most: float) -> list[str]:
-    """What states whose real area reaches this leave out."""
-    out = []
-    if most > 0.2:
-        out.append(
-            f"A_t reaches {most:.3g}: above 0.2 neighbouring contacts interact, "
-            "which this model neglects"
-        )
-    if most > CLOSE and any(_lies_anywhere(contact.law_of(p)) for p in contact.populations):
-        out.append(
-            f"A_t reaches {most:.3g}: pressed point by point, surfaces with more than "
-            f"{CLOSE:g} were 0.04 to 0.65 sigma further apart than this model says, and their "
-            "particles carried 7 to 17 % less"
-        )
-    return out
-
-
-CLOSE = 0.05
-"""Real area above which summits grow together that this model counts one by one; the numbers are
-those of the book's page "Point by point"."""
-
-
-def _lies_anywhere(law: AbstractParticleLaw) -> bool:
-    """Whether particles rest on the rough surface itself, as those that were pressed."""
-    return isinstance(law, SeatedLaw) and law.seat == "rough"
 
 
 BROAD = 8.0

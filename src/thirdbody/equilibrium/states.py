@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -16,10 +16,14 @@ from ..contact.interface import Interface, interface
 from ..errors import InvalidValue, NotCompiled
 from ..populations.materials import BULK
 from ..populations.shape import Angular
+from ..quantities.carried import takes_units
+from ..quantities.progress import Cost, reporting, solved, solving, weighed
 from ..quantities.value import warn_of_slip
-from .columns import COLUMNS, as_columns, dataset, quantity_of
+from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
-from .solve import TOO_DEEP, given_load, solve_untold
+from .crowding import crowded
+from .solve import given_load, solve_untold
+from .status import SENTENCES, Status
 
 if TYPE_CHECKING:
     import xarray
@@ -27,6 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["solve_states", "state_columns", "varied"]
 
 
+@takes_units
 def solve_states(
     contact: Contact,
     *,
@@ -34,6 +39,7 @@ def solve_states(
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
     vary: Mapping[str, ArrayLike] | None = None,
+    progress: bool | Callable[[int], None] = False,
 ) -> xarray.Dataset:
     """N states of a contact: state i has the i-th load and the i-th value of every varied input.
 
@@ -47,6 +53,8 @@ def solve_states(
         Dotted names of inputs and their values, each a number or an array (N,), e.g.
         ``{"roughness.sigma": sigma, "particles.diameter.mean": x_a}``. A mean diameter or an
         areal density of zero stands for two-body contact.
+    progress : bool or callable, optional
+        Shows rate and time left on standard error; a callable gets the number of states solved.
 
     Returns
     -------
@@ -61,6 +69,12 @@ def solve_states(
     InvalidValue
         An unknown name, lengths that do not fit, or a value that the field refuses.
 
+    Warns
+    -----
+    SlowWarning
+        States that cannot share what they are made of, so many that they take more than 10 s:
+        how long, and why. Without ``progress``.
+
     Examples
     --------
     >>> import numpy as np
@@ -74,7 +88,12 @@ def solve_states(
     (('state',), 'm')
     """
     load, loads, arrays = _given(contact, pressure, F_star, d, vary)
-    columns = _columns(contact, arrays, load, loads)
+    total = len(loads)
+    with reporting("states", total, 0, progress) as report:
+        cost = Cost(total, report, "" if progress else "states")
+        with solving(cost):
+            columns = _columns(contact, arrays, load, loads)
+        cost.finished(total)
     return dataset(contact, columns, {load: loads, **arrays}, {})
 
 
@@ -141,7 +160,7 @@ def _given(
     for name, values in arrays.items():
         if values.dtype.kind in "iuf" and (told := quantity_of(contact, name)):
             for extreme in dict.fromkeys((float(values.min()), float(values.max()))):
-                warn_of_slip(name, told, extreme, stacklevel=3)
+                warn_of_slip(name, told, extreme)
     return load, loads, arrays
 
 
@@ -184,18 +203,6 @@ ALIKE = 2.0
 """Spread of particle sizes over roughness within which states take about as many nodes."""
 ROOM = 3_000_000
 """Numbers in the rules of states laid out together, where each has rules of its own."""
-FATES = np.array(
-    [
-        "ok",
-        "no equilibrium: the load is beyond the most this model carries down to a separation of "
-        "-3 sigma_s; check the unit of the load",
-        "no equilibrium: the load is below the smallest load this model resolves; check the unit "
-        "of the load",
-        "not solved: no separation was found at which the load is in balance",
-        TOO_DEEP,
-    ],
-    dtype=object,
-)
 
 Arrays = Mapping[str, NDArray[Any]]
 Columns = dict[str, NDArray[Any]]
@@ -209,7 +216,7 @@ def _joined(count: int, parts: Iterable[tuple[Any, Columns]]) -> Columns:
     """Columns of all states from those of some, in the order in which they come."""
     out: Columns = {}
     for which, columns in parts:
-        for name in (*COLUMNS, "engine"):
+        for name in (*COLUMNS, "engine", CODE):
             if name not in out:
                 # sentences are few and long
                 kind = object if name in ("status", "engine") else columns[name].dtype
@@ -228,7 +235,8 @@ def _with_outputs(
 ) -> Columns:
     """Every column of the states, then the outputs of each contact among them."""
     inputs = {name: v for name, v in arrays.items() if carries(name)}
-    out = _columns(contact.replace(outputs=()), inputs, load, loads)
+    with weighed(0.5):
+        out = _columns(contact.replace(outputs=()), inputs, load, loads)
     # states of one contact share their spots; those of one surface share its tables, and those
     # that differ in the number of particles alone share the spots of one particle
     count = arrays.get(DENSITY, np.ones(len(loads)))
@@ -238,6 +246,7 @@ def _with_outputs(
         values, _ = evaluate(own, interface(own), _taken(out, which), crowd)
         for name, column in values.items():
             out.setdefault(name, np.full(len(loads), np.nan))[which] = column
+        solved(0.5 * len(which), "each has spots of its own")
     return out
 
 
@@ -305,7 +314,10 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
         batch = engine.States(contact, _taken(arrays, here), len(given))
         columns = batch.columns(load, given)
         doubt = columns.pop("doubt")
-        words = {"status": FATES[columns["status"]], "engine": np.where(doubt, doubt, "compiled")}
+        code = columns["status"].astype(np.int8)
+        code[(code == Status.OK) & crowded(contact, columns["A_t"])] = Status.CROWDED
+        path = np.where(doubt, doubt, "compiled")
+        words = {"status": SENTENCES[code], CODE: code, "engine": path}
         return here, columns | words, batch.rows.own
 
     here, columns, size = part(slice(0, FIRST))  # refused, or compiled, once
@@ -313,7 +325,8 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
     starts = range(FIRST, len(loads), at_once)
     with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
         rest = pool.map(part, (slice(start, start + at_once) for start in starts))
-        out = _joined(len(loads), chain([(here, columns)], (found[:2] for found in rest)))
+        parts = chain([(here, columns)], (found[:2] for found in rest))
+        out = _joined(len(loads), _told(parts))
     # what the compiled engine doubts is for the other one to judge
     for why in (engine.NOT_BALANCED, engine.NOT_MONOTONE):
         if len(which := np.flatnonzero(out["engine"] == why)):
@@ -321,6 +334,12 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
             for name, column in again.items():
                 out[name][which] = column
     return out
+
+
+def _told(parts: Iterable[tuple[Any, Columns]]) -> Iterator[tuple[Any, Columns]]:
+    for here, columns in parts:
+        solved(len(columns["status"]))
+        yield here, columns
 
 
 def _all(count: int, word: str) -> NDArray[Any]:
@@ -336,7 +355,9 @@ def _by_groups(
         state = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
         result = solve_untold(state, load, loads[which])
         path = f"numpy: {why}" if why and result.engine != "compiled" else result.engine
-        parts.append((which, result.columns() | {"engine": _all(len(which), path)}))
+        more = {"engine": _all(len(which), path), CODE: np.atleast_1d(result.status_code)}
+        parts.append((which, result.columns() | more))
+        solved(len(which), why)
     return _joined(len(loads), parts)
 
 

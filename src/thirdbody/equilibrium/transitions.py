@@ -13,6 +13,7 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import InvalidValue
 from ..quantities import notebook
+from ..quantities.carried import takes_units
 from .load_scan import load_scan
 from .modes import EPS_1, EPS_2, WINDOW
 from .words import happens
@@ -122,6 +123,7 @@ class Transitions:
         return notebook.card("Transitions, F* = F/(A_n E_ss)", rows)
 
 
+@takes_units
 def transitions(
     contact: Contact,
     *,

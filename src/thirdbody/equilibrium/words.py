@@ -18,6 +18,7 @@ __all__ = [
     "critical_name",
     "happens",
     "load_of",
+    "meets",
     "mode_of",
     "mode_path",
     "not_met",
@@ -42,6 +43,8 @@ CRITICAL = {
     "F_tpca C": "the area bends most over the load",
 }
 """What happens at each critical load."""
+FEW, MANY = 0.1, 1e7
+"""Share of contacts below which they are one in so many, and how many are written out."""
 BELOW, ABOVE = ("never p-s", "always s-s"), ("always p-s", "never s-s")
 """Statuses of critical loads that lie below, or above, every load searched."""
 THERE = {
@@ -90,6 +93,25 @@ def carried(share: float | None, parts: Mapping[str, float | None] | None = None
     """
     each = ", ".join(f"{name} {percent(part)}" for name, part in (parts or {}).items())
     return f"particles carry {percent(share)} of the load" + (f" ({each})" if each else "")
+
+
+def meets(count: float) -> str:
+    """How often a contact meets a particle that holds so many on average; empty from one on.
+
+    Places do not depend on one another, so that no particle is there with the probability
+    exp(−count).
+
+    >>> meets(3.2e-5), meets(0.5), meets(1.0)
+    ('one contact in 31 000 meets a particle', '39 % of the contacts meet a particle', '')
+    """
+    if not 0 < count < 1:
+        return ""
+    share = -math.expm1(-count)
+    if share > FEW:
+        return f"{percent(share, digits=2)} of the contacts meet a particle"
+    every = float(f"{1 / share:.2g}")
+    said = f"{every:,.0f}".replace(",", " ") if every < MANY else number(every, 2)
+    return f"one contact in {said} meets a particle"
 
 
 def mode_path(modes: Iterable[str | None]) -> str:

@@ -14,6 +14,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import warnings
 from collections.abc import Callable, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, field
@@ -30,14 +31,16 @@ from ..laws.base import SeatedLaw
 from ..populations.measured.spectra import SpectralMoments
 from ..populations.measured.synthetic import from_moments
 from ..populations.measured.topography import Topography
-from ..quantities.files import write_text
+from ..quantities.carried import takes_units
+from ..quantities.files import make_folder, write_text
 from ..quantities.progress import reporting
+from ..quantities.records import read_record, sealed
 from ..quantities.say import number, percent, plural
 from ..quantities.sharing import connected, need_version, shared
 from ..quantities.value import Value
 from ..version import __version__
-from .interface import Map, map_of
-from .pooling import COMPARED, RATIOS, Pool, pooled_seats
+from .interface import Map, cap_of, map_of
+from .pooling import COMPARED, RATIOS, SHARES, AtLoads, Pool, pooled_seats
 from .seats import AbstractSeats, GivenSeats, SeatHeights, seat_heights, seats_named
 from .solve import FEW, TOL
 from .sums import one_surface, places
@@ -64,6 +67,11 @@ STEP = 0.15
 BELOW, ABOVE = 0.35, 0.6
 """How far separations go beyond those of the statistical model [σ]."""
 HURST = 0.8
+RECORD = {
+    "asperities", "particles", "area", "particle_area", "bearing", "law", "law_area", "bare",
+    "nominal", "sigma", "converged", "columns", "zeta", "warnings", "expected", "key",
+}  # fmt: skip
+"""What files of surfaces say that earlier versions kept, without a digest."""
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
@@ -76,7 +84,9 @@ class Ensemble:
         Along ``F_star``: for ``h``, ``A_t``, ``particle_load_share`` and ``particle_area_share``
         the raw number, ``…_raw``, the one without the luck of the draw, ``…_cv``, their jackknife
         errors, ``…_raw_error`` and ``…_cv_error``, the statistical number, ``…_statistical``, and
-        the difference in standard errors, ``…_difference``.
+        the difference in standard errors, ``…_difference``. Where no asperity or no particle
+        carries on any surface, shares have no error: NaN, and bounds, ``…_least`` and ``…_most``
+        (NaN elsewhere).
     at_h : xarray.Dataset
         Along ``h``: pooled loads and areas, and the ratios that say why the two differ.
     seats : SeatHeights
@@ -119,6 +129,7 @@ class Ensemble:
         }
 
 
+@takes_units
 def surface_of(contact: Contact, *, size: int, spacing: float, seed: int = 0) -> Topography:
     """A synthetic surface with the σ, R and α of a contact's roughness.
 
@@ -157,6 +168,7 @@ def surface_of(contact: Contact, *, size: int, spacing: float, seed: int = 0) ->
     return from_moments(moments, spacing=spacing, points=size, hurst=HURST, seed=seed)
 
 
+@takes_units
 def ensemble(
     contact: Contact,
     *,
@@ -198,7 +210,8 @@ def ensemble(
         Address of a Dask cluster whose workers press the surfaces instead; this process keeps
         them. The answer is the same, whoever presses them.
     folder : path-like, optional
-        Where finished surfaces are kept: a run that is interrupted goes on from there.
+        Where finished surfaces are kept: a run that is interrupted goes on from there. One that is
+        damaged is pressed again; those of another study are refused.
     progress : bool or callable, optional
         As in `thirdbody.sweep`; counts surfaces.
 
@@ -209,7 +222,8 @@ def ensemble(
     Raises
     ------
     InvalidValue
-        As `solve`; surfaces that do not carry such a load; a scheduler that does not answer.
+        As `solve`; surfaces that do not carry such a load; a scheduler that does not answer; a
+        folder with surfaces of another study.
 
     Notes
     -----
@@ -263,19 +277,54 @@ def ensemble(
         ):
             for i, record in results:
                 if kept is not None:
-                    kept.mkdir(parents=True, exist_ok=True)
-                    write_text(_file(kept, i), json.dumps(record | {"key": key}))
+                    write_text(_file(make_folder(kept), i), sealed(record | {"key": key}))
                 records[i] = record
                 report(len(records))
     return _ensemble(
-        contact, [records[i] for i in range(total)], loads, grid, gaussian=given is None
+        contact, [records[i] for i in range(total)], loads, grid, cap=cap, gaussian=given is None
     )
 
 
 def _finished(kept: Path, total: int, key: str) -> dict[int, dict[str, Any]]:
-    """What an earlier run with the same key kept, by the number of the surface."""
-    found = ((i, _read(kept, i, key)) for i in range(total))
-    return {i: record for i, record in found if record is not None}
+    """What an earlier run with the same key kept, by the number of the surface.
+
+    Raises
+    ------
+    InvalidValue
+        It was made for other numbers.
+    """
+    out: dict[int, dict[str, Any]] = {}
+    damaged, others, unchecked = [], [], 0
+    for i in range(total):
+        file = _file(kept, i)
+        if not file.exists():
+            continue
+        found = read_record(file, RECORD)
+        if found is None or not (found.checked or set(found.data) == RECORD):
+            damaged.append(file.name)
+        elif found.data.get("key") != key:
+            others.append(file.name)
+        else:
+            out[i] = found.data
+            unchecked += not found.checked
+    if others:
+        raise InvalidValue(
+            f"{kept} holds surfaces of another study, or of another version of thirdbody "
+            f"({', '.join(others[:3])}); give another folder"
+        )
+    if damaged:
+        _tell(f"{kept} is damaged ({', '.join(damaged[:3])}): these surfaces are pressed again")
+    if unchecked:
+        _tell(
+            f"{kept}: {plural(unchecked, 'surface')} of an earlier version of thirdbody kept no "
+            "digest, so that damage in them is not seen; take another folder where that matters"
+        )
+    return out
+
+
+def _tell(sentence: str) -> None:
+    """What happened to a folder, to whoever called `ensemble`."""
+    warnings.warn(sentence, UserWarning, stacklevel=4)
 
 
 def _counted(
@@ -370,6 +419,7 @@ def _ensemble(
     loads: Array,
     grid: Array,
     *,
+    cap: str | float | None,
     gaussian: bool,
 ) -> Ensemble:
     import xarray
@@ -387,10 +437,28 @@ def _ensemble(
         told.append(
             f"{plural(left_out, 'state')} of {pool.good.size} did not converge and count nowhere"
         )
+    hardest = cap_of(cap, contact)
+    at = {
+        kind: pool.at_loads(loads * contact.E_ss, fair=kind == "cv", cap=hardest)
+        for kind in ("raw", "cv")
+    }
     table = xarray.Dataset(
-        _columns(pool, state, loads * contact.E_ss, gaussian),
+        _columns(at, state, gaussian),
         coords={"F_star": ("F_star", loads, {"units": "1"})},
     )
+    if hardest != contact.surfaces.H:
+        told.append(
+            "asperities are pressed with another cap than the hardness, at which those of the "
+            "statistical model yield: the two differ by that as well"
+        )
+    for kind, words in (("raw", "these surfaces"), ("cv", "these surfaces without their luck")):
+        outside = ", ".join(number(each, 3) for each in loads[at[kind].outside].tolist())
+        if outside:
+            told.append(
+                f"F* = {outside}: {words} carry that at none of the separations pressed, so that "
+                "nothing is known there; more or larger surfaces"
+            )
+    told += at["cv" if gaussian else "raw"].doubts(loads)
     told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
     columns: dict[str, list[Any]] = {"surface": [i for i in range(len(records)) for _ in grid]}
     for name in records[0]["columns"]:
@@ -424,14 +492,17 @@ def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> li
     ]
 
 
-def _columns(pool: Pool, state: Equilibrium, pressure: Array, gaussian: bool) -> dict[str, Any]:
+def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> dict[str, Any]:
     """Along F*: raw, fair and statistical numbers, their errors and how they differ."""
     table: dict[str, Any] = {}
-    for kind in ("raw", "cv"):
-        for name, found, error in pool.at_loads(pressure, fair=kind == "cv"):
-            about = {"units": COMPARED[name][0]}
-            table[f"{name}_{kind}"] = ("F_star", found, about)
-            table[f"{name}_{kind}_error"] = ("F_star", error, about)
+    for kind, at in told.items():
+        for name, (unit, _) in COMPARED.items():
+            about = {"units": unit}
+            table[f"{name}_{kind}"] = ("F_star", at.values[name], about)
+            table[f"{name}_{kind}_error"] = ("F_star", at.errors[name], about)
+            if name in SHARES:
+                table[f"{name}_{kind}_least"] = ("F_star", at.least[name], about)
+                table[f"{name}_{kind}_most"] = ("F_star", at.most[name], about)
     best = "cv" if gaussian else "raw"
     for name, (unit, _) in COMPARED.items():
         model = np.asarray(getattr(state, name))
@@ -488,15 +559,6 @@ def _key(
 
 def _file(folder: Path, i: int) -> Path:
     return folder / f"surface_{i:03d}.json"
-
-
-def _read(folder: Path, i: int, key: str) -> dict[str, Any] | None:
-    """A finished surface of the same run; None where there is none."""
-    try:
-        found = json.loads(_file(folder, i).read_text("utf-8"))
-    except (OSError, ValueError):
-        return None
-    return found if isinstance(found, dict) and found.get("key") == key else None
 
 
 # -------------------------------------------------------------------------- what is told

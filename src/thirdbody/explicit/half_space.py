@@ -89,6 +89,13 @@ class HalfSpace:
         found = fft.irfft2(wave, s=self.shape, workers=self.workers, overwrite_x=True)
         return found.astype(float, copy=False)
 
+    def energy_of_full_contact(self, z: Array) -> float:
+        """zᵀK⁻¹z of heights (n, m) [m], their mean left out [Pa m]: twice the energy over Δ²."""
+        wave = np.fft.fft2(z)
+        q = np.hypot(*np.meshgrid(*map(np.fft.fftfreq, z.shape), indexing="ij"))
+        stiffness = self.E_star * math.pi * q / self.spacing  # E*|q|/2
+        return float(np.sum(stiffness * np.abs(wave) ** 2)) / z.size
+
     def green(self) -> Array:
         """u of unit pressure on one pixel [m/Pa]."""
         one = np.zeros(self.shape)

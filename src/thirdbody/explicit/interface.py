@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Index = NDArray[np.int64]
 
-__all__ = ["Interface", "Map", "interface_of", "map_of"]
+__all__ = ["Interface", "Map", "cap_of", "interface_of", "map_of"]
 
 ARRAYS = 15
 """Arrays of doubles of the size of the map that a solution takes."""
@@ -56,6 +56,8 @@ class Map:
     spacing: float
     periodic: bool
     source: str
+    notes: tuple[str, ...] = ()
+    """What was done to the heights that were given."""
 
     @property
     def sigma(self) -> float:
@@ -119,7 +121,8 @@ class Interface:
 def map_of(surface: object, spacing: float | None) -> Map:
     """The heights of a measured or synthetic surface, or of an array, ready to be pressed.
 
-    A `Topography` without the waves below its cut-off; an array as it is, less its mean.
+    A `Topography` without the waves below its cut-off, the recommended one where none was given;
+    an array as it is, less its mean.
     """
     if isinstance(surface, Topography):
         return _of_topography(surface, spacing)
@@ -165,7 +168,21 @@ def _of_topography(surface: Topography, spacing: float | None) -> Map:
         raise InvalidValue(*problems)
     z = np.array(surface.filtered(), dtype=float)
     return Map(
-        z=z - z.mean(), spacing=surface.spacing[0], periodic=surface.periodic, source=surface.source
+        z=z - z.mean(), spacing=surface.spacing[0], periodic=surface.periodic,
+        source=surface.source, notes=_smoothed(surface, z),
+    )  # fmt: skip
+
+
+def _smoothed(surface: Topography, z: Array) -> tuple[str, ...]:
+    """That waves were left out which nobody asked to leave out, and what it does."""
+    if surface.given_cutoff is not None or surface.cutoff == 0:
+        return ()
+    kept = float(np.std(z) / np.std(surface.heights))
+    return (
+        f"{surface.source} is pressed without its waves below the recommended cut-off, "
+        f"{value_of(surface.cutoff, 'm')}, as the roughness of the statistical model is: sigma is "
+        f"{percent(kept, digits=3)} of that of the heights, and the separation smaller (cutoff=0 "
+        "presses the heights as they are, a cutoff of your own those without shorter waves)",
     )
 
 
@@ -193,7 +210,7 @@ def interface_of(
 ) -> Interface:
     """A contact on a map, its particles drawn and seated."""
     _fits(surface.z.shape)
-    yields = _cap(cap, contact)
+    yields = cap_of(cap, contact)
     warnings = _doubts(contact, surface)
     c = np.full_like(surface.z, HARDEST if yields is None else yields)
     bodies, overlaps = _drawn(contact, surface, seats, rng, particles)
@@ -223,7 +240,8 @@ def interface_of(
     )  # fmt: skip
 
 
-def _cap(cap: str | float | None, contact: Contact) -> float | None:
+def cap_of(cap: str | float | None, contact: Contact) -> float | None:
+    """The highest pressure of asperities [Pa] that ``cap`` stands for; None for none."""
     if cap == "hardness":
         return contact.surfaces.H
     if cap is None or cap == "none":
@@ -308,7 +326,7 @@ def _bodies(contact: Contact, places: Seated, size: Array, kind: Index) -> Bodie
 
 
 def _doubts(contact: Contact, surface: Map) -> list[str]:
-    out = []
+    out = list(surface.notes)
     if not surface.periodic:
         out.append(
             f"{surface.source} does not repeat itself, the half-space does: contacts at the rim "

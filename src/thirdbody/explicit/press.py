@@ -26,10 +26,14 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Index = NDArray[np.int64]
 
-__all__ = ["HARDEST", "Pressed", "capacity", "press"]
+__all__ = ["HARDEST", "Pressed", "capacity", "press", "touched"]
 
 HARDEST = 1e30
 """Stands for a pixel that never yields [Pa]."""
+UNBOUNDED = 1e29
+"""Caps from here on are those of pixels that never yield [Pa]."""
+PERIMETER = (math.pi - 1 + math.log(2)) / 24
+"""Area that a pixel edge at the rim of an elastic contact counts too much, over Δ²."""
 NESTED_FROM = 512
 """Points of the shorter side from which coarser grids give the start."""
 ROUGH = 1e-3
@@ -73,6 +77,52 @@ class Pressed:
 def capacity(c: Array, bodies: Bodies, spacing: float) -> float:
     """The load that all pixels and particles can carry [N]."""
     return float(np.sum(c)) * spacing**2 + float(np.sum(bodies.limit))
+
+
+def touched(p: Array, c: Array, cap: float | None) -> Array:
+    r"""Share of each pixel (n, m) that is in contact [1].
+
+    .. math:: a_i = \max\left[\frac{p_i}{H},\
+                    \frac{c_i}{H}\left(1 - \frac{\pi - 1 + \ln 2}{24} e_i\right)\right]
+              \quad\text{where } p_i > 0
+
+    with e the number of edges across which nothing touches though it might. Where the pressure
+    falls to zero at the rim as that of Hertz does, counted pixels are too many by the bracket
+    (Yastrebov et al.). Where it keeps its limit H up to the rim, as on a bearing area, they are
+    not; and no pixel carries p on less than p/H of itself, so that :math:`A \ge F/H` always. An
+    edge towards a pixel under a particle is where the contact does end.
+
+    Parameters
+    ----------
+    p, c : array (n, m)
+        Pressure on the pixels and its limit [Pa]; c is less than H by what particles cover.
+    cap : float or None
+        H [Pa]; None where asperities never yield.
+
+    Returns
+    -------
+    array (n, m)
+
+    Notes
+    -----
+    At 16, 32 and 64 pixels to the shortest wave the area of a rough surface is within 2, 1 and
+    0.5 % of that at 128, for H/E* from 0.0045 to 1 and without a cap. The count is up to 9, 4 and
+    2 % higher; with the bracket on every pixel it is 6, 3 and 1.5 % too low where all yields.
+
+    References
+    ----------
+    Yastrebov, Anciaux and Molinari 2017, Tribol. Int. 114, 161,
+    doi:10.1016/j.triboint.2017.04.023, arXiv:1701.02727.
+    """
+    touching, open_ = p > 0, c > 0
+    edges = np.zeros(p.shape)
+    for axis in (0, 1):
+        for step in (1, -1):
+            edges += np.roll(open_ & ~touching, step, axis)
+    whole = 1 - PERIMETER * edges
+    if cap is None:
+        return np.where(touching, whole, 0.0)
+    return np.where(touching, np.maximum(p, c * whole) / cap, 0.0)
 
 
 def press(
@@ -245,6 +295,10 @@ class _Programme:
         self.exact = HalfSpace(z.shape, spacing, E_star, workers=workers) if single else self.space
         self.placed = Placed(bodies, z.shape, spacing)
         self.most = bodies.limit / self.area
+        self.full: tuple[float, float] | None = None
+        """zᵀK⁻¹z [Pa m] and the separation [m] where pixels without a cap are held apart."""
+        if h is not None and np.any(self.c >= UNBOUNDED) and h > np.mean(self.z):
+            self.full = self.space.energy_of_full_contact(self.z), h - float(np.mean(self.z))
         self.own = self.top = np.empty(0)
         if len(bodies):
             self.own = self.placed.own(self.space.green(), self.space.lattice)
@@ -302,7 +356,11 @@ class _Programme:
     def working_set(self, x: _Iterate, squeeze: Array) -> _WorkingSet:
         """What may move at the level λ, pixels and then particles."""
         phi = x.phi
-        where, r, inner, outer, sum_p = _working_set(x.p, self.c, x.u, self.z, x.level)
+        where, r, inner, outer, sum_p, under, deepest = _working_set(
+            x.p, self.c, x.u, self.z, x.level
+        )
+        if deepest > 0:
+            outer += self._unbounded(x, sum_p, under, deepest)
         available = self.top + x.level - self._beneath(x.u, phi)
         reached = self.bodies.force(available) / self.area
         r_k = available - squeeze
@@ -318,6 +376,28 @@ class _Programme:
             where=where, can=can, r=r, r_k=r_k, available=available, M=M, y=y, y_k=y_k, w=w,
             w_k=w_k, mu=mu, excess=inner + outer + miss, weight=sum_p + float(np.sum(phi)),
         )  # fmt: skip
+
+    def _unbounded(self, x: _Iterate, sum_p: float, under: float, deepest: float) -> float:
+        r"""What pixels without a cap lack, at most :math:`t = \max(\lambda - g)` each [Pa m].
+
+        Under a load no pressures of one sum can have more than tΣp − Σp(λ − g)₊ to gain. At a
+        separation the sum is not known. There (1 − θ)(p + Dφ) + θK⁻¹z with θ = t/(t + h) leaves no
+        gap negative, so that the energy of its displacement bounds that of the answer from below
+        (the dual programme), and the gain is at most
+
+        .. math:: t\Sigma p + \tfrac12\theta^2(z - u)^TK^{-1}(z - u) .
+
+        The last is of second order in t, but all there is where nothing carries yet.
+        """
+        if self.total is not None:
+            return deepest * sum_p - under
+        if self.full is None:  # the flat is below the mean plane: only caps can carry that
+            return deepest * sum_p or math.inf
+        energy, room = self.full
+        y = self._with_particles(x.p, x.phi)
+        rest = energy - 2 * _dot(y, self.z - np.mean(self.z)) + _dot(y, x.u)
+        theta = deepest / (deepest + room)
+        return deepest * sum_p + 0.5 * theta**2 * max(rest, 0.0)
 
     def clipped_step(self, x: _Iterate, A: _WorkingSet, d: tuple[Array, Array], a: float) -> _Step:
         """s = clip(X + a d + ν w, 0, c) − X, ν such that Σs = 0 under a load; and what it does."""
@@ -386,8 +466,7 @@ def _direction(A: _WorkingSet, last: _Step | None) -> tuple[Array, Array]:
 def _working_set(p, c, u, z, level):
     """Pixels that may move, λ − g on them, and what the others lack: the terms of the certificate.
 
-    Without a cap the second term takes the whole load where the gap is most negative, as in a
-    programme over pressures of one sum.
+    Of pixels without a cap: their p (λ − g)₊, summed, and the largest λ − g of them.
     """
     n, m = p.shape
     r = np.zeros((n, m))
@@ -408,7 +487,7 @@ def _working_set(p, c, u, z, level):
             elif now >= high:
                 total += now
                 continue
-            elif high < 1e29:
+            elif high < UNBOUNDED:
                 outer += (high - now) * lack
             else:
                 under += now * lack
@@ -417,9 +496,7 @@ def _working_set(p, c, u, z, level):
             r[i, j] = lack
             where[count] = i * m + j
             count += 1
-    if deepest > 0:
-        outer += deepest * total - under
-    return where[:count].copy(), r, inner, outer, total
+    return where[:count].copy(), r, inner, outer, total, under, deepest
 
 
 def _dot(a: Array, b: Array) -> float:

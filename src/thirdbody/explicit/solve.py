@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -14,11 +13,12 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import _mode
 from ..equilibrium.modes import EPS_1, EPS_2
 from ..equilibrium.solve import only_one
-from ..errors import InvalidValue, RangeWarning
+from ..errors import InvalidValue, tell_of_range
 from ..laws.base import REGIMES
-from ..quantities.say import number, percent, plural
+from ..quantities.carried import takes_units
+from ..quantities.say import number, percent, plural, value_of
 from .interface import Interface, interface_of, map_of
-from .press import Pressed, capacity, press
+from .press import HARDEST, Pressed, capacity, press, touched
 from .seats import seats_named
 from .state import CONTACTS, ExplicitState
 
@@ -38,10 +38,9 @@ FEW = 20
 DENSE = 0.5
 """Real contact area above which the half-space is no longer one of separate contacts."""
 LEAST_SINGLE = 1e-7
-PERIMETER = (math.pi - 1 + math.log(2)) / 24
-"""Area that a pixel edge at the rim of a contact counts too much, over Δ²."""
 
 
+@takes_units
 def solve(
     contact: Contact,
     surface: Topography | ArrayLike,
@@ -78,7 +77,8 @@ def solve(
         the seat of its particle law are not used.
     surface : Topography or array (n, m)
         Composite heights [m], x along the first axis: a `Topography` without the waves below
-        its cut-off, or an array with ``spacing``, less its mean.
+        its cut-off (the recommended one unless another was given, 0 for the heights as they are;
+        synthetic ones have 0), or an array with ``spacing``, less its mean.
     pressure, F_star, h : float or array
         Nominal pressure [Pa], load F/(A_n E*) [1], or separation of the mean planes [m]: one of
         the three. Several are solved as one continuation.
@@ -164,7 +164,7 @@ def solve(
     columns = [numbers_of(inside, each) for each in found]
     told = (*inside.warnings, *_doubts(columns, found, tol))
     for sentence in told:
-        warnings.warn(sentence, RangeWarning, stacklevel=2)
+        tell_of_range(sentence)
 
     def of(name: str) -> Any:
         every = [each[name] for each in columns]
@@ -209,8 +209,16 @@ def curve(
             "particles can carry"
             for each in values[values >= most][:5]
         ]
-        if problems:
-            raise InvalidValue(*problems)
+    elif np.all(inside.c >= HARDEST):
+        problems = [
+            f"h = {value_of(each, 'm')} must be > 0 where asperities have no cap: the flat cannot "
+            "come below the mean plane of a surface that never yields (give a load, or a cap)"
+            for each in values[values <= 0][:5].tolist()
+        ]
+    else:
+        problems = []
+    if problems:
+        raise InvalidValue(*problems)
     order = np.argsort(values, kind="stable")
     if given == "h":
         order = order[::-1]
@@ -234,9 +242,8 @@ def numbers_of(inside: Interface, state: Pressed) -> dict[str, Any]:
     """The columns of a state."""
     contact, spacing, area = inside.contact, inside.map.spacing, inside.map.area
     touching = state.p > 0
-    edges = sum(int(np.sum(touching != np.roll(touching, 1, axis))) for axis in (0, 1))
     counted = float(np.mean(touching))
-    A_ss = max(counted - PERIMETER * edges * spacing**2 / area, 0.0)
+    A_ss = float(np.mean(touched(state.p, inside.c, inside.cap)))
     first, second = (float(np.sum(each)) / area for each in _squeezed(inside, state)["areas"])
     on_pixels = float(np.sum(state.p)) * spacing**2 / area
     on_particles = float(np.sum(state.f)) / area

@@ -26,6 +26,7 @@ import numpy as np
 from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule
 from ..populations.shape import Sphere
+from ..quantities.carried import takes_units
 from ..quantities.value import Value, choice, quantity
 from .spots import ParticleSpots
 
@@ -349,10 +350,12 @@ class OneParticle(ABC):
     shape: Angular | None = None
 
     @abstractmethod
+    @takes_units
     def at(self, eps: Array) -> Squeezed:
         """What particles squeezed by ε (N,) carry; of ε ≤ 0 no account is taken."""
 
     @abstractmethod
+    @takes_units
     def regime(self, side: int, depth: Array) -> NDArray[np.intp]:
         """Index into `REGIMES` of side 0 or 1 indented by depth over x (N,)."""
 
@@ -379,6 +382,7 @@ class OneParticle(ABC):
         out[eps <= 0] = 0.0
         return out
 
+    @takes_units
     def spots(self, x: Array, delta: Array, *, share: Array | None, number: Array) -> ParticleSpots:
         """Particles of sizes x squeezed by δ (M, n), so many of each."""
         eps = np.divide(delta, x, out=np.zeros_like(x), where=x > 0).ravel()

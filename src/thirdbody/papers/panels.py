@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import InvalidValue
 from ..quantities.files import whole, write_text
+from ..quantities.records import MARK, claim_folder, read_json
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -138,14 +139,44 @@ def table_of(panel: Panel) -> str:
     return out.getvalue()
 
 
-def made(out: str | Path) -> Path:
-    """A folder for a study, made when missing; `InvalidValue` where that cannot be."""
-    folder = Path(out)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidValue(f"cannot make the folder {folder}: {error.strerror}") from None
-    return folder
+FILES = re.compile(
+    r"(?:fig[^/]*|share)\.(?:png|svg|csv)|comparison\.(?:csv|json|md)|surfaces|index\.html|"
+    r"(?:claims|measurements)\.json"
+)
+"""What studies of papers write."""
+SURFACE = re.compile(r"[^/]+/(?:surface_\d{3,}\.json|\.surface_\d{3,}\.[0-9a-f-]+\.part\.json)")
+
+
+def made(out: str | Path, paper: str, preset: str | None = None) -> Path:
+    """A folder for a study, made when missing.
+
+    Parameters
+    ----------
+    out : path-like
+        A new folder, an empty one, or one of the same study.
+    paper : str
+        Name of the study.
+    preset : str, optional
+        The reading or effort that decides what is drawn.
+
+    Raises
+    ------
+    InvalidValue
+        It holds another study or anything else, or cannot be made.
+    """
+    told = {"command": "reproduce", "paper": paper, "preset": preset}
+    return claim_folder(out, told, files=FILES, unmarked=_unmarked)
+
+
+def _unmarked(folder: Path) -> dict[str, Any] | None:
+    """Nothing, where a ledger of an earlier version lies in a folder, or surfaces of one."""
+    ledgers = ("claims.json", "measurements.json", "comparison.json")
+    if any("version" in (read_json(folder / name) or {}) for name in ledgers):
+        return {}
+    kept = folder / "surfaces"
+    files = [file.relative_to(kept).as_posix() for file in kept.rglob("*") if file.is_file()]
+    alone = {each.name for each in folder.iterdir()} <= {MARK, kept.name}
+    return {} if alone and files and all(map(SURFACE.fullmatch, files)) else None
 
 
 def keep(figure: Any, csv: str, folder: Path, stem: str) -> tuple[list[str], bytes]:

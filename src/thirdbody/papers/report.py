@@ -79,7 +79,7 @@ class Study:
                 f"preset = {preset!r} has no meaning for {self.name}: figures and ledger show all "
                 f"readings ({', '.join(self.readings)}); leave it out"
             )
-        folder = made(out)
+        folder = made(out, self.name)
         report = progress or (lambda stage, done, total: None)
 
         report("claims", 0, 1)

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 import thirdbody as tb
+from thirdbody.quantities.files import whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -210,10 +211,11 @@ def _draw_explicit(ax: Axes, diameter: float) -> Iterator[Any]:
     ]
     sigma = explicit_particles()["parameters"]["sigma"]
     name = f"x{diameter / sigma:.2g}".replace(".", "")
+    mine = [state for state in comparison() if state["case"] == name]
     own = [
-        (state["F_star"], state["share"], state["share_error"] or 0.0)
-        for state in comparison()
-        if state["case"] == name
+        (state["F_star"], state["share"], state["share_error"])
+        for state in mine
+        if state["share_error"] is not None
     ]
     older: dict[str, Any] = dict(color="0.55", marker="s", markersize=4, zorder=4)
     ours: dict[str, Any] = dict(color="black", marker="o", markersize=5, zorder=5)
@@ -254,7 +256,8 @@ def main(arguments: list[str] | None = None) -> int:
         print("usage: python -m thirdbody.papers.seats OUT.png", file=sys.stderr)
         return 2
     target = Path(arguments[0])
-    figure().savefig(target, dpi=150)
+    with whole(target) as draft:
+        figure().savefig(draft, dpi=150, format=target.suffix.lstrip(".") or "png")
     print(target)
     return 0
 

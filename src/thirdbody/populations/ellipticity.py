@@ -33,7 +33,7 @@ import numpy as np
 from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule, subdivide
 from ..quantities.say import percent
-from ..quantities.value import Value, problem_with, quantity, several
+from ..quantities.value import Value, problem_with, quantity, sequences, several
 from .distributions import Distribution
 
 if TYPE_CHECKING:
@@ -129,17 +129,7 @@ class Ellipticity(Value):
     radii: tuple[float, ...] | None = several("1", "R_g over R of each class", default=None)
 
     def __post_init__(self) -> None:
-        problems = []
-        for name in ("ratios", "weights", "radii"):
-            given = getattr(self, name)
-            if given is None and name != "ratios":
-                continue
-            try:
-                object.__setattr__(self, name, tuple(float(item) for item in given))
-            except (TypeError, ValueError):
-                problems.append(f"Ellipticity.{name} = {given!r} must be a sequence of numbers")
-        if problems:
-            raise InvalidValue(*problems)
+        sequences(self, "ratios", "weights", "radii")
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:

@@ -20,7 +20,7 @@ from scipy import special
 
 from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule
-from ..quantities.value import Value, quantity, several
+from ..quantities.value import Value, quantity, sequences, several
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -431,8 +431,7 @@ class HistogramHeights(Heights):
     counts: tuple[float, ...] = several("1", "asperities in each class")
 
     def __post_init__(self) -> None:
-        for name in ("edges", "counts"):
-            object.__setattr__(self, name, tuple(float(v) for v in getattr(self, name)))
+        sequences(self, "edges", "counts")
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:

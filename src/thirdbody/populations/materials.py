@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InvalidValue
+from ..quantities.files import read_bytes
 from ..quantities.value import Value, quantity
 
 __all__ = ["Material", "MaterialLibrary", "MaterialPair", "materials"]
@@ -350,7 +351,9 @@ def _shipped() -> dict[str, dict[str, Any]]:
 def _own(file: Path) -> dict[str, dict[str, Any]]:
     """The entries of a file, in SI."""
     try:
-        data = tomllib.loads(file.read_bytes().decode("utf-8-sig"))
+        data = tomllib.loads(read_bytes(file, "a file of materials").decode("utf-8-sig"))
+    except InvalidValue:
+        raise
     except OSError as error:
         why = (error.strerror or str(error)).lower()
         raise InvalidValue(f"cannot read the materials in {file}: {why}") from None

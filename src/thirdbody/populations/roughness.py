@@ -168,6 +168,20 @@ class Roughness(Value):
         return product / (self.R * self.sigma)
 
     @property
+    def slope(self) -> float:
+        r"""RMS slope of the surface :math:`g = \sqrt{2 m_2}` [1], not of its profiles.
+
+        .. math:: m_2 = \sqrt{\sigma^2 m_4/\alpha}, \qquad m_4 = \frac{9\pi}{64R^2}
+
+        for Gaussian isotropic heights: McCool 1986, doi:10.1016/0043-1648(86)90045-1, and Nayak
+        1971, doi:10.1115/1.3451608.
+
+        >>> round(Roughness(sigma=300e-9, R=3e-6).slope, 3)
+        0.244
+        """
+        return (2 * self.sigma / self.R * (9 * math.pi / 64 / self.alpha) ** 0.5) ** 0.5
+
+    @property
     def sigma_s(self) -> float:
         """Standard deviation of the asperity heights σ_s [m]."""
         return self.sigma * (1 - 0.8968 / self.alpha) ** 0.5

@@ -77,9 +77,9 @@ class WeibullStrength(Value):
         "σ_0", "Pa", "strength F/x² of particles of size x_0", gt=0, hint="MPa are 67e6 or '67 MPa'"
     )
     x_0: float = quantity("x_0", "m", "size at which the strength was measured", gt=0, usual=1.0)
-    m: float = quantity("m", "1", "Weibull modulus of the strength", gt=0)
+    m: float = quantity("m", "1", "Weibull modulus of the strength", ge=0.1, le=200)
     size_exponent: float | None = quantity(
-        "b", "1", "exponent of the size effect", default=None, ge=0
+        "b", "1", "exponent of the size effect", default=None, ge=0, le=30
     )
     x_c: float | None = quantity("x_c", "m", "size below which nothing breaks", default=None, ge=0)
     B: float = quantity("B", "1", "x_c over (K_c/H_a)²", default=96.0, gt=0)

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy import special
 
-from ..errors import InvalidValue
-from ..quantities.value import Value, several
+from ..quantities.value import Value, items_of, sequences, several
 from .size_base import (
     ONE_SIZE,
     Distribution,
@@ -48,12 +47,7 @@ class Histogram(Distribution):
     counts: tuple[float, ...] = several("1", "particles in each class")
 
     def __post_init__(self) -> None:
-        for name in ("edges", "counts"):
-            try:
-                values = tuple(float(item) for item in getattr(self, name))
-            except (TypeError, ValueError):
-                raise InvalidValue(f"Histogram.{name} must be a sequence of numbers") from None
-            object.__setattr__(self, name, values)
+        sequences(self, "edges", "counts")
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:
@@ -152,12 +146,7 @@ class PowerLaw(Distribution):
     slopes: tuple[float, ...] = several("1", "exponents of the number over size")
 
     def __post_init__(self) -> None:
-        for name in ("edges", "counts", "slopes"):
-            try:
-                values = tuple(float(item) for item in getattr(self, name))
-            except (TypeError, ValueError):
-                raise InvalidValue(f"PowerLaw.{name} must be a sequence of numbers") from None
-            object.__setattr__(self, name, values)
+        sequences(self, "edges", "counts", "slopes")
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:
@@ -276,8 +265,8 @@ class Mixture(Distribution):
     weights: tuple[float, ...] = several("1", "weights of the parts")
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "parts", tuple(self.parts))
-        object.__setattr__(self, "weights", tuple(float(w) for w in self.weights))
+        object.__setattr__(self, "parts", items_of(self.parts))
+        sequences(self, "weights")
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:

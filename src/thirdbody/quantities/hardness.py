@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InvalidValue
+from ..quantities.carried import takes_units
 
 __all__ = ["convert", "pressure", "tables"]
 
@@ -89,6 +90,7 @@ def _positive(value: float, scale: str) -> float:
     return float(value)
 
 
+@takes_units
 def convert(value: float, start: str, end: str, *, table: str = "iso18265") -> float:
     r"""A hardness of steel on another scale.
 
@@ -141,6 +143,7 @@ def convert(value: float, start: str, end: str, *, table: str = "iso18265") -> f
     return _by_table(value, start, end, table)
 
 
+@takes_units
 def pressure(value: float, scale: str) -> float:
     r"""Mean pressure H [Pa] on the projected area of an indent, from a hardness number.
 

@@ -4,11 +4,28 @@ from __future__ import annotations
 
 import sys
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
 
-__all__ = ["reporting", "stages"]
+from ..errors import SlowWarning
+
+__all__ = [
+    "Cost",
+    "Stages",
+    "advance",
+    "counted",
+    "duration",
+    "nested",
+    "reporting",
+    "solved",
+    "solving",
+    "stages",
+    "watched",
+    "weighed",
+]
 
 EVERY = 30.0
 """Seconds between two lines where there is no terminal."""
@@ -92,25 +109,279 @@ def _lines(title: str, total: int, done: int, what: str) -> Report:
     return report
 
 
+class Stages:
+    """How far a work is that is done part after part, and within each part contact after contact.
+
+    Called with the name of each part as it begins.
+    """
+
+    def __init__(self, title: str):
+        self.title, self.name, self.begun = title, "", -1
+        self.expected, self.said = 0, False
+        self.seen = self.start = time.monotonic()
+        """When something was shown last, and when the work began that takes so long."""
+
+    def __call__(self, name: str) -> None:
+        self.name, self.begun = name, self.begun + 1
+        self.show(0.0, "")
+
+    def show(self, part: float, more: str) -> None:
+        """Show what part of the present part is done, where there is something to show it on."""
+
+    def expect(self, contacts: int) -> None:
+        """So many contacts will take tables of their own: their cost is told once it is known."""
+        self.expected, self.start = contacts, time.monotonic()
+
+    def within(self, done: int, total: int) -> None:
+        """So many contacts of the present part are done, of about so many."""
+        if self.expected and not self.said and done >= MEASURED:
+            self.said = True
+            each = (time.monotonic() - self.start) / done
+            if each * self.expected > LONG:
+                self.tell(
+                    f"about {self.expected:,} contacts, {each:.2g} s each: some "
+                    f"{duration(each * self.expected)}"
+                )
+        if time.monotonic() - self.start > SURE:
+            self.show(min(done / max(total, 1), 1.0), f"{done:,} of about {max(done, total):,}")
+
+    def tell(self, sentence: str) -> None:
+        """A first result, or what the work costs, on standard error."""
+        print(f"{self.title}: {sentence}", file=sys.stderr, flush=True)
+
+
+MEASURED, LONG = 3, 10.0
+"""Contacts after which their cost is known, and seconds that are worth telling."""
+
+
+def duration(seconds: float) -> str:
+    """A time in words: 40 s, 3 minutes, 2 hours."""
+    for size, unit in ((3600, "hours"), (60, "minutes")):
+        if seconds >= 1.5 * size:
+            return f"{seconds / size:.0f} {unit}"
+    return f"{seconds:.0f} s"
+
+
+class _Lines(Stages):
+    """A line now and then."""
+
+    def show(self, part: float, more: str) -> None:
+        if time.monotonic() - self.seen >= EVERY:
+            self.seen = time.monotonic()
+            self.tell(f"{self.name}, {more}" if more else self.name)
+
+
 @contextmanager
-def stages(title: str, total: int, wanted: bool = True) -> Iterator[Callable[[str], None]]:
+def stages(title: str, total: int, wanted: bool = True) -> Iterator[Stages]:
     """A function to call with the name of each of so many parts of a work, as it begins.
 
-    A bar on a terminal, and nothing elsewhere: the parts take seconds.
+    A bar on a terminal, and elsewhere a line every half minute.
     """
-    if not (wanted and _terminal()):
-        yield lambda _: None
+    if not wanted:
+        made = Stages(title)
+        made.tell = lambda sentence: None  # type: ignore[method-assign]
+        yield made
+        return
+    if not _terminal():
+        yield _Lines(title)
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task, begun = bar.add_task(title, total=total), 0
+        task = bar.add_task(title, total=total)
 
-        def report(name: str) -> None:
-            nonlocal begun
-            bar.update(task, completed=begun, description=f"{title}: {name}")
-            begun += 1
+        class OnBar(Stages):
+            def show(self, part: float, more: str) -> None:
+                words = f"{self.name}, {more}" if more else self.name
+                bar.update(task, completed=self.begun + part, description=f"{title}: {words}")
 
-        yield report
+            def tell(self, sentence: str) -> None:
+                bar.console.print(f"{title}: {sentence}", highlight=False, markup=False)
+
+        yield OnBar(title)
+
+
+# -------------------------------------------------------------------------- contacts of a part
+class _Tally:
+    """Contacts that have been bound since a part of a work began."""
+
+    def __init__(self, total: int, report: Callable[[int, int], None]):
+        self.done, self.total, self.report = 0, total, report
+
+    def add(self) -> None:
+        self.done += 1
+        self.report(self.done, self.total)
+
+
+_TALLY: ContextVar[_Tally | None] = ContextVar("tally", default=None)
+
+
+@contextmanager
+def counted(total: int, report: Callable[[int, int], None] | None) -> Iterator[None]:
+    """Every contact that is bound inside tells ``report`` how many there are, of about ``total``.
+
+    Parameters
+    ----------
+    total : int
+        Contacts that are expected.
+    report : callable or None
+        Gets the number so far and the expected one.
+    """
+    before = _TALLY.set(None if report is None else _Tally(total, report))
+    try:
+        yield
+    finally:
+        _TALLY.reset(before)
+
+
+def advance() -> None:
+    """One more contact is bound: what costs time."""
+    if (tally := _TALLY.get()) is not None:
+        tally.add()
+
+
+def nested(outer: Callable[[str], None], count: int) -> Stages:
+    """The stages of a work of so many parts that is one part of another."""
+    inner = Stages("")
+    if isinstance(outer, Stages):
+
+        def show(part: float, more: str) -> None:
+            words = f"{inner.name}, {more}" if more else inner.name
+            outer.show((inner.begun + part) / count, words)
+
+        inner.show = show  # type: ignore[method-assign]
+        inner.tell = outer.tell  # type: ignore[method-assign]
+    else:
+        inner.tell = lambda sentence: None  # type: ignore[method-assign]
+    return inner
+
+
+@contextmanager
+def watched(what: str, total: int, wanted: bool | Report) -> Iterator[None]:
+    """Contacts that are bound inside are shown, or a `SlowWarning` says how long they take.
+
+    Nothing where somebody counts them already.
+
+    Parameters
+    ----------
+    what : str
+        Whose they are.
+    total : int
+        About how many will be bound.
+    wanted : bool or callable
+        As in `reporting`.
+    """
+    if _TALLY.get() is not None:
+        yield
+        return
+    with reporting(what, total, 0, wanted, "contacts") as report:
+        cost = Cost(total, report, "" if wanted else f"contacts of {what}")
+        with counted(total, lambda done, expected: cost(1.0)):
+            yield
+
+
+# -------------------------------------------------------------------------- states
+Solving = Callable[[float, str], None]
+_SOLVING: ContextVar[Solving | None] = ContextVar("solving", default=None)
+
+
+@contextmanager
+def solving(report: Solving | None) -> Iterator[None]:
+    """States that are solved inside are told to ``report``: how many more, and why one by one."""
+    before = _SOLVING.set(report)
+    try:
+        yield
+    finally:
+        _SOLVING.reset(before)
+
+
+def solved(count: float, why: str = "") -> None:
+    """So many more states are solved; ``why`` they are solved one by one, if they are."""
+    if (report := _SOLVING.get()) is not None:
+        report(count, why)
+
+
+@contextmanager
+def weighed(share: float) -> Iterator[None]:
+    """States solved inside count only so much: their outputs are still to come."""
+    outer = _SOLVING.get()
+    with solving(None if outer is None else lambda count, why: outer(share * count, why)):
+        yield
+
+
+class Cost:
+    """How many states of many are solved; warns once it is known that they take long.
+
+    Parameters
+    ----------
+    total : int
+        States.
+    report : callable
+        Gets the number so far, at most twice a second, and only once it has grown.
+    what : str
+        What is solved, for the warning; empty for none.
+    done : int
+        States of earlier runs.
+    early : bool
+        Whether states are told before they are `finished`: not where each number must be one
+        that lasts, as every time the same.
+    """
+
+    def __init__(
+        self, total: int, report: Report, what: str = "", done: int = 0, early: bool = True
+    ):
+        self.total, self.report, self.what, self.early = total, report, what, early
+        self.done, self.told = float(done), done
+        self.start = self.shown = 0.0
+        self.first = 0.0
+
+    def __call__(self, count: float, why: str = "") -> None:
+        self.done += count
+        now = time.monotonic()
+        if not self.start:  # the first of them may have been compiled for
+            self.start, self.first = now, self.done
+        elif self.what and now - self.start > SURE:
+            whole = (now - self.start) * self.total / max(self.done - self.first, 1e-9)
+            if whole > LONG and self.done < self.total:
+                self._warn(whole, why)
+            self.what = ""
+        if self.early and now - self.shown > 0.5:
+            self.shown = now
+            self._tell(min(int(self.done), self.total))
+
+    def finished(self, states: int) -> None:
+        """So many states are solved for good."""
+        self._tell(states)
+
+    def _tell(self, states: int) -> None:
+        """Report a number that is higher than every one before: no state is told twice."""
+        if states > self.told:
+            self.told = states
+            self.report(states)
+
+    def _warn(self, whole: float, why: str) -> None:
+        rate = self.total / whole
+        reason = f" ({why})" if why else ""
+        warnings.warn(
+            f"{self.total:,} {self.what} take some {duration(whole)}: {rate:.2g} a second, as they "
+            f"are solved one by one{reason}; progress=True shows how far they are",
+            SlowWarning,
+            stacklevel=_outside(),
+        )
+
+
+def _outside() -> int:
+    """How many frames up the caller of the library is."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__package__", "").startswith(PACKAGE):
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+PACKAGE = "thirdbody"
+
+
+SURE = 1.0
+"""Seconds after which the cost of many states is known."""

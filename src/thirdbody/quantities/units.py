@@ -1,7 +1,7 @@
 """Numbers with a unit, as a user writes them: "300 nm", "5 GPa", "1e11 / m^2".
 
 Everything else in the library is a plain number in SI; strings are read here and nowhere else.
-The unit registry (pint) is loaded with the first unit that is not among the usual ones.
+Quantities that carry a unit of their own are taken as well.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ import math
 import re
 from collections.abc import Mapping
 from fractions import Fraction
-from functools import cache
 from typing import Any, NoReturn
 
 from ..errors import InvalidValue
+from .kinds import KINDS, is_usual, kind_of_parsed, one_spelling, registry
 
 __all__ = ["EXAMPLES", "quantity_to_si", "say", "to_si"]
 
@@ -37,37 +37,6 @@ EXAMPLES = {
 }
 """How a value in each of the library's units may be written."""
 
-_KINDS = {
-    "": "a pure number",
-    "m": "a length",
-    "Pa": "a pressure",
-    "1/m**2": "a number per area",
-    "1/m**3": "a number per volume",
-    "1/m": "a number per length",
-    "m**2": "an area",
-    "m**3": "a volume",
-    "N": "a force",
-    "N/m": "a force per length",
-    "J/m**2": "an energy per area",
-    "kg": "a mass",
-    "kg/m**3": "a mass density",
-    "kg/m**2": "a mass per area",
-    "mol/m**3": "a molar concentration",
-    "s": "a time",
-    "m/s": "a speed",
-    "K": "a temperature",
-    "W/m/K": "a thermal conductivity",
-    "J/kg/K": "a specific heat",
-    "ohm*m": "an electrical resistivity",
-    "J": "an energy",
-    "rad/s": "a rate",
-    "Pa*s": "a viscosity",
-    "Pa s": "a viscosity",
-    "Pa m**0.5": "a fracture toughness",
-    "rad": "an angle",
-    "1/Pa": "one over a pressure",
-    "A": "an electric current (angstrom is written angstrom)",
-}
 _USUAL = ("nm", "um", "µm", "mm", "m", "angstrom", "Pa", "kPa", "MPa", "GPa", "bar", "psi")
 
 _POWERS = {
@@ -85,14 +54,10 @@ _POWERS = {
 _NUMBER = re.compile(
     r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?(?:infinity|inf|nan)\b", re.IGNORECASE
 )
-_FACTOR = re.compile(
-    r"\s*(?P<sign>[*/·×]?)\s*(?P<name>[^\W\d_]+|%|1)(?:(?:\s*(?:\^|\*\*)\s*)?(?P<power>-?\d\d?(?:\.\d)?))?"
-)
 _HARDNESS = re.compile(
     r"(?P<number>[^\s\d]*[\d.,]+(?:[eE][+-]?\d+)?)\s*(?P<scale>H(?:V|BW?|BS|RC|K))(?:\s*[\d.]+)?"
 )
 """A hardness number, as "700 HV", "700 HV10", "62 HRC"; the test load behind it is not used."""
-_SUPERSCRIPTS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 
 
 def to_si(value: Any, unit: str) -> float:
@@ -130,6 +95,12 @@ def to_si(value: Any, unit: str) -> float:
         except OverflowError:
             return math.inf
     if not isinstance(value, str):
+        from .carried import carries_unit, in_si  # numpy, which `thirdbody --help` does not need
+
+        if carries_unit(value) and not isinstance(value, (list, tuple, dict)):
+            return _one(in_si(value, unit), unit)
+        if hasattr(value, "__float__") and not isinstance(value, bool):  # numpy's numbers
+            return _one(value, unit)
         return _refuse(f"{say(value)} must be {_needed(unit)}")
     text = value.strip()
     shown = say(value)
@@ -144,7 +115,10 @@ def to_si(value: Any, unit: str) -> float:
     power = _POWERS.get(unit, {}).get(rest)
     if power is not None and math.isfinite(float(number.group())):
         return _shifted(number.group(), power)
-    return _scaled(number.group(), _normal(rest, shown, unit), shown, unit)
+    body = one_spelling(rest)
+    if body is None:
+        return _refuse(f"{shown} cannot be read; it must be {_needed(unit)}")
+    return _scaled(number.group(), body, shown, unit)
 
 
 def quantity_to_si(value: Any, about: Mapping[str, Any]) -> float:
@@ -188,6 +162,13 @@ def quantity_to_si(value: Any, about: Mapping[str, Any]) -> float:
         return _refuse(told if told.startswith('"') else f"{say(value)} cannot be used: {told}")
 
 
+def _one(value: Any, unit: str) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        return _refuse(f"{say(value)} must be {_needed(unit)}")
+
+
 def _refuse(sentence: str) -> NoReturn:
     raise InvalidValue(sentence)
 
@@ -207,70 +188,50 @@ def say(value: Any) -> str:
 
 
 def _needed(unit: str) -> str:
-    kind = _KINDS.get("" if unit == "1" else unit.replace("^", "**"), "a quantity")
+    kind = KINDS.get("" if unit == "1" else unit.replace("^", "**"), "a quantity")
     if unit == "1":
         return f"{kind}, e.g. {EXAMPLES['1']}"
     return f"{kind}: a number in SI [{unit}] or with a unit, e.g. {EXAMPLES.get(unit, unit)}"
 
 
-def _normal(rest: str, shown: str, unit: str) -> str:
-    """The unit in the one spelling that the registry reads; nothing else gets through."""
-    rest = re.sub(r"\bparticles?\b", "count", rest.translate(_SUPERSCRIPTS))
-    out, at = "1", 0
-    while at < len(rest):
-        factor = _FACTOR.match(rest, at)
-        if factor is None or len(rest) > 60:
-            _refuse(f"{shown} cannot be read; it must be {_needed(unit)}")
-        sign, name, power = factor["sign"], factor["name"], factor["power"]
-        out += f" {'/' if sign == '/' else '*'} {'percent' if name == '%' else name}"
-        out += f"**({power})" if power else ""
-        at = factor.end()
-    return out
-
-
 def _shifted(number: str, power: int) -> float:
     """The number times a power of ten: "300 nm" is the double 300e-9, not 300 * 1e-9."""
-    return float(Fraction(number) * Fraction(10) ** power)
-
-
-@cache
-def _registry() -> Any:
-    import pint
-
-    return pint.UnitRegistry()
+    try:
+        return float(Fraction(number) * Fraction(10) ** power)
+    except OverflowError:
+        return math.copysign(math.inf, float(number))
 
 
 def _scaled(number: str, body: str, shown: str, unit: str) -> float:
-    registry = _registry()
+    units = registry()
     wanted = "" if unit == "1" else unit.replace("^", "**")
     try:
-        found = registry.parse_units(body)
+        found = units.parse_units(body)
     except Exception:
         return _refuse(_unknown(body, shown, unit))
-    if found.dimensionality == registry.parse_units(wanted).dimensionality:
-        factor = registry.convert(1.0, found, wanted)
+    if strange := next((word for word in re.findall(r"[^\W\d_]+", body) if not is_usual(word)), ""):
+        return _refuse(
+            f"{shown} has the unit {strange}, which is not used here; it must be {_needed(unit)}"
+        )
+    if found.dimensionality == units.parse_units(wanted).dimensionality:
+        factor = units.convert(1.0, found, wanted)
         exponent = round(math.log10(factor)) if factor > 0 else 0
         if math.isfinite(float(number)) and math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
             return _shifted(number, exponent)
         return float(number) * factor
-    kinds = (
-        name
-        for kind, name in _KINDS.items()
-        if registry.parse_units(kind).dimensionality == found.dimensionality
-    )
-    kind = next(kinds, f"in {registry.get_base_units(found)[1]:~C}")
+    kind = kind_of_parsed(found)
     if unit == "1":
         return _refuse(f"{shown} is {kind}, but a pure number is needed, e.g. {EXAMPLES['1']}")
     return _refuse(
-        f"{shown} is {kind}, but {_KINDS.get(wanted, 'a quantity')} [{unit}] is needed, "
+        f"{shown} is {kind}, but {KINDS.get(wanted, 'a quantity')} [{unit}] is needed, "
         f"e.g. {EXAMPLES.get(unit, unit)}"
     )
 
 
 def _unknown(body: str, shown: str, unit: str) -> str:
-    registry = _registry()
+    units = registry()
     for word in re.findall(r"[^\W\d_]+", body):
-        if word in registry:
+        if word in units:
             continue
         if word in ("HV", "HB", "HK"):
             return (

@@ -10,7 +10,6 @@ from __future__ import annotations
 import dataclasses
 import math
 import types
-import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -18,7 +17,8 @@ from dataclasses import MISSING, field
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from ..errors import InvalidValue, NotCompiled, RangeWarning
+from ..errors import InvalidValue, NotCompiled, tell_of_range
+from .carried import carries_unit, in_si, takes_units
 
 if TYPE_CHECKING:
     import numpy as np
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from .notebook import Row
 
-__all__ = ["Value", "choice", "quantity", "several"]
+__all__ = ["Value", "choice", "items_of", "quantity", "sequences", "several"]
 
 
 def quantity(
@@ -91,6 +91,8 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
         return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
     try:
         number = float(value)
+    except OverflowError:
+        number = math.inf
     except (TypeError, ValueError):
         return f"must be one number in SI units [{about['unit']}]"
     outside = (
@@ -100,24 +102,60 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
         or (about["lt"] is not None and not number < about["lt"])
         or (about["le"] is not None and not number <= about["le"])
     )
-    if not outside:
-        return None
-    return allowed_range(about) + (f"; {about['hint']}" if about["hint"] else "")
+    if outside:
+        return allowed_range(about) + (f"; {about['hint']}" if about["hint"] else "")
+    return why_extreme(number, about["unit"], positive=about["gt"] is not None and about["gt"] >= 0)
 
 
-USUAL_LENGTH, USUAL_STRESS = 0.01, 1e5
-"""What lies in an interface is shorter [m], and what holds it is stiffer [Pa]."""
+SMALLEST, LARGEST = 1e-40, 1e40
+"""Sizes of numbers in SI that can be computed with: no product or ratio of a few of them is beyond
+what a double holds, and nothing measured is beyond them."""
 
 
-def unit_meant(about: Mapping[str, Any], number: float) -> str | None:
+def why_extreme(number: float, unit: str, *, positive: bool) -> str | None:
+    """Why a number is too small or too large to compute with, or None where it is not.
+
+    Only what must be positive is divided by: a number that may be 0 may be as small as it likes.
+    """
+    shown = "" if unit == "1" else f" [{unit}]"
+    if abs(number) > LARGEST:
+        return f"must be at most {LARGEST:g}{shown} in size; check its exponent"
+    if positive and number < SMALLEST:
+        return f"must be at least {SMALLEST:g}{shown}; check its exponent"
+    return None
+
+
+USUAL_LENGTH, USUAL_STRESS, USUAL_LOAD = 0.01, 1e5, 100.0
+"""What lies in an interface is shorter [m], what holds it is stiffer [Pa], and what presses it
+together is more [Pa]."""
+SLIPS: dict[str, tuple[float, float, str]] = {
+    "Pa m^0.5": (1e3, math.inf, "MPa m^0.5"),
+    "kg/m^3": (50.0, math.inf, "g/cm^3"),
+    "Pa s": (0.0, 10.0, "mPa s"),
+    "1/Pa": (0.0, 1e-5, "/ GPa"),
+    "J/m^2": (0.0, 5.0, "mJ/m^2"),
+}
+"""Sizes within which numbers in SI are no slip, and what was probably meant outside: a solid is
+tougher than 1 kPa m^0.5, denser than 50 kg/m^3; an oil is thinner than 10 Pa s, its pressure
+coefficient below 10 /MPa; and no surface has 5 J/m^2."""
+
+
+def unit_meant(about: Mapping[str, Any], number: float, *, load: bool = False) -> str | None:
     """The unit that was probably forgotten, where a number in SI is allowed but looks like a slip.
 
-    Lengths of 1 cm and more, and moduli, hardnesses and stresses below 0.1 MPa.
+    Lengths of 1 cm and more, moduli, hardnesses and stresses below 0.1 MPa, loads below 100 Pa, and
+    what lies outside `SLIPS`.
     """
+    unit, size = about["unit"], abs(number)
     usual = about.get("usual") or USUAL_LENGTH
-    if about["unit"] == "m" and abs(number) >= usual:
-        return "mm" if usual >= 1 else "nm" if abs(number) >= 10 else "um"
-    return "GPa" if about["unit"] == "Pa" and 0 < number < USUAL_STRESS else None
+    if unit == "m" and size >= usual:
+        return "mm" if usual >= 1 else "nm" if size >= 10 else "um"
+    if unit == "Pa" and load:
+        return "MPa" if 0 < number < USUAL_LOAD else None
+    if unit == "Pa":
+        return "GPa" if 0 < number < USUAL_STRESS else None
+    least, most, meant = SLIPS.get(unit, (0.0, math.inf, ""))
+    return meant if size and not least <= size <= most else None
 
 
 _told: ContextVar[bool] = ContextVar("_told", default=False)
@@ -133,18 +171,16 @@ def slips_are_told() -> Iterator[None]:
         _told.reset(token)
 
 
-def warn_of_slip(where: str, about: Mapping[str, Any], number: float, *, stacklevel: int) -> None:
+def warn_of_slip(where: str, about: Mapping[str, Any], number: float) -> None:
     """Warn of a number that looks like a forgotten unit."""
     if not _told.get() and (meant := unit_meant(about, number)):
-        warnings.warn(
+        tell_of_range(
             f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI; was "
-            f"{number:g} {meant} meant?",
-            RangeWarning,
-            stacklevel=stacklevel + 1,
+            f"{number:g} {meant} meant?"
         )
 
 
-def warn_of_slips(value: Value, *, stacklevel: int, prefix: str = "") -> None:
+def warn_of_slips(value: Value, *, prefix: str = "") -> None:
     """Warn of every number of a value, and of the values in it, that looks like a slip."""
     if _told.get() or not dataclasses.is_dataclass(value):  # an output or law of one's own
         return
@@ -152,10 +188,10 @@ def warn_of_slips(value: Value, *, stacklevel: int, prefix: str = "") -> None:
         part = getattr(value, name)
         if about:
             if part is not None and unit_meant(about, part):
-                warn_of_slip(prefix + name, about, part, stacklevel=stacklevel + 1)
+                warn_of_slip(prefix + name, about, part)
         elif isinstance(part, (Value, tuple)):
             for where, inner in _values_in(prefix + name, part):
-                warn_of_slips(inner, stacklevel=stacklevel + 1, prefix=f"{where}.")
+                warn_of_slips(inner, prefix=f"{where}.")
 
 
 @cache
@@ -185,12 +221,21 @@ class Value:
         super().__init_subclass__(**kwargs)
         if not stand_in:
             Value._classes[cls.__name__] = cls
+        for name, member in list(vars(cls).items()):
+            if not name.startswith("_") and (taker := _taker(member)):
+                setattr(cls, name, taker)
 
     def __post_init__(self) -> None:
         problems: list[str] = []
         for name, about, words in _declared(type(self)):  # type: ignore[arg-type]
             value = getattr(self, name)
             why = None
+            if type(value) is not float and carries_unit(value):
+                value, told = _without_unit(type(self), name, value)
+                if told:
+                    problems.append(told)
+                    continue
+                object.__setattr__(self, name, value)
             if about:
                 if value is None and type(self).__dataclass_fields__[name].default is None:  # type: ignore[attr-defined]
                     continue
@@ -314,6 +359,69 @@ class Value:
         if kind not in Value._classes:
             raise InvalidValue(f"type = {kind!r} is not a class of this library")
         return Value._classes[kind](**{k: _revive(v) for k, v in data.items() if k != "type"})
+
+
+def _taker(member: Any) -> Any:
+    """A method that takes quantities with a unit; None for what is no method."""
+    if isinstance(member, types.FunctionType):
+        return takes_units(member)
+    if isinstance(member, (classmethod, staticmethod)):
+        return type(member)(takes_units(member.__func__))
+    return None
+
+
+def _without_unit(kind: type[Value], name: str, value: Any) -> tuple[Any, str]:
+    """The value of a field in SI where it carries a unit, and why it cannot be."""
+    item = kind.__dataclass_fields__[name]  # type: ignore[attr-defined]
+    about = item.metadata.get("quantity") or item.metadata.get("several")
+    try:
+        if about is None:
+            raise InvalidValue(f"{value} carries a unit, which is not understood here")
+        return in_si(value, about["unit"]), ""
+    except InvalidValue as error:
+        return value, f"{kind.__name__}.{name} = {error}"
+
+
+def items_of(given: Any) -> tuple[Any, ...]:
+    """The items of what should hold several; of anything else itself, to be refused by name."""
+    try:
+        return tuple(given)
+    except TypeError:
+        return (given,)
+
+
+def sequences(value: Value, *names: str) -> None:
+    """Fields of a value that hold several numbers, made tuples of floats in SI.
+
+    Raises
+    ------
+    InvalidValue
+        One is no sequence of numbers, or carries a unit of another dimension.
+    """
+    problems = []
+    for name in names:
+        given = getattr(value, name)
+        if given is None and type(value).__dataclass_fields__[name].default is None:  # type: ignore[attr-defined]
+            continue
+        told = ""
+        if carries_unit(given):
+            given, told = _without_unit(type(value), name, given)
+        if told:
+            problems.append(told)
+            continue
+        try:
+            object.__setattr__(value, name, tuple(float(item) for item in given))
+        except (TypeError, ValueError, OverflowError):
+            where = f"{type(value).__name__}.{name}"
+            problems.append(f"{where} = {given!r} must be a sequence of numbers")
+            continue
+        unit = type(value).__dataclass_fields__[name].metadata["several"]["unit"]  # type: ignore[attr-defined]
+        for i, number in enumerate(getattr(value, name)):
+            positive = unit == "m" and number > 0  # a size; the first class may begin at 0
+            if math.isfinite(number) and (why := why_extreme(number, unit, positive=positive)):
+                problems.append(f"{type(value).__name__}.{name}[{i}] = {number!r} {why}")
+    if problems:
+        raise InvalidValue(*problems)
 
 
 def _rows(value: Value) -> Iterator[Row]:

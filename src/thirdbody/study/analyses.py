@@ -12,6 +12,7 @@ import numpy as np
 from ..analysis.assess import PARTS, assess_each
 from ..analysis.assessment import Assessment
 from ..analysis.assessments import Assessments
+from ..analysis.uncertainty.samples import costly
 from ..equilibrium.modes import FAINT
 from ..equilibrium.solve import solve
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
@@ -143,13 +144,28 @@ def _assess(
     """At each load; ``alone`` without its own scatter."""
     asked = study.uncertainty
     value: dict[str, Any] = {}
+    taken: tuple[str, ...] = ()
     if asked is not None:
         inputs = {label: known for label, known in asked.inputs.items() if label not in OF_LOADS}
         value = {"vary": inputs if alone else asked.inputs}
         value |= {"samples": asked.samples, "seed": asked.seed}
         if not value["vary"]:
             value = {}
-    return assess_each(study.contact, name, loads, **value, title=study.title, progress=report)
+        elif (asked.samples or 0) > MOST_COSTLY and costly(study.contact, value["vary"]):
+            value["samples"], taken = MOST_COSTLY, (TAKEN.format(asked=asked.samples),)
+    pages = assess_each(study.contact, name, loads, **value, title=study.title, progress=report)
+    return [
+        replace(page, notes=(*taken, *page.notes)) if isinstance(page, Assessment) else page
+        for page in pages
+    ]
+
+
+MOST_COSTLY = 256
+"""Samples of a study where each takes tables of its own, a second or so."""
+TAKEN = (
+    f"{MOST_COSTLY} samples of the {{asked:,}} that the study asks for, as each takes tables of "
+    "its own; `thirdbody.propagate` takes all."
+)
 
 
 OF_LOADS = ("pressure", "F_star", "d")

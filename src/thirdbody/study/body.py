@@ -12,7 +12,7 @@ from ..quantities.value import quantity
 from ..systems.bodies import BODIES, Body, Pressed, press
 from .reader import Reader, Table
 
-__all__ = ["FORCE", "TABLE", "loads_of", "pressed", "told"]
+__all__ = ["FORCE", "TABLE", "loads_of", "pressed", "told", "told_forces"]
 
 FORCE = quantity(
     "F", "N", "force on the bodies of [body]", gt=0, hint="kN are 5e3 or '5 kN'"
@@ -50,6 +50,11 @@ def pressed(bodies: Body, forces: np.ndarray, contact: Contact) -> list[Pressed]
     return [
         press(contact, bodies, float(force), integrate=i in some) for i, force in enumerate(forces)
     ]
+
+
+def told_forces(forces: np.ndarray) -> np.ndarray:
+    """The forces that are told of, integrated over the contact: of many, the ends."""
+    return forces if len(forces) <= MOST_INTEGRATED else forces[[0, -1]]
 
 
 def told(found: list[Pressed]) -> list[str]:

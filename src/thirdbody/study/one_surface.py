@@ -135,6 +135,8 @@ def _window(face: Topography, points: int) -> tuple[np.ndarray, float, str]:
             i, j = corner
             wide = value_of(side * face.spacing[0], "m", 3)
             words = f"a window of {side} × {side} points of {face.source}, {wide} wide"
+            if face.cutoff > 0:
+                words += f", without waves below {value_of(face.cutoff, 'm')}"
             return z[i : i + side, j : j + side], face.spacing[0], words
         side = side // 2 - side // 2 % 2
     raise InvalidValue(

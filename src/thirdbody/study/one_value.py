@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, Protocol
 
 from ..errors import InvalidValue
-from ..quantities.units import EXAMPLES, quantity_to_si, say, to_si
+from ..quantities.units import EXAMPLES, quantity_to_si, say
 from ..quantities.value import allowed_range, problem_with, unit_meant
 from .vocabulary import in_words, near
 
@@ -31,6 +31,19 @@ class Notes(Protocol):
     """Who keeps what is to be said of a file."""
 
     notes: list[str]
+
+
+class Unsaid:
+    """Notes that nobody reads."""
+
+    def __init__(self) -> None:
+        self.notes: list[str] = []
+
+
+def plain_number(unit: str) -> dict[str, Any]:
+    """A quantity of which nothing is known but its unit."""
+    limits: dict[str, Any] = dict.fromkeys(("gt", "ge", "lt", "le"))
+    return limits | {"symbol": "", "unit": unit, "meaning": "number", "hint": ""}
 
 
 def number(reader: Notes, path: str, about: dict[str, Any]) -> Callable[[Any], float]:
@@ -57,15 +70,29 @@ def number(reader: Notes, path: str, about: dict[str, Any]) -> Callable[[Any], f
 
 
 def _plausible(reader: Notes, path: str, about: dict[str, Any], value: Any, number: float) -> None:
-    """Note a number that is allowed but looks like a forgotten unit."""
-    unit, usual = about["unit"], unit_meant(about, number)
-    if usual is None or (unit == "Pa" and path.startswith(("load", "sweep.pressure"))):
+    """Refuse a number without a unit that no interface has; note one with a unit."""
+    unit = about["unit"]
+    load = path.startswith(("load.pressure", "sweep.pressure", "design.pressure"))
+    if (meant := unit_meant(about, number, load=load)) is None:
         return
-    if isinstance(value, str) and re.search(r"[^\d\s.+-]", value):
-        cause = "check its unit (upper and lower case matter)"
-    else:
-        cause = f'a number without a unit is in SI; was "{number:g} {usual}" meant?'
-    reader.notes.append(f"{path} = {say(value)} is taken as {number:g} {unit}: {cause}")
+    if has_unit(value):
+        reader.notes.append(
+            f"{path} = {say(value)} is taken as {number:g} {unit}: check its unit (upper and lower "
+            "case matter)"
+        )
+        return
+    raise InvalidValue(
+        f"{path} = {say(value)} has no unit, so it would be {number:g} {unit}, which is not "
+        f'plausible; was "{number:g} {meant}" meant? With its unit any value is taken: '
+        f'"{number:g} {unit}"'
+    )
+
+
+def has_unit(value: Any) -> bool:
+    """Whether a value of a file says its unit."""
+    if not isinstance(value, str):
+        return not isinstance(value, (int, float))  # a quantity of a library of units
+    return re.fullmatch(r"[\d\s.+-]*([eE][+-]?\d+)?\s*", value) is None
 
 
 def count(path: str, *, least: int = 1, most: int = MOST_POINTS) -> Callable[[Any], int]:
@@ -146,20 +173,25 @@ def switch(path: str) -> Callable[[Any], bool]:
     return read
 
 
-def numbers(path: str, unit: str) -> Callable[[Any], tuple[float, ...]]:
-    """A list of numbers; the class of the table checks their range."""
+def numbers(path: str, unit: str, *, usual: float | None = None) -> Callable[[Any], Any]:
+    """A list of numbers; the class of the table checks their range.
+
+    Lengths up to ``usual`` are no slip: infinity where numbers without a unit may be in any unit.
+    """
 
     def read(value: Any) -> tuple[float, ...]:
         if not isinstance(value, list):
             raise InvalidValue(
                 f"{path} = {say(value)} must be a list, e.g. [{EXAMPLES[unit]}, ...]"
             )
-        out, problems = [], []
+        out: list[float] = []
+        problems: list[str] = []
         for i, item in enumerate(value):
             try:
-                out.append(to_si(item, unit))
+                about = plain_number(unit) | {"usual": usual}
+                out.append(number(Unsaid(), f"{path}[{i}]", about)(item))
             except InvalidValue as error:
-                problems.append(f"{path}[{i}] = {error}")
+                problems += error.problems
         if problems:
             raise InvalidValue(*problems)
         return tuple(out)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -136,7 +137,10 @@ class Reader:
                 read = read_field(self, where, get(data, item.name))
             elif item.name in UNITS_OF_LISTS:
                 unit = UNITS_OF_LISTS[item.name]
-                read, about = plain(numbers(where, unit)), f"a list of numbers [{unit}]"
+                any_unit = item.metadata.get("several", {}).get("unit", unit) != unit
+                usual = math.inf if any_unit else None
+                read = plain(numbers(where, unit, usual=usual))
+                about = f"a list of numbers [{unit}]"
             elif declared == "bool":
                 read = plain(switch(where))
             elif declared == "str":

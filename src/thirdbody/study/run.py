@@ -104,8 +104,8 @@ def run_film(study: Study) -> dict[str, Any]:
     -------
     dict
         Title, version, inputs (SI), states (a list each, one entry a speed), the speeds at which
-        the regime changes, what of each population passes the film, what the oil brings,
-        warnings, citations.
+        the regime changes, what of each population passes the film, how many particles one
+        Hertz contact holds, what the oil brings, warnings, citations.
 
     Raises
     ------
@@ -130,10 +130,19 @@ def run_film(study: Study) -> dict[str, Any]:
         "states": states,
         "regime_speeds": changes._asdict(),
         "passing": passing(study, curve["h"]),
+        "particles_held": _held(given, contact),
         "entrainment": _brought(study, curve["h_T"]),
         "warnings": list(dict.fromkeys(sentences)),
         "citations": _sources(study),
     }
+
+
+def _held(given: FilmConditions, contact: Contact) -> float | None:
+    """Particles that lie on the dry Hertz contact of the film's bodies, on average."""
+    if contact.two_body:
+        return None
+    area = given.conjunction.hertz(given.load, E=2 * contact.E_ss).area
+    return float(area * sum(dust.areal_density for dust in contact.populations))
 
 
 def passing(study: Study, h: Any) -> list[dict[str, Any]]:
@@ -178,7 +187,9 @@ def _populations(state: Equilibrium) -> list[dict[str, Any]]:
     """What each of several populations carries in every state; nothing for one."""
     numbers = ("F_sa_star", "A_sa", "load_share", "area_share")
     return [
-        {"name": part.name} | {name: _listed(getattr(part, name)) for name in numbers}
+        {"name": part.name}
+        | {name: _listed(getattr(part, name)) for name in numbers}
+        | {name: _listed(values) for name, values in part.outputs.items()}
         for part in state.populations
     ]
 

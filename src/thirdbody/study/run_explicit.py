@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
+import os
+import re
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -26,10 +29,12 @@ from ..explicit.ensemble import (
 )
 from ..explicit.solve import solve
 from ..explicit.state import COLUMNS, ExplicitState
+from ..quantities.records import MARK, claim_folder, read_json
+from ..quantities.value import Value
 from ..version import __version__
 from .whole import Study
 
-__all__ = ["ExplicitResult", "run_explicit"]
+__all__ = ["ExplicitResult", "claim_results", "run_explicit"]
 
 SURFACES, SIZE = 8, 512
 
@@ -126,7 +131,11 @@ def run_explicit(
             first = surface_of(contact, size=size, spacing=spacing, seed=asked.get("seed", 0))
             state = solve(contact, first, F_star=loads, maps=maps, **asked)
             made = _of_ensemble(found, state)
-    sentences = [*notes, *made.data.pop("warnings"), *(str(each.message) for each in heard)]
+    about = [each for each in heard if issubclass(each.category, RangeWarning)]
+    for each in heard:
+        if each not in about:  # about the folder, not the answer
+            warnings.warn(each.message, each.category, stacklevel=2)
+    sentences = [*notes, *made.data.pop("warnings"), *(str(each.message) for each in about)]
     data = {
         "title": study.title,
         "version": __version__,
@@ -139,6 +148,70 @@ def run_explicit(
         data=data, columns=made.columns, units=made.units, state=made.state,
         converged=made.converged,
     )  # fmt: skip
+
+
+FILES = re.compile(r"states\.csv|maps\.nc|explicit\.(?:json|png)|surfaces")
+"""What ``thirdbody explicit --out`` writes."""
+SURFACE = re.compile(r"surface_\d{3,}\.json|\.surface_\d{3,}\.[0-9a-f-]+\.part\.json")
+
+
+def claim_results(out: str | os.PathLike[str], study: Study, *, maps: str = "last") -> Path:
+    """A folder for what a study with explicit surfaces gives, of this study alone.
+
+    Parameters
+    ----------
+    out : path-like
+        A new folder, an empty one, or one of the same study, which may have had fewer surfaces.
+    study : Study
+    maps : {"last", "all"}, optional
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InvalidValue
+        It holds another study or anything else, or cannot be made.
+    """
+    contact = study.contact.replace(outputs=())
+    asked = dict(study.explicit or {})
+    loads = np.sort(study.values)
+    told = {
+        "command": "explicit",
+        "version": __version__,
+        "inputs": contact.to_dict(),
+        "load": study.load,
+        "F_star": (loads / (contact.E_ss if study.load == "pressure" else 1.0)).tolist(),
+        "surfaces": asked.pop("surfaces", SURFACES) if len(study.faces) != 1 else 1,
+        "explicit": {name: _plain(value) for name, value in sorted(asked.items())},
+        "maps": maps,
+        "topography": [
+            hashlib.sha256(np.ascontiguousarray(face.heights).tobytes()).hexdigest()
+            for face in study.faces
+        ],
+    }
+    return claim_folder(out, told, files=FILES, unmarked=_unmarked, growing=("surfaces",))
+
+
+def _unmarked(folder: Path) -> dict[str, Any] | None:
+    """The study whose results lie in a folder, as these say it."""
+    found = read_json(folder / "explicit.json")
+    if found is not None and {"version", "inputs", "table"} <= set(found):
+        told = {name: found.get(name) for name in ("version", "inputs", "surfaces")}
+        return told | {"F_star": found["table"].get("F_star")}
+    # surfaces say themselves what they were made for
+    names = [each.name for each in folder.iterdir() if each.name != MARK]
+    kept = folder / "surfaces"
+    own = names == [kept.name] and kept.is_dir()
+    return {} if own and all(SURFACE.fullmatch(each.name) for each in kept.iterdir()) else None
+
+
+def _plain(value: Any) -> Any:
+    """A value of the table [explicit], ready for JSON."""
+    if isinstance(value, Value):
+        return value.to_dict()
+    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 def _measured(

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InvalidValue
+from ..quantities.files import read_bytes
 
 __all__ = ["read", "value_of"]
 
@@ -16,7 +17,8 @@ __all__ = ["read", "value_of"]
 def read(path: Path) -> dict[str, Any]:
     """The tables of a file; InvalidValue says why it cannot be read, with the line."""
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        content = read_bytes(path, "a study file")
+        text = content.decode("utf-8-sig")
     except FileNotFoundError:
         near = difflib.get_close_matches(
             path.name, [p.name for p in _toml_files(path)], n=1, cutoff=0.75
@@ -26,11 +28,13 @@ def read(path: Path) -> dict[str, Any]:
     except IsADirectoryError:
         raise InvalidValue(f"cannot read {path}: it is a folder, not a study file") from None
     except UnicodeDecodeError as error:
-        line = path.read_bytes()[: error.start].count(b"\n") + 1
+        line = content[: error.start].count(b"\n") + 1
         raise InvalidValue(
             f"cannot read {path}: line {line} is not UTF-8 text; save the file as UTF-8, "
             "or write um instead of µm"
         ) from None
+    except InvalidValue:
+        raise
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         raise InvalidValue(f"cannot read {path}: {why.lower()}") from None

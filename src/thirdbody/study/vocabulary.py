@@ -54,7 +54,7 @@ LOADS = {
     for name, declared in {
         "F_star": quantity("F*", "1", "load F/(A_n E_ss)", gt=0),
         "pressure": quantity("p", "Pa", "nominal pressure", gt=0, hint="MPa are 5e6 or '5 MPa'"),
-        "separation": quantity("d", "m", "separation from the mean asperity height"),
+        "separation": quantity("d", "m", "separation d, from the mean asperity height"),
     }.items()
 }
 """The ways to give a load, as quantities."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
 from .body import loads_of
 from .film import on_body
+from .outputs import on_area
 from .overrides import override
 from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names
@@ -133,6 +135,22 @@ def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> S
     return check(override(read(Path(path)), list(overrides)), folder=Path(path).parent)
 
 
+def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> list[Path]:
+    """The files that a study is read from: its own, and those that stand in it by name."""
+    own = Path(path)
+    out, waiting = [own], [override(read(own), list(overrides))] if own.is_file() else []
+    while waiting:
+        value: Any = waiting.pop()
+        if isinstance(value, dict):
+            waiting += value.values()
+        elif isinstance(value, list):
+            waiting += value
+        elif isinstance(value, str):
+            with suppress(OSError, ValueError):  # no name that a file can have
+                out += [file for file in (own.parent / value, Path(value)) if file.is_file()]
+    return out
+
+
 def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
     load_installed()
@@ -179,6 +197,8 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         reader.notes.append("[particle_law] has no effect: all particles have laws of their own")
     asked: Any = own.get("sweep")
     film: Any = own.get("film")
+    if "outputs" in parts:
+        parts["outputs"] = on_area(parts["outputs"], own.get("body"))
     contact = reader.make(Contact, "", parts)
     loaded = own.get("load") or ends(asked or {})
     bodies: Any = own.get("body")

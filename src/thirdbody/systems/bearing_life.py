@@ -14,6 +14,7 @@ import math
 
 from ..errors import InvalidValue
 from ..populations.measured.cleanliness import read_iso4406
+from ..quantities.carried import takes_units
 from ..quantities.units import say
 
 __all__ = [
@@ -102,6 +103,7 @@ def _kappa(kappa: float) -> float:
     return min(kappa, KAPPA[1])
 
 
+@takes_units
 def reference_viscosity(turns: float, *, D: float) -> float:
     r"""Viscosity ν_1 that a bearing needs for an adequate film.
 
@@ -142,6 +144,7 @@ def reference_viscosity(turns: float, *, D: float) -> float:
     return 1e-6 * 4500 / math.sqrt(rpm * mm)
 
 
+@takes_units
 def viscosity_ratio(viscosity: float, *, turns: float, D: float) -> float:
     r"""Viscosity ratio of ISO 281.
 
@@ -187,6 +190,7 @@ def _row(place: str, state: str, D: float) -> tuple[float, float]:
     )
 
 
+@takes_units
 def contamination_factor(place: str, state: str, *, kappa: float, D: float) -> float:
     """Contamination factor e_C of ISO 281: 1 for clean oil, towards 0 for dirty oil.
 
@@ -244,6 +248,7 @@ def contamination_factor(place: str, state: str, *, kappa: float, D: float) -> f
     return min(1.0, c * kappa**0.68 * mm**0.55) * clean
 
 
+@takes_units
 def life_factor(bearing: str, *, kappa: float, load: float) -> float:
     r"""Life modification factor a_ISO of radial bearings: rating life is a_1 a_ISO L_10.
 

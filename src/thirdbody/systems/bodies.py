@@ -22,6 +22,7 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..equilibrium.solve import solve
+from ..equilibrium.words import meets
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..laws.asperity import ZMC
 from ..numerics.quadrature import gauss_legendre
@@ -306,6 +307,8 @@ class Pressed:
         Largest pressure between the rough bodies [Pa].
     note : str
         Why it was not integrated, or not with the rough body.
+    particles_held : float or None
+        Particles that lie on the area of one contact, on average [1]; None without particles.
     """
 
     kind: str
@@ -320,6 +323,7 @@ class Pressed:
     particle_load_share: float | None = None
     peak_pressure: float | None = None
     note: str = ""
+    particles_held: float | None = None
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -341,14 +345,15 @@ class Pressed:
         shared = "" if self.bodies == 1 else f" shared by {number(self.bodies)}"
         out = f"{value_of(self.force, 'N')} on the body {self.kind}{shared}: "
         area = f"{number(self.area * 1e6)} mm²"
+        rare = self._rare()
         if self.kind == "flat":
-            return f"{out}pressure {value_of(self.mean, 'Pa')} on {area}."
+            return f"{out}pressure {value_of(self.mean, 'Pa')} on {area}.{rare}"
         out += (
             f"Hertz contact of {area}, mean pressure {value_of(self.mean, 'Pa')}, "
             f"largest {value_of(self.maximum, 'Pa')}"
         )
         if self.real_area is None:
-            return f"{out}." + (f" Not integrated: {self.note}." if self.note else "")
+            return f"{out}." + (f" Not integrated: {self.note}." if self.note else "") + rare
         out += (
             f". Integrated over the contact ({self.method}), the real area is "
             f"{number(self.real_area * 1e6)} mm², {percent(self.real_area / self.area)} of Hertz's"
@@ -358,7 +363,14 @@ class Pressed:
         if self.method == "rough body" and self.peak_pressure is not None:
             largest = value_of(self.peak_pressure, "Pa")
             out += f"; roughness changes the largest pressure to {largest}"
-        return f"{out}."
+        return f"{out}.{rare}"
+
+    def _rare(self) -> str:
+        """A sentence where a contact holds less than one particle; a blank stands before it."""
+        rare = meets(self.particles_held or 0.0)
+        if not rare:
+            return ""
+        return f" {rare[0].upper()}{rare[1:]}: what particles do is the mean over many contacts."
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, ready for JSON."""
@@ -396,6 +408,7 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
     hertz = body.hertz(force, contact.E_ss)
     kind = next(name for name, each in BODIES.items() if type(body) is each)
     H = contact.surfaces.H
+    every = sum(dust.areal_density for dust in contact.populations)
     given: dict[str, Any] = {
         "kind": kind,
         "force": float(force),
@@ -404,6 +417,7 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
         "mean": float(hertz.mean),
         "maximum": float(hertz.maximum),
         "yields": YIELD * H / (1.6 if kind == "flat" else 1.0),
+        "particles_held": None if contact.two_body else float(every * hertz.area),
     }
     return Pressed(**given, **(_integrated(contact, body, force, hertz) if integrate else {}))
 

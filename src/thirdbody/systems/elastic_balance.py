@@ -21,6 +21,12 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+WIDENED = 60
+"""Times that a search is widened: to 1e10 steps and more."""
+OUT_OF_REACH = (
+    "no equilibrium: the load {load:.4g} is not met between separations of {low:.3g} and "
+    "{high:.3g} m; check its unit"
+)
 NEGLIGIBLE = 1e-17
 """Pressure, over the largest, at which the contact is cut off."""
 TAIL, COARSE = 1e-12, 1e-5
@@ -91,8 +97,13 @@ class Skin:
             raise NoEquilibrium(f"no contact at a gap of {gap:.4g} m")
         step = low = 0.0
         high = p / -slope
-        while self.one(gap + high)[0] > NEGLIGIBLE * p:
+        for _ in range(WIDENED):
+            if not self.one(gap + high)[0] > NEGLIGIBLE * p:
+                break
             low, high = high, 1.7 * high
+        else:
+            raise NoEquilibrium(f"the pressure does not end: at a gap of {gap + high:.3g} m it is "
+                                f"still that of {gap:.3g} m")  # fmt: skip
         for _ in range(12):
             step = 0.5 * (low + high)
             low, high = (step, high) if self.one(gap + step)[0] > NEGLIGIBLE * p else (low, step)
@@ -403,11 +414,17 @@ def _rigid(skin: Skin, shape: Shape, load: float) -> float:
         p, slope = skin.one(low)
         step = p / -slope
     width = step
-    while carried(high) > load:
+    for _ in range(WIDENED):
+        if not carried(high) > load:
+            break
         high, width = high + width, 1.5 * width
     width = step
-    while carried(low) < load:
+    for _ in range(WIDENED):
+        if not carried(low) < load:
+            break
         low, width = low - width, 1.5 * width
+    if carried(high) > load or carried(low) < load:
+        raise NoEquilibrium(OUT_OF_REACH.format(load=load, low=low, high=high))
     while high - low > 0.05 * step:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if carried(middle) > load else (low, middle)

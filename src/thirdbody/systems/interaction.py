@@ -38,6 +38,7 @@ from ..laws.base import REGIMES
 from ..numerics.quadrature import panel_rule, subdivide
 from ..numerics.roots import halley_root
 from ..populations.heights import GaussianHeights
+from ..quantities.carried import takes_units
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -106,6 +107,7 @@ class MeanInteraction:
     kappa: float
 
 
+@takes_units
 def mean_interaction(
     contact: Contact,
     *,
@@ -388,9 +390,12 @@ class _SelfLoaded:
             return low
         while excess(high) > 0:
             low, high = high, high + 2 * (high - low)
+            if high > 1e6 * self.R:
+                raise NoEquilibrium(f"local interaction carries {pressure:.4g} Pa at every gap")
         return brentq(excess, low, high, xtol=1e-14 * self.sigma_s, rtol=1e-15)
 
 
+@takes_units
 def local_interaction(
     contact: Contact,
     *,

@@ -29,8 +29,9 @@ from ..contact.interface import interface
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import solve
-from ..errors import InvalidValue, NoEquilibrium, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, RangeWarning, tell_of_range
 from ..populations.heights import GaussianHeights
+from ..quantities.carried import takes_units
 from .film_formulas import AbstractFilm, Line, Oil, Point, full_range
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ DEEPEST = -4.0
 """Lowest separation from the mean asperity height at which solids are evaluated, in σ."""
 
 
+@takes_units
 def mean_gap(h: ArrayLike, *, sigma: float) -> Array:
     r"""Mean gap of a rough surface against a plane at height h: :math:`\sigma[\varphi+t\Phi]`.
 
@@ -81,6 +83,7 @@ def _gap(t: Array) -> Array:
     return np.exp(-0.5 * t * t) / math.sqrt(2 * math.pi) + t * special.ndtr(t)
 
 
+@takes_units
 def height_of(gap: ArrayLike, *, sigma: float) -> Array:
     r"""Height above the mean plane at which a rough surface has this mean gap.
 
@@ -177,12 +180,12 @@ class MixedFilm:
     speed: Number = _column("u", "m/s", "mean entrainment speed")
     load: Number = _column("w", "N", "load")
     pressure: Number = _column("p", "Pa", "nominal pressure of film and solids")
-    h: Number = _column("h", "m", "separation from the mean surface plane")
+    h: Number = _column("h", "m", "separation of the mean planes")
     h_T: Number = _column("h_T", "m", "mean gap, and film thickness")
     h_smooth: Number = _column("h_c", "m", "film thickness of smooth bodies under the whole load")
     lambda_ratio: Number = _column("λ", "1", "film thickness h_T over σ")
     H: Number = _column("H", "1", "separation h over σ")
-    h_over_x: Number = _column("h/x_a", "1", "separation over the largest mean diameter")
+    h_over_x: Number = _column("h/x_a", "1", "separation h over the largest mean diameter")
     gamma: Number = _column("γ", "1", "load over load on the film")
     film_share: Number = _column("1/γ", "1", "load share of the film")
     ss_share: Number = _column("F_ss/F", "1", "load share of asperities")
@@ -209,6 +212,7 @@ class MixedFilm:
         """Every column as a 1-D array."""
         return {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
 
+    @takes_units
     def regimes(self, *, few: float = FEW, most: float = MOST) -> Any:
         """Regime with other thresholds of the solids' share of the load."""
         return _regimes(self.solid_share, few, most)
@@ -224,6 +228,7 @@ def _regimes(solids: Any, few: float, most: float) -> Any:
     return out if out.ndim else str(out)
 
 
+@takes_units
 def mixed_film(
     contact: Contact,
     *,
@@ -346,7 +351,7 @@ def mixed_film(
         "residual": np.abs(film_share + (ss + sa) - 1),
     }
     for sentence in notes:
-        warnings.warn(sentence, RangeWarning, stacklevel=2)
+        tell_of_range(sentence)
     if scalar:
         columns = {name: np.asarray(values)[0].item() for name, values in columns.items()}
         state, _ = _solve_heard(contact, float(d[0]))

@@ -13,7 +13,6 @@ makes depths upper bounds.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
@@ -21,10 +20,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 import numpy as np
 
 from ..contact.broken_averages import broken_average
-from ..effects.single.dent import Dent, dent_of, dents_after, flattened_diameter
+from ..effects.single.dent import Dent, dent_of, dents_after, flattened_diameter, sink
 from ..effects.single.ploughing import groove_of
 from ..effects.single.severity import severity, threshold
-from ..errors import InvalidValue, RangeWarning
+from ..errors import InvalidValue, tell_of_range
 from ..laws.asperity.hermite import Hermite
 from ..laws.base import AbstractAsperityLaw
 from ..laws.particle.breakage import Breakage, about_strength
@@ -34,6 +33,7 @@ from ..populations.distributions import Distribution
 from ..populations.materials import Material, MaterialPair
 from ..populations.measured.cleanliness import suspension_of_iso4406
 from ..populations.strength import WeibullStrength
+from ..quantities.say import value_of
 from ..quantities.units import to_si
 from ..quantities.value import Value, choice, quantity
 
@@ -139,10 +139,12 @@ class FilmParticles(Value):
     entry : float
         Entry ratio ε: particles that pass the contact over those in the oil that passes [1].
         Nobody can predict it; inlets turn large particles away and gather them too.
-    debris : {"hard", "ductile", "brittle"}, optional
-        Hard particles keep their shape and dent what is softer. Ductile ones flatten to discs of
-        the height of the film: the footprint is given, its depth is not (0), because it follows
-        from friction on the disc. Brittle ones break before they dent.
+    debris : {"by_hardness", "hard", "ductile", "brittle"}, optional
+        By hardness, particles dent what is softer than they are, and are flattened by what is not
+        (`thirdbody.effects.single.dent.sink`). Hard ones keep their shape whatever their hardness.
+        Ductile ones flatten to discs of the height of the film: the footprint is given, its depth
+        is not known (NaN), because it follows from friction on the disc. Brittle ones break before
+        they dent.
     fragment : float, optional
         Size of the fragments [m]; needed for brittle particles.
     slip : float, optional
@@ -178,8 +180,8 @@ class FilmParticles(Value):
     number: float = quantity("n", "1/m^3", "particles per volume of oil", ge=0)
     film: float = quantity("h", "m", "film height", gt=0, hint="0.5 um is 0.5e-6")
     entry: float = quantity("ε", "1", "entry ratio", ge=0)
-    debris: str = choice("what particles do when pressed", "hard", "ductile", "brittle",
-                         default="hard")  # fmt: skip
+    debris: str = choice("what particles do when pressed", "by_hardness", "hard", "ductile",
+                         "brittle", default="by_hardness")  # fmt: skip
     fragment: float | None = quantity("x_f", "m", "size of fragments", default=None, gt=0)
     slip: float = quantity("s", "m", "sliding distance under a passing particle", default=0, ge=0)
     f_ab: float | None = quantity("f_ab", "1", "removed part of a groove", default=None, ge=0, le=1)
@@ -189,7 +191,7 @@ class FilmParticles(Value):
     def __post_init__(self) -> None:
         Value.__post_init__(self)
         for text in about_strength(self, self.surfaces):
-            warnings.warn(text, RangeWarning, stacklevel=3)
+            tell_of_range(text)
 
     def _problems(self) -> list[str]:
         out = [
@@ -321,6 +323,23 @@ class FilmParticles(Value):
         return broken / pressed if pressed else 0.0
 
     # -------------------------------------------------------------------------- dents
+    def sinks(self, side: int) -> bool:
+        """Whether the particles dent surface 1 (side 0) or 2 (side 1), and are not flattened."""
+        H = self._particle().sides[side].H
+        return not math.isnan(sink(self.material, hardness=H, debris=self.debris))
+
+    def _dent(self, spots: ParticleSpots, side: int) -> Dent:
+        return dent_of(spots, side=side, particle=self.material, debris=self.debris)
+
+    def _flattened(self, side: int) -> str:
+        body = (self.surfaces.first, self.surfaces.second)[side - 1]
+        return (
+            f"particles of {value_of(self.material.H, 'Pa')} hardness are not harder than surface "
+            f"{side} of {value_of(body.H, 'Pa')}, and are flattened: numbers and widths are those "
+            "of their footprints, depth and volume are not known (NaN); debris = 'hard' keeps the "
+            "shape of all"
+        )
+
     def single(self, x: ArrayLike) -> ParticleSpots:
         """Particles of sizes x [m] in the film, one each: (n, 1)."""
         return self._spots(np.atleast_1d(np.asarray(x, dtype=float))[:, None], np.array(1.0))
@@ -336,7 +355,7 @@ class FilmParticles(Value):
     def _first(self, side: int) -> float:
         """Smallest size that dents a surface: that of first yield there; infinite for none."""
         particle = self._particle()
-        if not self.material.H > particle.sides[side].H:
+        if not self.sinks(side):
             return math.inf
         return self._sunk(side, float(particle.sides[side].delta_1))
 
@@ -397,11 +416,19 @@ class FilmParticles(Value):
 
         Mean and p95 are over the dents; depth and diameter grow with the size of the particle, so
         that their distributions are that of the sizes in other variables. NaN where there are no
-        dents. Ductile particles: footprints instead, of depth 0.
+        dents. Of particles that are flattened: the footprints, whose depth and volume are not
+        known (NaN); a warning says so unless ``debris`` does.
+
+        Warns
+        -----
+        RangeWarning
+            The particles are not harder than the surface.
         """
         if side not in (1, 2):
             raise InvalidValue(f"side = {side!r} must be 1 or 2")
-        if self.debris == "ductile":
+        if not self.sinks(side - 1):
+            if self.debris != "ductile":
+                tell_of_range(self._flattened(side))
             return self._footprints()
         lowest = self._first(side - 1)
         count = self._pressed(lowest) if math.isfinite(lowest) else 0.0
@@ -409,10 +436,10 @@ class FilmParticles(Value):
             return FilmDents(0.0, *4 * (math.nan,), *2 * (math.nan,), math.nan)._replace(volume=0.0)
         x, w = self._nodes()
         spots = self._spots(x[None, :], w[None, :])
-        dent = dent_of(spots, side=side - 1, particle=self.material)
+        dent = self._dent(spots, side - 1)
         sunk = (dent.depth > 0) & (2 * spots.depths[side - 1] > spots.half)
         top = self.single(self._size(0.05 * count, lowest))
-        deep = dent_of(top, side=side - 1, particle=self.material)
+        deep = self._dent(top, side - 1)
         return FilmDents(
             number=self.columns_of_oil * count,
             depth=float(spots.total(dent.depth)[0] / count),
@@ -428,16 +455,16 @@ class FilmParticles(Value):
         x, w = self._nodes()
         count = float(w.sum())
         if count == 0:
-            return FilmDents(0.0, 0.0, math.nan, math.nan, 0.0, 0.0, math.nan, 0.0)
+            return FilmDents(0.0, *4 * (math.nan,), *2 * (math.nan,), math.nan)._replace(volume=0.0)
         wide = flattened_diameter(x, gap=self.film)
         top = self._size(0.05 * count, self.film)
         return FilmDents(
             number=self.columns_of_oil * count,
-            depth=0.0,
+            depth=math.nan,
             diameter=float(w @ wide / count),
             area=float(np.pi / 4 * (w @ wide**2) / count),
-            volume=0.0,
-            depth_p95=0.0,
+            volume=math.nan,
+            depth_p95=math.nan,
             diameter_p95=float(flattened_diameter(top, gap=self.film)),
             embedded=0.0,
         )
@@ -445,15 +472,15 @@ class FilmParticles(Value):
     def largest(self, area: float, *, overrollings: float = 1.0, side: int = 1) -> Dent:
         """The largest dent in so much surface [m²] after so many overrollings (median).
 
-        Exceeded in half of all cases, A N η_a(>x) = ln 2; nothing where even one is unlikely.
+        Exceeded in half of all cases, A N η_a(>x) = ln 2; NaN where even one is unlikely. Of
+        particles that are flattened the footprint alone is known.
         """
-        wanted = math.log(2) / (self.columns_of_oil * area * overrollings)
-        lowest = self._first(side - 1)
+        passed = self.columns_of_oil * area * overrollings
+        wanted = math.log(2) / passed if passed else math.inf
+        lowest = self._first(side - 1) if self.sinks(side - 1) else self.film
         if not math.isfinite(lowest) or self._pressed(lowest) <= wanted:
-            return Dent(np.array(0.0), np.array(0.0), np.array(0.0))
-        found = dent_of(
-            self.single(self._size(wanted, lowest)), side=side - 1, particle=self.material
-        )
+            return Dent(np.array(math.nan), np.array(math.nan), np.array(math.nan))
+        found = self._dent(self.single(self._size(wanted, lowest)), side - 1)
         return Dent(*(each[0, 0] for each in found))
 
     def after(self, overrollings: ArrayLike, *, side: int = 1) -> Array:
@@ -469,7 +496,8 @@ class FilmParticles(Value):
         .. math:: I = \varepsilon h \int n\,\varphi_a\,(V_1+V_2+f_{ab}\,s\,A_g)\,dx
 
         A particle is held in the surface in which it sits deeper, and grooves the other; between
-        equal surfaces it grooves both over half the way. Only hard and brittle particles count.
+        equal surfaces it grooves both over half the way. Of particles that are flattened the
+        volume is not known, and the index is NaN.
         The index orders oils of one machine; it is not a life. With a constant entry ratio a
         thicker film brings more oil, and with it more of the particles far larger than the film:
         per overrolling the index then rises with h, per volume of oil that passes (index over h)
@@ -477,7 +505,7 @@ class FilmParticles(Value):
         """
         nothing = SeverityIndex(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         x, w = self._nodes()
-        if len(x) == 0 or self.debris == "ductile":
+        if len(x) == 0 or float(w.sum()) * self.columns_of_oil == 0:
             return nothing
         spots = self._spots(x[None, :], w[None, :])
         per_area = self.columns_of_oil
@@ -485,9 +513,9 @@ class FilmParticles(Value):
         one, two = spots.depths
         even = np.abs(one - two) <= 1e-9 * (one + two)
         for side, (here, there) in enumerate(((one, two), (two, one))):
-            dent = dent_of(spots, side=side, particle=self.material)
+            dent = self._dent(spots, side)
             volumes.append(per_area * float(spots.total(dent.volume)[0]))
-            share = np.where(even, 0.5, here < there) * (self.material.H > spots.hardness[side])
+            share = np.where(even, 0.5, here < there) * self.sinks(side)
             cut = share * groove_of(spots, side=side)
             removed = self.slip * (self.f_ab or 0.0)
             grooves.append(per_area * removed * float(spots.total(cut)[0]))

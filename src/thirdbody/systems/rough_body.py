@@ -29,6 +29,7 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..errors import InvalidValue
+from ..quantities.carried import takes_units
 from .elastic_balance import (
     COARSE,
     Balance,
@@ -162,6 +163,7 @@ def _positive(name: str, value: float) -> float:
     return float(value)
 
 
+@takes_units
 def rough_sphere(
     contact: Contact | Callable[..., Any],
     *,
@@ -232,6 +234,7 @@ def rough_sphere(
     return _result(skin, shape, found, COARSE if quick else 1e-6)
 
 
+@takes_units
 def rough_cylinder(
     contact: Contact | Callable[..., Any],
     *,
@@ -293,6 +296,7 @@ def rough_cylinder(
     return _result(skin, shape, found, COARSE if quick else 1e-6)
 
 
+@takes_units
 def curve(
     contact: Contact | Callable[..., Any],
     *,

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple, Self
 
 import numpy as np
 
+from ..quantities.carried import takes_units
 from ..quantities.say import percent
-from ..quantities.value import Value, quantity
+from ..quantities.value import Value, items_of, quantity
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["Convergence", "Sinusoid", "Stack", "jackson_streator"]
 
 
+@takes_units
 def jackson_streator(q: ArrayLike) -> Array:
     r"""Real area fraction of a two-dimensional elastic sinusoid, from q = p/p*.
 
@@ -164,7 +166,7 @@ class Stack(Value):
     H: float | None = quantity("H", "Pa", "hardness of the softer body", default=None, gt=0)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "levels", tuple(self.levels))
+        object.__setattr__(self, "levels", items_of(self.levels))
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:

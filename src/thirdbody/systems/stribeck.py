@@ -9,7 +9,8 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..errors import RangeWarning
+from ..errors import RangeWarning, tell_of_range
+from ..quantities.carried import takes_units
 from .film_formulas import AbstractFilm, Line, Oil, Point
 from .mixed_film import (
     COLUMNS,
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["RegimeSpeeds", "regime_speeds", "stribeck", "stribeck_columns"]
 
 
+@takes_units
 def stribeck(
     contact: Contact,
     *,
@@ -119,7 +121,7 @@ def stribeck_columns(
             contact, conjunction=conjunction, oil=oil, load=load, speed=speeds, **options
         )
     for each in heard:
-        warnings.warn(each.message, each.category, stacklevel=2)
+        tell_of_range(each.message, each.category)
 
     hersey = oil.eta * speeds / conjunction.intensity(float(load))
     if conjunction.shape == "point":

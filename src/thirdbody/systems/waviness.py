@@ -24,7 +24,8 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..errors import InvalidValue, NoEquilibrium
-from .elastic_balance import Balance, Grid, Skin, balance, to_series
+from ..quantities.carried import takes_units
+from .elastic_balance import OUT_OF_REACH, WIDENED, Balance, Grid, Skin, balance, to_series
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -128,12 +129,22 @@ class Histogram:
             return self._at(skin, d)
         low = high = skin.origin + float(np.max(self.heights))
         step = float(np.ptp(self.heights)) + (skin.step or abs(skin.one(low)[0] / skin.one(low)[1]))
-        while self._at(skin, low, bare=True).load < load:
+
+        def excess(x: float) -> float:
+            return self._at(skin, x, bare=True).load - load
+
+        for _ in range(WIDENED):
+            if not excess(low) < 0:
+                break
             low -= step
             step *= 1.5
-        while self._at(skin, high, bare=True).load > load:
+        for _ in range(WIDENED):
+            if not excess(high) > 0:
+                break
             high += step
             step *= 1.5
+        if excess(low) < 0 or excess(high) > 0:
+            raise NoEquilibrium(OUT_OF_REACH.format(load=load, low=low, high=high))
         from scipy.optimize import brentq
 
         def miss(x: float) -> float:
@@ -185,6 +196,7 @@ def _load(skin: Skin, pressure: float | None, F_star: float | None) -> float | N
     return pressure if F_star is None else F_star * skin.E_star
 
 
+@takes_units
 def rigid_wave(
     contact: Contact | Callable[..., Any],
     *,
@@ -246,6 +258,7 @@ def rigid_wave(
     )
 
 
+@takes_units
 def elastic_wave(
     contact: Contact | Callable[..., Any],
     *,
@@ -294,6 +307,7 @@ def elastic_wave(
     return _result(skin, balance(skin, wave, d=d, load=_load(skin, pressure, F_star)), True)
 
 
+@takes_units
 def measured_wave(
     contact: Contact | Callable[..., Any],
     *,

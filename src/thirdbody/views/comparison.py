@@ -172,20 +172,24 @@ def save(
     Returns
     -------
     list of pathlib.Path
+
+    Raises
+    ------
+    InvalidValue
+        Files of these names are of another study, or the folder cannot be made.
     """
     import matplotlib as mpl
 
-    from ..quantities.files import whole
+    from ..quantities.files import make_folder, whole
+    from ..quantities.records import refuse_replaced
 
     folder = Path(folder)
     if folder.exists() and not folder.is_dir():
         raise InvalidValue(f"cannot write into {folder}: a file of that name exists")
     drawing = figure(table, at=at)
     text = csv_text(table)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidValue(f"cannot make {folder}: {(error.strerror or '').lower()}") from None
+    refuse_replaced(folder, {"compare.csv": text, "compare.png": None, "compare.svg": None})
+    make_folder(folder)
     out = [folder / f"compare.{suffix}" for suffix in ("csv", "png", "svg")]
     with ExitStack() as stack:
         table_file, png, svg = (stack.enter_context(whole(path)) for path in out)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..equilibrium.words import meets
 from ..quantities.say import number, percent, value_of
 from ..systems.mixed_film import FULL
 
@@ -62,6 +63,10 @@ def summary(result: dict[str, Any]) -> list[str]:
             for i in ends
         ]
         out.append(f"{part['name']}: {'; '.join(at)}.")
+    if rare := meets(result["particles_held"] or 0.0):
+        out.append(
+            f"{rare[0].upper()}{rare[1:]}: what particles do is the mean over many contacts."
+        )
     if lacking := _lacking(result):
         out.append(f"There is no friction coefficient without {', '.join(lacking)}.")
     return out

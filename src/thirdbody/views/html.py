@@ -7,6 +7,7 @@ import io
 import re
 from collections.abc import Collection, Iterable
 from html import escape
+from pathlib import Path
 from typing import Any
 
 from ..quantities.say import UNITS, powers
@@ -15,6 +16,7 @@ __all__ = [
     "breaking",
     "document",
     "figure",
+    "is_page",
     "section",
     "svg_of",
     "symbols",
@@ -71,6 +73,15 @@ figure img{width:11cm}
 
 LONG = 15
 """Rows beyond which a table may be continued on the next page."""
+
+
+def is_page(file: Path) -> bool:
+    """Whether a file is a page that `document` made."""
+    try:
+        with file.open(encoding="utf-8") as page:
+            return "<style>" + STYLE[:40] in page.read(4000)
+    except (OSError, ValueError):
+        return False
 
 
 def document(title: str, body: Iterable[str], *, style: str = "") -> str:

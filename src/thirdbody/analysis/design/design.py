@@ -24,6 +24,7 @@ from ...equilibrium.columns import about, columns_of
 from ...errors import ThirdBodyError
 from ...numerics.sampling import Span
 from ...populations.materials import Material
+from ...quantities.carried import takes_units
 from ...quantities.progress import reporting
 from ..inputs import declared, words_of
 from ..sensitivity import sensitivity
@@ -193,6 +194,7 @@ def _plain(values: NDArray[Any]) -> list[Any]:
 
 
 # -------------------------------------------------------------------------- the search
+@takes_units
 def design(
     contact: Contact,
     *,

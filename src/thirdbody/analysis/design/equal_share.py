@@ -10,10 +10,12 @@ import numpy as np
 from ...contact.contact import Contact
 from ...equilibrium.solve import solve
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 
 __all__ = ["equal_share_size"]
 
 
+@takes_units
 def equal_share_size(
     contact: Contact,
     *,

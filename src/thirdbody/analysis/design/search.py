@@ -16,6 +16,7 @@ from ...contact.pressed import buried, most_buried
 from ...equilibrium.states import state_columns
 from ...errors import InvalidValue
 from ...numerics.sampling import Span, sobol
+from ...quantities.progress import Cost, solving
 from ...quantities.say import percent
 from ..inputs import Input, inputs
 from ..uncertainty.inputs import Drawn
@@ -254,10 +255,17 @@ class Task:
     def evaluate(self, numbers: Sequence[Numbers], materials: Materials) -> list[Point]:
         """Points, which are kept."""
         samples = len(self.scatter[1]) if self.scatter else 0
-        fit = max(1, AT_ONCE // ((1 + samples) * len(self.loads)))
+        each = (1 + samples) * len(self.loads)
+        fit = max(1, AT_ONCE // each)
         rows: list[Point] = []
         for start in range(0, len(numbers), fit):
-            rows += self.judged(numbers[start : start + fit], materials)
+            some, before = numbers[start : start + fit], len(self.tried) + len(rows)
+
+            def told(states: int, before: int = before) -> None:
+                self.report(before + states // each)
+
+            with solving(Cost(each * len(some), told)):
+                rows += self.judged(some, materials)
             self.report(len(self.tried) + len(rows))
         self.tried += rows
         return rows

@@ -20,8 +20,11 @@ from numpy.typing import NDArray
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.columns import labels, labels_of
-from ...equilibrium.solve import about_area, about_particles, solve
+from ...equilibrium.crowding import about_area, chi_of
+from ...equilibrium.solve import about_particles, solve
 from ...equilibrium.states import state_columns, varied
+from ...equilibrium.status import WORDS as STATUS_WORDS
+from ...equilibrium.status import Status
 from ...errors import RangeWarning
 from ...numerics.sampling import DESIGNS, Span
 from ...quantities.sharing import need_version
@@ -38,10 +41,9 @@ CHUNK = 262_144
 LOOKED_AT = 200
 """States whose inputs are looked at before a run."""
 MODES = ("", "p-s", "hybrid", "s-s")
-STATUSES = ("ok", "no_equilibrium_above", "no_equilibrium_below", "no_equilibrium", "jump")
 CODES = {
     "mode": ("none", *(mode.replace("-", "") for mode in MODES[1:])),
-    "status": STATUSES,
+    "status": STATUS_WORDS,
 }
 """Words of the columns that are stored as codes 0, 1, 2 ... (CF ``flag_meanings``)."""
 STORED = {"mode": "i1", "status": "i1", "iterations": "i2"}
@@ -176,7 +178,7 @@ class Task:
     def __call__(self) -> tuple[Arrays, dict[str, Any]]:
         """The arrays to store, and a summary: states, unsolved states, largest area, shadow."""
         need_version(self.version, "sweep")
-        needed = dict.fromkeys((*self.columns, "status", "engine", "A_t", "shadow"))
+        needed = dict.fromkeys((*self.columns, "status", "status_code", "engine", "A_t", "shadow"))
         solved: Arrays = {}
         for part, block in self.block.parts(CHUNK):
             columns = block.solve()
@@ -186,7 +188,7 @@ class Task:
                 solved[name][part] = columns[name]
         summary: dict[str, Any] = {
             "states": math.prod(self.block.sizes),
-            "unsolved": int(np.sum(solved["status"] != "ok")),
+            "unsolved": int(np.sum(solved["status_code"] != Status.OK)),
             "A_t": _largest(solved["A_t"]),
             "shadow": _largest(solved["shadow"]),
             "engine": dict(Counter(solved["engine"].ravel().tolist())),
@@ -196,7 +198,10 @@ class Task:
             return self.reduction.part(kept, self.outer), summary
         out = {name: solved[name] for name in self.columns}
         if self.coded:
-            out |= {name: _codes(name, values) for name, values in out.items() if name in CODES}
+            if "mode" in out:
+                out["mode"] = _mode_codes(out["mode"])
+            if "status" in out:
+                out["status"] = solved["status_code"]
         for dim in self.block.dims:
             # made by whoever comes first along the other dimensions
             if isinstance(dim, Sampled) and all(d.start == 0 for d in self.block.dims if d != dim):
@@ -335,20 +340,7 @@ class Plan:
         """
         found: dict[str, str] = {}
         hardest: tuple[float, float, Contact] | None = None
-        listed = [1 if isinstance(dim, Sampled) else dim.size for dim in self.dims]
-        spread = np.linspace(0, math.prod(listed) - 1, LOOKED_AT).astype(np.int64)
-        for i, number in enumerate(spread if self.samples else np.unique(spread)):
-            # the first samples: the later ones cost time to come to
-            place = np.unravel_index(number, listed)
-            at = [
-                i % dim.size if isinstance(dim, Sampled) else int(k)
-                for dim, k in zip(self.dims, place, strict=True)
-            ]
-            one = self.whole.cut(tuple(slice(k, k + 1) for k in at)).inputs()
-            inputs = {name: values[0] for name, values in one.items()}
-            inputs = {k: v.item() if isinstance(v, np.generic) else v for k, v in inputs.items()}
-            load = inputs.pop(self.load)
-            contact = varied(self.contact, inputs)
+        for load, contact in self.looked_at():
             sign = -1 if self.load == "d" else 1
             if hardest is None or sign * load > hardest[0]:
                 hardest = sign * load, load, contact
@@ -364,16 +356,34 @@ class Plan:
                 found.setdefault(_wording(sentence), sentence)
         return list(found.values())
 
+    def looked_at(self) -> Iterator[tuple[float, Contact]]:
+        """Load and contact of some states, evenly spread."""
+        listed = [1 if isinstance(dim, Sampled) else dim.size for dim in self.dims]
+        spread = np.linspace(0, math.prod(listed) - 1, LOOKED_AT).astype(np.int64)
+        for i, number in enumerate(spread if self.samples else np.unique(spread)):
+            # the first samples: the later ones cost time to come to
+            place = np.unravel_index(number, listed)
+            at = [
+                i % dim.size if isinstance(dim, Sampled) else int(k)
+                for dim, k in zip(self.dims, place, strict=True)
+            ]
+            one = self.whole.cut(tuple(slice(k, k + 1) for k in at)).inputs()
+            inputs = {name: values[0] for name, values in one.items()}
+            inputs = {k: v.item() if isinstance(v, np.generic) else v for k, v in inputs.items()}
+            load = inputs.pop(self.load)
+            yield load, varied(self.contact, inputs)
+
 
 def _wording(sentence: str) -> str:
     """A sentence without its numbers, to say it once."""
     return re.sub(r"[\d.e+-]+", "", sentence)
 
 
-def all_notes(contact: Contact, notes: list[str], summary: Mapping[str, Any]) -> list[str]:
+def all_notes(plan: Plan, notes: list[str], summary: Mapping[str, Any]) -> list[str]:
     """The sentences of a finished run: about its inputs, and about its states."""
     out = [note for note in notes if not note.startswith(("A_t reaches", "particles shadow"))]
-    out += about_area(contact, summary["A_t"])
+    chi = [chi_of(contact) for _, contact in plan.looked_at()]
+    out += about_area(plan.contact, summary["A_t"], chi)
     if summary["shadow"] >= 1:
         out.append("particles shadow the whole area: the area correction was cut at zero")
     return out
@@ -411,18 +421,11 @@ def _alike(words: Arrays, count: int) -> Iterator[tuple[dict[str, Any], Any]]:
         yield {name: values[which[0]] for name, values in words.items()}, np.array(which)
 
 
-def _codes(name: str, words: NDArray[Any]) -> NDArray[np.int8]:
-    if name == "mode":
-        return sum(
-            ((words == mode) * np.int8(code) for code, mode in enumerate(MODES)),
-            start=np.zeros(words.shape, np.int8),
-        )
-    codes = np.zeros(words.shape, np.int8)
-    for place in zip(*np.nonzero(words != "ok"), strict=True):
-        text = str(words[place])
-        jump = text.startswith("jump")
-        codes[place] = 4 if jump else 1 if "beyond" in text else 2 if "below the" in text else 3
-    return codes
+def _mode_codes(words: NDArray[Any]) -> NDArray[np.int8]:
+    return sum(
+        ((words == mode) * np.int8(code) for code, mode in enumerate(MODES)),
+        start=np.zeros(words.shape, np.int8),
+    )
 
 
 def _largest(values: NDArray[Any]) -> float:

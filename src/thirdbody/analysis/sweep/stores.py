@@ -54,7 +54,11 @@ class _Zarr:
             made[...] = values.astype(object) if text else values
         return _Zarr(path, layout)
 
-    def write(self, where: Mapping[str, slice], arrays: Arrays, *, durable: bool = False) -> None:
+    def write(
+        self, where: Mapping[str, slice], arrays: Arrays, *, durable: bool = False
+    ) -> list[Path]:
+        """Write a block; the files that are its own, where it must survive what follows."""
+        files = []
         for name, values in arrays.items():
             dims = self.layout.variables[name][0]
             region = tuple(where.get(dim, slice(None)) for dim in dims)
@@ -62,11 +66,13 @@ class _Zarr:
                 self.arrays[name][region] = values
                 continue
             file = self._file(name, dims, region)
+            files.append(file)
             file.unlink(missing_ok=True)  # what a killed run left there is not read
             self.arrays[name][region] = values
             if file.exists():  # a block of nothing but NaN has no file
                 with file.open("rb+") as written:
                     os.fsync(written.fileno())
+        return files
 
     def _file(self, name: str, dims: tuple[str, ...], region: Box) -> Path:
         """The one file that this block has for a variable."""

@@ -1,38 +1,34 @@
-"""Sweeps on disk: block after block into a folder that survives being killed.
-
-The folder holds
-
-- ``study.json``: what is swept, written first; another study is refused;
-- ``states.zarr`` or ``states.nc``: the data;
-- ``done/N.json``: a marker for each block, written by rename after its data are on the disk;
-- ``parts/N.npz``: blocks that are put together at the end (NetCDF, reductions);
-- ``finished.json``: the summary, written last;
-- ``lock``: held by the operating system while a run writes, so that a killed run leaves no lock.
-"""
+"""Sweeps on disk: block after block into a folder that survives being killed."""
 
 from __future__ import annotations
 
 import importlib
-import json
 import math
 import os
-import shutil
 import sys
+import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...contact.contact import Contact
 from ...errors import InvalidValue
-from ...quantities.files import write_text
-from ...quantities.progress import Report, reporting
+from ...quantities.files import make_folder, remove_files, whole, write_text
+from ...quantities.progress import Cost, Report, reporting, solving
+from ...quantities.records import sealed
 from ...quantities.sharing import shared
+from .folder import (
+    STORE,
+    Folder,
+    Found,
+    damage_words,
+    name_of,
+    text_of,
+    unchecked_words,
+)
 from .plan import Arrays, Layout, Plan, all_notes
 from .reduction import Reduction
 from .stores import _NetCDF, _Zarr
@@ -44,7 +40,6 @@ if TYPE_CHECKING:
 __all__ = ["Folder", "in_memory", "run"]
 
 Result = tuple[Arrays, dict[str, Any]]
-Read = TypeVar("Read")
 
 FORMATS = {"zarr": ("zarr",), "netcdf": ("h5netcdf", "h5py")}
 """Formats and the packages they need."""
@@ -67,17 +62,17 @@ def in_memory(
     }
     summaries = []
     with reporting("sweep", plan.states, 0, progress) as report:
-        done = 0
+        done, cost = 0, Cost(plan.states, report, early=not callable(progress))
         rows: dict[int, Arrays] = {}
-        results = _results(plan, range(plan.count), coded=False, workers=workers, client=client)
-        for number, (arrays, summary) in results:
+        results = partial(_results, plan, cost, coded=False, workers=workers, client=client)
+        for number, (arrays, summary) in results(range(plan.count)):
             summaries.append(summary)
             if plan.reduction is None:
                 _into(data, layout, plan, number, arrays)
             else:
                 rows[number] = arrays
             done += summary["states"]
-            report(done)
+            cost.finished(done)
     if plan.reduction is not None:
         for row in range(plan.count // _parts(plan)):
             numbers = range(row * _parts(plan), (row + 1) * _parts(plan))
@@ -95,7 +90,7 @@ def in_memory(
         for name, (dims, _, attrs) in layout.variables.items()
     }
     inputs = {name: variables.pop(name) for name in layout.inputs}
-    attrs = layout.attrs | _attributes(plan.contact, notes, _summary(summaries))
+    attrs = layout.attrs | _attributes(plan, notes, _summary(summaries))
     return xr.Dataset(variables, coords=layout.coords | inputs, attrs=attrs)
 
 
@@ -135,97 +130,39 @@ def _summary(summaries: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     return out | {"engine": dict(sorted(paths.items()))}
 
 
-def _attributes(contact: Contact, notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
+def _attributes(plan: Plan, notes: list[str], summary: Mapping[str, Any]) -> dict[str, str]:
     """What a run says of itself, a line each."""
     paths = (f"{word} ({count} states)" for word, count in summary["engine"].items())
-    return {"warnings": "\n".join(all_notes(contact, notes, summary)), "engine": "\n".join(paths)}
+    return {"warnings": "\n".join(all_notes(plan, notes, summary)), "engine": "\n".join(paths)}
 
 
 # -------------------------------------------------------------------------- who solves
 def _results(
-    plan: Plan, numbers: Iterable[int], *, coded: bool, workers: int, client: Client | None
+    plan: Plan,
+    cost: Cost,
+    numbers: Iterable[int],
+    *,
+    coded: bool,
+    workers: int,
+    client: Client | None,
 ) -> Iterator[tuple[int, Result]]:
     """Every block's result, in the order in which they come."""
-    tasks = ((number, plan.task(number, coded=coded)) for number in numbers)
+
+    def work(number: int) -> Callable[[], Result]:
+        task = plan.task(number, coded=coded)
+        return task if client is not None else partial(_told, task, cost)
+
+    tasks = ((number, work(number)) for number in numbers)
     return shared(tasks, workers=workers, client=client)
 
 
-# -------------------------------------------------------------------------- the folder
-@dataclass(frozen=True, eq=False)
-class Folder:
-    """A folder with a sweep, finished or not."""
-
-    path: Path
-    format: str
-    names: tuple[str, ...]
-    """Its variables, in order."""
-
-    @property
-    def data(self) -> Path:
-        """Where the data are."""
-        return self.path / ("states.zarr" if self.format == "zarr" else "states.nc")
-
-    @property
-    def finished(self) -> dict[str, Any] | None:
-        """The summary of a finished run: states, and how many of them are unsolved."""
-        found = _json(self.path / "finished.json")
-        return found if found and self.data.exists() else None
-
-    def whole(self, read: Callable[[], Read]) -> Read:
-        """What reads the data; InvalidValue where something has damaged them."""
-        try:
-            return read()
-        except PermissionError:
-            raise
-        except (OSError, ValueError, KeyError) as error:
-            why = (str(error) or type(error).__name__).splitlines()[0]
-            raise InvalidValue(
-                f"{self.data} is damaged ({why}); remove it, and the same command makes it again"
-            ) from None
-
-    def open(self) -> xarray.Dataset:
-        """The data, loaded when they are used."""
-        return self.whole(self._open)
-
-    def _open(self) -> xarray.Dataset:
-        import xarray as xr
-
-        if self.format == "zarr":
-            data = xr.open_zarr(self.data, chunks=None, consolidated=False)
-        else:
-            data = xr.open_dataset(self.data, engine="h5netcdf")
-        texts = {name: x for name, x in data.coords.items() if x.dtype.kind in "OT"}
-        words = {name: np.asarray(x.values, object).astype(str) for name, x in texts.items()}
-        data = data.assign_coords({name: (texts[name].dims, words[name]) for name in words})
-        inputs = [name for name in self.names if name in data.coords]
-        return data[[name for name in self.names if name not in inputs]]
-
-    # ------------------------------------------------------------------ markers
-    def marker(self, number: int) -> Path:
-        return self.path / "done" / f"{number}.json"
-
-    def part(self, number: int) -> Path:
-        return self.path / "parts" / f"{number}.npz"
-
-    def done(self, study: str) -> dict[int, dict[str, Any]]:
-        """Blocks whose data are complete, with their summaries."""
-        out = {}
-        for path in (self.path / "done").glob("*.json"):
-            found = _json(path) if path.stem.isdecimal() else None
-            if found and found.get("study") == study and {"states", "unsolved"} <= set(found):
-                out[int(path.stem)] = found
-        return out
+def _told(task: Callable[[], Result], cost: Cost) -> Result:
+    """A block whose states are told while they are solved, in whatever thread."""
+    with solving(cost):
+        return task()
 
 
-def _json(path: Path) -> dict[str, Any] | None:
-    """What a small file says; None when it is missing or broken."""
-    try:
-        found = json.loads(path.read_text("utf-8"))
-    except (OSError, ValueError):
-        return None
-    return found if isinstance(found, dict) else None
-
-
+# -------------------------------------------------------------------------- on disk
 def run(
     plan: Plan,
     out: str | os.PathLike[str],
@@ -261,23 +198,31 @@ def run(
     _needed(format)
     folder = Folder(Path(out), format, tuple(plan.layout().variables))
     study = {**plan.to_dict(), "format": format}
-    _check(folder, study)
+    folder.refuse_others(study)
+    shown = progress is True
     if folder.finished is not None:
-        shutil.rmtree(folder.path / "parts", ignore_errors=True)  # of a run killed at the very end
-        if progress is True:
-            print(f"{folder.path} is finished: nothing to do", file=sys.stderr)
-        return folder
+        found = folder.look(name_of(study), shown)
+        if not found.problems and folder.says(study):
+            folder.remove_parts()  # of a run killed at the very end
+            _warn(unchecked_words(folder.path, found))
+            if shown:
+                print(f"{folder.path} is finished: nothing to do", file=sys.stderr)
+            return folder
+        if not os.access(folder.path, os.W_OK):
+            raise InvalidValue(f"{damage_words(folder.path, found)}; but it cannot be written")
     notes = plan.notes()  # refuses inputs before anything is written
-    try:
-        folder.path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvalidValue(f"cannot make the folder {folder.path}: {error.strerror}") from None
-    with _locked(folder.path):
-        _check(folder, study)
-        if folder.finished is None:
-            results = partial(_results, plan, coded=True, workers=workers, client=client)
-            _carry_out(plan, folder, study, notes, results, progress)
+    make_folder(folder.path)
+    with folder.locked():
+        folder.refuse_others(study)
+        results = partial(_results, plan, coded=True, workers=workers, client=client)
+        _carry_out(plan, folder, study, notes, results, progress)
     return folder
+
+
+def _warn(sentence: str, *, inside: bool = False) -> None:
+    """What happened to a folder, to whoever called `sweep`."""
+    if sentence:
+        warnings.warn(sentence, UserWarning, stacklevel=5 if inside else 4)
 
 
 def _needed(format: str) -> None:
@@ -295,159 +240,93 @@ def _needed(format: str) -> None:
             )
 
 
-def _check(folder: Folder, study: dict[str, Any]) -> None:
-    """Refuse a folder that holds something else."""
-    path = folder.path
-    if path.exists() and not path.is_dir():
-        raise InvalidValue(f"{path} must be a folder, and a file of that name exists")
-    found = _json(path / "study.json")
-    if found is None:
-        strange = [p.name for p in path.glob("*") if p.name != "lock" and p.name[0] != "."]
-        if strange:
-            raise InvalidValue(
-                f"{path} holds files that are not of a sweep ({', '.join(sorted(strange)[:3])}); "
-                "give a new or an empty folder"
-            )
-        return
-    old, new = _flat(found), _flat(json.loads(json.dumps(study)))
-    differ = [key for key in {**old, **new} if old.get(key) != new.get(key)]
-    if differ == ["order"]:
-        there = json.dumps(old.get("order", "not told"), ensure_ascii=False)
-        here = json.dumps(new["order"], ensure_ascii=False)
-        raise InvalidValue(
-            f"{path} holds another study: the order of its inputs, which decides the samples that "
-            f"each is given, is {there} there and {here} here; write them in that order, or give "
-            "another folder"
-        )
-    differ = [key for key in differ if key != "order"]  # follows from the rest
-    if differ:
-        shown = "; ".join(
-            f"{key} is {_say(old.get(key))} there and {_say(new.get(key))} here"
-            for key in differ[:3]
-        )
-        more = f"; and {len(differ) - 3} more" if len(differ) > 3 else ""
-        raise InvalidValue(f"{path} holds another study: {shown}{more}; give another folder")
-
-
-def _flat(data: Any, path: str = "") -> dict[str, Any]:
-    if not isinstance(data, dict):
-        return {path: data}
-    out: dict[str, Any] = {}
-    for key, value in data.items():
-        out |= _flat(value, f"{path}.{key}" if path else key)
-    return out
-
-
-def _say(value: Any) -> str:
-    text = json.dumps(value, ensure_ascii=False)
-    return text if len(text) < 60 else f"{text[:50]} ..."
-
-
-@contextmanager
-def _locked(path: Path) -> Iterator[None]:
-    """The folder for one run alone; the system lets go of it when the process ends."""
-    with (path / "lock").open("a+", encoding="utf-8") as file:
-        try:
-            if sys.platform == "win32":
-                import msvcrt
-
-                # a byte far behind the text, which stays readable
-                file.seek(1 << 20)
-                msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-            else:
-                import fcntl
-
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            file.seek(0)
-            who = file.read(100).strip()
-            raise InvalidValue(
-                f"{path} is in use by another run{f' (process {who})' if who else ''}; "
-                "wait for it, or give another folder"
-            ) from None
-        file.truncate(0)
-        file.write(str(os.getpid()))
-        file.flush()
-        yield
-
-
 def _carry_out(
     plan: Plan,
     folder: Folder,
     study: dict[str, Any],
     notes: list[str],
-    results: Callable[[Iterable[int]], Iterator[tuple[int, Result]]],
+    results: Callable[[Cost, Iterable[int]], Iterator[tuple[int, Result]]],
     progress: bool | Report,
 ) -> None:
     """What is left of the study, under the lock."""
-    path = folder.path
-    shutil.rmtree(path / ".states.part.zarr", ignore_errors=True)  # of a killed run
-    for draft in (*path.glob("**/*.partial"), *path.glob("**/.*.part*")):
-        draft.unlink(missing_ok=True)
-    text = json.dumps(study, indent=1, ensure_ascii=False, sort_keys=True)
-    name = _digest(text)
-    if not (path / "study.json").exists():
-        write_text(path / "study.json", text)
+    path, name = folder.path, name_of(study)
+    folder.remove_drafts()
+    if not folder.says(study):
+        write_text(path / "study.json", text_of(study))
     (path / "done").mkdir(exist_ok=True)
     layout = plan.layout()
     # blocks of a state sweep go straight to their place in a Zarr store
     direct = folder.format == "zarr" and plan.reduction is None
+    if direct and not folder.data.exists():
+        _make_store(plan, folder, layout, name)
+    found = folder.look(name, progress is True)
+    done = {number: one for number, one in found.blocks.items() if number < plan.count}
+    intact = found.recorded and not found.shared  # the data that were put together
+    if found.problems or len(done) < plan.count:
+        (path / "finished.json").unlink(missing_ok=True)
     if direct:
-        if not folder.data.exists():
-            shutil.rmtree(path / "done")  # of data that are gone
-            (path / "done").mkdir()
-            draft = path / ".states.part.zarr"
-            shutil.rmtree(draft, ignore_errors=True)
-            _Zarr.made(draft, layout)
-            draft.rename(folder.data)
-        store = folder.whole(lambda: _Zarr(folder.data, layout))
-    else:
+        store = _mended(plan, folder, layout, name, found)
+    elif not (intact and len(done) == plan.count):
         (path / "parts").mkdir(exist_ok=True)
-    done = folder.done(name)
-    if not direct:
-        done = {number: one for number, one in done.items() if folder.part(number).exists()}
+        done = {n: one for n, one in done.items() if folder.part(n).exists()}
+    _warn(damage_words(path, found), inside=True)
+    _warn(unchecked_words(path, found), inside=True)
     states = _summary(done.values())["states"]
+    more = len(done) < plan.count
     left = (number for number in range(plan.count) if number not in done)
     with reporting(str(path), plan.states, states, progress) as report:
-        for number, (arrays, summary) in results(left):
+        cost = Cost(plan.states, report, done=states, early=not callable(progress))
+        for number, (arrays, summary) in results(cost, left):
             if direct:
-                store.write(_where(plan, number), arrays, durable=True)
+                files = store.write(_where(plan, number), arrays, durable=True)
             else:
-                _save_part(folder.part(number), arrays)
-            write_text(folder.marker(number), json.dumps({"study": name, **summary}))
+                files = [folder.part(number)]
+                _save_part(files[0], arrays)
+            folder.mark(number, name, summary, files)
             done[number] = summary
             states += summary["states"]
-            report(states)
+            cost.finished(states)
     total = _summary(done.values())
-    attrs: dict[str, Any] = dict(_attributes(plan.contact, notes, total))
+    attrs: dict[str, Any] = dict(_attributes(plan, notes, total))
     if direct:
         store.label(attrs)
-    else:
+        folder.relabel(name)
+    elif more or not intact:
         _assemble(plan, folder, layout, attrs)
-    write_text(path / "finished.json", json.dumps(total, indent=1))
-    shutil.rmtree(path / "parts", ignore_errors=True)
+        folder.record(name, plan.count)
+    write_text(path / "finished.json", sealed({"study": name, **total}))
+    folder.remove_parts()
 
 
-def _digest(text: str) -> str:
-    import hashlib
+def _make_store(plan: Plan, folder: Folder, layout: Layout, name: str) -> None:
+    """An empty store in its place, and none of the markers of one that is gone."""
+    folder.remove_markers()
+    (folder.path / "done").mkdir()
+    draft = folder.path / ".states.part.zarr"
+    _Zarr.made(draft, layout)
+    folder.record(name, plan.count, draft)
+    draft.rename(folder.data)
 
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+def _mended(plan: Plan, folder: Folder, layout: Layout, name: str, found: Found) -> _Zarr:
+    """The store with what belongs to no block as it was made."""
+    if found.shared or found.unlabelled or not found.recorded:
+        draft = folder.path / ".states.part.zarr"
+        _Zarr.made(draft, layout)
+        folder.restore(draft, name, plan.count)
+        folder.remove_drafts()
+    return folder.whole(lambda: _Zarr(folder.data, layout))
 
 
 def _save_part(path: Path, arrays: Arrays) -> None:
-    from ...quantities.files import whole
-
-    with whole(path) as draft, draft.open("wb") as file:
+    with whole(path, tidy=False) as draft, draft.open("wb") as file:
         np.savez(file, **arrays)  # type: ignore[arg-type]
 
 
 def _assemble(plan: Plan, folder: Folder, layout: Layout, attrs: dict[str, Any]) -> None:
     """The parts put together, whole or not at all."""
-    suffix = folder.data.suffix
-    draft = folder.path / f".states.part{suffix}"
+    draft = folder.path / f".states.part{folder.data.suffix}"
     kind = _Zarr if folder.format == "zarr" else _NetCDF
-    shutil.rmtree(draft, ignore_errors=True)
-    draft.unlink(missing_ok=True)
     store = kind.made(draft, layout)
     step = 1 if plan.reduction is None else _parts(plan)
     for first in range(0, plan.count, step):
@@ -457,7 +336,7 @@ def _assemble(plan: Plan, folder: Folder, layout: Layout, attrs: dict[str, Any])
     store.label(attrs)
     store.close()
     if folder.data.is_dir():
-        shutil.rmtree(folder.data)
+        remove_files(folder.data, STORE)
     draft.replace(folder.data)
 
 

@@ -13,6 +13,8 @@ from numpy.typing import ArrayLike
 
 from ...contact.contact import Contact
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
+from ...quantities.files import refused_by_disk
 from .make_plan import make_plan
 from .plan import CHUNK
 
@@ -26,6 +28,7 @@ __all__ = ["sweep"]
 
 
 # -------------------------------------------------------------------------- sweep
+@takes_units
 def sweep(
     contact: Contact,
     *,
@@ -74,7 +77,9 @@ def sweep(
         for each of some columns; ``extrema``, ``mean``, True or False.
     out : path-like, optional
         A folder to write to block by block, in bounded memory. A run that was interrupted or
-        killed goes on when the same call is made again; a finished one is opened.
+        killed goes on when the same call is made again; a finished one is opened. What is not
+        as it was written is told in a warning and solved again. A folder that holds anything
+        else is refused.
     format : {"zarr", "netcdf"}, optional
         Of the data in ``out``.
     chunk : int, optional
@@ -84,7 +89,8 @@ def sweep(
     client : distributed.Client, optional
         An existing Dask cluster that solves the blocks instead; this process writes them.
     progress : bool or callable, optional
-        Show rate and time left on standard error; or a function of the number of states solved.
+        Show rate and time left on standard error; or a function of the number of states solved
+        for good (in ``out``: written), called after each block.
 
     Returns
     -------
@@ -135,6 +141,7 @@ def sweep(
         raise InvalidValue(f"workers = {workers!r} must be a whole number, at least 1")
     if out is None:
         return streaming.in_memory(plan, workers=workers, client=client, progress=progress)
-    return streaming.run(
-        plan, out, format=format, workers=workers, client=client, progress=progress
-    ).open()
+    with refused_by_disk(out):
+        return streaming.run(
+            plan, out, format=format, workers=workers, client=client, progress=progress
+        ).open()

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...contact.contact import Contact
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from ...quantities.value import problem_with
 from ..inputs import Input as Moved
 from ..inputs import declared, input_of, inputs
@@ -100,25 +101,30 @@ class Uncertain:
             raise InvalidValue(*problems)
 
     @classmethod
+    @takes_units
     def uniform(cls, *, low: float, high: float) -> Uncertain:
         """Anything between two ends, equally likely."""
         return cls(kind="uniform", first=low, second=high)
 
     @classmethod
+    @takes_units
     def log_uniform(cls, *, low: float, high: float) -> Uncertain:
         """Anything between two ends, equally likely in the logarithm."""
         return cls(kind="log-uniform", first=low, second=high)
 
     @classmethod
+    @takes_units
     def normal(cls, *, mean: float, std: float) -> Uncertain:
         """A measured value and its standard uncertainty."""
         return cls(kind="normal", first=mean, second=std)
 
     @classmethod
+    @takes_units
     def lognormal(cls, *, median: float, gsd: float) -> Uncertain:
         """A value known to a factor: two in three between median/gsd and median·gsd."""
         return cls(kind="lognormal", first=median, second=gsd)
 
+    @takes_units
     def at(self, u: ArrayLike) -> Any:
         """The value that is exceeded with probability 1 − u."""
         from scipy.special import ndtri
@@ -134,6 +140,7 @@ class Uncertain:
             out = self.first * self.second ** ndtri(x)
         return out if np.ndim(u) else float(out)
 
+    @takes_units
     def cdf(self, value: float) -> float:
         """Probability that the input is at most ``value``."""
         from scipy.special import ndtr

@@ -11,7 +11,7 @@ import numpy as np
 from ...contact.contact import Contact
 from ...equilibrium.columns import COLUMNS, about
 from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, load_falls
-from ...equilibrium.states import state_columns, tables_each
+from ...equilibrium.states import carries, state_columns, tables_each
 from ...errors import InvalidValue
 from ...numerics.sampling import sobol
 from ..inputs import NUMBERS
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Arrays = dict[str, NDArray[Any]]
 
-__all__ = ["OUTPUTS", "about_result", "columns_at", "enough"]
+__all__ = ["OUTPUTS", "about_result", "columns_at", "costly", "enough"]
 
 REPLICATES = 8
 """Scramblings of the sequence."""
@@ -51,8 +51,17 @@ def enough(contact: Contact, asked: int | None, vary: Iterable[str]) -> int:
     """Samples that were asked for, or the usual number; few where each builds its own tables."""
     if asked is not None:
         return asked
-    breaks = any(each.strength is not None for each in contact.populations)
-    return LEAST if breaks or tables_each(contact, vary) else USUAL
+    return LEAST if costly(contact, vary) else USUAL
+
+
+def costly(contact: Contact, vary: Iterable[str]) -> bool:
+    """Whether contacts that differ in these inputs each take tables of their own, 0.1 s to 5 s."""
+    names = [part for label in vary for part in label.split("+") if carries(part)]
+    if not names:
+        return False
+    return any(each.strength is not None for each in contact.populations) or tables_each(
+        contact, names
+    )
 
 
 def about_result(name: str) -> dict[str, str]:

@@ -63,7 +63,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
             load, values = "F_star", await state.ask(loads_as, "F_star")
         values = np.sort(values[np.isfinite(values) & (values > 0)])
         if not len(values):
-            work.said.set_text("no load of the study is positive")
+            work.fail("no load of the study is positive")
             return None
         found["load"] = load
         return {
@@ -102,7 +102,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         await work.tell(state)
         await draw()
 
-    what.on_value_change(lambda: draw())
+    what.on_value_change(state.tell)
     return tell
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from nicegui import ui
 
 from ...equilibrium.words import critical_load, happens
+from ...errors import InvalidValue
 from ...views.plot.style import HATCHES
 from ..figures import (
     AXES,
@@ -101,11 +102,9 @@ def _area(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
             line(x, state.A_ss, "asperities A<sub>ss</sub>", 1),
             line(x, state.A_sa, "particles A<sub>sa</sub>", 2),
         ]
-    made = figure(
+    return figure(
         lines, y="real area over A<sub>n</sub>", title="Real contact area", ylog=True, **more
     )
-    fix(made, "yaxis", span([each["y"] for each in lines], log=True))
-    return made
 
 
 def _shares(answer: Answer, x: Any, more: dict[str, Any]) -> dict[str, Any]:
@@ -183,7 +182,7 @@ class Curves:
         """What the figures show."""
         self.told: Answer | None = None
         """Whose critical loads the table holds."""
-        self.against.on_value_change(self.draw)
+        self.against.on_value_change(state.tell)
 
     async def draw(self) -> None:
         answer = self.state.answer
@@ -237,7 +236,14 @@ class Curves:
         self.later = None
         answer = self.state.answer
         assert answer is not None
-        await self._show(answer, critical=True)
+        try:
+            await self._show(answer, critical=True)
+        except InvalidValue as error:
+            self.shown = None
+            self.table.clear()
+            with self.table:
+                ui.label("; ".join(error.problems)).classes("problem")
+            return
         if answer is self.state.answer:
             self._tell(answer)
 

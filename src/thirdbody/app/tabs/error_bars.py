@@ -20,6 +20,7 @@ from ..inputs import Inputs
 from ..state import State
 from ..widgets import put
 from ..work import Work
+from .outputs import bounded
 
 __all__ = ["TITLE", "band_figure", "build", "critical_figure", "results_of", "tornado_figure"]
 
@@ -75,7 +76,7 @@ def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
     nominal = [np.nan if v is None else v for v in found["nominal"]]
     own = {"color": GREY, "dash": "dash"}
     traces.append(line(x, nominal, "this study", 1, line=own))
-    positive = bool(np.nanmin(band) > 0) and not found["of"].endswith("_share")
+    positive = bool(np.nanmin(band) > 0) and not bounded([found["of"]])
     made = figure(
         traces,
         x=AXES[load],

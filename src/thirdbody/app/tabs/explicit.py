@@ -157,7 +157,7 @@ class Explicit:
     async def _ask(self) -> dict[str, Any] | None:
         await self.state.settle()
         if self.state.answer is None:
-            self.work.said.set_text("the study has a mistake; see its entries")
+            self.work.fail("the study has a mistake; see its entries")
             return None
         load = await self.state.ask(_load, self.state.at)
         return {"study": self.state.study, "folder": str(self.state.folder), "F_star": load}

@@ -194,7 +194,9 @@ class Film:
             self.plots[name].update_figure(made)
         known = found["states"]["mu"][self.i] is not None
         self.plots["film friction"].set_visibility(known)
-        self.said.set_text(f"speed {value_of(found['states']['speed'][self.i], 'm/s')}")
+        said = f"speed {value_of(found['states']['speed'][self.i], 'm/s')}"
+        self.said.set_text(said)
+        self.slider.speak(said)
         self.facts.clear()
         with self.facts:
             named_values(point(found, self.i).items(), "film: ")

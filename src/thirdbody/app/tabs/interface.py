@@ -10,19 +10,30 @@ from nicegui import ui
 import thirdbody as tb
 
 from ...equilibrium.columns import COLUMNS
-from ...equilibrium.words import MODES, NO_CONTACT, carried, load_of, mode_of, two_bodies
+from ...equilibrium.words import MODES, NO_CONTACT, carried, load_of, meets, mode_of, two_bodies
+from ...errors import InvalidValue
 from ...quantities.say import number, percent, value_of
-from ...systems.bodies import press
+from ...study.body import told as told_of
+from ...study.body import told_forces
+from ...systems.bodies import Pressed, press
 from ..cross_section import section, to_svg
 from ..state import Answer, State
 from ..widgets import Facts
 
-__all__ = ["TITLE", "abouts", "build", "headline", "swatch", "told"]
+__all__ = ["TITLE", "abouts", "build", "drawn", "headline", "swatch", "told"]
 
 TITLE = "Interface"
 LETTERS = {"h": "h", "d": "d", "F*": "F_star"}
 FILM = "The study has an oil film: here surfaces and particles carry the load alone; see Film."
-MEAN = "The page opens at the mean pressure; the slider of the load goes up to the largest."
+PLACE = (
+    "What follows is a place of this contact where the pressure is that of the slider, which "
+    "begins at the mean and goes up to the largest."
+)
+FIRST = "Preliminary: the integral over the contact follows."
+RESTS = 0.25
+"""Seconds after which what takes long is computed for a study that has not changed."""
+SPARSE = 100
+"""A slab so many times deeper than the drawing is wide is no picture of a place."""
 MET = (
     " Where a population carries and the slab held none of its loaded particles, one of them is "
     "drawn in the place of a free one."
@@ -75,8 +86,8 @@ def abouts() -> dict[str, str]:
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """The answer, the drawing, what it shows, and another draw."""
     seed = {"now": 0}
+    force = Force(state)
     answer = ui.label().classes("headline").props('data-fact="headline" role=status')
-    forced = ui.label().classes("hint").props('data-fact="force"')
     film = ui.label(FILM).classes("hint").props('data-fact="film"')
     picture = (
         ui.html("", sanitize=False)
@@ -106,10 +117,10 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
 
     async def draw() -> None:
         assert state.answer is not None
-        forced.set_text(under_force(state.answer))
-        forced.set_visibility(bool(forced.text))
+        force.draw()
+        answer.classes(**{"add" if state.answer.study.forces is not None else "remove": "second"})
         film.set_visibility(state.answer.study.film is not None)
-        bad, found = await state.ask(_drawn, state.at, seed["now"])
+        bad, found = await state.ask(drawn, state.at, seed["now"])
         status.set_text(bad)
         status.set_visibility(bool(bad))
         if bad:
@@ -125,33 +136,94 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
                 _legend(names)
         numbers.show(pairs)
 
-    async def another() -> None:
+    def another() -> None:
         seed["now"] += 1
-        await draw()
+        state.tell()  # which is answered as every other change is
 
     return draw
 
 
-def under_force(answer: Answer) -> str:
-    """What one force does to its bodies; empty where the load is none."""
+class Force:
+    """What forces do to their bodies: the pressures at once, the integral once the study rests."""
+
+    def __init__(self, state: State) -> None:
+        self.state = state
+        self.box = ui.column().classes("w-full gap-1")
+        with self.box:
+            self.said = ui.label().classes("whole-contact").props('data-fact="force" role=status')
+            self.first = ui.label(FIRST).classes("stale").props('data-fact="preliminary"')
+            self.warned = ui.label().classes("problem").props('data-fact="force warning"')
+            self.place = ui.label(PLACE).classes("hint")
+        self.box.set_visibility(False)
+        self.shown: Answer | None = None
+        """Whose integral is shown, or asked for."""
+        self.later: Any = None
+        """The timer after which the integral is asked for."""
+        self.running = False
+
+    def draw(self) -> None:
+        """Show what is known, and have the rest follow."""
+        answer = self.state.answer
+        assert answer is not None
+        whole = "forces" in answer.__dict__
+        found = answer.forces if whole else at_once(answer)
+        self.box.set_visibility(bool(found))
+        if not found:
+            return
+        follows = not whole and found[0].kind != "flat"
+        self.said.set_text(" ".join(told_of(found)))
+        self.first.set_visibility(follows)
+        warned = [text for each in found for text in each.warnings]
+        self.warned.set_text(f"Warning: {'; '.join(warned)}." if warned else "")
+        self.warned.set_visibility(bool(warned))
+        self.place.set_visibility(found[0].kind != "flat" and answer.forced)
+        if follows and self.later is None and not self.running:
+            with self.box:
+                self.later = ui.timer(RESTS, self._finish, once=True)
+
+    async def _finish(self) -> None:
+        self.later, answer = None, self.state.answer
+        if answer is None or self.running:
+            return
+        self.running = True
+        try:
+            await self.state.ask(_integrated)
+        except InvalidValue as error:
+            self.first.set_text("; ".join(error.problems))
+            return
+        finally:
+            self.running = False
+        self.first.set_text(FIRST)
+        self.draw()  # of another answer meanwhile: it is asked for now
+
+
+def at_once(answer: Answer) -> list[Pressed]:
+    """What forces do to their bodies, as far as it takes no time."""
     body, forces = answer.study.body, answer.study.forces
-    if body is None or forces is None or not answer.forced:
-        return ""
-    said = press(answer.contact, body, float(forces[0]), integrate=False).sentence()
-    return said if body.conjunction is None else f"{said} {MEAN}"
+    if body is None or forces is None:
+        return []
+    return [
+        press(answer.contact, body, float(force), integrate=False) for force in told_forces(forces)
+    ]
 
 
-def _drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
+def _integrated(answer: Answer) -> None:
+    """Have the answer learn what its forces do."""
+    _ = answer.forces
+
+
+def drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
     """What is wrong with the state; else the drawing, what it shows, whose, and the state."""
     point = answer.solve(at, tb.outputs.Counts())
     if str(point.status) != "ok":
         return str(point.status), None
-    drawn = section(answer.contact, point, seed=seed)
-    svg = to_svg(drawn, title="Cross-section of the interface, to scale")
-    return "", (svg, _caption(drawn), drawn.names, told(point), headline(point))
+    made = section(answer.contact, point, seed=seed, held=answer.held)
+    svg = to_svg(made, title="Cross-section of the interface, to scale")
+    return "", (svg, _caption(made, answer.held), made.names, told(point), headline(point))
 
 
-def _caption(drawn: Any) -> str:
+def _caption(drawn: Any, held: float) -> str:
+    """What is drawn, and of how much surface."""
     said = (
         "One draw from the model, to scale. Below the rough surface of both bodies together, "
         "above the flat at the separation h from its mean plane (dotted). "
@@ -159,10 +231,23 @@ def _caption(drawn: Any) -> str:
     if not drawn.grains:
         return said
     loaded = sum(grain.loaded for grain in drawn.grains)
+    carry = "larger than the gap above their seat and carry load."
+    if rare := meets(held):
+        does = "is larger than the gap above its seat and carries load"
+        if len(drawn.grains) == 1:
+            which = "the particle " + (does if loaded else "fits into the gap above its seat")
+        else:
+            which = f"with one particle of each kind: {loaded} of {len(drawn.grains)} carry load"
+        return f"{said}{rare[0].upper()}{rare[1:]}. The drawing is of one that does; {which}."
+    if drawn.depth > SPARSE * drawn.width:
+        area = value_of(drawn.sparse, "m^2")
+        return (
+            f"{said}Particles are rare, one on {area}, and drawn side by side: {loaded} of "
+            f"{len(drawn.grains)} are {carry}"
+        ) + (MET if drawn.met else "")
     return said + (
         f"Particles are those of a slab {value_of(drawn.depth, 'm')} deep: {loaded} of "
-        f"{len(drawn.grains)} are larger than the gap above their seat and carry load."
-        + (MET if drawn.met else "")
+        f"{len(drawn.grains)} are {carry}" + (MET if drawn.met else "")
     )
 
 

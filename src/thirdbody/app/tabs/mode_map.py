@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
-from ...equilibrium.words import MODES
+from ...equilibrium.words import MODES, mode_of
 from ..figures import MODE_FILLS, empty, figure
 from ..sizing import size_of, with_size
 from ..state import Answer, State
@@ -17,10 +17,16 @@ from ..work import Work
 __all__ = ["TITLE", "build", "map_figure"]
 
 TITLE = "Map"
-RATIOS = np.geomspace(0.1, 10, 60)
-LOADS = np.geomspace(1e-7, 1e-3, 60)
+RATIOS, LOADS = (0.1, 10.0), (1e-7, 1e-3)
+"""What a map reaches over at least."""
+AROUND = {"ratio": 3.0, "load": 10.0}
+"""It goes so many times below and above the study."""
+POINTS = 60
 LITTLE = 3
 """A preview has every third of both."""
+
+
+OUTSIDE = "The study lies outside this map: draw it again."
 
 
 def map_figure(found: dict[str, Any], here: tuple[float, float] | None) -> dict[str, Any]:
@@ -94,6 +100,43 @@ def _here(size: float, load: float) -> dict[str, Any]:
     }
 
 
+def reach(here: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Sizes over σ and loads F* of a map, with the study well inside.
+
+    >>> sizes, loads = reach((5.0, 0.01))
+    >>> [f"{v:.3g}" for v in (sizes[0], sizes[-1], loads[0], loads[-1])]
+    ['0.1', '15', '1e-07', '0.1']
+    """
+    made = []
+    for least, value, around in zip((RATIOS, LOADS), here, AROUND.values(), strict=True):
+        ends = min(least[0], value / around), max(least[1], value * around)
+        made.append(np.geomspace(*ends, POINTS))
+    return made[0], made[1]
+
+
+def inside(found: dict[str, Any], here: tuple[float, float] | None) -> bool:
+    """Whether the study lies on the map."""
+    if here is None:
+        return True
+    axes = zip((found["sizes"], found["loads"]), here, strict=True)
+    return all(axis[0] <= value <= axis[-1] for axis, value in axes)
+
+
+def about_map(found: dict[str, Any]) -> str:
+    """What is said of a map of one colour, and of one with empty places.
+
+    >>> about_map({"mode": [[2, 2], [2, -1]]})[:60]
+    'Everywhere on this map nearly all real contact is on asperit'
+    """
+    every = [index for row in found["mode"] for index in row]
+    met, said = set(every) - {-1}, []
+    if len(met) == 1:
+        said.append(f"Everywhere on this map {mode_of(MODES[met.pop()])}.")
+    if -1 in every:
+        said.append("Where it is empty no state is solved.")
+    return " ".join(said)
+
+
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """The map of this study."""
     ui.label(
@@ -105,14 +148,27 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         await state.settle()  # what is shown belongs to the study as it is asked for
         answer = state.answer
         if answer is None or len(answer.contact.populations) != 1:
-            work.said.set_text("the map needs exactly one population of particles")
+            work.fail("the map needs exactly one population of particles")
             return None
+        place = await here()
+        if place is None or not (place[0] > 0 and place[1] > 0):
+            work.fail("the map needs a state of the study that is solved")
+            return None
+        sizes, loads = reach(place)
         return {
             "study": state.study,
             "folder": str(state.folder),
-            "sizes": RATIOS.tolist(),
-            "loads": LOADS.tolist(),
+            "sizes": sizes.tolist(),
+            "loads": loads.tolist(),
         }
+
+    async def here() -> tuple[float, float] | None:
+        """Where the study is on a map."""
+        assert state.answer is not None
+        contact = state.answer.contact
+        if len(contact.populations) != 1:
+            return None
+        return size_of(contact) / contact.roughness.sigma, await state.ask(_load, state.at)
 
     async def show(result: dict[str, Any]) -> None:
         found["map"] = result
@@ -122,11 +178,15 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         return None if state.answer is None else state.answer.contact
 
     def little(asked: dict[str, Any]) -> dict[str, Any]:
-        return asked | {name: asked[name][::LITTLE] for name in ("sizes", "loads")}
+        return asked | {
+            name: np.geomspace(asked[name][0], asked[name][-1], POINTS // LITTLE).tolist()
+            for name in ("sizes", "loads")
+        }
 
     work = Work("map", "Draw the map", ask, show, key=contact, same=_same_map, little=little)
     plot = ui.plotly(empty(520)).classes("w-full").props('data-figure="map"')
     plot.set_visibility(False)
+    only = ui.label().classes("hint").props('data-fact="map"')
 
     async def tell() -> None:
         await work.tell(state)
@@ -136,12 +196,15 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         if "map" not in found or state.answer is None:
             return
         plot.set_visibility(True)
-        contact = state.answer.contact
-        here = None
-        if len(contact.populations) == 1:
-            ratio = size_of(contact) / contact.roughness.sigma
-            here = (ratio, await state.ask(_load, state.at))
-        plot.update_figure(map_figure(found["map"], here))
+        place = await here()
+        if not inside(found["map"], place):
+            if work.preview:  # which is soon done again, for where the study is now
+                await work.again(state)
+            else:
+                work.fail(OUTSIDE)
+            place = None
+        only.set_text(about_map(found["map"]))
+        plot.update_figure(map_figure(found["map"], place))
 
     def clicked(event: Any) -> None:
         points = (event.args or {}).get("points") or []
@@ -163,6 +226,8 @@ def _load(answer: Answer, at: float) -> float:
 
 def _same_map(one: Any, other: Any) -> bool:
     """Whether two contacts have one map: sizes are scaled in it."""
+    if one == other:
+        return True
     if one is None or other is None or {len(c.populations) for c in (one, other)} != {1}:
         return False
     (a,), (b,) = one.populations, other.populations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Awaitable, Callable
 from itertools import takewhile
@@ -10,15 +11,16 @@ from typing import Any
 import numpy as np
 from nicegui import ui
 
+from ...analysis.uncertainty.propagation import about_result
 from ...equilibrium.columns import about
 from ...quantities.say import prefixed, value_of
-from ..figures import AXES, SCALES, figure, line, mark, plain, symbol, wrapped
+from ..figures import AXES, SCALES, clipped, figure, line, mark, plain, symbol, wrapped
 from ..inputs import Inputs
 from ..state import Answer, State
 from ..widgets import Plot, shown
 from ..widgets import table as shown_table
 
-__all__ = ["TITLE", "build", "output_figures"]
+__all__ = ["TITLE", "bounded", "build", "output_figures"]
 
 TITLE = "Outputs"
 QUANTITIES = {
@@ -28,6 +30,10 @@ QUANTITIES = {
     "1/m^2": "number per area",
 }
 """What columns of one unit are where their meanings have no words in common."""
+BOUNDED = re.compile(r"\b(share|part|friction)\b")
+"""Words of the meanings of numbers that are bounded."""
+WIDE_FROM = 30
+"""Largest value over smallest from which an axis is logarithmic."""
 LINKS = {"of", "a", "an", "the", "on", "in", "by", "that", "from"}
 """Words with which no name ends."""
 WIDE = 44
@@ -63,7 +69,8 @@ def _figure(
     every = np.concatenate(values)
     every = every[np.isfinite(every) & (every != 0)]
     size, name = prefixed(float(np.abs(every).max()) if len(every) else 1.0, unit)
-    wide = len(every) > 0 and every.min() > 0 and every.max() > 30 * every.min()
+    matters = clipped(values)
+    wide = len(every) > 0 and every.min() > 0 and matters.max() > WIDE_FROM * matters.min()
     names = [f"{symbol(about(c)['symbol'])}: {plain(about(c)['meaning'])}" for c in columns]
     names = [_folded(each) for each in names]
     return figure(
@@ -74,9 +81,21 @@ def _figure(
         x=x,
         y=wrapped(what + (f" [{name}]" if name else ""), WIDE),
         xlog=answer.load != "d",
-        ylog=bool(wide),
+        ylog=bool(wide) and not bounded(columns),
         height=HEIGHT + LINE * sum(each.count("<br>") + 1 for each in names),
     )
+
+
+def bounded(columns: list[str]) -> bool:
+    """Whether all columns are parts of a whole or coefficients of friction, none far above 1.
+
+    What of them is small does not matter: their axis is linear.
+
+    >>> bounded(["mu", "mu_ss", "rolling_share"]), bounded(["n_ss"]), bounded(["wear", "wear_K"])
+    (True, False, False)
+    """
+    told = [about_result(column) for column in columns]
+    return all(each["unit"] == "1" and BOUNDED.search(each["meaning"]) for each in told)
 
 
 def quantity_of(columns: list[str], unit: str) -> str:

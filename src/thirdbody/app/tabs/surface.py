@@ -155,6 +155,11 @@ class Surface:
         self.file = str(self.state.folder / name) if mine else name
         self.source.set_text(f"file: {name if mine else 'the example of the library'}")
 
+    def _hide(self) -> None:
+        """Show no result, and none as that of a former file."""
+        self.box.set_visibility(False)
+        self.work.forget()
+
     def draw(self) -> None:
         """Read again what the address tells, after a reload and on the way back."""
         told = self.state.surface
@@ -165,9 +170,9 @@ class Surface:
         for name, entry in self.texts.items():
             text = told.get(name, "")
             entry.set_value(text if name != "detrend" or text in FORMS else "")
-        self.box.set_visibility(False)
+        self._hide()
         if told["file"] != "example" and not Path(self.file).is_file():
-            self.work.said.set_text(missing(told["file"]))
+            self.work.fail(missing(told["file"]))
             return
         background_tasks.create(self._read())
 
@@ -182,7 +187,7 @@ class Surface:
             self.work.said.set_text("; ".join(error.problems))
             return
         self._of(name)
-        self.box.set_visibility(False)
+        self._hide()
         self.chooser.reset()
         await self.work.run()
 
@@ -192,7 +197,7 @@ class Surface:
         except InvalidValue as error:
             self.work.said.set_text("; ".join(error.problems))
             return None
-        self.box.set_visibility(False)
+        self._hide()
         self.asked = self._written()
         self.state.surface = self.followed = self._told()
         self.state.tell()

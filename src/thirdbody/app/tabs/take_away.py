@@ -170,7 +170,7 @@ def _content(answer: Answer, name: str, at: float) -> str:
         "study.py": lambda: to_python(answer.study, at),
         "states.csv": lambda: to_csv(answer.study),
         "states.json": lambda: to_json(answer.study),
-        "section.svg": lambda: to_svg(section(answer.contact, answer.solve(at))),
+        "section.svg": lambda: to_svg(section(answer.contact, answer.solve(at), held=answer.held)),
     }
     return made[name]()
 

@@ -34,7 +34,7 @@ def command(
     from ...study.analyses import assess_study
     from ...views.assess_page import page
 
-    asked = read_study(study, settings)
+    asked = read_study(study, settings, writes=[html_file])
     need_folders(html_file)
     answer = assess_study(asked, progress=True)
     if html_file is not None:

@@ -25,7 +25,7 @@ MEANS = {
     "A_t": "real contact area over the nominal area, no unit",
     "diff. of A_t": "against the law of the study",
     "F/A_t": "mean real pressure",
-    "d/sigma": "separation over the RMS roughness, no unit",
+    "d/sigma": "separation d over the RMS roughness, no unit",
     "diff. of d/sigma": "against the law of the study",
     "plastic": "as elastic and el.-plastic, that part of the real area",
     "particles' load": "their part of the load",
@@ -72,7 +72,7 @@ def command(
         raise InvalidValue(*problems)
     files = TableFiles(csv_file, xlsx_file, parquet_file)
     files.need()
-    asked = read_study(study, settings)
+    asked = read_study(study, settings, writes=[*files, *_of_folder(out)])
     found = compared(asked.contact, **_equal_loads(asked), laws=_words(names))
     for sentence in filter(None, found.attrs["warnings"].splitlines()):
         warn(sentence)
@@ -93,6 +93,11 @@ def command(
     _show_comparison(asked.title, found, index)
     for path in written:
         print(f"written: {path}", file=sys.stderr)
+
+
+def _of_folder(out: Path | None) -> list[Path]:
+    """What lies in the folder of --out in the end."""
+    return [] if out is None else [out / f"compare.{end}" for end in ("csv", "png", "svg")]
 
 
 def _words(names: str | None) -> list[str] | None:

@@ -40,8 +40,8 @@ def command(
     """The best size, concentration or roughness over a range of loads, under limits."""
     from ...study.analyses import design_study
 
-    asked = read_study(study, settings)
     files = TableFiles(csv_file, xlsx_file, parquet_file)
+    asked = read_study(study, settings, writes=[*files, figure])
     files.need(figure)
     if figure is not None:
         figure_format(figure)  # refused before long work

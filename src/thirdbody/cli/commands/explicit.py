@@ -56,7 +56,8 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The loads of a study on maps of heights, with every particle at its place."""
-    from ...study.run_explicit import run_explicit
+    from ...quantities.records import release_folder
+    from ...study.run_explicit import claim_results, run_explicit
 
     _check(maps, workers, out)
     short = {"surfaces": surfaces, "size": size, "spacing": spacing, "seats": seats}
@@ -65,12 +66,17 @@ def command(
     ]
     asked = read_study(study, [*(settings or ()), *own])
     if out is not None:
-        out.mkdir(parents=True, exist_ok=True)
+        claim_results(out, asked, maps=maps)
     kept = None if out is None else out / "surfaces"
-    result = run_explicit(
-        asked, folder=kept, maps=maps, workers=workers, scheduler=scheduler,
-        progress=sys.stderr.isatty(),
-    )  # fmt: skip
+    try:
+        result = run_explicit(
+            asked, folder=kept, maps=maps, workers=workers, scheduler=scheduler,
+            progress=sys.stderr.isatty(),
+        )  # fmt: skip
+    except BaseException:
+        if out is not None:
+            release_folder(out)
+        raise
     for sentence in result.data["warnings"][len(asked.notes) :]:
         warn(sentence)
     if out is not None:
@@ -131,7 +137,12 @@ def _show(data: dict[str, Any]) -> None:
             kinds = ("raw", "cv") if synthetic else ("raw",)
             for kind in kinds:
                 error = table[f"{name}_{kind}_error"][i] if synthetic else None
-                cells.append(_cell(name, table[f"{name}_{kind}"][i], error))
+                least = table[f"{name}_{kind}_least"][i] if "share" in name and synthetic else None
+                if kind == "cv" and least is not None:
+                    most = percent(table[f"{name}_{kind}_most"][i], digits=3)
+                    cells.append(f"{percent(least, digits=3)} to {most}")
+                else:
+                    cells.append(_cell(name, table[f"{name}_{kind}"][i], error))
             cells.append(_cell(name, table[f"{name}_statistical"][i], None))
             if synthetic and many:
                 away = table[f"{name}_difference"][i]

@@ -47,9 +47,9 @@ def command(
     """Film, load shares and friction of a lubricated contact, at one speed or over many."""
     from ...study import run_film
 
-    asked = read_study(study, settings)
     files = TableFiles(csv_file, xlsx_file, parquet_file)
-    files.need()
+    asked = read_study(study, settings, writes=[*files, figure])
+    files.need(figure)
     if figure is not None:
         figure_format(figure)  # refused before long work
     result = run_film(asked)

@@ -32,8 +32,9 @@ __all__ = ["command", "summary"]
 MEANS = {
     "F*": "load F/(A_n E_ss), no unit",
     "pressure": "nominal pressure p",
-    "d": "separation from the mean asperity height",
-    "d/sigma": "the same over the RMS roughness, no unit",
+    "h": "separation of the mean planes",
+    "d": "separation d, from the mean asperity height",
+    "d/sigma": "d over the RMS roughness, no unit",
     "A_t": "real contact area over the nominal area, no unit",
     "A_ss": "of it on asperities",
     "A_sa": "of it on particles",
@@ -42,7 +43,7 @@ MEANS = {
     "mode": "p-s on particles, hybrid on both, s-s on asperities",
 }
 """What the heads of the states mean."""
-DROP = ("A_ss", "A_sa", "d/sigma", "particles' area", "F*")
+DROP = ("A_ss", "A_sa", "d/sigma", "d", "particles' area", "F*")
 """Columns in the order in which they go where the width is small."""
 
 Columns = dict[str, Callable[[int], str]]
@@ -68,7 +69,7 @@ def command(
             "--json and --csv, --xlsx or --parquet exclude each other; run the command twice"
         )
     files.need()
-    asked = read_study(study, settings)
+    asked = read_study(study, settings, writes=files.asked)
     result = run_study(asked)
     for sentence in result["warnings"][len(asked.notes) :]:
         warn(sentence)
@@ -82,6 +83,9 @@ def command(
             print(f"{len(statuses)} states written to {path}", file=sys.stderr)
     elif solved:
         _show(result)
+    elif "body" in result:  # what the smooth bodies do is known
+        for sentence in result["body"]["sentences"]:
+            terminal().print(sentence)
     if not solved:
         more = f" (and so for all {len(statuses)} states)" if len(statuses) > 1 else ""
         raise NoEquilibrium(statuses[0] + more)
@@ -96,7 +100,11 @@ def _columns(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, st
     for part in result["populations"]:
         mine = {f"{part['name']}: {key}": part[key] for key in part if key != "name"}
         columns |= mine
-        units |= dict.fromkeys(mine, "1")
+        units |= {
+            f"{part['name']}: {key}": about(key)["unit"] if key in result["states"] else "1"
+            for key in part
+            if key != "name"
+        }
     return columns, units
 
 
@@ -118,6 +126,7 @@ def _show(result: dict[str, Any]) -> None:
         "pressure": lambda i: value_of(states["pressure"][i], "Pa"),
     }
     columns = loads | {
+        "h": lambda i: value_of(states["h"][i], "m"),
         "d": lambda i: value_of(states["d"][i], "m"),
         "d/sigma": lambda i: number(states["d_star"][i]),
         "A_t": lambda i: number(states["A_t"][i]),
@@ -211,7 +220,10 @@ def summary(result: dict[str, Any]) -> str:
     three_body = result["inputs"]["particles"] is not None
 
     def state(i: int) -> str:
-        gap = f"separation {value_of(states['d'][i], 'm')} ({number(states['d_star'][i], 3)} sigma)"
+        gap = (
+            f"separation h = {value_of(states['h'][i], 'm')} "
+            f"(d = {value_of(states['d'][i], 'm')}, {number(states['d_star'][i], 3)} sigma)"
+        )
         if not states["A_t"][i]:
             return f"{mode_of(None)}; {gap}"
         area = f"real contact area {percent(states['A_t'][i])} of the nominal area"

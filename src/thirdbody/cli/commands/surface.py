@@ -71,6 +71,7 @@ def command(
 ) -> None:
     """Moments and asperities of a measured surface, and what they owe to the cut-off."""
     from ...populations.measured.topography import from_topography
+    from ...quantities.files import refuse_clashes
 
     problems: list[str] = []
     files = TableFiles(csv_file, xlsx_file, parquet_file)
@@ -79,6 +80,7 @@ def command(
     problems += not_a_folder(out)
     if problems:
         raise InvalidValue(*problems)
+    refuse_clashes([*files, *(_of_folder(out) if out else ())], [file])
     found = from_topography(file, detrend=detrend, unit=unit, channel=channel, **lengths)
     result = found.to_dict()
     for sentence in found.warnings:
@@ -91,6 +93,11 @@ def command(
         _show_surface(found, result)
     for path in written:
         print(f"written: {path}", file=sys.stderr)
+
+
+def _of_folder(folder: Path) -> list[Path]:
+    """What lies in the folder of --out in the end."""
+    return [folder / f"surface.{suffix}" for suffix in ("png", "svg", "json")]
 
 
 def _lengths(
@@ -110,17 +117,20 @@ def _lengths(
 def _write_surface(folder: Path, found: Any, result: dict[str, Any]) -> list[Path]:
     import matplotlib as mpl
 
-    from ...quantities.files import whole, write_text
+    from ...quantities.files import make_folder, whole, write_text
+    from ...quantities.records import refuse_replaced
     from ...views.plot.topography import surface as draw
 
-    folder.mkdir(parents=True, exist_ok=True)
-    out = [folder / f"surface.{suffix}" for suffix in ("png", "svg", "json")]
+    text = json.dumps(finite(result), indent=1, allow_nan=False) + "\n"
+    refuse_replaced(folder, {"surface.json": text, "surface.png": None, "surface.svg": None})
+    make_folder(folder)
+    out = _of_folder(folder)
     drawing = draw(found)
     with whole(out[0]) as png, whole(out[1]) as svg:
         drawing.savefig(png, dpi=200)
         with mpl.rc_context({"svg.hashsalt": "thirdbody"}):
             drawing.savefig(svg, metadata={"Date": None})
-        write_text(out[2], json.dumps(finite(result), indent=1, allow_nan=False) + "\n")
+        write_text(out[2], text)
     return out
 
 

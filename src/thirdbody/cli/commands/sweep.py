@@ -22,14 +22,17 @@ __all__ = ["command"]
 
 def command(
     study: Annotated[
-        Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [sweep].")
-    ],
+        Path | None,
+        typer.Argument(
+            metavar="STUDY.toml", help="A study file with a table [sweep].", show_default=False
+        ),
+    ] = None,
     out: Annotated[
-        Path,
+        Path | None,
         typer.Option(
             "--out", metavar="DIR", help="Folder for the states; the same command resumes."
         ),
-    ],
+    ] = None,
     format: Annotated[
         str, typer.Option("--format", metavar="zarr|netcdf", help="Of the data in DIR.")
     ] = "zarr",
@@ -42,11 +45,24 @@ def command(
             "--scheduler", metavar="ADDRESS", help="A Dask cluster that solves them instead."
         ),
     ] = None,
+    check: Annotated[
+        Path | None,
+        typer.Option(
+            "--check", metavar="DIR", help="Say instead whether a folder is as it was written."
+        ),
+    ] = None,
     settings: Settings = None,
 ) -> None:
     """Many states, in a folder: on a grid, in pairs or sampled; resumable."""
     from ...analysis.sweep.streaming import run
 
+    if check is not None:
+        _check(check, alone=study is None and out is None)
+        return
+    if study is None or out is None:
+        problems = [] if study is not None else ["STUDY.toml is missing: the study to sweep"]
+        problems += [] if out is not None else ["--out DIR is missing: the folder for the states"]
+        raise InvalidValue(*problems)
     plan = _read_plan(study, settings, format, workers)
     client = None
     if scheduler is not None:
@@ -56,7 +72,7 @@ def command(
     try:
         folder = run(plan, out, format=format, workers=workers, client=client, progress=True)
     except KeyboardInterrupt:
-        done = len(list((out / "done").glob("*.json")))
+        done = len(list((out / "done").glob("[0-9]*.json")))
         raise Interrupted(
             f"interrupted after {done} of {plan.count} blocks; the same command goes on"
         ) from None
@@ -64,6 +80,18 @@ def command(
         if client is not None:
             client.close()
     _tell(folder)
+
+
+def _check(folder: Path, *, alone: bool) -> None:
+    """Say whether a folder is as it was written."""
+    from ...analysis.sweep.folder import check_folder
+
+    if not alone:
+        raise InvalidValue("--check DIR stands alone, without STUDY.toml and --out")
+    found, *rest = check_folder(folder, progress=True).splitlines()
+    for sentence in rest:
+        warn(sentence)
+    print(found)
 
 
 def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Plan:

@@ -49,6 +49,7 @@ def command(
     """Pressure and real area of a study's contact against separation, for other solvers."""
     from ...equilibrium.table.make import table
     from ...equilibrium.table.writers import FORMATS, rounded_up
+    from ...quantities.files import need_folders
 
     name, problems = _format(form, out, units)
     ends = [
@@ -57,7 +58,8 @@ def command(
     ]
     if problems:
         raise InvalidValue(*problems)
-    contact = read_study(study, settings).contact
+    contact = read_study(study, settings, writes=[out]).contact
+    need_folders(out)
     made = table(contact, low=ends[0], high=ends[1], tolerance=tolerance, coordinate=coordinate)
     write, _ = FORMATS[name]
     write(made, out, **({} if units is None else {"units": units}))

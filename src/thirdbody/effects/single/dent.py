@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ...populations.materials import Material
+from ...quantities.carried import takes_units
 from .ploughing import residual_depth
 
 if TYPE_CHECKING:
@@ -23,11 +25,14 @@ __all__ = [
     "dent_volume",
     "dents_after",
     "flattened_diameter",
+    "footprint",
     "fragments",
+    "sink",
 ]
 
 
 # ------------------------------------------------------------------------------ one particle
+@takes_units
 def dent_diameter(depth: ArrayLike, *, radius: ArrayLike) -> Array:
     r"""Diameter of the dent of a hard sphere pressed δ deep.
 
@@ -52,6 +57,7 @@ def dent_diameter(depth: ArrayLike, *, radius: ArrayLike) -> Array:
     return 2 * np.sqrt(depth * (2 * np.asarray(radius) - depth))
 
 
+@takes_units
 def dent_volume(residual: ArrayLike, *, depth: ArrayLike, radius: ArrayLike) -> Array:
     r"""Volume of a dent: a spherical cap as wide as under load and as deep as what stays.
 
@@ -81,6 +87,7 @@ def dent_volume(residual: ArrayLike, *, depth: ArrayLike, radius: ArrayLike) -> 
     return np.pi / 6 * cap * (0.75 * width**2 + cap**2) + np.pi * radius**2 * shaft
 
 
+@takes_units
 def flattened_diameter(x: ArrayLike, *, gap: ArrayLike) -> Array:
     r"""Diameter of the disc that a ductile sphere becomes in a gap, its volume kept.
 
@@ -105,6 +112,7 @@ def flattened_diameter(x: ArrayLike, *, gap: ArrayLike) -> Array:
     return x * np.sqrt(np.maximum(2 * x / (3 * np.asarray(gap)), 1.0))
 
 
+@takes_units
 def fragments(x: ArrayLike, *, size: float) -> Array:
     r"""Fragments of one size that a brittle particle of size x breaks into, its volume kept.
 
@@ -130,6 +138,7 @@ def fragments(x: ArrayLike, *, size: float) -> Array:
     return np.maximum(np.asarray(x, dtype=float) / size, 1.0) ** 3
 
 
+@takes_units
 def dents_after(rate: ArrayLike, *, overrollings: ArrayLike, area: ArrayLike) -> Array:
     r"""Dents that one can tell apart after many overrollings.
 
@@ -178,18 +187,82 @@ class Dent(NamedTuple):
     """
 
     depth: Array
-    """Depth left δ_res [m]; 0 where nothing stays."""
+    """Depth left δ_res [m]; 0 where nothing stays, NaN where it is not known."""
     diameter: Array
-    """Its diameter, that under load [m]."""
+    """Its diameter, that under load [m]; of a flattened particle that of its footprint."""
     volume: Array
-    """Its volume [m³]."""
+    """Its volume [m³], NaN where the depth is not known."""
 
 
-def dent_of(spots: ParticleSpots, *, side: int, particle: Material) -> Dent:
+@takes_units
+def sink(particle: Material, *, hardness: float, debris: str = "by_hardness") -> float:
+    """The part of its squeeze into a surface that stays a dent: what a particle does, decided here.
+
+    A particle harder than the surface sinks into it. One that is not is flattened, and how far it
+    sinks is not known: NaN, never 0.
+
+    Parameters
+    ----------
+    particle : Material
+    hardness : float
+        H of the softer one of particle and surface [Pa], as `ParticleSpots.hardness` has it.
+    debris : {"by_hardness", "hard", "ductile", "brittle"}, optional
+        What the user says: "hard" sinks whatever its hardness, "ductile" is flattened.
+
+    Returns
+    -------
+    float
+        1 for all of it, NaN where it is not known [1].
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> sink(tb.materials["SiO2"], hardness=steel.H), sink(steel, hardness=steel.H)
+    (1.0, nan)
+    """
+    if debris == "hard" or (debris != "ductile" and particle.H > hardness):
+        return 1.0
+    return math.nan
+
+
+@takes_units
+def footprint(spots: ParticleSpots, *, side: int, squashed: bool = False) -> Array:
+    """Diameter of the disc to which a particle is flattened (M, n) [m]; 0 where nothing presses.
+
+    Parameters
+    ----------
+    spots : ParticleSpots
+    side : {0, 1}
+        Surface 1 or 2.
+    squashed : bool, optional
+        Whether the areas are those of squashed particles, of which it is the contact; otherwise
+        it is a disc of the particle's volume as high as its gap.
+
+    Returns
+    -------
+    array
+    """
+    if squashed:
+        return 2 * np.sqrt(spots.areas[side] / np.pi)
+    gap = np.maximum(spots.x - spots.depths[0] - spots.depths[1], 1e-3 * spots.x)
+    return (spots.load > 0) * flattened_diameter(spots.x, gap=gap)
+
+
+@takes_units
+def dent_of(
+    spots: ParticleSpots,
+    *,
+    side: int,
+    particle: Material,
+    debris: str = "by_hardness",
+    squashed: bool = False,
+) -> Dent:
     """The dents of particles in surface 1 (side 0) or 2 (side 1).
 
-    Only a particle that is harder than the surface dents it; otherwise it is deformed itself. No
-    dent is deeper than the particle is thick.
+    A particle that is harder than the surface dents it. One that is not is flattened: the width is
+    that of its footprint, depth and volume are not known (`sink`). No dent is deeper than the
+    particle is thick.
 
     Parameters
     ----------
@@ -199,6 +272,10 @@ def dent_of(spots: ParticleSpots, *, side: int, particle: Material) -> Dent:
         Surface 1 or 2.
     particle : Material
         Of the particles.
+    debris : str, optional
+        What the user says of it, as in `sink`.
+    squashed : bool, optional
+        As in `footprint`.
 
     Returns
     -------
@@ -222,10 +299,15 @@ def dent_of(spots: ParticleSpots, *, side: int, particle: Material) -> Dent:
     >>> f"{depth * 1e6:.2f} µm"
     '0.52 µm'
     """
-    depth = np.minimum(spots.depths[side], spots.x)
+    share = sink(particle, hardness=spots.hardness[side], debris=debris)
+    if math.isnan(share):
+        wide = footprint(spots, side=side, squashed=squashed)
+        unknown = np.where(wide > 0, np.nan, 0.0)
+        return Dent(unknown, wide, unknown)
+    depth = np.minimum(share * spots.depths[side], spots.x)
     first = spots.yields[side] * spots.x
     ratio = np.divide(depth, first, out=np.zeros_like(depth), where=first > 0)
-    left = residual_depth(depth, depth_over_yield=ratio) * (particle.H > spots.hardness[side])
+    left = residual_depth(depth, depth_over_yield=ratio)
     there = left > 0
     volume = dent_volume(left, depth=depth, radius=spots.radius)
     shape = spots.shape

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import special
 
+from ...quantities.carried import takes_units
 from .joint import (
     absolute_slope,
     cooper_mikic_yovanovich,
@@ -78,6 +79,7 @@ _SPHERE_END = {
 
 
 # ------------------------------------------------------------------ one half-space
+@takes_units
 def peclet(a: Number, *, v: float, D: float) -> Number:
     r"""Péclet number of a source that moves over a body.
 
@@ -105,6 +107,7 @@ def peclet(a: Number, *, v: float, D: float) -> Number:
     return v * a / (2 * D)
 
 
+@takes_units
 def moving_rise(Pe: Number, *, kind: str = "mean", flux: str = "uniform") -> Number:
     r"""Steady rise under a circular source that moves, over q̄a/k [1], after Tian and Kennedy.
 
@@ -155,6 +158,7 @@ def moving_rise(Pe: Number, *, kind: str = "mean", flux: str = "uniform") -> Num
     return C / np.sqrt(math.pi * (c + Pe))
 
 
+@takes_units
 def body_conductance(
     a: Number, *, k: float, D: float, v: float = 0.0, kind: str = "mean", flux: str = "uniform"
 ) -> Number:
@@ -217,6 +221,7 @@ def _sudden_table(flux: str, kind: str) -> tuple[Array, Array]:
     return ln_Fo, np.log(share)
 
 
+@takes_units
 def sudden_share(Fo: Number, *, kind: str = "mean", flux: str = "uniform") -> Number:
     r"""Part of the steady rise that a source at rest has reached after a time t [1].
 
@@ -259,6 +264,7 @@ def sudden_share(Fo: Number, *, kind: str = "mean", flux: str = "uniform") -> Nu
 
 
 # ------------------------------------------------------------------ two bodies and a bridge
+@takes_units
 def partition(Q: Number, *, G_1: Number, G_2: Number, T_1: Number, T_2: Number) -> Number:
     r"""Temperature of a contact between two bodies in which heat Q is set free.
 
@@ -290,6 +296,7 @@ def partition(Q: Number, *, G_1: Number, G_2: Number, T_1: Number, T_2: Number) 
     return (Q + G_1 * T_1 + G_2 * T_2) / (G_1 + G_2)
 
 
+@takes_units
 def bridge(
     heat: tuple[Number, Number],
     *,
@@ -332,6 +339,7 @@ def bridge(
     return ((Q_1 * (G_2 + k) + k * Q_2) / whole, (Q_2 * (G_1 + k) + k * Q_1) / whole)
 
 
+@takes_units
 def sphere_resistance(
     a_1: Number, *, a_2: Number, r: Number, k: float, ends: str | tuple[str, str] = "isothermal"
 ) -> Number:
@@ -386,6 +394,7 @@ def sphere_resistance(
 
 
 # ------------------------------------------------------------------ conductance
+@takes_units
 def spot_resistance(
     b: Number,
     *,
@@ -433,6 +442,7 @@ def spot_resistance(
     return holm + sharvin + film / (math.pi * b**2)
 
 
+@takes_units
 def spreading(epsilon: Number, *, form: str = "power") -> Number:
     r"""Factor ψ on the resistance of a spot that its neighbours leave only a tube [1].
 

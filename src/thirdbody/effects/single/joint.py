@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy import special
 
+from ...quantities.carried import takes_units
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -22,6 +24,7 @@ __all__ = [
 ]
 
 
+@takes_units
 def absolute_slope(*, sigma: Number, R: Number, alpha: float) -> Number:
     r"""Mean absolute slope of a profile m [1] of a Gaussian isotropic surface.
 
@@ -58,6 +61,7 @@ def absolute_slope(*, sigma: Number, R: Number, alpha: float) -> Number:
     return np.sqrt(2 / math.pi * m_2)
 
 
+@takes_units
 def cooper_mikic_yovanovich(pressure: Number, *, H: float, k: float, m: float, sigma: float) -> Any:
     r"""Conductance of clean, plastic, conforming rough surfaces [W/(m² K)].
 
@@ -104,6 +108,7 @@ def cooper_mikic_yovanovich(pressure: Number, *, H: float, k: float, m: float, s
     return k * m / sigma * height / (1 - np.sqrt(part)) ** 1.5
 
 
+@takes_units
 def cooper_mikic_yovanovich_fit(
     pressure: Number, *, H: float, k: float, m: float, sigma: float
 ) -> Number:
@@ -134,6 +139,7 @@ def cooper_mikic_yovanovich_fit(
     return 1.25 * k * m / sigma * (pressure / H) ** 0.95
 
 
+@takes_units
 def mikic_elastic(pressure: Number, *, E_star: float, k: float, m: float, sigma: float) -> Number:
     r"""Conductance of clean, elastic, conforming rough surfaces [W/(m² K)].
 

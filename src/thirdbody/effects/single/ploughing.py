@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...quantities.carried import takes_units
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -56,6 +58,7 @@ def _segment(w: Array) -> Array:
     return out
 
 
+@takes_units
 def groove_area(depth: ArrayLike, *, radius: ArrayLike) -> Array:
     r"""Cross-section of the groove that a sphere leaves.
 
@@ -85,6 +88,7 @@ def groove_area(depth: ArrayLike, *, radius: ArrayLike) -> Array:
     return np.square(radius) * _segment(_relative(depth, radius, 2.0))
 
 
+@takes_units
 def coefficient(depth: ArrayLike, *, radius: ArrayLike, rear: ArrayLike = 0.0) -> Array:
     r"""Ploughing force of a sphere over its load.
 
@@ -130,6 +134,7 @@ def coefficient(depth: ArrayLike, *, radius: ArrayLike, rear: ArrayLike = 0.0) -
     return 2 / np.pi * front * (1 - kappa) / (1 + kappa)
 
 
+@takes_units
 def groove_area_of_faces(a: ArrayLike, *, edge: ArrayLike, angle: float) -> Array:
     r"""Cross-section of the groove that a rounded cone leaves.
 
@@ -163,6 +168,7 @@ def groove_area_of_faces(a: ArrayLike, *, edge: ArrayLike, angle: float) -> Arra
     return np.tan(angle) * np.where(a > edge, a**2 - edge**2 / 3, 2 / 3 * a**3 / edge)
 
 
+@takes_units
 def coefficient_of_faces(
     a: ArrayLike, *, edge: ArrayLike, angle: float, rear: ArrayLike = 0.0
 ) -> Array:
@@ -201,6 +207,7 @@ def coefficient_of_faces(
     return 2 / np.pi * front * (1 - kappa) / (1 + kappa)
 
 
+@takes_units
 def groove_of(spots: ParticleSpots, *, side: int) -> Array:
     """Cross-section of the groove of each particle in surface 1 (side 0) or 2 [m²]: (M, n)."""
     shape = spots.shape
@@ -210,6 +217,7 @@ def groove_of(spots: ParticleSpots, *, side: int) -> Array:
     return groove_area_of_faces(a, edge=shape.edge * spots.x, angle=shape.angle)
 
 
+@takes_units
 def rear_support(depth_over_yield: ArrayLike) -> Array:
     r"""Support κ of the rear half of a contact by what recovers of its depth.
 
@@ -239,6 +247,7 @@ def rear_support(depth_over_yield: ArrayLike) -> Array:
     return one + two - one * two
 
 
+@takes_units
 def residual_depth(depth: ArrayLike, *, depth_over_yield: ArrayLike) -> Array:
     r"""Depth left after unloading.
 

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...quantities.carried import takes_units
+
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["severity", "threshold"]
 
 
+@takes_units
 def severity(load: ArrayLike, *, x: ArrayLike, H_1: ArrayLike, H_2: ArrayLike) -> Array:
     r"""Severity S of one particle between two surfaces.
 
@@ -58,6 +61,7 @@ def severity(load: ArrayLike, *, x: ArrayLike, H_1: ArrayLike, H_2: ArrayLike) -
     return 6 * np.asarray(load) * softness / (np.pi * np.asarray(x) ** 2)
 
 
+@takes_units
 def threshold(H_s: ArrayLike, *, H_b: ArrayLike) -> Array:
     r"""Severity S* above which particles groove, and below which they roll.
 

@@ -6,6 +6,7 @@ import math
 
 from numba import njit
 
+from ..status import Status
 from .cached import Cached
 from .kernels import (
     NO,
@@ -20,10 +21,11 @@ from .kernels import (
 )
 from .machine import exact, inlined
 
-__all__ = ["OK", "TOO_DEEP", "TOO_LITTLE", "TOO_MUCH", "UNSOLVED", "solve_states"]
+__all__ = ["OK", "TOO_LITTLE", "TOO_MUCH", "UNSOLVED", "solve_states"]
 
-OK, TOO_MUCH, TOO_LITTLE, UNSOLVED, TOO_DEEP = range(5)
-"""What became of a state; too deep is for those who give a separation to say."""
+OK, TOO_MUCH = int(Status.OK), int(Status.TOO_MUCH)
+TOO_LITTLE, UNSOLVED = int(Status.TOO_LITTLE), int(Status.UNSOLVED)
+"""What became of a state: the other codes are for those to say who give and judge states."""
 LOWEST, MOST, STEPS = -3.0, 120, 30
 """Lowest separation searched [σ_s], and the most evaluations of the load, of which those after
 STEPS only halve the bracket."""

@@ -13,7 +13,7 @@ import numpy as np
 from ...contact.asperity_sums import GaussianSum
 from ...contact.contact import Contact
 from ...contact.interface import Interface, together
-from ...errors import NotCompiled
+from ...errors import InvalidValue, NotCompiled
 from ...laws.particle.series import Series as ParticleSeries
 from ...populations.materials import reduced_modulus, softer_hardness
 from ...populations.shape import Angular
@@ -72,10 +72,23 @@ def unavailable() -> str:
     return "" if find_spec("numba") is not None else "numba is not installed"
 
 
+MOST_THREADS = 4096
+
+
 def threads() -> int:
-    """How many threads share the states: ``THIRDBODY_THREADS``, or one for each processor."""
-    given = os.environ.get("THIRDBODY_THREADS", "")
-    if given.isdigit() and int(given) > 0:
+    """How many threads share the states: ``THIRDBODY_THREADS``, or one for each processor.
+
+    Raises
+    ------
+    InvalidValue
+        The variable is no such number.
+    """
+    if given := os.environ.get("THIRDBODY_THREADS", "").strip():
+        if not (given.isascii() and given.isdecimal() and 0 < int(given) <= MOST_THREADS):
+            raise InvalidValue(
+                f"THIRDBODY_THREADS = {given!r} must be a whole number from 1 to {MOST_THREADS}: "
+                "how many threads share the states; remove it for one each processor"
+            )
         return int(given)
     usable = getattr(os, "sched_getaffinity", None)
     return len(usable(0)) if usable else os.cpu_count() or 1
@@ -189,7 +202,7 @@ class States(_Batch):
         """
         from ..columns import as_columns
         from ..load_scan import RESIDUAL
-        from .balance import OK, TOO_DEEP, UNSOLVED
+        from ..status import Status
 
         centre, sigma_s = self.rows.interfaces["centre"], self.rows.interfaces["sigma_s"]
         E, rough = self.rows.varied.E_ss, self.rows.varied.roughness
@@ -198,7 +211,7 @@ class States(_Batch):
         h, iterations, fate, raw = self.solve(np.arange(len(loads)), target, given)
         if given is not None:
             deep = given < -GaussianSum.DEEPEST
-            fate[deep], iterations[deep] = TOO_DEEP, 0
+            fate[deep], iterations[deep] = Status.TOO_DEEP, 0
         h[fate != 0] = np.nan
         for values in raw.values():
             values[fate != 0] = np.nan
@@ -209,7 +222,7 @@ class States(_Batch):
         )
         doubt = np.full(len(loads), "", dtype=object)
         balanced = (columns["residual"] <= RESIDUAL) & np.isfinite(raw["A_t"])
-        doubt[(fate == UNSOLVED) | ((fate == OK) & ~balanced)] = NOT_BALANCED
+        doubt[(fate == Status.UNSOLVED) | ((fate == Status.OK) & ~balanced)] = NOT_BALANCED
         if target is not None:
             doubt[~self._monotone(target)] = NOT_MONOTONE
         return columns | {"status": fate, "iterations": iterations, "doubt": doubt}

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 
 from ...contact.contact import Contact
 from ...contact.interface import Interface, interface
-from ...errors import InvalidValue, RangeWarning
+from ...errors import InvalidValue, RangeWarning, tell_of_range
+from ...quantities.carried import takes_units
 from ..load_scan import DEEPEST, LoadScan, load_scan
 from ..solve import pull_off, solve
 from .cubic import _LogCubic
@@ -48,6 +49,7 @@ MOST_PANELS = 20_000
 
 
 # -------------------------------------------------------------------------- making a table
+@takes_units
 def table(
     contact: Contact,
     *,
@@ -122,7 +124,7 @@ def table(
         warnings.simplefilter("ignore", RangeWarning)
         said = solve(contact, d=np.array([d_low, d_high])).warnings
     for sentence in said:
-        warnings.warn(sentence, RangeWarning, stacklevel=2)
+        tell_of_range(sentence)
     p, A, *shares = parts
     return ContactTable(
         contact=contact,
@@ -164,7 +166,7 @@ def _upper_end(bound: Interface, scan: LoadScan) -> float:
     """The largest d that carries `LEAST_LOAD`, or more where the load jumps over it."""
     d, _, status = scan.met(np.array([LEAST_LOAD * bound.contact.E_ss]), "loading")
     if np.isnan(d[0]):
-        raise InvalidValue(f"no table: {status[0]}; give high [m]")
+        raise InvalidValue(f"no table: {status.words[0]}; give high [m]")
     return float(d[0])
 
 

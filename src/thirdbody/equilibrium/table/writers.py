@@ -18,6 +18,7 @@ from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...contact.interface import interface
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from ...quantities.files import write_text
 from ...quantities.units import say
 from .cubic import _LogCubic
@@ -111,22 +112,27 @@ class ContactTable:
     """Cubics of each share: (N, 4)."""
 
     # ------------------------------------------------------------------ values
+    @takes_units
     def p(self, h: ArrayLike) -> Number:
         """Nominal pressure [Pa] at separations [m], any shape."""
         return _as_given(h, self._p.value(np.asarray(h, dtype=float)))
 
+    @takes_units
     def dp_dh(self, h: ArrayLike) -> Number:
         """Slope of `p` [Pa/m], negative: the exact derivative of the table."""
         return _as_given(h, self._p.slope(np.asarray(h, dtype=float)))
 
+    @takes_units
     def A(self, h: ArrayLike) -> Number:
         """Real area A_t per nominal area [1]."""
         return _as_given(h, self._A.value(np.asarray(h, dtype=float)))
 
+    @takes_units
     def dA_dh(self, h: ArrayLike) -> Number:
         """Slope of `A` [1/m]: the exact derivative of the table."""
         return _as_given(h, self._A.slope(np.asarray(h, dtype=float)))
 
+    @takes_units
     def share(self, name: str, h: ArrayLike) -> Number:
         """A share [1] that was asked for in ``columns``; constant beyond the ends."""
         if name not in self._shares:
@@ -199,6 +205,7 @@ class ContactTable:
         writer.writerows(zip(*(map(repr, c.tolist()) for c in columns.values()), strict=True))
         write_text(path, text.getvalue())
 
+    @takes_units
     def to_abaqus(
         self,
         path: str | os.PathLike[str],
@@ -253,6 +260,7 @@ class ContactTable:
         text += "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n"
         write_text(path, text + "\n".join(pairs) + "\n")
 
+    @takes_units
     def to_comsol(self, path: str | os.PathLike[str], *, tolerance: float = 1e-4) -> None:
         """Columns for an interpolation function of COMSOL: separation, ln p, p, A_t.
 
@@ -286,6 +294,7 @@ class ContactTable:
         body = "\n".join(" ".join(repr(float(v)) for v in row) for row in rows)
         write_text(path, self._head("% ", note) + body + "\n")
 
+    @takes_units
     def to_avl(
         self,
         path: str | os.PathLike[str],
@@ -387,7 +396,16 @@ class ContactTable:
             bad = np.flatnonzero(error > tolerance)
             if not len(bad):
                 return x, float(error.max())
+            if len(x) > MOST_ROWS:
+                raise InvalidValue(
+                    f"tolerance = {tolerance!r} takes more than {MOST_ROWS:,} straight lines: the "
+                    "error no longer falls with their length; ask for less"
+                )
             x = np.insert(x, bad + 1, 0.5 * (x[bad] + x[bad + 1]))
+
+
+MOST_ROWS = 200_000
+"""Straight lines of a table."""
 
 
 def _is_number(value: Any) -> bool:

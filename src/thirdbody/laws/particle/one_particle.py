@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Side", "SideForm", "SqueezedParticle", "contact_sides"]
 
+MOST_DOUBLED = 200
+"""Times that an indentation is doubled in search of a contact as wide as its particle."""
+
 
 class SideForm(Protocol):
     """What a side of a particle is if not a sphere's; a frozen value, so that equal ones share."""
@@ -104,8 +107,16 @@ class Side:
         if np.any(rest):
             low, high = 0.4 * full[rest], np.maximum(full[rest], 1.0)
             low = np.where(excess(low, full[rest]) < 0, low, 0.0)
-            while np.any(short := excess(high, full[rest]) < -1e-9 * full[rest]):
+            for _ in range(MOST_DOUBLED):
+                short = excess(high, full[rest]) < -1e-9 * full[rest]
+                if not np.any(short):
+                    break
                 high = np.where(short, 2 * high, high)  # areas that jump down stay behind y
+            else:
+                raise InvalidValue(
+                    f"the law {self.law.name} has no indentation at which the contact of a "
+                    "particle is as wide as the particle: its area must grow with the indentation"
+                )
             found = bracketed_root(excess, low, high, (full[rest],))
             y[rest] = np.where(excess(high, full[rest]) <= 0, high, found)
         return y

@@ -25,6 +25,10 @@ FULL, COLUMN = 2.84, 1.0
 """Hardness over yield strength of a small contact, and of a column as wide as the sphere."""
 JG_RANGE = (8.0, 150.0)
 """E*/H within which the area of Jackson and Green does not fill the volume too early."""
+SOLID = (1e-6, 1e9)
+"""E*/H of what counts as a solid, and how many times as hard the surfaces may be."""
+THINNEST = 1e-12
+"""Height left over the size, below which no disc is followed: digits of the squash end there."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,14 @@ class Squash:
         self, law: AbstractAsperityLaw, E_star: float, H: float, nu: float, R: float
     ) -> Side | None:
         """The contact of this half; None where the law knows no yielding."""
+        low, high = SOLID
+        if not (low <= E_star / H <= high and self.surface / H <= high):
+            raise InvalidValue(
+                f"a squashed particle of E* = {E_star:.3g} Pa and H = {H:.3g} Pa between surfaces "
+                f"of H = {self.surface:.3g} Pa is beyond the law: E*/H must be from {low:g} to "
+                f"{high:g}, and the surfaces at most {high:g} times as hard; check the units of E "
+                "and H, or use soft = 'sphere'"
+            )
         if self.onset == "jg":
             low, high = JG_RANGE
             if not low <= E_star / H <= high:
@@ -127,6 +139,12 @@ class _SquashedSide(Side):
         high = low = math.log(self._left(y))
         while excess(low) < 0:
             high, low = low, low - math.log(2)
+            if low < math.log(THINNEST):
+                raise InvalidValue(
+                    f"a squashed particle of H = {self.H:.3g} Pa does not reach the hardness of "
+                    f"the surfaces, {surface:.3g} Pa, before it is squashed to {THINNEST:g} of its "
+                    "size; check H and friction_factor, or use soft = 'sphere'"
+                )
         if low == high:
             return y
         return self._tau(-math.expm1(self._where(excess, low, high)))

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...explicit.half_space import lattice_constant
-from ...explicit.press import press
+from ...explicit.press import press, touched
 from ...laws.base import OneParticle, Squeezed
 from ...laws.particle.series import Series
 
@@ -53,15 +53,15 @@ def table(E_over_H: float) -> tuple[Array, Array, Array]:
         r2 = at[:, None] ** 2 + at**2
         z = np.where(r2 < 0.25, 1 - 2 * r2, 0.0)
         mean = float(z.mean())
+        hardness = np.ones_like(z)
         found = press(
-            z - mean, spacing, E_over_H, c=np.ones_like(z), load=load, tol=1e-7,
+            z - mean, spacing, E_over_H, c=hardness, load=load, tol=1e-7,
             max_iterations=1000,
         )  # fmt: skip
         side = POINTS * spacing
         images = lattice_constant((side, side)) * load / (math.pi * E_over_H)
         eps[i] = 1 - (found.h + mean) + images
-        # where all that touches yields, the area is load over hardness
-        areas[i] = max(load, float(np.count_nonzero(found.p)) * spacing**2)
+        areas[i] = float(np.sum(touched(found.p, hardness, 1.0))) * spacing**2
     return eps, loads, np.minimum(areas, FULL)
 
 

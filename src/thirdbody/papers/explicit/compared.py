@@ -71,6 +71,9 @@ class Point:
         Mean and width of the heights of the seats over σ, which the model has [1].
     stored : (float, float) or None
         The share that the stored runs gave, and its error.
+    bounds : (float, float)
+        Least and most of the share where too little was drawn for a number with an error; else
+        NaN [1].
     """
 
     case: Case
@@ -87,6 +90,12 @@ class Point:
     surfaces: int
     zeta: tuple[float, float]
     stored: tuple[float, float] | None
+    bounds: tuple[float, float] = (math.nan, math.nan)
+
+    @property
+    def bounded(self) -> bool:
+        """Whether bounds are all that is known of the share."""
+        return math.isfinite(self.bounds[0])
 
     @property
     def apart(self) -> float:
@@ -100,9 +109,14 @@ class Point:
 
     @property
     def off(self) -> bool:
-        """Whether the model is off by more than the error bars: 95 %, few surfaces counted."""
+        """Whether the model is off by more than the error bars: 95 %, few surfaces counted.
+
+        Where only bounds are known, whether it is outside them.
+        """
         if self.surfaces < 2:
             return False
+        if self.bounded:
+            return not self.bounds[0] <= self.statistical <= self.bounds[1]
         return abs(self.errors) > float(student.ppf(SURE, self.surfaces - 1))
 
     @property
@@ -180,6 +194,10 @@ def points_of(case: Case, found: Ensemble) -> list[Point]:
                 surfaces=found.surfaces,
                 zeta=(found.seats.mean, found.seats.std),
                 stored=_stored(case, load),
+                bounds=(
+                    float(table["particle_load_share_cv_least"].values[i]),
+                    float(table["particle_load_share_cv_most"].values[i]),
+                ),
             )
         )
     return out

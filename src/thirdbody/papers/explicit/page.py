@@ -58,8 +58,8 @@ class Summary:
                 if point.case.group == name:
                     out.append(
                         f"  {point.case.words:<44} F* = {number(point.F_star, 2):<8} "
-                        f"{_share(point.share):>18}  model {percent(point.statistical)}  "
-                        f"{signed(point.errors, 1)} errors"
+                        f"{_explicit(point):>18}  model {percent(point.statistical)}  "
+                        f"{_apart(point)}"
                     )
         out += ["", f"{len(self.files)} files in {self.out}; read {self.out / 'index.html'}"]
         return out
@@ -91,7 +91,7 @@ def reproduce(
     if preset not in PRESETS:
         raise InvalidValue(f"preset = {preset!r} must be 'full' or 'quick'")
     effort = PRESETS[preset]
-    folder = made(out)
+    folder = made(out, "explicit", preset or "full")
     report = progress or (lambda stage, done, total: None)
     total = len(CASES) * effort.surfaces
     points: list[Point] = []
@@ -135,6 +135,8 @@ def _columns(point: Point) -> dict[str, Any]:
         "share_raw_error": point.raw[1],
         "share": point.share[0],
         "share_error": point.share[1],
+        "share_least": point.bounds[0],
+        "share_most": point.bounds[1],
         "share_statistical": point.statistical,
         "difference_in_errors": point.errors,
         "share_stored": stored[0],
@@ -204,17 +206,29 @@ def markdown(states: list[dict[str, Any]]) -> str:
 
 
 def _cell(state: dict[str, Any]) -> str:
-    """Explicit ± error, and the model's number."""
-    ours, error, model = (
+    """Explicit ± error, or the bounds that are known of it; and the model's number."""
+    ours, error, model, least, most = (
         None if state[name] is None else 100 * state[name]
-        for name in ("share", "share_error", "share_statistical")
+        for name in ("share", "share_error", "share_statistical", "share_least", "share_most")
     )
-    assert ours is not None
     assert model is not None
+    bold = "**{}**" if state["off"] else "{}"
+    if least is not None and most is not None:
+        told = f"{model:.1f}"
+        return f"{_between(least, most)}, " + bold.format(told)
+    assert ours is not None
     decimals = 0 if not error else min(max(0, 1 - math.floor(math.log10(error))), 3)
     spread = f" ± {error:.{decimals}f}" if error else ""
     told = f"{model:.{max(decimals, 1)}f}"
-    return f"{ours:.{decimals}f}{spread}, " + (f"**{told}**" if state["off"] else told)
+    return f"{ours:.{decimals}f}{spread}, " + bold.format(told)
+
+
+def _between(least: float, most: float) -> str:
+    """Bounds in per cent: what is wider than they are is not told."""
+    low, high = math.floor(10 * least) / 10, math.ceil(10 * most) / 10
+    if high >= 100:
+        return f"≥ {low:.1f}"
+    return f"≤ {high:.1f}" if low <= 0 else f"{low:.1f} to {high:.1f}"
 
 
 # -------------------------------------------------------------------------- the figure
@@ -236,14 +250,24 @@ def figure(points: tuple[Point, ...]) -> Figure:
         ax.axhspan(0.9, 1.1, color="0.93", zorder=0)
         ax.axhline(1.0, color="0.5", linewidth=0.8, zorder=1)
         for i, words in enumerate(names):
-            every = [point for point in mine if point.case.words == words and point.share[0] > 0]
-            load = np.array([point.F_star for point in every]) * 1.07 ** (i - len(names) / 2)
+            beside = 1.07 ** (i - len(names) / 2)
+            ink = inks[i % len(inks)]
+            every = [
+                point
+                for point in mine
+                if point.case.words == words and point.share[0] > 0 and not point.bounded
+            ]
+            load = np.array([point.F_star for point in every]) * beside
             ratio = np.array([point.statistical / point.share[0] for point in every])
             error = ratio * np.array([point.share[1] / point.share[0] for point in every])
             ax.errorbar(
                 load, ratio, yerr=error, marker="o", markersize=4, capsize=2.5, linewidth=1.0,
-                elinewidth=1.0, color=inks[i % len(inks)], label=words,
+                elinewidth=1.0, color=ink, label=words,
             )  # fmt: skip
+            for point in mine:  # a bar from bound to bound has no mark
+                if point.case.words == words and point.bounded and point.bounds[0] > 0:
+                    ends = [point.statistical / each for each in point.bounds]
+                    ax.plot([point.F_star * beside] * 2, ends, color=ink, marker="_", linewidth=1.0)
         ax.set_title(title, fontsize="small", loc="left")
         loads = sorted({point.F_star for point in mine})
         if loads and loads[-1] < 10 * loads[0]:
@@ -267,6 +291,13 @@ def _share(pair: tuple[float, float]) -> str:
     return percent(*pair) if math.isfinite(pair[1]) else percent(pair[0])
 
 
+def _explicit(point: Point) -> str:
+    """The share without the luck of the draw, or its bounds."""
+    if not point.bounded:
+        return _share(point.share)
+    return _between(*(100 * each for each in point.bounds)) + " %"
+
+
 def _page(summary: Summary, svg: bytes) -> str:
     title = "The statistical model against particles at their places"
     body = [
@@ -275,7 +306,8 @@ def _page(summary: Summary, svg: bytes) -> str:
         f"{summary.left_out} states that did not converge are left out. Base: σ = 0.3 µm, "
         "R = 3 µm, α = 5, E* = 112 GPa, H = 5 GPa, 10¹¹ particles of one size per m², random "
         "seats. Shares are those of the particles in the load; explicit ones without the luck of "
-        "the draw, with standard errors over surfaces. The model has the seat heights that were "
+        "the draw, with standard errors over surfaces; where too few of these draw an asperity, "
+        "what is sure of them. The model has the seat heights that were "
         "measured; nothing is fitted. Rows on a coloured ground are those in which it is off by "
         "more than the error bars (95 %, the few surfaces counted).</p>",
         "<h2>Shares</h2>",
@@ -295,16 +327,22 @@ def _page(summary: Summary, svg: bytes) -> str:
     return document(title, body)
 
 
+def _apart(point: Point) -> str:
+    """By how much the model is off."""
+    if point.bounded:
+        return "outside" if point.off else "within"
+    return f"{signed(100 * point.apart, 1)} %, {signed(point.errors, 1)} errors"
+
+
 def _row(point: Point, stored: bool) -> list[str]:
     kind = "fail" if point.off else "pass"
     cells = [
         symbols(point.case.words),
         number(point.F_star, 2),
         _share(point.raw),
-        f"<b>{_share(point.share)}</b>",
+        f"<b>{_explicit(point)}</b>",
         percent(point.statistical),
-        f"<td class='{kind}'>{signed(100 * point.apart, 1)} %, {signed(point.errors, 1)} errors"
-        "</td>",
+        f"<td class='{kind}'>{_apart(point)}</td>",
         f"{point.h[0]:.3f} ± {point.h[1]:.3f}",
         f"{point.h_statistical:.3f}",
         escape(point.why),

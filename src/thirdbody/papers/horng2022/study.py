@@ -110,7 +110,7 @@ def reproduce(
     """
     if preset not in READINGS:
         raise InvalidValue(f"preset = {preset!r} must be one of {', '.join(READINGS)}")
-    folder = made(out)
+    folder = made(out, "horng2022", preset)
     report = progress or (lambda stage, done, total: None)
 
     books = {name: Curves(reading) for name, reading in READINGS.items()}

@@ -88,7 +88,7 @@ def reproduce(
     """
     if preset is not None:
         raise InvalidValue(f"preset = {preset!r} has no meaning for measurements; leave it out")
-    folder = made(out)
+    folder = made(out, "measurements")
     report = progress or (lambda stage, done, total: None)
 
     known = rows()

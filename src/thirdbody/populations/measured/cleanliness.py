@@ -25,6 +25,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from ...quantities.units import say
 from ..distributions import Distribution, PowerLaw
 from .concentration import OIL_DENSITY, Concentration, concentration, particles_in
@@ -170,6 +171,7 @@ def read_iso4406(code: str) -> tuple[int | None, ...]:
     return tuple(numbers)
 
 
+@takes_units
 def suspension_of_iso4406(
     code: str, *, level: str = "middle", smallest: float | None = None, largest: float | None = None
 ) -> tuple[float, Distribution]:
@@ -242,6 +244,7 @@ def _within(most: list[float], number: int, level: str) -> float:
     return math.sqrt(low * high) if low else high / math.sqrt(2)
 
 
+@takes_units
 def iso4406_of(*, density: float, diameter: Distribution) -> str:
     """The ISO 4406 code of n particles per volume [1/m³] with these sizes.
 
@@ -281,6 +284,7 @@ def _above(density: float, diameter: Distribution, scale: dict[str, Any]) -> lis
     ]
 
 
+@takes_units
 def suspension_of_class(
     kind: str, name: str, *, smallest: float | None = None, largest: float | None = None
 ) -> tuple[float, Distribution]:
@@ -341,6 +345,7 @@ def _class_table(kind: str) -> tuple[dict[str, Any], dict[str, list[int]]]:
     return scale, scale["most" if kind == "as4059" else "within"]
 
 
+@takes_units
 def class_of(kind: str, *, density: float, diameter: Distribution) -> str:
     """The lowest class of `suspension_of_class` that permits these particles.
 
@@ -391,6 +396,7 @@ def dust_table(name: str) -> dict[str, Any]:
     return dusts[name]
 
 
+@takes_units
 def dust_sizes(name: str, *, limit: str = "middle", smallest: float | None = None) -> Distribution:
     r"""Sizes by number of an Arizona test dust, ISO 12103-1.
 

@@ -7,6 +7,7 @@ import re
 from typing import NamedTuple
 
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from ...quantities.units import say, to_si
 from ..distributions import Distribution
 
@@ -40,6 +41,7 @@ _KINDS = {
 _SAID = '"0.1 wt%", "0.02 vol%", "50 ppm" (by mass), "10 mg/L" or "1e6 / mL"'
 
 
+@takes_units
 def concentration(value: float | str, by: str = "number") -> Concentration:
     """A concentration as it is written: "0.1 wt%", "50 ppm", "1e6 / mL".
 
@@ -102,6 +104,7 @@ def _read(text: str) -> tuple[float, str]:
     raise InvalidValue(f"{say(text)} is not a concentration; it must be written {_SAID}")
 
 
+@takes_units
 def particles_in(
     found: Concentration,
     diameter: Distribution,

@@ -24,6 +24,8 @@ from scipy.special import exprel
 
 from ...errors import InvalidValue
 from ...numerics.quadrature import gauss_legendre
+from ...quantities.carried import takes_units
+from ...quantities.files import read_bytes
 from ...quantities.units import say, to_si
 from ...quantities.value import Value, choice
 from ..distributions import (
@@ -53,6 +55,7 @@ _LEFT_OUT = 1e-9
 """Volume (or area) above the largest size that a converted infinite tail keeps."""
 
 
+@takes_units
 def by_number(
     sizes: Distribution, weighting: str, *, smallest: float | None = None
 ) -> Distribution:
@@ -296,6 +299,7 @@ class Fit:
     rms: float
     worst: float
 
+    @takes_units
     def by_number(self, smallest: float | None = None) -> Distribution:
         """The number distribution φ_a.
 
@@ -415,7 +419,7 @@ def read_sizes(path: str | os.PathLike[str], *, weighting: str = "number") -> Me
 def _lines(path: Path) -> list[tuple[int, list[str]]]:
     """Numbered lines of cells, without comments and empty lines."""
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        text = read_bytes(path, "a CSV file of sizes").decode("utf-8-sig")
     except FileNotFoundError:
         raise InvalidValue(f"cannot read {path}: there is no such file") from None
     except IsADirectoryError:
@@ -424,6 +428,8 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
         raise InvalidValue(
             f"cannot read {path}: it is not UTF-8 text; save the sheet as CSV UTF-8"
         ) from None
+    except InvalidValue:
+        raise
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         raise InvalidValue(f"cannot read {path}: {why.lower()}") from None

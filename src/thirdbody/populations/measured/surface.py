@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from ...quantities.say import percent, signed, value_of
 from ..ellipticity import Ellipticity
 from ..heights import Heights
@@ -144,6 +145,7 @@ class Topography:
         """The cut-off used unless another is asked for [m]."""
         return self.recommended[0] if self.given_cutoff is None else self.given_cutoff
 
+    @takes_units
     def filtered(self, cutoff: float | None = None) -> Array:
         """Heights without the waves below a cut-off.
 
@@ -168,6 +170,7 @@ class Topography:
             return self.heights
         return gaussian_filtered(self.heights, self.spacing, cutoff, self.periodic)
 
+    @takes_units
     def moments_at(
         self, cutoff: float | None = None, *, method: Method = "differences"
     ) -> SpectralMoments:
@@ -256,6 +259,7 @@ class Topography:
         """Summits counted at `cutoff`."""
         return self.summits_at()
 
+    @takes_units
     def summits_at(self, cutoff: float | None = None) -> Summits:
         """Summits counted at a cut-off.
 
@@ -287,6 +291,7 @@ class Topography:
         """Kurtosis of the heights at `cutoff`, 3 for a Gaussian."""
         return float(self._state(self.cutoff)[4][1])
 
+    @takes_units
     def roughness(
         self,
         *,
@@ -359,6 +364,7 @@ class Topography:
         )
 
     # ---------------------------------------------------------------- the cut-off itself
+    @takes_units
     def curve(self, points_per_octave: int = 2) -> Curve:
         """Moments, asperities and summits against the cut-off.
 
@@ -391,6 +397,7 @@ class Topography:
         columns = {name: np.array([row[name] for row in rows]) for name in COLUMNS}
         return known.setdefault(points_per_octave, Curve(columns=columns))
 
+    @takes_units
     def row(self, cutoff: float) -> dict[str, float]:
         """Every column of `COLUMNS` at one cut-off, 0 for the heights as sampled."""
         moments, summits = self.moments_at(cutoff), self.summits_at(cutoff)

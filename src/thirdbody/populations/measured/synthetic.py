@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from .spectra import SpectralMoments
 from .topography import Topography
 
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["from_moments", "self_affine"]
 
 
+@takes_units
 def self_affine(
     *,
     sigma: float,
@@ -91,6 +93,7 @@ def self_affine(
     return _with_phases(density, sigma, spacing, points, seed)
 
 
+@takes_units
 def from_moments(
     moments: SpectralMoments,
     *,

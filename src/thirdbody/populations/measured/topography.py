@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from ...quantities.say import percent, value_of
 from ...quantities.units import to_si
 from .cutoff_curve import COLUMNS, Curve
@@ -32,6 +33,7 @@ FEWEST_POINTS = {1: 64, 2: 16}
 """Points a profile, or each side of a map, must have."""
 
 
+@takes_units
 def from_topography(
     source: str | os.PathLike[str] | Any,
     *,

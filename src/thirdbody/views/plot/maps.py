@@ -14,6 +14,7 @@ from ...equilibrium.solve import solve
 from ...equilibrium.words import MODES
 from ...errors import InvalidValue
 from ...populations.particles import Particles
+from ...quantities.carried import takes_units
 from .style import MODE_COLOURS, _axes, _dress, _legend_above
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["mode_map"]
 
 
+@takes_units
 def mode_map(
     contact: Contact,
     *,

@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import EngFormatter, PercentFormatter
 
 from ...errors import InvalidValue
+from ...quantities.carried import takes_units
 from ...quantities.say import percent, value_of
 from .style import AXIS_LABELS, OKABE_ITO, SYMBOLS, _axes, _dress, _legend_above, _share_axis, _tint
 
@@ -21,6 +22,7 @@ __all__ = ["bands", "tornado"]
 
 
 # ------------------------------------------------------------------ uncertain inputs
+@takes_units
 def bands(
     data: Propagation,
     of: str = "particle_load_share",
@@ -102,6 +104,7 @@ def bands(
     return ax
 
 
+@takes_units
 def tornado(
     data: Propagation,
     of: str,

@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ...analysis.assess import PARTS as ASSESSED
 from ...analysis.assess import assess
 from ...analysis.assessment import Assessment
+from ...analysis.inputs import inputs
 from ...analysis.sensitivity import Sensitivity, sensitivity
 from ...analysis.uncertainty.inputs import stated_ranges
 from ...analysis.uncertainty.samples import enough
@@ -18,10 +20,11 @@ from ...equilibrium.columns import Equilibrium
 from ...equilibrium.modes import FAINT
 from ...equilibrium.solve import solve
 from ...errors import InvalidValue, NoEquilibrium, RangeWarning, ThirdBodyError
+from ...quantities.progress import Stages, counted, nested
 from ...study import Study, run_film, run_study
 from ...study.one_surface import OneSurface, one_surface
 from .found import some_of
-from .page import MOST_SAMPLES, Report
+from .page import MOST_SAMPLES, Report, most_samples
 
 DRAWN, WINDOW, BEYOND = 120, (1e-8, 1e-2), 5.0
 """Loads of the curves, F* within which they lie, and the factor beyond what is marked on them."""
@@ -109,14 +112,14 @@ def report(
         if study.explicit is not None and loaded:
             pressed = _pressed(study, [states["F_star"][i] for i in loaded])
         progress(PARTS[1])
-        assessment = _assessed(study, bare, given) if loaded else None
+        assessment = _assessed(study, bare, given, progress) if loaded else None
         progress(PARTS[2])
         return Report(
             study=study,
             result=result,
             curve=curve,
             assessment=assessment,
-            slopes=_slopes(bare, given) if loaded else None,
+            slopes=_slopes(bare, given, progress) if loaded else None,
             at=at,
             file=file,
             film=None if study.film is None else run_film(study),
@@ -144,7 +147,10 @@ def _curve(contact: Contact, result: dict[str, Any], loaded: Sequence[int]) -> E
     return solve(contact, F_star=np.geomspace(low, high, DRAWN))
 
 
-def _assessed(study: Study, contact: Contact, given: dict[str, float]) -> Assessment | None:
+def _assessed(
+    study: Study, contact: Contact, given: dict[str, Any], progress: Callable[[str], None]
+) -> Assessment | None:
+    inner = nested(progress, len(ASSESSED))
     asked = study.uncertainty
     if asked is None:
         breaks = any(each.strength is not None for each in contact.populations)
@@ -152,21 +158,26 @@ def _assessed(study: Study, contact: Contact, given: dict[str, float]) -> Assess
         if breaks or not ranges:
             return None
         samples = min(enough(contact, None, ranges), MOST_SAMPLES)
-        return assess(contact, **given, samples=samples)  # type: ignore[arg-type]
+        return assess(contact, **given, samples=samples, progress=inner)
     loads = {"pressure", "F_star", "d"} - set(given)
-    inputs = {label: known for label, known in asked.inputs.items() if label not in loads}
-    if not inputs:
+    vary = {label: known for label, known in asked.inputs.items() if label not in loads}
+    if not vary:
         return None
-    samples = min(enough(contact, asked.samples, inputs), MOST_SAMPLES)
-    return assess(contact, vary=inputs, **given, samples=samples, seed=asked.seed)  # type: ignore[arg-type]
+    samples = min(enough(contact, asked.samples, vary), most_samples(contact, vary))
+    more: dict[str, Any] = {"samples": samples, "seed": asked.seed, "progress": inner}
+    return assess(contact, vary=vary, **given, **more)
 
 
-def _slopes(contact: Contact, given: dict[str, float]) -> Sensitivity | None:
+def _slopes(
+    contact: Contact, given: dict[str, Any], progress: Callable[[str], None]
+) -> Sensitivity | None:
     """Of the load share, the area and the separation, to every input."""
     names = ["A_t", "h"]
     if not contact.two_body:
         names.insert(0, "particle_load_share")
+    within = progress.within if isinstance(progress, Stages) else None
     try:
-        return sensitivity(contact, of=names, **given, quick=True)  # type: ignore[arg-type]
+        with counted(4 * len(inputs(contact)), within):
+            return sensitivity(contact, of=names, **given, quick=True)
     except ThirdBodyError:
         return None

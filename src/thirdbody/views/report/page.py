@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from html import escape
 
 from ...analysis.assessment import WORDS as ASSESSMENT_WORDS
 from ...analysis.inputs import declared, words_of
 from ...analysis.uncertainty.inputs import stated_ranges
-from ...analysis.uncertainty.samples import enough
+from ...analysis.uncertainty.samples import LEAST, costly, enough
+from ...contact.contact import Contact
 from ...equilibrium.columns import about
 from ...equilibrium.modes import FAINT
 from ...equilibrium.words import unsolved
@@ -22,6 +24,12 @@ from .tables import Tables
 
 MOST_SAMPLES = 256
 """Samples of the error bars; `assess` takes what the study asks for."""
+
+
+def most_samples(contact: Contact, vary: Iterable[str]) -> int:
+    """Samples that a report takes at most: few where each takes tables of its own."""
+    return LEAST if costly(contact, vary) else MOST_SAMPLES
+
 
 STYLE = """
 .lead p{font-size:1.05rem;max-width:52rem}.warning{border-left:.25rem solid #D55E00;
@@ -131,8 +139,10 @@ class Report(Sentences, Figures, Tables, Sources):
             else "The study has no table [uncertainty]: the ranges are those that the materials "
             "library states, and nothing else counts as uncertain."
         )
-        if asked and enough(self.study.contact, asked.samples, asked.inputs) > MOST_SAMPLES:
-            whence += f" {MOST_SAMPLES} samples stand here; `thirdbody assess` takes all."
+        most = most_samples(self.study.contact, asked.inputs) if asked else MOST_SAMPLES
+        if asked and enough(self.study.contact, asked.samples, asked.inputs) > most:
+            whence += f" {most} samples stand here; `thirdbody assess` takes "
+            whence += "all." if most == MOST_SAMPLES else "more: each takes tables of its own."
         out = [f"<p>{words(found.headline())} {words(whence)}</p>"]
         for part in found.sections()[1:]:
             out.append(f"<h3>{escape(part.title)}</h3>")

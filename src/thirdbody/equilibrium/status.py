@@ -1,0 +1,125 @@
+"""What became of a state: one code for each case, and the sentence that says it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.asperity_sums import ReducedSum
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["DEEPEST", "MOST_AREA", "SENTENCES", "WORDS", "Status", "Statuses"]
+
+DEEPEST = -3.0
+"""Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
+MOST_AREA = 0.5
+"""Real area from which contacts that are counted one by one have grown together: a plane at the
+mean height of a rough surface cuts half of it."""
+
+
+class Status(IntEnum):
+    """What became of a state. Codes are kept in files: new ones come last, none changes.
+
+    Examples
+    --------
+    >>> Status.OK.sentence, Status(4).word
+    ('ok', 'jump')
+    >>> Status.CROWDED.has_numbers, Status.TOO_MUCH.has_numbers
+    (True, False)
+    """
+
+    OK = 0
+    TOO_MUCH = 1
+    TOO_LITTLE = 2
+    UNSOLVED = 3
+    JUMP = 4
+    TOO_DEEP = 5
+    BEYOND_LAWS = 6
+    CROWDED = 7
+
+    @property
+    def word(self) -> str:
+        """A word without a space, for files (CF ``flag_meanings``)."""
+        return WORDS[self]
+
+    @property
+    def sentence(self) -> str:
+        """The sentence where no more is known of the state than this."""
+        return str(SENTENCES[self])
+
+    @property
+    def has_numbers(self) -> bool:
+        """Whether such a state has a separation: its numbers are those of the model."""
+        return self in (Status.OK, Status.CROWDED)
+
+
+WORDS = (
+    "ok",
+    "no_equilibrium_above",
+    "no_equilibrium_below",
+    "no_equilibrium",
+    "jump",
+    "too_deep",
+    "beyond_laws",
+    "crowded",
+)
+SENTENCES = np.array(
+    [
+        "ok",
+        "no equilibrium: the load is beyond the most this model carries down to a separation d of "
+        f"{DEEPEST:g} sigma_s; check the unit of the load, or let an oil film carry it",
+        "no equilibrium: the load is below the smallest load this model resolves; check the unit "
+        "of the load",
+        "not solved: no separation was found at which the load is in balance",
+        "jump: the load lies in a jump of the load over the separation, and none carries it",
+        f"not solved: the separation d is lower than {-ReducedSum.DEEPEST:g} sigma_s from the mean "
+        "asperity height, where no asperity model holds; check its sign and its unit",
+        "no equilibrium: the laws give no number",
+        f"crowded: more than {MOST_AREA:g} of the nominal area would be in contact, where contacts "
+        "that this model counts one by one have grown together; its numbers are no answer",
+    ],
+    dtype=object,
+)
+"""Of each status, the sentence where no more is known."""
+
+
+@dataclass(frozen=True, eq=False)
+class Statuses:
+    """Codes of N states (N,), and their sentences, which may tell more than the code."""
+
+    codes: NDArray[np.int8]
+    words: NDArray[Any]
+
+    @staticmethod
+    def of(codes: ArrayLike) -> Statuses:
+        """With the sentences that every state of a code shares."""
+        own = np.array(codes, dtype=np.int8, ndmin=1)
+        return Statuses(own, SENTENCES[own])
+
+    @staticmethod
+    def ok(count: int) -> Statuses:
+        """All of them ok."""
+        return Statuses.of(np.zeros(count, np.int8))
+
+    def set(self, which: Any, status: Status, sentence: str = "") -> None:
+        """Give states another status, and the sentence of their own if they have one."""
+        self.codes[which] = status
+        self.words[which] = sentence or status.sentence
+
+    def take(self, other: Statuses, where: NDArray[np.intp]) -> None:
+        """Replace the statuses ``where`` by others."""
+        self.codes[where], self.words[where] = other.codes, other.words
+
+    def copy(self) -> Statuses:
+        """The same, to change."""
+        return Statuses(self.codes.copy(), self.words.copy())
+
+    @property
+    def solved(self) -> NDArray[np.bool_]:
+        """Which states are ok (N,)."""
+        return self.codes == Status.OK

@@ -1,0 +1,363 @@
+"""Quantities that carry a unit of their own, at the doors of the library.
+
+Inside everything is a plain number in SI. What carries a unit is converted where it comes in, or
+refused: numpy would take the number and drop the unit. Known are pint, astropy, unyt and whatever
+speaks as they do: ``.units`` or ``.unit``, ``.to(unit)`` and ``.magnitude`` or ``.value``; arrays
+of them, lists of them, and what says its unit in ``.attrs["units"]`` as xarray does.
+
+Which unit an argument of a function needs stands in its docstring: "[Pa]". Functions that take
+numbers are marked with `takes_units`; methods of a `thirdbody.quantities.value.Value` are so by
+themselves.
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping
+from decimal import Decimal
+from functools import cache, wraps
+from types import FunctionType
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ..errors import InvalidValue
+from .kinds import kind_of, needed, registry, spelled
+
+__all__ = ["carries_unit", "in_si", "takes_units"]
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+PLAIN = frozenset(
+    (*(float, int, str, bool, type(None), np.float64, np.int64, bytes, complex, FunctionType),)
+)
+"""Types that carry no unit, as most arguments are."""
+USUAL = {
+    "pressure": "Pa",
+    "F_star": "1",
+    "d": "m",
+    "h": "m",
+    "E_star": "Pa",
+    "H": "Pa",
+    "omega": "m",
+    "sigma": "m",
+}
+"""Units of arguments that are the same in every function, where its docstring leaves them out."""
+
+
+def carries_unit(value: Any) -> bool:
+    """Whether a value, or an item of a list or a mapping, carries a unit.
+
+    >>> carries_unit(5e6), carries_unit([1.0, 2.0])
+    (False, False)
+    """
+    kind = type(value)
+    if kind in PLAIN:
+        return False
+    if kind is np.ndarray:
+        return value.dtype.kind == "O" and any(map(carries_unit, value.flat))
+    if kind in (list, tuple):
+        return any(map(carries_unit, value))
+    if kind is dict:
+        return any(map(carries_unit, value.values()))
+    if not _may_carry(kind):  # type: ignore[arg-type]
+        return False
+    return _speaks(value) or _labelled(value) is not None or _typed(value)
+
+
+@cache
+def _may_carry(kind: type) -> bool:
+    """Whether values of a type may carry a unit: those of most types cannot."""
+    return any(hasattr(kind, name) for name in ("to", "attrs", "dtype"))
+
+
+def _speaks(value: Any) -> bool:
+    """Whether this is a quantity of a library of units."""
+    return (
+        not isinstance(value, type)
+        and hasattr(value, "to")
+        and (hasattr(value, "units") or hasattr(value, "unit"))
+        and (hasattr(value, "magnitude") or hasattr(value, "value"))
+    )
+
+
+def _labelled(value: Any) -> str | None:
+    """The unit that an array says beside its numbers, as xarray's do."""
+    if not (hasattr(value, "dims") and hasattr(value, "attrs")):
+        return None
+    if _speaks(getattr(value, "data", None)):
+        return ""
+    unit = value.attrs.get("units")
+    return unit if isinstance(unit, str) and unit else None
+
+
+def _typed(value: Any) -> bool:
+    """Whether an array says the unit in its type, as pint's in pandas do."""
+    return hasattr(getattr(value, "dtype", None), "units")
+
+
+def in_si(value: Any, unit: str) -> Any:
+    """The number or numbers of a value that carries a unit, in SI; others as they are.
+
+    Parameters
+    ----------
+    value : quantity, or a list, tuple or mapping that holds some
+        What carries a unit.
+    unit : str
+        The unit that is needed, "1" for a pure number.
+
+    Returns
+    -------
+    float, array, or list, tuple or mapping of them
+
+    Raises
+    ------
+    InvalidValue
+        One sentence that begins with the value: another dimension, or a unit that is not known.
+
+    Examples
+    --------
+    >>> import pint
+    >>> in_si(pint.Quantity(250, "nm"), "m"), in_si(pint.Quantity([1, 5], "MPa"), "Pa")
+    (2.5e-07, array([1000000., 5000000.]))
+    >>> in_si(pint.Quantity(5, "MPa"), "m")
+    Traceback (most recent call last):
+    ...
+    thirdbody.errors.InvalidValue: 5 megapascal is a pressure, but a length [m] is needed...
+    """
+    if not carries_unit(value):
+        return value
+    if isinstance(value, Mapping):
+        return {key: in_si(each, unit) for key, each in value.items()}
+    if isinstance(value, tuple):
+        return tuple(in_si(each, unit) for each in value)
+    if isinstance(value, list):
+        return [in_si(each, unit) for each in value]
+    if _speaks(value):
+        return _converted(value, unit)
+    if (label := _labelled(value)) is not None:
+        if not label:
+            return _converted(value.data, unit)
+        return _scaled(np.asarray(value, float), _factor(value.name, label, unit))
+    items = value.ravel() if type(value) is np.ndarray else value
+    return np.reshape([float(in_si(each, unit)) for each in items], np.shape(value))
+
+
+def _converted(value: Any, unit: str) -> Any:
+    """A quantity of a library of units, by that library's own factor."""
+    wanted = spelled(unit)
+    try:
+        given, found = (_magnitude(each) for each in (value, value.to(wanted or "dimensionless")))
+    except Exception:
+        raise InvalidValue(_why_not(value, unit)) from None
+    some = np.flatnonzero(np.isfinite(given) & (given != 0))
+    factor = float(found.flat[some[0]] / given.flat[some[0]]) if len(some) else math.nan
+    exact = _scaled(given, factor)
+    out = exact if np.allclose(exact, found, rtol=1e-12, atol=0, equal_nan=True) else found
+    return out if out.ndim else float(out)
+
+
+def _magnitude(value: Any) -> np.ndarray:
+    bare = value.magnitude if hasattr(value, "magnitude") else value.value
+    return np.asarray(bare, float)
+
+
+def _scaled(given: np.ndarray, factor: float) -> np.ndarray:
+    """Numbers times a factor; powers of ten as one writes them: 250 nm is the double 250e-9."""
+    exponent = round(math.log10(factor)) if factor > 0 and math.isfinite(factor) else 0
+    if not math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
+        return given * factor
+    shifted = [float(Decimal(repr(each)).scaleb(exponent)) for each in given.ravel().tolist()]
+    return np.reshape(shifted, given.shape)
+
+
+def _factor(name: Any, label: str, unit: str) -> float:
+    """What an array in the unit of its label is to be taken times."""
+    own = "" if label == "1" else label.replace("^", "**")
+    wanted = spelled(unit) or "dimensionless"
+    try:
+        return float(registry().convert(1.0, own or "dimensionless", wanted))
+    except Exception:
+        shown = f"{name or 'the array'} [{label}]"
+        raise InvalidValue(f"{shown} is {kind_of(own)}, but {needed(unit)}") from None
+
+
+def _why_not(value: Any, unit: str) -> str:
+    """Why a quantity cannot stand for this unit."""
+    own = value.units if hasattr(value, "units") else value.unit
+    shown = " ".join(str(value).split())
+    shown = shown if len(shown) <= 60 else f"an array [{own}]"
+    if isinstance(getattr(value, "magnitude", getattr(value, "value", None)), str):
+        return f"{shown} is no number with a unit; it must be {needed(unit)}"
+    kind = kind_of(str(own))
+    return f"{shown} is {kind}, but {needed(unit)}"
+
+
+def takes_units(function: F) -> F:
+    """A function that converts arguments which carry a unit, or refuses them.
+
+    The unit of each stands in the docstring, in brackets; that of an input in ``vary`` is known to
+    the contact. Arguments without a unit are passed on as they are.
+
+    Raises
+    ------
+    InvalidValue
+        When it is called: another dimension, or a unit where none is understood, a sentence for
+        each argument.
+
+    Examples
+    --------
+    >>> import pint
+    >>> @takes_units
+    ... def force(pressure, *, area):
+    ...     '''Force on an area.
+    ...
+    ...     Parameters
+    ...     ----------
+    ...     pressure : float
+    ...         p [Pa].
+    ...     area : float
+    ...         A_n [m^2].
+    ...     '''
+    ...     return pressure * area
+    >>> force(pint.Quantity(2, "MPa"), area=1e-6), force(1.0, area=pint.Quantity(3, "mm^2"))
+    (2.0, 3e-06)
+    """
+    if getattr(function, "takes_units", False):
+        return function
+
+    of_contact = str(function.__annotations__.get("contact", "")) == "Contact"
+    place = function.__code__.co_varnames.index("contact") if of_contact else 0
+
+    @wraps(function)
+    def with_units(*args: Any, **named: Any) -> Any:
+        if of_contact and (len(args) > place or "contact" in named):
+            _need_contact(args[place] if len(args) > place else named["contact"])
+        if any(map(carries_unit, args)) or (named and any(map(carries_unit, named.values()))):
+            args, named = _all_in_si(function, args, named)
+        return function(*args, **named)
+
+    with_units.takes_units = True  # type: ignore[attr-defined]
+    return with_units  # type: ignore[return-value]
+
+
+def _need_contact(given: Any) -> None:
+    """Refuse what is no contact: None, a study, a mapping."""
+    if hasattr(given, "asperity_law"):
+        return
+    shown = f"a {type(given).__name__}" if given is not None else "None"
+    cause = "; of a study take study.contact" if hasattr(given, "contact") else ""
+    raise InvalidValue(f"contact = {shown} must be a Contact: surfaces and roughness{cause}")
+
+
+def _all_in_si(
+    function: Callable[..., Any], args: tuple[Any, ...], named: dict[str, Any]
+) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """Arguments in SI."""
+    given = inspect.signature(function).bind_partial(*args, **named)
+    owner = args[0] if args else None
+    units = units_of(function, owner if isinstance(owner, type) else type(owner))
+    problems: list[str] = []
+    for name, value in given.arguments.items():
+        parameter = given.signature.parameters[name]
+        if parameter.kind is parameter.VAR_KEYWORD:  # another door takes them
+            own = {key: _of(units, key, each, problems) for key, each in value.items()
+                   if carries_unit(each) and units.get(key)}  # fmt: skip
+            given.arguments[name] = value | own
+        elif not carries_unit(value):
+            continue
+        elif name == "vary" and isinstance(value, Mapping):
+            inputs = {key: _unit_of_input(owner, key) for key in value}
+            given.arguments[name] = {k: _of(inputs, k, v, problems) for k, v in value.items()}
+        elif units.get(name) or _is_number(parameter) or not hasattr(value, "attrs"):
+            given.arguments[name] = _of(units, name, value, problems)
+    if problems:
+        raise InvalidValue(*problems)
+    return given.args, given.kwargs
+
+
+def _of(units: Mapping[str, str | None], name: str, value: Any, problems: list[str]) -> Any:
+    """One argument in SI; why not is added to the problems."""
+    if not carries_unit(value):
+        return value
+    unit = units.get(name)
+    if unit is None:
+        shown = " ".join(str(value).split())
+        problems.append(
+            f"{name} = {shown if len(shown) <= 60 else '[...]'} carries a unit, which is not "
+            "understood here; give the number alone, lengths, pressures and all else in SI"
+        )
+        return value
+    try:
+        return in_si(value, unit)
+    except InvalidValue as error:
+        problems += [f"{name} = {problem}" for problem in error.problems]
+        return value
+
+
+def _is_number(parameter: inspect.Parameter) -> bool:
+    """Whether an argument is a number or an array by its type, or may be."""
+    told = "" if parameter.annotation is parameter.empty else str(parameter.annotation)
+    return not told or re.search(r"\b(float|int|ArrayLike|Array|Number)\b", told) is not None
+
+
+def _unit_of_input(contact: Any, name: str) -> str | None:
+    """The unit of an input of a contact by its dotted name."""
+    path, _, last = name.rpartition(".")
+    try:
+        owner = contact.part(path)
+    except (AttributeError, InvalidValue):
+        return None
+    item = getattr(type(owner), "__dataclass_fields__", {}).get(last)
+    about = item.metadata.get("quantity") if item is not None else None
+    return about["unit"] if about else None
+
+
+@cache
+def units_of(function: Callable[..., Any], owner: type = object) -> dict[str, str | None]:
+    """Units of the arguments of a function, or of a method of a class, as documented.
+
+    None where a docstring names none, or several.
+    """
+    found: dict[str, str | None] = dict(USUAL)
+    for docstring in reversed(list(_docstrings(function, owner))):
+        found |= {name: unit for name, unit in documented(docstring) if unit or name not in found}
+    return found
+
+
+def _docstrings(function: Callable[..., Any], owner: type) -> Iterator[str]:
+    """Docstring of a function, then those of the methods that it overrides."""
+    yield function.__doc__ or ""
+    for base in owner.__mro__:
+        method = base.__dict__.get(function.__name__)
+        yield getattr(method, "__doc__", None) or ""
+
+
+def documented(docstring: str) -> Iterator[tuple[str, str | None]]:
+    """Arguments that a docstring in the style of numpydoc describes, and their units.
+
+    >>> list(documented('''One line.
+    ...
+    ...     Parameters
+    ...     ----------
+    ...     load, R : float
+    ...         Force [N] and radius [m].
+    ...     seed : int
+    ...         Of the generator.
+    ... '''))
+    [('load', 'N'), ('R', 'm'), ('seed', None)]
+    """
+    text = inspect.cleandoc(docstring)
+    section = re.search(r"^Parameters\n-+\n(.*?)(?=^\S[^\n]*\n-{3,}|\Z)", text, re.S | re.M)
+    for part in re.split(r"^(?=\S)", section[1], flags=re.M) if section else ():
+        if not (head := re.match(r"(\*{0,2}\w+(?:, *\w+)*) :", part)):
+            continue
+        names = head[1].split(", ")
+        units = re.findall(r"\[([^\]\[]+)\]", part)
+        if len(set(units)) == 1:
+            units = units[:1] * len(names)
+        known = units if len(units) == len(names) else [None] * len(names)
+        for name, unit in zip(names, known, strict=True):
+            yield name.strip("*"), unit if unit is not None and spelled(unit) is not None else None

@@ -1,0 +1,278 @@
+"""Small files that a run leaves beside its results: sealed, and saying what other files hold."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ..errors import InvalidValue
+from .files import is_draft, make_folder, write_text
+
+__all__ = [
+    "MARK",
+    "SEAL",
+    "Fingerprint",
+    "Record",
+    "claim_folder",
+    "differences",
+    "fingerprint",
+    "misfit",
+    "print_of",
+    "read_json",
+    "read_record",
+    "refuse_another",
+    "refuse_replaced",
+    "release_folder",
+    "sealed",
+]
+
+SEAL = "sha256"
+"""Key under which a record says the digest of the rest of it."""
+
+Fingerprint = list[Any] | None
+"""Size in bytes and SHA-256 of a file; None for a file that there is not."""
+
+
+class Record(NamedTuple):
+    """What a small file says."""
+
+    data: dict[str, Any]
+    checked: bool
+    """Whether a seal says that it is as it was written."""
+
+
+def sealed(data: Mapping[str, Any]) -> str:
+    """The text of a record that says its own digest.
+
+    Examples
+    --------
+    >>> text = sealed({"states": 3})
+    >>> list(json.loads(text))
+    ['states', 'sha256']
+    """
+    return json.dumps({**data, SEAL: _digest(data)})
+
+
+def _digest(data: Mapping[str, Any]) -> str:
+    """SHA-256 of what a record says, whatever the order and the spaces of its text."""
+    return hashlib.sha256(json.dumps(data, sort_keys=True).encode()).hexdigest()
+
+
+def read_json(path: Path) -> dict[str, Any] | None:
+    """What a small file of JSON says; None where it is missing or broken."""
+    try:
+        found = json.loads(path.read_text("utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return None
+    return found if isinstance(found, dict) else None
+
+
+def read_record(path: Path, unsealed: Collection[str]) -> Record | None:
+    """What a record says; None where it is missing, broken or changed.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    unsealed : collection of str
+        Keys of the records that earlier versions wrote without a seal. What has others and no
+        seal is broken.
+    """
+    found = read_json(path)
+    if found is None:
+        return None
+    seal = found.pop(SEAL, None)
+    if seal is None:
+        return Record(found, checked=False) if set(found) <= set(unsealed) else None
+    return Record(found, checked=True) if seal == _digest(found) else None
+
+
+def fingerprint(path: Path) -> Fingerprint:
+    """Size and digest of a file; None where there is none."""
+    try:
+        with path.open("rb") as file:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()
+            return [file.tell(), digest]
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+
+
+def misfit(path: Path, wanted: Fingerprint) -> str:
+    """How a file differs from what was written; "" where it does not."""
+    try:
+        size = path.stat().st_size if path.is_file() else None
+        if wanted is None:
+            return "" if size is None else "was not there"
+        if size is None:
+            return "is missing"
+        if size != wanted[0]:
+            return f"has {size:,} bytes instead of {wanted[0]:,}"
+        return "" if fingerprint(path) == wanted else "has other bytes than were written"
+    except OSError as error:
+        return f"cannot be read ({(error.strerror or str(error)).lower()})"
+
+
+# -------------------------------------------------------------------------- whose study it is
+MARK = "study.json"
+"""The file that says whose a folder is."""
+
+
+def claim_folder(
+    path: str | os.PathLike[str],
+    study: Mapping[str, Any],
+    *,
+    files: re.Pattern[str],
+    unmarked: Callable[[Path], Mapping[str, Any] | None] = lambda _: None,
+    growing: tuple[str, ...] = (),
+) -> Path:
+    """A folder for the results of one study alone, made when missing.
+
+    Parameters
+    ----------
+    path : path-like
+        The folder: a new one, an empty one, or one of the same study.
+    study : mapping
+        What decides the results, ready for JSON, and the command that writes them.
+    files : re.Pattern
+        Names of what the command writes there.
+    unmarked : callable, optional
+        The part of ``study`` that files of these names say themselves, where nothing else says
+        it, as in folders of earlier versions; None where they say nothing of their origin.
+    growing : tuple of str, optional
+        Keys of numbers that may be larger than they were: more of the same.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InvalidValue
+        It holds another study or anything else, or cannot be made.
+    """
+    place = Path(path)
+    if place.exists() and not place.is_dir():
+        raise InvalidValue(f"{place} must be a folder, and a file of that name exists")
+    record = read_record(place / MARK, ())
+    found: Mapping[str, Any] | None = None if record is None else record.data
+    if found is None and place.exists():
+        names = sorted(each.name for each in place.iterdir() if not is_draft(each.name, MARK))
+        found = unmarked(place) if names else None
+        # a mark that cannot be read beside results is a damaged one of theirs
+        ours = [name for name in names if files.fullmatch(name) or name == MARK]
+        strange = [name for name in names if name not in ours] or (ours if found is None else [])
+        if strange:
+            raise InvalidValue(
+                f"{place} holds files that are not of thirdbody {study['command']} "
+                f"({', '.join(strange[:3])}); give a new or an empty folder"
+            )
+    if found is not None:
+        asked = {key: study.get(key) for key in found} if record is None else dict(study)
+        less = [key for key in growing if found.get(key, 0) > study[key]]
+        kept = {key: value for key, value in asked.items() if key not in growing or key in less}
+        there = {key: value for key, value in found.items() if key not in growing or key in less}
+        refuse_another(place, there, kept)
+    make_folder(place)
+    if record is None or differences(record.data, study):
+        write_text(place / MARK, sealed(study))
+    return place
+
+
+def release_folder(place: Path) -> None:
+    """Let go of a claimed folder that holds nothing yet."""
+    if [each.name for each in place.iterdir()] == [MARK]:
+        (place / MARK).unlink()
+        with suppress(OSError):
+            place.rmdir()
+
+
+def refuse_replaced(folder: Path, texts: Mapping[str, str | None]) -> None:
+    """Refuse to put files in the place of others than those of the same study.
+
+    Parameters
+    ----------
+    folder : pathlib.Path
+    texts : mapping
+        Names of the files; of those that say what all of them are about, what they will hold.
+
+    Raises
+    ------
+    InvalidValue
+        One of them exists, and is of something else.
+    """
+    there = [name for name in texts if (folder / name).exists()]
+    same = [
+        text is not None and misfit(folder / name, print_of(text)) == ""
+        for name, text in texts.items()
+        if text is not None
+    ]
+    if there and not all(same):
+        raise InvalidValue(
+            f"{folder} holds {', '.join(there)} of another study, or of another program; "
+            "give another folder, or remove what is not needed"
+        )
+
+
+def print_of(text: str) -> Fingerprint:
+    """The fingerprint of a file of this text."""
+    held = text.encode()
+    return [len(held), hashlib.sha256(held).hexdigest()]
+
+
+def refuse_another(
+    place: Path,
+    found: Mapping[str, Any],
+    wanted: Mapping[str, Any],
+    *,
+    derived: tuple[str, ...] = (),
+) -> None:
+    """Refuse a place that holds the results of another study.
+
+    Parameters
+    ----------
+    place : pathlib.Path
+    found, wanted : mapping
+        What was studied there, and what is asked.
+    derived : tuple of str, optional
+        Keys that follow from the others, and are no difference of their own.
+
+    Raises
+    ------
+    InvalidValue
+        They differ; the sentence says in what.
+    """
+    differ = [(key, *two) for key, two in differences(found, wanted).items() if key not in derived]
+    if not differ:
+        return
+    shown = "; ".join(f"{key} is {_say(a)} there and {_say(b)} here" for key, a, b in differ[:3])
+    more = f"; and {len(differ) - 3} more" if len(differ) > 3 else ""
+    raise InvalidValue(f"{place} holds another study: {shown}{more}; give another folder")
+
+
+def differences(old: Mapping[str, Any], new: Mapping[str, Any]) -> dict[str, tuple[Any, Any]]:
+    """Where two records differ, by dotted key."""
+    flat_old, flat_new = _flat(old), _flat(json.loads(json.dumps(new)))
+    return {
+        key: (flat_old.get(key), flat_new.get(key))
+        for key in {**flat_old, **flat_new}
+        if flat_old.get(key) != flat_new.get(key)
+    }
+
+
+def _flat(data: Any, path: str = "") -> dict[str, Any]:
+    if not isinstance(data, Mapping):
+        return {path: data}
+    out: dict[str, Any] = {}
+    for key, value in data.items():
+        out |= _flat(value, f"{path}.{key}" if path else key)
+    return out
+
+
+def _say(value: Any) -> str:
+    text = json.dumps(value, ensure_ascii=False)
+    return text if len(text) < 60 else f"{text[:50]} ..."

@@ -1,0 +1,279 @@
+"""The page in a real browser: forces, killed processes, error bars, maps and what is read out.
+
+Screenshots at two widths, light and dark, land in $THIRDBODY_SCREENSHOTS where it names a folder.
+"""
+
+import contextlib
+import os
+import signal
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from thirdbody.study import check, run_study
+
+pytest.importorskip("nicegui", reason="the page needs the extra thirdbody[app]")
+sync_api = pytest.importorskip("playwright.sync_api", reason="needs playwright to drive a browser")
+
+sys.path.insert(0, str(Path(__file__).parent))
+from browser import chromium, ended, served  # noqa: E402
+
+from thirdbody.app.examples import example  # noqa: E402
+from thirdbody.app.text import to_link  # noqa: E402
+
+pytestmark = [
+    pytest.mark.check,
+    pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="looks for processes there"),
+]
+PATIENCE = 90_000
+BALL = {
+    "surfaces": {"first": "100Cr6", "second": "100Cr6"},
+    "roughness": {"Ra": "0.4 um", "process": "ground"},
+    "body": {"kind": "ball-on-flat", "diameter": "6.35 mm"},
+    "particles": {"material": "S45C", "iso4406": "18/16/13", "gap": "1 um", "level": "middle"},
+    "load": {"force": "20 N"},
+}
+BARE = {
+    name: {"name": f"{name} body", "E": "205 GPa", "nu": 0.29, "H": "5 GPa"}
+    for name in ("first", "second")
+}
+"""Materials of no library, which states no range for them."""
+
+
+@pytest.fixture(scope="module")
+def server():
+    process, address = served()
+    yield process, address
+    ended(process)
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with sync_api.sync_playwright() as playwright:
+        found = chromium(playwright)
+        if found is None:
+            pytest.skip("no chromium found, neither the system's nor playwright's: make browser")
+        made = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        yield made
+        made.close()
+
+
+@pytest.fixture
+def visit(browser, server):
+    """Opens the page anew; at the end nothing may have failed in the browser."""
+    context = browser.new_context(viewport={"width": 1280, "height": 860}, reduced_motion="reduce")
+    page, wrong = context.new_page(), []
+    page.set_default_timeout(PATIENCE)
+    page.on("console", lambda m: m.type == "error" and wrong.append(f"console: {m.text}"))
+    page.on("pageerror", lambda error: wrong.append(f"page: {error}"))
+
+    def open_page(study, tab="interface"):
+        page.goto(f"{server[1]}/?{to_link(study)}&tab={tab}")
+        return page
+
+    yield open_page
+    context.close()
+    assert not wrong
+
+
+def shot(page, name):
+    folder = os.environ.get("THIRDBODY_SCREENSHOTS")
+    for width in (1280, 390) if folder else ():
+        for scheme in ("light", "dark"):
+            page.set_viewport_size({"width": width, "height": 860})
+            page.emulate_media(color_scheme=scheme)
+            page.wait_for_timeout(800)
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            page.screenshot(path=Path(folder) / f"{name}-{width}-{scheme}.png", full_page=True)
+    page.set_viewport_size({"width": 1280, "height": 860})
+    page.emulate_media(color_scheme="light")
+
+
+def fact(page, name):
+    return page.locator(f'[data-fact="{name}"]').first.inner_text()
+
+
+def drawn(page, name):
+    page.wait_for_function(
+        "name => document.querySelector(`[data-figure='${name}']`)?.data?.length",
+        arg=name,
+        polling=100,
+    )
+
+
+def moved(page, slider, key="ArrowRight"):
+    page.locator(f'[data-slider="{slider}"] [role="slider"]').focus()
+    page.keyboard.press(key)
+
+
+def solvers(pid):
+    """Process ids of those that compute for a server."""
+    every = " ".join(f.read_text() for f in Path(f"/proc/{pid}/task").glob("*/children"))
+    found = []
+    for child in map(int, every.split()):
+        with contextlib.suppress(OSError):
+            if "spawn_main" in Path(f"/proc/{child}/cmdline").read_text():
+                found.append(child)
+    return found
+
+
+def kill(pid):
+    for child in solvers(pid):
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(child, signal.SIGKILL)
+
+
+def test_a_force_is_answered_as_the_command_line_does(visit):
+    told = run_study(check(BALL))["body"]["sentences"]
+    page = visit(BALL)
+    page.locator('[data-fact="force"]', has_text="20 N on the body").wait_for()
+    assert fact(page, "force").split(". ")[0] == told[0].split(". ")[0]
+    page.locator('[data-fact="preliminary"]').wait_for(state="hidden")
+    assert fact(page, "force") == told[0]
+    page.locator(".grain").first.wait_for()
+    assert page.locator(".grain").count() == 1
+    page.get_by_text("One contact in 31 000 meets a particle. The drawing").wait_for()
+    shot(page, "force")
+    page.get_by_role("tab", name="Take away", exact=True).click()
+    page.locator('[data-path="python"]', has_text="press(contact, body, force)").wait_for()
+    assert '"20 N"' in page.locator('textarea[data-path="toml"]').input_value()
+
+
+def test_a_first_visit_tells_its_answer_apart_from_getting_ready(browser):
+    process, address = served()
+    try:
+        page = browser.new_page()
+        page.set_default_timeout(PATIENCE)
+        page.goto(address)
+        page.locator('[data-said="getting ready"]').wait_for()
+        page.locator(".waiting").first.wait_for()
+        assert not page.locator('[data-slider="roughness.Ra"]').is_visible()
+        shot(page, "getting-ready")
+        page.locator('[data-fact="time"]', has_text="answered in").wait_for()
+        assert "in which the page was getting ready" in fact(page, "time")
+        page.locator('[data-said="getting ready"]').wait_for(state="hidden")
+        page.close()
+    finally:
+        ended(process)
+
+
+def test_killed_processes_are_replaced_and_otherwise_it_is_told(visit, server):
+    page, pid = visit(example()), server[0].pid
+    page.locator(".grain").first.wait_for()
+    before = fact(page, "load")
+    kill(pid)
+    moved(page, "load")
+    page.wait_for_function(
+        "old => document.querySelector(\"[data-fact='load']\").innerText !== old",
+        arg=before,
+        polling=100,
+    )
+    banner = page.locator('[data-said="page"]')
+    assert not banner.inner_text()
+    over = threading.Event()
+
+    def always():
+        while not over.wait(0.02):
+            kill(pid)
+
+    killer = threading.Thread(target=always)
+    killer.start()
+    try:
+        before = fact(page, "load")
+        moved(page, "roughness.sigma")
+        banner.get_by_text("killed (SIGKILL)").wait_for()
+        assert "memory than the page allows" not in banner.inner_text()
+        page.get_by_role("tab", name="Curves", exact=True).click()
+        page.wait_for_timeout(500)
+        assert page.locator(".xtick").count() == 0  # no axes of nothing
+        shot(page, "killed")
+        page.get_by_role("tab", name="Interface", exact=True).click()
+    finally:
+        over.set()
+        killer.join()
+    page.locator('[data-path="again"]').click()
+    page.wait_for_function(
+        "() => document.querySelector('[data-said=page]').innerText === ''", polling=100
+    )
+    assert not page.locator('[data-path="again"]').is_visible()
+    page.get_by_role("tab", name="Curves", exact=True).click()
+    drawn(page, "area")
+
+
+def test_what_was_missing_is_not_told_once_it_is_there(visit):
+    study = example() | {"surfaces": BARE}
+    study["particles"] = study["particles"] | {"material": BARE["first"]}
+    page = visit(study, "error_bars")
+    said = page.locator('[data-said="error bars"]')
+    said.get_by_text("no input is uncertain yet").wait_for()
+    assert not page.locator('[data-stale="error bars"]').is_visible()
+    study["uncertainty"] = {"inputs": {"roughness.sigma": {"low": "95 nm", "high": "105 nm"}}}
+    page.get_by_role("tab", name="Take away", exact=True).click()
+    text = page.locator('textarea[data-path="toml"]')
+    text.wait_for()
+    text.fill(
+        text.input_value() + '\n[uncertainty.inputs."roughness.sigma"]\nlow = "95 nm"\n'
+        'high = "105 nm"\n'
+    )
+    page.locator('[data-take="toml"]').click()
+    page.get_by_role("tab", name="Error bars", exact=True).click()
+    drawn(page, "bands")
+    assert not said.inner_text()
+    assert "preview" in page.locator('[data-stale="error bars"]').inner_text()
+    shot(page, "error-bars")
+
+
+ON_THE_MAP = """() => {
+  const plot = document.querySelector("[data-figure='map']"), mark = plot.data.at(-1);
+  const map = plot.data[0], ends = a => [Math.min(...a), Math.max(...a)];
+  const [[x0, x1], [y0, y1]] = [ends(map.x), ends(map.y)];
+  return mark.name === "this study" && x0 < mark.x[0] && mark.x[0] < x1
+    && y0 < mark.y[0] && mark.y[0] < y1;
+}"""
+
+
+def test_a_map_contains_its_study(visit):
+    page = visit(BALL, "mode_map")
+    drawn(page, "map")
+    assert page.evaluate(ON_THE_MAP)
+    shot(page, "map")
+    page.locator('[data-work="map"]').click()
+    page.locator('[data-stale="map"]').wait_for(state="hidden")
+    page.wait_for_function(ON_THE_MAP, polling=100)
+
+
+def test_axes_of_outputs_end_where_nothing_matters(visit):
+    study = example("Oil of code 18/16/13")
+    study = study | {"outputs": {"friction": {"m_ss": 0.2, "m_sa": 0.3}, "counts": {}}}
+    page = visit(study, "outputs")
+    drawn(page, "output friction [1]")
+    axes = page.evaluate(
+        "() => [...document.querySelectorAll('.js-plotly-plot')].filter(p => p._fullLayout?.yaxis)"
+        ".map(p => [p._fullLayout.yaxis.type, p._fullLayout.yaxis.range])"
+    )
+    assert axes
+    assert axes[0][0] == "linear"
+    for kind, (low, high) in axes:
+        assert kind == "linear" or high - low < 19
+    shot(page, "outputs")
+
+
+def test_sliders_are_read_out_with_their_values(visit):
+    page = visit(example())
+    page.locator(".grain").first.wait_for()
+    handles = page.locator('.sliders [role="slider"]:visible')
+    said = handles.evaluate_all("all => all.map(e => [e.tabIndex, e.ariaLabel, e.ariaValueText])")
+    assert len(said) >= 4
+    for index, label, value in said:
+        assert (index, bool(label), bool(value)) == (0, True, True), label
+    assert dict((label, value) for _, label, value in said)["σ"] == "100 nm"
+    before = said[0][2]
+    assert before.startswith("load ")
+    moved(page, "load")
+    page.wait_for_function(
+        "old => document.querySelector('[data-slider=load] [role=slider]').ariaValueText !== old",
+        arg=before,
+        polling=100,
+    )

@@ -1,0 +1,283 @@
+"""What a command may write: what it made itself, and files that its user names."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from thirdbody.quantities.files import refuse_clashes, whole, write_text
+
+from .test_cli import EXAMPLES, run
+
+STUDY, EXPLICIT, DESIGN, FILM, ASSESS = (
+    next(path for path in EXAMPLES if path.stem == stem)
+    for stem in ("dusty_ball_screw", "explicit", "additive", "oil_film", "assess")
+)
+
+
+def contents(folder):
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+# ---------------------------------------------------------------- folders
+FOLDERS = {
+    "sweep": ("sweep", STUDY.with_name("sweep.toml")),
+    "explicit": ("explicit", EXPLICIT, "--surfaces", "1", "--size", "64", "--spacing", "300 nm"),
+    "reproduce": ("reproduce", "wu2017"),
+}
+
+
+@pytest.mark.parametrize("name", [".git/a.partial", ".film.part.mkv", "index.html", "states.csv",
+                                  "study.json", "surfaces/mine.json", "lock"])  # fmt: skip
+@pytest.mark.parametrize("kind", FOLDERS)
+def test_a_folder_of_somebody_else_is_refused(tmp_path, kind, name):
+    (tmp_path / name).parent.mkdir(exist_ok=True)
+    (tmp_path / name).write_text("mine")
+    before = contents(tmp_path)
+    done = run(*FOLDERS[kind], "--out", tmp_path)
+    assert done.exit_code == 2, done.output
+    assert done.stderr.count("error:") == 1
+    assert "give a" in done.stderr
+    assert contents(tmp_path) == before
+
+
+def test_explicit_keeps_the_results_of_another_study(tmp_path):
+    words = FOLDERS["explicit"]
+    assert run(*words, "--out", tmp_path).exit_code == 0
+    before = contents(tmp_path)
+    for change, said in [
+        ("roughness.sigma=310 nm", "inputs.roughness.sigma is 3e-07 there and 3.1e-07 here"),
+        ("explicit.seed=1", "explicit.seed is null there and 1 here"),
+        ("load.F_star=[1e-3]", "F_star is"),
+    ]:
+        done = run(*words, "--out", tmp_path, "--set", change)
+        assert done.exit_code == 2, change
+        assert "holds another study" in done.stderr
+        assert said in done.stderr
+    assert contents(tmp_path) == before
+    # more of the same goes on, less does not
+    more = [*words[:2], "--surfaces", "2", *words[4:]]
+    assert run(*more, "--out", tmp_path).exit_code == 0
+    done = run(*words, "--out", tmp_path)
+    assert "surfaces is 2 there and 1 here" in done.stderr
+
+
+def test_a_study_that_explicit_refuses_leaves_nothing(tmp_path):
+    done = run(*FOLDERS["explicit"], "--out", tmp_path / "o", "--set", "roughness.sigma=300 um")
+    assert done.exit_code == 2
+    assert not list(tmp_path.iterdir())
+
+
+def test_folders_of_an_earlier_version_of_explicit_go_on(tmp_path):
+    words = FOLDERS["explicit"]
+    assert run(*words, "--out", tmp_path).exit_code == 0
+    wanted = contents(tmp_path)
+    for file in [tmp_path / "study.json", tmp_path / "surfaces" / "surface_000.json"]:
+        said = json.loads(file.read_text("utf-8"))
+        del said["sha256"]
+        file.write_text(json.dumps(said))
+    (tmp_path / "study.json").unlink()
+    done = run(*words, "--out", tmp_path)
+    assert done.exit_code == 0, done.output
+    assert "1 surface of an earlier version of thirdbody kept no digest" in done.stderr
+    assert json.loads((tmp_path / "explicit.json").read_text()) == json.loads(
+        wanted["explicit.json"]
+    )
+    (tmp_path / "study.json").unlink()
+    other = run(*words, "--out", tmp_path, "--set", "roughness.sigma=310 nm")
+    assert "another study: inputs.roughness.sigma" in other.stderr
+
+
+@pytest.mark.parametrize("words", [("surface", "example"), ("compare", STUDY, "--laws", "gw")])
+def test_names_that_a_command_chooses_are_taken_from_nobody(tmp_path, words):
+    out = tmp_path / "o"
+    assert run(*words, "--out", out).exit_code == 0
+    assert run(*words, "--out", out).exit_code == 0
+    other = {"surface": ("--cutoff", "3 um"), "compare": ("--set", "roughness.sigma=90 nm")}
+    before = contents(out)
+    done = run(*words, *other[words[0]], "--out", out)
+    assert done.exit_code == 2
+    assert "of another study" in done.stderr
+    assert contents(out) == before
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / f"{words[0]}.png").write_text("mine")
+    assert run(*words, "--out", mine).exit_code == 2
+    assert contents(mine) == {f"{words[0]}.png": b"mine"}
+
+
+# ---------------------------------------------------------------- files
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("solve", STUDY, "--csv"), ("film", FILM, "--csv"), ("film", FILM, "--figure"),
+        ("design", DESIGN, "--csv"), ("compare", STUDY, "--csv"), ("assess", ASSESS, "--html"),
+        ("report", STUDY, "--out"), ("table", STUDY, "--format", "csv", "--out"),
+    ],
+    ids=lambda words: f"{words[0]} {words[-1]}",
+)  # fmt: skip
+def test_the_study_is_not_written_over(tmp_path, words):
+    study = tmp_path / ("study.png" if words[-1] == "--figure" else "study.toml")
+    study.write_bytes(words[1].read_bytes())
+    for name in ("materials.toml", "sizes.csv"):
+        if words[1].with_name(name).exists():
+            (tmp_path / name).write_bytes(words[1].with_name(name).read_bytes())
+    before = contents(tmp_path)
+    done = run(words[0], study, *words[2:], study)
+    assert done.exit_code == 2, done.output
+    assert f"cannot write {study}: {study} is read" in done.stderr
+    assert contents(tmp_path) == before
+
+
+def test_a_measured_surface_is_not_written_over(tmp_path):
+    scan = tmp_path / "scan.csv"
+    scan.write_text("1,2\n3,4\n")
+    done = run("surface", scan, "--spacing", "1 um", "--unit", "um", "--csv", scan)
+    assert done.exit_code == 2
+    assert "is read" in done.stderr
+    assert scan.read_text() == "1,2\n3,4\n"
+
+
+def test_two_tables_do_not_go_into_one_file(tmp_path):
+    with pytest.raises(ValueError, match="another file of that name is written"):
+        refuse_clashes([tmp_path / "t", None, tmp_path / "t"], [])
+    refuse_clashes([Path(os.devnull), Path(os.devnull), None], [])
+
+
+def test_the_usual_report_takes_the_place_of_a_report_only(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "report.html").write_text("<p>mine</p>")
+    done = run("report", STUDY)
+    assert done.exit_code == 2
+    assert "report.html exists and is no report of thirdbody" in done.stderr
+    assert (tmp_path / "report.html").read_text() == "<p>mine</p>"
+
+
+# ---------------------------------------------------------------- drafts
+GONE = 2**22 + 1
+"""A number that no process has."""
+
+
+def test_the_next_run_of_a_file_removes_what_a_killed_one_left(tmp_path):
+    code = (
+        "import os, signal, sys\nfrom thirdbody.quantities.files import whole\n"
+        "with whole(sys.argv[1]) as draft:\n"
+        "    draft.write_text('half')\n    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    file = tmp_path / "old.csv"
+    subprocess.run([sys.executable, "-c", code, str(file)], check=False)
+    (left,) = tmp_path.iterdir()
+    assert left.name.startswith(".old.")
+    (tmp_path / ".old.01ab23cd.part.csv").write_text("of an earlier version")
+    kept = {".old.part.csv", ".old.film.part.csv", ".older.01ab23cd.part.csv", ".old.01ab23cd.part"}
+    for name in kept:
+        (tmp_path / name).write_text("mine")
+    write_text(file, "new")
+    assert {each.name for each in tmp_path.iterdir()} == kept | {"old.csv"}
+
+
+def test_a_draft_that_is_being_written_stays(tmp_path):
+    file = tmp_path / "old.csv"
+    with whole(file) as first:
+        first.write_text("first")
+        with whole(file) as second:
+            second.write_text("second")
+        assert first.exists()
+        stranger = tmp_path / first.name.replace(f"-{os.getpid():x}-", f"-{GONE:x}-")
+        stranger.write_text("left")
+        write_text(file, "third")
+        assert not stranger.exists()
+        assert first.exists()
+    assert file.read_text() == "first"
+    assert [each.name for each in tmp_path.iterdir()] == ["old.csv"]
+
+
+# ---------------------------------------------------------------- damage
+def missing(file):
+    file.unlink()
+
+
+def empty(file):
+    file.write_bytes(b"")
+
+
+def truncated(file):
+    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+
+
+def flipped(file):
+    held = bytearray(file.read_bytes())
+    held[len(held) // 2] ^= 4
+    file.write_bytes(held)
+
+
+DAMAGES = pytest.mark.parametrize(
+    "damage",
+    [
+        missing,
+        flipped,
+        pytest.param(empty, marks=pytest.mark.slow),
+        pytest.param(truncated, marks=pytest.mark.slow),
+    ],
+)
+WRITERS = {
+    "solve.csv": ("solve", STUDY, "--csv"),
+    "solve.xlsx": ("solve", STUDY, "--xlsx"),
+    "solve.parquet": ("solve", STUDY, "--parquet"),
+    "film.png": ("film", FILM, "--set", "film.speed.points=3", "--figure"),
+    "film.svg": ("film", FILM, "--set", "film.speed.points=3", "--figure"),
+    "table.csv": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.inp": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.txt": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.avl": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.py": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.c": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+}
+
+
+@DAMAGES
+@pytest.mark.parametrize("name", WRITERS)
+def test_a_damaged_file_is_written_anew(tmp_path, name, damage):
+    """Nobody reads it back, and its place is taken by a whole one."""
+    for library in {"xlsx": ["openpyxl"], "parquet": ["pyarrow"]}.get(name[6:], []):
+        pytest.importorskip(library)
+    file = tmp_path / name
+    assert run(*WRITERS[name], file).exit_code == 0
+    wanted = file.read_bytes()
+    damage(file)
+    assert run(*WRITERS[name], file).exit_code == 0
+    assert contents(tmp_path) == {name: wanted}
+
+
+@DAMAGES
+@pytest.mark.parametrize(
+    ("words", "name"),
+    [
+        (("surface", "example"), "surface.json"),
+        (("surface", "example"), "surface.svg"),
+        (("compare", STUDY, "--laws", "gw"), "compare.csv"),
+        (("compare", STUDY, "--laws", "gw"), "compare.png"),
+    ],
+)
+def test_damaged_files_of_a_folder_are_written_anew_or_left(tmp_path, words, name, damage):
+    """What says whose a folder is, and is damaged, may be somebody else's."""
+    assert run(*words, "--out", tmp_path).exit_code == 0
+    wanted = contents(tmp_path)
+    damage(tmp_path / name)
+    before = contents(tmp_path)
+    done = run(*words, "--out", tmp_path)
+    assert "Traceback" not in done.output
+    if name.endswith(("json", "csv")):
+        assert done.exit_code == 2
+        assert "give another folder, or remove what is not needed" in done.stderr
+        assert contents(tmp_path) == before
+    else:
+        assert done.exit_code == 0
+        assert contents(tmp_path) == wanted

@@ -1,0 +1,303 @@
+"""Quantities that carry a unit: every public door converts them or refuses them.
+
+The doors are found by walking the public names and the classes of values, not by a list.
+"""
+
+import dataclasses
+import inspect
+
+import numpy as np
+import pint
+import pytest
+import xarray
+from random_contacts import draw
+from test_signatures import PUBLIC, _is_number
+
+import thirdbody as tb
+from thirdbody.quantities.carried import USUAL, carries_unit, in_si, takes_units, units_of
+from thirdbody.quantities.value import Value
+from thirdbody.study.whole import check
+
+u = pint.UnitRegistry()
+WRONG = pint.Quantity(3.0, "candela * kg^3")
+"""What no argument of this library is measured in."""
+
+
+class Unit:
+    """A unit of another library than pint."""
+
+    def __init__(self, name):
+        self.name = name
+
+    def __str__(self):
+        return self.name
+
+
+class Quantity:
+    """A quantity as astropy's: ``.unit``, ``.value`` and ``.to``; numpy sees the bare number."""
+
+    def __init__(self, value, unit):
+        self.value, self.unit = value, Unit(unit)
+
+    def to(self, unit):
+        there = pint.Quantity(self.value, str(self.unit)).to(unit)
+        return Quantity(there.magnitude, unit)
+
+    def __float__(self):
+        return float(self.value)
+
+    def __array__(self, *_, **__):
+        return np.asarray(self.value)
+
+    def __str__(self):
+        return f"{self.value} {self.unit}"
+
+
+def boxed(value):
+    """An array that holds the quantity itself."""
+    out = np.empty((), object)
+    out[()] = value
+    return out
+
+
+KINDS = {
+    "pint": lambda number, unit: pint.Quantity(number, unit),
+    "a registry of one's own": lambda number, unit: u.Quantity(number, unit),
+    "astropy's protocol": Quantity,
+    "xarray over pint": lambda number, unit: xarray.DataArray(
+        pint.Quantity(np.array(number), unit)
+    ),
+    "xarray with attrs": lambda number, unit: xarray.DataArray(number, attrs={"units": unit}),
+    "an array of objects": lambda number, unit: boxed(pint.Quantity(number, unit)),
+}
+STEEL = tb.materials["S45C"]
+CONTACT = draw(1, 3).contact
+DRY = tb.Contact(
+    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
+)
+
+
+def is_door(parameter):
+    """Whether an argument is a number, by its type."""
+    return parameter.name not in ("self", "cls", "vary") and (
+        parameter.annotation is parameter.empty or _is_number(str(parameter.annotation))
+    )
+
+
+DOORS = [
+    (name, function, parameter)
+    for name, function in PUBLIC
+    if not name.endswith("__init__")
+    for parameter in inspect.signature(function).parameters.values()
+    if is_door(parameter) and parameter.kind is not parameter.VAR_KEYWORD
+]
+IDS = [f"{name}-{parameter.name}" for name, _, parameter in DOORS]
+
+
+@pytest.mark.parametrize(("name", "function", "parameter"), DOORS, ids=IDS)
+def test_no_door_drops_a_unit(name, function, parameter):
+    """Nothing but the argument is given: it is refused before anything else is looked at."""
+    for value in (WRONG, [WRONG, WRONG], WRONG * np.ones(3)):
+        with pytest.raises(tb.InvalidValue) as refused:
+            function(**{parameter.name: value})
+        assert str(refused.value).startswith(f"{parameter.name} = ")
+
+
+@pytest.mark.parametrize(("name", "function", "parameter"), DOORS, ids=IDS)
+def test_what_a_docstring_measures_in_a_unit_is_converted(name, function, parameter):
+    owner = getattr(tb, name.split(".")[0], object)
+    for part in name.split(".")[1:-1]:
+        owner = getattr(owner, part, object)
+    unit = units_of(function, owner if isinstance(owner, type) else object).get(parameter.name)
+    if unit is None:
+        return
+    got = []
+
+    def record(*args, **named):
+        got.append(named[parameter.name] if named else args[-1])
+
+    record.__doc__ = "\n".join(
+        ["One.", "", "Parameters", "----------", f"{parameter.name} : float", f"    [{unit}]"]
+    )
+    record.__signature__ = inspect.signature(function)
+    door = takes_units(record)
+    wanted = "dimensionless" if unit == "1" else unit.replace("^", "**").replace("²", "**2")
+    value = pint.Quantity(3.0, wanted.replace("³", "**3"))
+    for given in (value, value.to_base_units(), value.to_root_units()):
+        door(**{parameter.name: given})
+        assert got.pop() == pytest.approx(3.0, rel=1e-12)
+
+
+def test_most_doors_convert():
+    """Loads, separations and lengths are converted, not refused."""
+    refused = [
+        identity
+        for identity, (_, function, parameter) in zip(IDS, DOORS, strict=True)
+        if parameter.name in USUAL and units_of(function)[parameter.name] is None
+    ]
+    assert refused == []
+
+
+# ---------------------------------------------------------------------------- values
+def values_in(value):
+    """A value and every value in it."""
+    if isinstance(value, tuple):
+        for each in value:
+            yield from values_in(each)
+    elif isinstance(value, Value):
+        yield value
+        for item in dataclasses.fields(value):
+            yield from values_in(getattr(value, item.name))
+
+
+def fields_of_values():
+    for kind in sorted(Value._classes.values(), key=lambda kind: kind.__name__):
+        if dataclasses.is_dataclass(kind) and kind.__module__.startswith("thirdbody"):
+            for item in dataclasses.fields(kind):
+                if item.metadata.keys() & {"quantity", "several"}:
+                    yield kind, item.name
+
+
+FIELDS = list(fields_of_values())
+
+
+@pytest.fixture(scope="module")
+def samples():
+    found = {}
+    for index in range(60):
+        for value in values_in(draw(2, index).contact):
+            found.setdefault(type(value), value)
+    return found
+
+
+@pytest.mark.parametrize(("kind", "name"), FIELDS, ids=lambda x: getattr(x, "__name__", x))
+def test_no_field_drops_a_unit(kind, name, samples):
+    # what is needed beside it is wrong as well where no sample is at hand, and told too
+    needed = [
+        each.name for each in dataclasses.fields(kind) if each.default is each.default_factory
+    ]
+    others = {each: getattr(samples[kind], each) if kind in samples else WRONG for each in needed}
+    for wrong in (WRONG, [WRONG, WRONG]):
+        with pytest.raises(tb.InvalidValue, match=f"{kind.__name__}.{name} = .*candela"):
+            kind(**others | {name: wrong})
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_fields_are_converted(kind):
+    of = KINDS[kind]
+    rough = tb.Roughness(sigma=of(100.0, "nm"), R=of(2.8, "um"), eta=of(3e11, "1/m**2"))
+    assert (rough.sigma, rough.R, rough.eta) == (1e-7, 2.8e-6, 3e11)
+    assert tb.Material(E=of(205, "GPa"), nu=of(30, "percent"), H=8e9).E == 205e9
+    assert rough.replace(sigma=of(0.2, "um")).sigma == 2e-7
+    assert DRY.replace(**{"roughness.sigma": of(50, "nm")}).roughness.sigma == 50e-9
+    sizes = tb.Histogram(edges=[of(1, "um"), of(2, "um"), 3e-6], counts=[1, 2])
+    assert sizes.edges == (1e-6, 2e-6, 3e-6)
+
+
+def test_arrays_with_a_unit_are_fields_of_several_numbers():
+    sizes = tb.Histogram(edges=[1, 2, 3] * u.um, counts=[1, 2] * u.dimensionless)
+    assert sizes.edges == (1e-6, 2e-6, 3e-6)
+    with pytest.raises(tb.InvalidValue, match=r"Histogram.edges = .*is a pressure, but a length"):
+        tb.Histogram(edges=[1, 2, 3] * u.MPa, counts=[1, 2])
+
+
+# ---------------------------------------------------------------------------- the doors by use
+@pytest.mark.parametrize("kind", KINDS)
+def test_loads_are_converted(kind):
+    of = KINDS[kind]
+    assert tb.solve(DRY, pressure=of(5.0, "MPa")).A_t == tb.solve(DRY, pressure=5e6).A_t
+    assert tb.solve(DRY, d=of(250, "nm")).F_star == tb.solve(DRY, d=250e-9).F_star > 0
+    assert tb.roots(DRY, pressure=of(5, "MPa"))[0][0].d == tb.roots(DRY, pressure=5e6)[0][0].d
+
+
+def test_arrays_and_lists_are_converted():
+    want = tb.solve(DRY, pressure=np.array([1e6, 5e6])).A_t
+    for given in (
+        [1, 5] * u.MPa,
+        [1 * u.MPa, 50 * u.bar],
+        xarray.DataArray([1.0, 5.0], dims="load", attrs={"units": "MPa"}),
+    ):
+        assert tb.solve(DRY, pressure=given).A_t.tolist() == want.tolist()
+
+
+def test_varied_inputs_have_the_units_of_their_fields():
+    vary = {"roughness.sigma": [50, 100] * u.nm, "roughness.alpha": np.array([4.0, 5.0])}
+    got = tb.solve_states(DRY, pressure=2 * u.MPa, vary=vary)
+    want = {"roughness.sigma": np.array([50e-9, 1e-7]), "roughness.alpha": np.array([4.0, 5.0])}
+    assert (
+        got.A_t.values.tolist() == tb.solve_states(DRY, pressure=2e6, vary=want).A_t.values.tolist()
+    )
+    with pytest.raises(tb.InvalidValue, match=r"roughness.sigma = .*is a pressure, but a length"):
+        tb.solve_states(DRY, pressure=2e6, vary={"roughness.sigma": [50, 100] * u.MPa})
+
+
+def test_another_dimension_is_told_with_its_key_what_is_needed_and_what_it_is():
+    with pytest.raises(tb.InvalidValue) as told:
+        tb.solve(DRY, pressure=250 * u.nm)
+    assert str(told.value) == (
+        "pressure = 250 nanometer is a length, but a pressure [Pa] is needed"
+    )
+    with pytest.raises(tb.InvalidValue) as told:
+        tb.Roughness(sigma=5 * u.MPa, R=3 * u.s)
+    assert told.value.problems == (
+        "Roughness.sigma = 5 megapascal is a pressure, but a length [m] is needed",
+        "Roughness.R = 3 second is a time, but a length [m] is needed",
+    )
+
+
+def test_every_wrong_argument_is_told():
+    with pytest.raises(tb.InvalidValue) as told:
+        tb.reference.hertz_point(5 * u.m, R=2 * u.N, E_star=1e11)
+    assert [each.split(" = ")[0] for each in told.value.problems] == ["force", "R"]
+
+
+def test_study_values_may_carry_units():
+    study = {
+        "surfaces": {"first": "S45C", "second": "S45C"},
+        "roughness": {"sigma": 100 * u.nm, "R": 2.8 * u.um},
+        "load": {"pressure": 5 * u.MPa},
+    }
+    read = check(study)
+    assert (read.contact.roughness.sigma, read.values.tolist()) == (1e-7, [5e6])
+
+
+def test_results_go_in_again():
+    states = tb.solve(DRY, pressure=[1e6, 5e6]).to_dataset()
+    back = tb.solve(DRY, d=states.d)
+    assert back.pressure == pytest.approx([1e6, 5e6], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "want"),
+    [
+        (250 * u.nm, "m", 250e-9),
+        (0.3 * u.um, "m", 0.3e-6),
+        (1 * u.inch, "m", 0.0254),
+        (50 * u.percent, "1", 0.5),
+        (25 * u.deg, "rad", np.deg2rad(25)),
+        (pint.Quantity(20, "degC"), "K", 293.15),
+        (2 / u.mm**2, "1/m^2", 2e6),
+        (1.2 * u.MPa * u.m**0.5, "Pa m^0.5", 1.2e6),
+        (20 * u.mPa * u.s, "Pa s", 0.02),
+    ],
+)
+def test_numbers_are_those_that_one_would_write(value, unit, want):
+    assert in_si(value, unit) == pytest.approx(want, rel=2e-16)
+
+
+def test_nothing_of_a_number_is_lost():
+    assert in_si(np.array([np.nan, 0.0, np.inf, -3.0]) * u.nm, "m") == pytest.approx(
+        [np.nan, 0.0, np.inf, -3e-9], nan_ok=True
+    )
+    assert in_si(0 * u.nm, "m") == 0.0
+
+
+@pytest.mark.parametrize("plain", [3.0, 3, "300 nm", None, True, np.arange(3), [1.0], {"a": 1}])
+def test_what_has_no_unit_is_left_as_it_is(plain):
+    assert not carries_unit(plain)
+    assert in_si(plain, "m") is plain
+
+
+def test_the_library_carries_no_units_itself():
+    for value in values_in(CONTACT):
+        assert not carries_unit(value)

@@ -1,0 +1,173 @@
+"""Long work says what it costs and how far it is, whoever does it, by a clock of the test."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.quantities import progress
+
+STEEL = tb.materials["S45C"]
+BARE = tb.Contact(
+    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=1e-7, R=2.8e-6)
+)
+PLANE = BARE.replace(
+    particles=tb.Particles(
+        material=tb.materials["SiO2"],
+        areal_density=1e11,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+    ),
+    particle_law=tb.particle.Series(seat="plane"),
+)
+
+
+class Clock:
+    """Every look at it is a step later."""
+
+    def __init__(self, step):
+        self.now, self.step = 100.0, step
+
+    def monotonic(self):
+        self.now += self.step
+        return self.now
+
+
+@pytest.fixture(params=[1e-6, 2.0], ids=["quick", "slow"])
+def slow(request, monkeypatch):
+    monkeypatch.setattr(progress, "time", Clock(request.param))
+    return request.param > 1
+
+
+def fresh(slow):
+    """A contact that no other test has bound."""
+    return PLANE.replace(**{"particles.diameter.std": 20e-9 if slow else 22e-9})
+
+
+def heard(call):
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        result = call()
+    return result, [each for each in found if each.category is tb.SlowWarning]
+
+
+def states(count, **options):
+    """States that no engine solves together."""
+    mean = np.linspace(280e-9, 320e-9, count)
+    vary = {"particles.diameter.mean": mean, "particles.material.H": np.linspace(6e9, 9e9, count)}
+    return tb.solve_states(PLANE, pressure=1e6, vary=vary, **options)
+
+
+def test_states_that_take_long_say_so_once_and_why(slow):
+    found, told = heard(lambda: states(24))
+    if not slow:
+        assert told == []
+        return
+    (one,) = told
+    assert str(one.message).startswith("24 states take some ")
+    assert "solved one by one" in str(one.message)
+    (why,) = {str(word).removeprefix("numpy: ") for word in found.engine.values}
+    assert why in str(one.message)
+    assert one.filename == __file__
+
+
+def test_states_tell_how_many_are_solved(slow):
+    told = []
+    found, words = heard(lambda: states(24, progress=told.append))
+    assert words == []
+    assert told[-1] == 24
+    assert told == sorted(told)
+    if slow:
+        assert len(told) > 5
+    for name, column in states(24).items():
+        np.testing.assert_array_equal(column.values, found[name].values)
+
+
+def test_a_block_of_a_sweep_moves_the_bar(slow):
+    told = []
+    axes = {"particles.material.H": np.linspace(6e9, 9e9, 24)}
+    tb.sweep(PLANE, pressure=1e6, vary=axes, progress=told.append)
+    assert told[-1] == 24
+    assert told == sorted(told)
+    if slow:
+        assert len(told) > 5
+
+
+def test_samples_that_take_long_say_so(slow):
+    contact = fresh(slow)
+    vary = {"particles.diameter.mean": (290e-9, 310e-9), "particles.material.H": (6e9, 9e9)}
+    asked = {"vary": vary, "pressure": 1e6, "samples": 64, "outputs": ["d"]}
+    exact, told = heard(lambda: tb.propagate(contact, **asked))
+    assert [str(each.message).startswith("64 contacts of propagate take") for each in told] == (
+        [True] if slow else []
+    )
+    counts = []
+    same, told = heard(lambda: tb.propagate(contact, **asked, progress=counts.append))
+    assert told == []
+    np.testing.assert_array_equal(same.bands["d"], exact.bands["d"])
+
+
+def test_derivatives_that_take_long_say_so(slow):
+    asked = {"of": "A_t", "to": ["particles.material.H", "surfaces.first.H"], "pressure": 1e6}
+    _, told = heard(lambda: tb.sensitivity(fresh(slow), **asked))
+    assert bool(told) == slow
+
+
+def test_parts_of_a_work_tell_what_is_done_of_each(monkeypatch, capsys):
+    monkeypatch.setattr(progress, "time", clock := Clock(0.0))
+    monkeypatch.setattr(progress, "_terminal", lambda: False)
+    with progress.stages("assess", 2) as work:
+        work("samples")
+        work.expect(40)
+        with progress.counted(30, work.within):
+            for _ in range(30):
+                clock.now += 2.0
+                progress.advance()
+        work("others")
+    assert capsys.readouterr().err.splitlines() == [
+        "assess: about 40 contacts, 2 s each: some 80 s",
+        "assess: samples, 15 of about 30",
+        "assess: samples, 30 of about 30",
+    ]
+
+
+def test_what_is_quick_says_nothing(monkeypatch, capsys):
+    monkeypatch.setattr(progress, "time", Clock(0.0))
+    monkeypatch.setattr(progress, "_terminal", lambda: False)
+    with progress.stages("assess", 1) as work:
+        work("samples")
+        work.expect(40)
+        with progress.counted(30, work.within):
+            for _ in range(30):
+                progress.advance()
+    assert capsys.readouterr().err == ""
+
+
+def test_a_part_of_another_work_moves_its_bar():
+    shown = []
+
+    class Outer(progress.Stages):
+        def show(self, part, more):
+            shown.append((self.begun + part, more))
+
+    outer = Outer("report")
+    outer("states")
+    outer("error bars")
+    inner = progress.nested(outer, 2)
+    inner("samples")
+    inner.show(0.5, "half")
+    inner("ends")
+    assert shown == [
+        (0.0, ""),
+        (1.0, ""),
+        (1.0, "samples"),
+        (1.25, "samples, half"),
+        (1.5, "ends"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("seconds", "words"), [(12, "12 s"), (89, "89 s"), (95, "2 minutes"), (7300, "2 hours")]
+)
+def test_durations_in_words(seconds, words):
+    assert progress.duration(seconds) == words
