@@ -33,8 +33,6 @@ SOFT = 0.5
 """χ up to which the low separations are solved."""
 ALPHAS = 7
 START = 0.4
-SLIGHT = 7.0
-"""(s² − s_0²)/2 from which what yields is too little to matter: 1e-3 of what is pressed."""
 TERMS = 400
 
 
@@ -73,13 +71,6 @@ def spread(series, h: np.ndarray, edges: Edges) -> Edges:
     return Edges(*(np.concatenate([out[float(x)][i] for x in h]) for i in range(4)))
 
 
-def marked(edges: Edges) -> Edges:
-    """Surfaces whose second edge is beyond what weighs do not yield."""
-    far = np.sqrt(np.maximum(edges.low, 0.0) ** 2 + 2 * SLIGHT)
-    beyond = edges.low + np.exp(np.minimum(edges.width, 3.0)) > far
-    return edges._replace(elastic=edges.elastic | beyond)
-
-
 def alpha_of(series) -> float:
     return series.spectrum.alpha
 
@@ -100,7 +91,7 @@ def march(series, h: np.ndarray, chis: list[float], edges: Edges) -> dict[float,
                 step[:, 1] = np.clip(step[:, 1], -1.0, 1.0)
                 guess = now.plus(np.where(now.elastic[:, None], 0.0, step))
             try:
-                state = pressed(series, h, chi, marked(guess))
+                state = pressed(series, h, chi, guess)
             except Exception as error:
                 print(alpha_of(series), chi, error, flush=True)
                 if abs(np.log(chi / at)) < 0.02:

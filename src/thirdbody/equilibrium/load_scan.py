@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..contact.asperity_sums import SEARCHED
 from ..contact.interface import Interface
 from ..errors import NoEquilibrium
 from ..numerics.roots import halley_root
@@ -17,7 +18,7 @@ Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 
-DEEPEST = -3.0
+DEEPEST = SEARCHED
 """Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
 CHUNK = 16_384
 """States solved together: their arrays stay in the processor's cache."""
@@ -49,8 +50,8 @@ class LoadScan:
         self.bound = bound
         asperities = bound.asperities
         sigma_s, centre = asperities.sigma_s, asperities.centre
-        low = centre + DEEPEST * sigma_s
-        near = np.arange(DEEPEST, min(10.0, asperities.highest), 0.2)
+        low = bound.lowest
+        near = np.arange(asperities.searched, min(10.0, asperities.highest), 0.2)
         far = np.arange(10.0, asperities.highest, 1.0)
         # the last asperity of a bounded distribution sets in like a power of its distance
         edge = asperities.highest - np.geomspace(1e-6, 0.2, 12)
@@ -68,6 +69,8 @@ class LoadScan:
                 count = int(np.ceil((top - low) / particles.resolution))
                 grid.append(np.linspace(low, top, min(max(count, 2), 20_000)))
         d = np.unique(np.concatenate(grid))
+        if bound.one_field:
+            d = d[d >= low]
         F, slope, _ = bound.load(d).T
         if np.any(F < 0):
             # adhesion: the load sets in at a separation where it changes its sign
@@ -112,6 +115,15 @@ class LoadScan:
         low, high = d[above[-1]], d[above[-1] + 1]
         return float(brentq(lambda x: self.bound.load(np.array([x]))[0, 0], low, high, xtol=1e-24))
 
+    @property
+    def _lowest(self) -> str:
+        """The lowest separation, in words."""
+        asperities = self.bound.asperities
+        if self.bound.one_field:
+            h = (self.bound.lowest + self.bound.mean_plane) / asperities.sigma
+            return f"h = {h:.2g} sigma, where its table ends"
+        return f"{asperities.searched:g} sigma_s"
+
     # ------------------------------------------------------------------ brackets
     def cells(self, target: Array, branch: str) -> Index:
         """Index i of the cell d[i] > root >= d[i+1] for each load, −1 where there is none."""
@@ -149,7 +161,7 @@ class LoadScan:
             return (
                 f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is beyond "
                 f"{top:.4g} Pa (F* = {top / E:.3g}), the most this model carries down to a "
-                f"separation of {DEEPEST:g} sigma_s; check the unit of the load"
+                f"separation of {self._lowest}; check the unit of the load"
             )
         return (
             f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is below the "

@@ -189,7 +189,7 @@ def _result(
     raw, path = None, "compiled"
     target = None if name == "d" else values
     if target is None:
-        deep = values < deepest(contact)
+        deep = values < bound.asperities.deepest
         if scalar and deep.any():
             raise InvalidValue(f"d = {values[0]:g} m is refused: {why_deep(contact)}")
         separation = np.where(deep, np.nan, values)
@@ -219,17 +219,19 @@ def _result(
 
 def deepest(contact: Contact) -> float:
     """Lowest separation d [m] at which states are evaluated."""
-    rough = contact.roughness
-    datum = next((contact.law_of(each).centre for each in contact.populations), 0.0)
-    return datum * rough.sigma - ReducedSum.DEEPEST * rough.sigma_s
+    return float(interface(contact).asperities.deepest)
 
 
 def why_deep(contact: Contact) -> str:
     """What is allowed of separations, and why."""
-    return (
-        f"it must be at least {deepest(contact):.4g} m, {-ReducedSum.DEEPEST:g} sigma_s from the "
-        "mean asperity height, below which no asperity model holds; check its sign and its unit"
-    )
+    if interface(contact).one_field:
+        why = "where the table of the law field ends"
+    else:
+        why = (
+            f"{-ReducedSum.DEEPEST:g} sigma_s from the mean asperity height, below which no "
+            "asperity model holds"
+        )
+    return f"it must be at least {deepest(contact):.4g} m, {why}; check its sign and its unit"
 
 
 def roots(
@@ -332,7 +334,7 @@ def pull_off(contact: Contact) -> tuple[float, float]:
 
     bound = interface(contact)
     asperities = bound.asperities
-    steps = np.linspace(DEEPEST, min(asperities.highest, 10.0), 400)
+    steps = np.linspace(asperities.searched, min(asperities.highest, 10.0), 400)
     d = asperities.centre + asperities.sigma_s * steps
     F = bound.load(d)[:, 0]
     i = int(np.argmin(F))
@@ -493,7 +495,7 @@ def _warnings(
     """One sentence for each way in which these states leave the model's validity."""
     out = about_area(contact, float(np.nanmax(full["A_t"], initial=0.0)))
     height = (d - bound.asperities.centre) / bound.asperities.sigma_s
-    if np.any(height < DEEPEST):
+    if not bound.one_field and np.any(height < DEEPEST):
         out.append(
             f"the separation goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
             "every asperity is in contact and the model is invalid"

@@ -178,6 +178,12 @@ class AbstractAsperityLaw(Law):
         """Reduced interference y up to which the law is meant; `beyond` says what lies there."""
         return math.inf
 
+    def problems(
+        self, roughness: Roughness, particle_laws: Sequence[AbstractParticleLaw]
+    ) -> list[str]:
+        """Why this law does not know such a surface, or such particles on it, one sentence each."""
+        return []
+
     def bound(self, *, R: Number, E_star: Number, H: Number, nu: float | None = None) -> Self:
         """The law with what its formulas need to know of the contact; itself by default.
 

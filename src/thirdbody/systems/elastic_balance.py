@@ -50,7 +50,7 @@ class Skin:
             self.bound = interface(source)
             self.E_star = source.E_ss
             skin = self.bound.asperities
-            self.floor = self.origin = skin.centre + DEEPEST * skin.sigma_s
+            self.floor = self.origin = self.bound.lowest
             self.step = skin.sigma_s
             bottom = self.bound.load(np.array([self.floor]))[0]
             self.lowest = (float(bottom[0]), float(bottom[1]))

@@ -6,6 +6,7 @@ from .adhesive import DMT, JKR
 from .ceb import CEB
 from .coated import Coated
 from .elliptic import EllipticCEB, EllipticZMC
+from .field import Field
 from .gw import GW
 from .hermite import Hermite
 from .jg import JG
@@ -29,6 +30,7 @@ __all__ = [
     "Coated",
     "EllipticCEB",
     "EllipticZMC",
+    "Field",
     "Hermite",
     "Jump",
     "elliptic_hertz",

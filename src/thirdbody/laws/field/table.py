@@ -13,7 +13,7 @@ from importlib import resources
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import PPoly, make_interp_spline
+from scipy.interpolate import BSpline, make_interp_spline
 from scipy.special import erfcx, ndtr
 
 from ...errors import InvalidValue
@@ -110,9 +110,21 @@ class FieldSurface:
         return float(self.h[0])
 
     @cached_property
-    def _series(self) -> tuple[PPoly, Array]:
+    def _logs(self) -> list[BSpline]:
+        """The first column with its derivatives, by itself: what a load needs."""
+        spline = make_interp_spline(self.h, self.rows[:, LOW], k=5)
+        return [spline, *(spline.derivative(n) for n in (1, 2, 3))]
+
+    def _log(self, h: Array) -> list[Array]:
+        """ln Φ over that of the plastic surface with three derivatives: four arrays (N,)."""
+        if np.any((h > self.h[-1]) | (h < self.lowest)):
+            return [self.columns(h, n)[:, LOW] for n in range(4)]
+        return [spline(h) for spline in self._logs]
+
+    @cached_property
+    def _series(self) -> tuple[BSpline, Array]:
         """Splines of every column, and their first two terms in 1 − h_M/h beyond the last."""
-        spline = PPoly.from_spline(make_interp_spline(self.h, self.rows, k=5))
+        spline = make_interp_spline(self.h, self.rows, k=5)
         end = self.h[-1:]
         value, slope, bend = (spline(end, nu)[0] for nu in range(3))
         # u = 1 − h_M/h has the slope 1/h_M and the bend −2/h_M² there
@@ -143,7 +155,7 @@ class FieldSurface:
 
     def load(self, h: Array) -> Array:
         """⟨f⟩ = −dΦ/dh with its first and second derivative: (N, 3)."""
-        y = [self.columns(h, n)[:, LOW] for n in range(4)]
+        y = self._log(h)
         density = np.exp(-0.5 * h * h) / math.sqrt(2 * math.pi)
         # Φ = P e^y with P of the plastic surface
         P = plastic_energy(h, self.chi)

@@ -1,0 +1,402 @@
+r"""The ground of particles on a rough surface that is one field of heights.
+
+Asperities and particles press the ground at height ζ down by the mean displacement
+
+.. math:: \frac{u(\zeta)}{\sigma} = 2\sqrt2\sum_{n=0}^{12}\left[(1-\varsigma)\,k_n^{zs}a_n
+          + k_n^{pp}\beta_n\right]\mathrm{he}_n(\zeta), \qquad
+          \beta_n = \frac{n_A}{E^*g}\int F_1\,\mathrm{he}_n(\zeta)\,dN(\zeta)
+
+with F_1 of particles in gaps h − ζ + u(ζ), and particles press down the ground of asperities,
+which then see the separation h + w,
+
+.. math:: w = 2\sqrt2\sum_n k_n^{as}\beta_n\,a_n'(h + w)/a_0'(h + w) .
+
+k_n^pp and k_n^as leave out what lies nearer than one diameter, and half of one; their n = 0 is
+minus that distance, as the mean plane sinks with the nominal pressure and nothing else does.
+β_n are found by iteration at separations of a table; between these every column is a spline.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.interpolate import BSpline, make_interp_spline
+
+from ..errors import NoEquilibrium
+from ..laws.base import COLUMNS
+from ..laws.field.formulas import remainder
+from ..laws.field.programme import MOMENTS
+from ..laws.field.table import FIRST, TAU
+from ..numerics.chebyshev import chebyshev_transform
+from ..numerics.quadrature import panel_rule
+from .field_sums import FieldSum
+from .particle_averages import SeatAverage
+from .particle_sums import Part, SeatedParticles
+from .spots import AsperitySpots
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from ..laws.spots import ParticleSpots
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Ground", "GroundedPart", "LiftedSum", "grounded"]
+
+STEP = 0.1
+"""Distance of separations of the table over σ, or over the width of the seat."""
+ROUNDS, CLOSE, MEMORY = 60, 1e-10, 4
+"""Of the iteration: the most, the last change of u/σ, and how many steps it remembers."""
+HIGHEST_SEAT = 4.0
+"""Height over σ beyond which the ground is as there: 3e-5 of it lie higher."""
+DENSITY = 8.5
+"""Widths of the seat beyond which nothing is counted."""
+TERMS = 16
+"""Of k_n over τ."""
+TINY = 1e-250
+
+
+def hermite(x: Array) -> Array:
+    """he_0 … he_12 at x (...): (..., 13)."""
+    out = np.empty((*x.shape, MOMENTS + 1))
+    out[..., 0], out[..., 1] = 1.0, x
+    for n in range(1, MOMENTS):
+        out[..., n + 1] = (x * out[..., n] - math.sqrt(n) * out[..., n - 1]) / math.sqrt(n + 1)
+    return out
+
+
+ROOTS = np.sqrt(np.arange(1, MOMENTS + 1))
+
+
+class Seat:
+    """Particles of one shape of size distribution on ground that gives way."""
+
+    def __init__(self, part: Part, sigma: float, mean: float, width: float):
+        assert isinstance(part.average, SeatAverage)
+        self.part, self.mean, self.width = part, mean, width
+        self.average = part.average
+        self.unit = part.scale / sigma
+        gaps, weights, values = self.average.average.nodes(self.average.width)
+        below = self.average.average.bottom - np.arange(12, -0.5, -1.0) * self.average.width
+        deep, deep_weights = panel_rule(below, 6)
+        floor = np.broadcast_to(self.average.floor, (len(deep), len(COLUMNS)))
+        self.gaps = self.unit * np.concatenate([deep, gaps])
+        """Gaps of the nodes over σ."""
+        weights = np.concatenate([deep_weights, weights])
+        self.values = (self.unit * weights)[:, None] * np.concatenate([floor, values])
+
+    def places(self, h: Array, u: Array, gaps: Array, start: Array | None = None) -> Array:
+        """ζ where the gap is one of these: (N, M) for h (N,) and u_n (N, 13)."""
+        wanted = h[:, None] - gaps
+        zeta = wanted if start is None else start
+        for _ in range(40 if start is None else 3):
+            low = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
+            basis = hermite(low)
+            value = np.einsum("hmn,hn->hm", basis, u)
+            slope = np.einsum("hmn,hn->hm", basis[..., :-1], u[:, 1:] * ROOTS)
+            slope = np.where(low == zeta, slope, 0.0)
+            step = (zeta - value - wanted) / np.maximum(1 - slope, 0.2)
+            zeta = zeta - step
+            if np.max(np.abs(step), initial=0.0) < 1e-12:
+                break
+        return zeta
+
+    def density(self, zeta: Array, u: Array) -> Array:
+        """dN/d(gap/σ) there: (N, M)."""
+        low = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
+        slope = np.einsum("hmn,hn->hm", hermite(low)[..., :-1], u[:, 1:] * ROOTS)
+        slope = np.where(low == zeta, slope, 0.0)
+        z = (zeta - self.mean) / self.width
+        normal = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
+        return normal / np.maximum(1 - slope, 0.2)
+
+
+class Ground:
+    """Displacements of the ground over the separation, solved once for an interface.
+
+    Attributes
+    ----------
+    h : array (M,)
+        Separations over σ of the table.
+    u : array (M, 13)
+        Hermite moments of the particles' ground over σ.
+    w : array (M,)
+        Lift of the asperities' ground over σ.
+    """
+
+    def __init__(self, field: FieldSum, seats: Sequence[Seat], apart: float, shadow: str):
+        self.field, self.seats, self.shadow = field, list(seats), shadow
+        self.coverage = 0.0
+        spectrum = field.surface.spectrum
+        x, transform = chebyshev_transform(TERMS)
+        tau = 0.5 * (1 + x)
+        self.k_pp, _ = spectrum.integrals_from(apart, tau, MOMENTS)
+        self._k_zs = transform @ spectrum.integrals_from(0.0, tau, MOMENTS)[1]
+        self._k_as = transform @ spectrum.integrals_from(0.5 * apart, tau, MOMENTS)[1]
+        lowest = field.surface.lowest
+        reach = max((seat.average.high * seat.unit + field_offset(seat, field)) for seat in seats)
+        width = min(1.0, *(seat.width for seat in seats))
+        count = max(8, math.ceil((reach - lowest) / (STEP * width)))
+        self.h = np.linspace(lowest, max(reach, lowest + 1.0), count + 1)
+        self.u, self.w = self._solved()
+
+    def _of_asperities(self, h: Array) -> tuple[Array, Array, Array]:
+        """k_n^zs a_n (1 + ε), k_n^as a_n′/a_0′ and a_0 at h: (N, 13), (N, 13), (N,)."""
+        surface = self.field.surface
+        columns, slopes = surface.columns(h), surface.columns(h, 1)
+        load = surface.load(h)
+        basis = np.polynomial.chebyshev.chebvander(2 * columns[:, TAU] - 1, TERMS - 1)
+        one = np.ones((len(h), 1))
+        ratios = np.hstack([one, columns[:, FIRST:]])
+        more = np.hstack([0 * one, slopes[:, FIRST:]])
+        turned = ratios + more * (load[:, 0] / load[:, 1])[:, None]
+        a = ratios * load[:, :1]
+        if self.field.law.remainder:
+            a = a * (1 + remainder(h, chi=surface.chi, alpha=surface.alpha)[:, :1])
+        return (basis @ self._k_zs) * a, (basis @ self._k_as) * turned, load[:, 0]
+
+    def _round(self, state: Array, zetas: list[Array | None]) -> Array:
+        """β_n and the shadow again, from those of the round before: (M, 14)."""
+        beta, shade = state[:, :-1], np.clip(state[:, -1:], 0.0, 1.0)
+        w = self._lift(beta)
+        pressed, _, _ = self._of_asperities(self.h + w)
+        u = 2 * math.sqrt(2) * ((1 - shade) * pressed + self.k_pp * beta)
+        out = np.zeros_like(state)
+        for i, seat in enumerate(self.seats):
+            zeta = zetas[i] = seat.places(self.h, u, seat.gaps, zetas[i])
+            density = seat.density(zeta, u)
+            loads = density * seat.values[:, 0] * (seat.part.factor / self.field.unit)
+            basis = hermite(np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT))
+            out[:, :-1] += np.einsum("hm,hmn->hn", loads, basis)
+            if self.shadow in COLUMNS:
+                column = COLUMNS.index(self.shadow)
+                out[:, -1] += seat.part.factor * (density @ seat.values[:, column])
+        if self.shadow not in COLUMNS:
+            out[:, -1] = self.coverage
+        self._u = u
+        return out
+
+    def _lift(self, beta: Array) -> Array:
+        """w where particles carry β: (M,)."""
+        w = np.zeros(len(self.h))
+        for _ in range(8):
+            _, weights, _ = self._of_asperities(self.h + w)
+            w = 2 * math.sqrt(2) * np.sum(weights * beta, axis=1)
+            w = np.maximum(w, self.h[0] - self.h)
+        return w
+
+    def _solved(self) -> tuple[Array, Array]:
+        """Iteration after Anderson, all separations at once."""
+        state = np.zeros((len(self.h), MOMENTS + 2))
+        zetas: list[Array | None] = [None] * len(self.seats)
+        states: list[Array] = []
+        misses: list[Array] = []
+        before = np.zeros((len(self.h), MOMENTS + 1))
+        for _ in range(ROUNDS):
+            miss = self._round(state, zetas) - state
+            change = np.max(np.abs(self._u - before), axis=1)
+            before = self._u
+            if np.all(change < CLOSE) and len(misses):
+                return self._u, self._lift(state[:, :-1])
+            states, misses = [*states, state][-MEMORY:], [*misses, miss][-MEMORY:]
+            state = _accelerated(states, misses)
+        bad = self.h[change >= CLOSE]
+        raise NoEquilibrium(
+            "no equilibrium: the ground of the particles was not found at separations from "
+            f"{bad.min():.3g} to {bad.max():.3g} sigma (law field)"
+        )
+
+    @cached_property
+    def _spline(self) -> BSpline:
+        columns = np.column_stack([self.u, self.w])
+        return make_interp_spline(self.h, columns, k=5)
+
+    def at(self, h: Array, derivative: int = 0) -> Array:
+        """u_n and w, or a derivative, at h: (N, 14); beyond the table as at its end."""
+        out = np.asarray(self._spline(np.minimum(h, self.h[-1]), derivative))
+        out[h > self.h[-1]] = 0.0
+        out[h < self.h[0]] = np.nan
+        return out
+
+    def columns_of(self, seat: Seat, h: Array) -> Array:
+        """What the particles of one seat carry at h: (N, 7)."""
+        out = np.empty((len(h), len(COLUMNS)))
+        for part in np.array_split(np.arange(len(h)), max(1, len(h) // 64)):
+            u = self.at(h[part])[:, :-1]
+            zeta = seat.places(h[part], u, seat.gaps)
+            out[part] = seat.density(zeta, u) @ seat.values
+        return out
+
+
+def field_offset(seat: Seat, field: FieldSum) -> float:
+    """h − (d + offset)/σ of a part."""
+    return (field.rough.y_s - field.centre - seat.part.offset) / field.sigma
+
+
+def _accelerated(states: list[Array], misses: list[Array]) -> Array:
+    """The next state: the combination of the last ones that misses least, row by row."""
+    if len(states) == 1:
+        return states[0] + 0.5 * misses[0]
+    last, miss = states[-1], misses[-1]
+    d_state = np.stack([last - each for each in states[:-1]], axis=-1)
+    d_miss = np.stack([miss - each for each in misses[:-1]], axis=-1)
+    size = np.max(np.abs(d_miss), axis=(1, 2))[:, None, None] + 1e-300
+    part = np.linalg.pinv(d_miss / size, rcond=1e-8) @ miss[..., None] / size
+    part = np.clip(part, -3.0, 3.0)
+    return last + miss - ((d_state + d_miss) @ part)[..., 0]
+
+
+class GroundedPart(Part):
+    """A `Part` whose ground gives way."""
+
+    def __init__(self, ground: Ground, seat: Seat):
+        part = seat.part
+        assert isinstance(part.average, SeatAverage)
+        super().__init__(part.average, part.scale, part.density, offset=part.offset)
+        self.ground, self.seat = ground, seat
+        self._shift = field_offset(seat, ground.field)
+
+    def _h(self, d: Array) -> Array:
+        return self.ground.field.h(d)
+
+    @cached_property
+    def _spline(self) -> tuple[BSpline, float]:
+        """ln of the load and the other columns over it, and where they end."""
+        h = self.ground.h
+        values = self.ground.columns_of(self.seat, h)
+        some = values[:, 0] > TINY
+        last = int(np.argmin(some)) if not some.all() else len(h)
+        if last < 6:
+            knots = np.array([0.0] * 6 + [1.0] * 6)
+            return BSpline(knots, np.zeros((6, len(COLUMNS))), 5), -math.inf
+        values, h = values[:last], h[:last]
+        rows = np.column_stack([np.log(values[:, 0]), values[:, 1:] / values[:, :1]])
+        return make_interp_spline(h, rows, k=5), float(h[-1])
+
+    @property
+    def marks(self) -> Array:
+        return np.empty(0)
+
+    @property
+    def stretch(self) -> float:
+        return math.inf
+
+    def _derivatives(self, d: Array, columns: tuple[int, ...]) -> Array:
+        """Columns per factor with two derivatives in h: (N, len(columns), 3)."""
+        spline, last = self._spline
+        h = self._h(d)
+        inside = np.clip(h, self.ground.h[0], max(last, self.ground.h[0]))
+        value, first, second = (np.asarray(spline(inside, n)) for n in range(3))
+        F = np.exp(value[:, 0])
+        F1 = F * first[:, 0]
+        F2 = F * (second[:, 0] + first[:, 0] ** 2)
+        out = np.empty((len(h), len(columns), 3))
+        for i, column in enumerate(columns):
+            if column == 0:
+                out[:, i] = np.stack([F, F1, F2], axis=-1)
+                continue
+            r, r1, r2 = value[:, column], first[:, column], second[:, column]
+            out[:, i, 0] = F * r
+            out[:, i, 1] = F1 * r + F * r1
+            out[:, i, 2] = F2 * r + 2 * F1 * r1 + F * r2
+        out[h > last] = 0.0
+        out[h < self.ground.h[0]] = np.nan
+        return out
+
+    def load(self, d: Array, shadow: int) -> Array:
+        sigma = self.ground.field.sigma
+        return self.factor / sigma ** np.arange(3) * self._derivatives(d, (0, shadow))
+
+    def columns(self, d: Array) -> Array:
+        every = tuple(range(len(COLUMNS)))
+        return self.factor * np.maximum(self._derivatives(d, every)[:, :, 0], 0.0)
+
+    def direct_columns(self, d: Array) -> Array:
+        return self.columns(d)
+
+    def load_in_gaps(self, d: Array, squeeze: float) -> Array:
+        narrow = self._gap_under_largest(squeeze) * self.seat.unit
+        h = self._h(d)
+        u = self.ground.at(h)[:, :-1]
+        density = self.seat.density(self.seat.places(h, u, self.seat.gaps), u)
+        return self.factor * (density @ (self.seat.values[:, 0] * (self.seat.gaps < narrow)))
+
+    def most_in_gaps(self, d: Array, squeeze: float) -> Array:
+        # the ground only goes down: gaps are wider than where it is rigid, but for its mean
+        return np.full(len(d), math.inf)
+
+    def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
+        h, seat = self._h(d), self.seat
+        average = seat.average.average
+        gaps, rise, weights = average.gaps(seat.average.width, splits)
+        below = average.bottom - np.arange(12, -0.5, -1.0) * seat.average.width
+        deep, deep_weights = panel_rule(below, 14)
+        gaps = np.concatenate([deep, gaps])
+        rise = np.concatenate([average.top - deep, rise])
+        weights = np.concatenate([deep_weights, weights])
+        u = self.ground.at(h)[:, :-1]
+        zeta = seat.places(h, u, seat.unit * gaps)
+        share = seat.unit * seat.density(zeta, u)
+        near = np.any(np.abs(zeta - seat.mean) < DENSITY * seat.width, axis=0)
+        gaps, rise, weights, share = gaps[near], rise[near], weights[near], share[:, near]
+        found = average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])
+        found = found.of_size(self.scale, self.density)
+        total = found.total(found.load)
+        wanted = self.columns(d)[:, 0]
+        return found.thinned(np.divide(wanted, total, out=np.ones_like(total), where=total > 0))
+
+
+class LiftedSum(FieldSum):
+    """A `FieldSum` whose ground particles press down: it sees h + w."""
+
+    def __init__(self, field: FieldSum, ground: Ground):
+        self.__dict__.update(vars(field))
+        self.plain, self.ground = field, ground
+
+    def _lifted(self, d: Array) -> Array:
+        return d + self.sigma * self.ground.at(self.h(d))[:, -1]
+
+    def load(self, d: Array) -> Array:
+        h = self.h(d)
+        F = self.plain.load(self._lifted(d))
+        first = 1 + self.ground.at(h, 1)[:, -1]
+        second = self.ground.at(h, 2)[:, -1] / self.sigma
+        bend = F[:, 2] * first**2 + F[:, 1] * second
+        return np.stack([F[:, 0], F[:, 1] * first, bend], axis=-1)
+
+    def fields(self, d: Array) -> Array:
+        return self.plain.fields(self._lifted(d))
+
+    def spots(self, d: Array) -> list[AsperitySpots]:
+        return self.plain.spots(self._lifted(d))
+
+
+def grounded(
+    field: FieldSum, populations: Sequence[SeatedParticles], laws: Sequence[object],
+    diameters: Sequence[float],
+) -> tuple[LiftedSum, list[SeatedParticles]]:
+    """The asperities and every population on ground that all of them press down."""
+    seats, owners = [], []
+    for i, (each, law) in enumerate(zip(populations, laws, strict=True)):
+        for part in each.parts:
+            mean, width = law.zeta_mean, law.zeta_std  # type: ignore[attr-defined]
+            seats.append(Seat(part, field.sigma, mean, width))
+            owners.append(i)
+    density = np.array([sum(part.density for part in each.parts) for each in populations])
+    mean_diameter = float(density @ np.array(diameters) / density.sum())
+    # √(m0/m2) = √2 σ/g
+    apart = mean_diameter * field.gradient / (math.sqrt(2) * field.sigma)
+    ground = Ground(field, seats, apart, populations[0].shadow)
+    out = []
+    for i, each in enumerate(populations):
+        parts: list[Part] = [
+            GroundedPart(ground, seat) for seat, owner in zip(seats, owners, strict=True)
+            if owner == i
+        ]  # fmt: skip
+        out.append(SeatedParticles(parts, each.shadow, each.coverage))
+    return LiftedSum(field, ground), out
