@@ -27,7 +27,6 @@ from scipy.interpolate import BSpline, make_interp_spline
 
 from ..errors import NoEquilibrium
 from ..laws.base import COLUMNS
-from ..laws.field.formulas import remainder
 from ..laws.field.programme import MOMENTS
 from ..laws.field.table import FIRST, TAU
 from ..numerics.chebyshev import chebyshev_transform
@@ -146,7 +145,7 @@ class Ground:
         self.u, self.w = self._solved()
 
     def _of_asperities(self, h: Array) -> tuple[Array, Array, Array]:
-        """k_n^zs a_n (1 + ε), k_n^as a_n′/a_0′ and a_0 at h: (N, 13), (N, 13), (N,)."""
+        """k_n^zs a_n, k_n^as a_n′/a_0′ and a_0 at h: (N, 13), (N, 13), (N,)."""
         surface = self.field.surface
         columns, slopes = surface.columns(h), surface.columns(h, 1)
         load = surface.load(h)
@@ -156,8 +155,6 @@ class Ground:
         more = np.hstack([0 * one, slopes[:, FIRST:]])
         turned = ratios + more * (load[:, 0] / load[:, 1])[:, None]
         a = ratios * load[:, :1]
-        if self.field.law.remainder:
-            a = a * (1 + remainder(h, chi=surface.chi, alpha=surface.alpha)[:, :1])
         return (basis @ self._k_zs) * a, (basis @ self._k_as) * turned, load[:, 0]
 
     def _round(self, state: Array, zetas: list[Array | None]) -> Array:
