@@ -47,29 +47,33 @@ if TYPE_CHECKING:
 
 __all__ = ["Ground", "GroundedPart", "LiftedSum", "grounded"]
 
-STEP = 0.1
+STEP = 0.2
 """Distance of separations of the table over σ, or over the width of the seat."""
-ROUNDS, CLOSE, MEMORY = 60, 1e-10, 4
+ROUNDS, CLOSE, MEMORY = 60, 1e-9, 4
 """Of the iteration: the most, the last change of u/σ, and how many steps it remembers."""
 HIGHEST_SEAT = 4.0
 """Height over σ beyond which the ground is as there: 3e-5 of it lie higher."""
 DENSITY = 8.5
 """Widths of the seat beyond which nothing is counted."""
+FAR = 30.0
+"""Separation over σ from which asperities are as there: nothing of them is left."""
+TOGETHER = 24
+"""Separations whose gaps are laid out together."""
 TERMS = 16
 """Of k_n over τ."""
 TINY = 1e-250
 
 
-def hermite(x: Array) -> Array:
-    """he_0 … he_12 at x (...): (..., 13)."""
-    out = np.empty((*x.shape, MOMENTS + 1))
-    out[..., 0], out[..., 1] = 1.0, x
-    for n in range(1, MOMENTS):
-        out[..., n + 1] = (x * out[..., n] - math.sqrt(n) * out[..., n - 1]) / math.sqrt(n + 1)
-    return out
-
-
-ROOTS = np.sqrt(np.arange(1, MOMENTS + 1))
+def heights(u: Array, zeta: Array) -> tuple[Array, Array]:
+    """Σ u_n he_n and its slope at ζ (N, M) for u (N, 13), constant far from the mean plane."""
+    x = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
+    after = later = slope_after = slope_later = np.zeros_like(x)
+    for n in range(MOMENTS, -1, -1):  # Clenshaw
+        a, b = x / math.sqrt(n + 1), math.sqrt((n + 1) / (n + 2))
+        slope = a * slope_after + after / math.sqrt(n + 1) - b * slope_later
+        value = u[:, n : n + 1] + a * after - b * later
+        later, after, slope_later, slope_after = after, value, slope_after, slope
+    return after, np.where(x == zeta, slope_after, 0.0)
 
 
 class Seat:
@@ -80,39 +84,50 @@ class Seat:
         self.part, self.mean, self.width = part, mean, width
         self.average = part.average
         self.unit = part.scale / sigma
-        gaps, weights, values = self.average.average.nodes(self.average.width)
-        below = self.average.average.bottom - np.arange(12, -0.5, -1.0) * self.average.width
+        sizes = self.average.average
+        gaps, rise, weights = sizes.gaps(self.average.width)
+        below = sizes.bottom - np.arange(12, -0.5, -1.0) * self.average.width
         deep, deep_weights = panel_rule(below, 6)
         floor = np.broadcast_to(self.average.floor, (len(deep), len(COLUMNS)))
         self.gaps = self.unit * np.concatenate([deep, gaps])
-        """Gaps of the nodes over σ."""
-        weights = np.concatenate([deep_weights, weights])
-        self.values = (self.unit * weights)[:, None] * np.concatenate([floor, values])
+        """Gaps of the nodes over σ, increasing."""
+        weights = self.unit * np.concatenate([deep_weights, weights])
+        values = np.maximum(sizes.average(gaps, rise), 0.0)
+        self.values = weights[:, None] * np.concatenate([floor, values])
 
-    def places(self, h: Array, u: Array, gaps: Array, start: Array | None = None) -> Array:
-        """ζ where the gap is one of these: (N, M) for h (N,) and u_n (N, 13)."""
+    def places(self, h: Array, u: Array, gaps: Array) -> tuple[Array, Array]:
+        """ζ where the gap is one of these, and dN/d(gap/σ) there: (N, M) for h (N,), u (N, 13)."""
         wanted = h[:, None] - gaps
-        zeta = wanted if start is None else start
-        for _ in range(40 if start is None else 3):
-            low = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
-            basis = hermite(low)
-            value = np.einsum("hmn,hn->hm", basis, u)
-            slope = np.einsum("hmn,hn->hm", basis[..., :-1], u[:, 1:] * ROOTS)
-            slope = np.where(low == zeta, slope, 0.0)
+        zeta = wanted + heights(u, wanted)[0]
+        for _ in range(20):
+            value, slope = heights(u, zeta)
             step = (zeta - value - wanted) / np.maximum(1 - slope, 0.2)
             zeta = zeta - step
-            if np.max(np.abs(step), initial=0.0) < 1e-12:
+            if np.max(np.abs(step), initial=0.0) < 1e-11:
                 break
-        return zeta
-
-    def density(self, zeta: Array, u: Array) -> Array:
-        """dN/d(gap/σ) there: (N, M)."""
-        low = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
-        slope = np.einsum("hmn,hn->hm", hermite(low)[..., :-1], u[:, 1:] * ROOTS)
-        slope = np.where(low == zeta, slope, 0.0)
+        slope = heights(u, zeta)[1]
         z = (zeta - self.mean) / self.width
         normal = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
-        return normal / np.maximum(1 - slope, 0.2)
+        return zeta, normal / np.maximum(1 - slope, 0.2)
+
+    def sums(self, h: Array, u: Array) -> tuple[Array, Array]:
+        """Columns per factor (N, 7), and the loads' moments (N, 13), at increasing h (N,)."""
+        columns = np.zeros((len(h), len(COLUMNS)))
+        moments = np.zeros((len(h), MOMENTS + 1))
+        for start in range(0, len(h), TOGETHER):
+            rows = slice(start, start + TOGETHER)
+            high = np.max(np.sum(np.abs(u[rows]), axis=1)) + DENSITY * self.width
+            ends = h[rows][0] - self.mean - high, h[rows][-1] - self.mean + high
+            near = slice(*np.searchsorted(self.gaps, ends).tolist())
+            zeta, density = self.places(h[rows], u[rows], self.gaps[near])
+            columns[rows] = density @ self.values[near]
+            x = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
+            before, now = np.zeros_like(x), density * self.values[near, 0]
+            for n in range(MOMENTS + 1):
+                moments[rows, n] = now.sum(axis=1)
+                later = (x * now - math.sqrt(n) * before) / math.sqrt(n + 1)
+                before, now = now, later
+        return columns, moments
 
 
 class Ground:
@@ -144,9 +159,9 @@ class Ground:
         self.h = np.linspace(lowest, max(reach, lowest + 1.0), count + 1)
         self.u, self.w = self._solved()
 
-    def _of_asperities(self, h: Array) -> tuple[Array, Array, Array]:
-        """k_n^zs a_n, k_n^as a_n′/a_0′ and a_0 at h: (N, 13), (N, 13), (N,)."""
-        surface = self.field.surface
+    def _of_asperities(self, h: Array) -> tuple[Array, Array]:
+        """k_n^zs a_n and k_n^as a_n′/a_0′ at h: (N, 13) each."""
+        surface, h = self.field.surface, np.minimum(h, FAR)
         columns, slopes = surface.columns(h), surface.columns(h, 1)
         load = surface.load(h)
         basis = np.polynomial.chebyshev.chebvander(2 * columns[:, TAU] - 1, TERMS - 1)
@@ -155,57 +170,58 @@ class Ground:
         more = np.hstack([0 * one, slopes[:, FIRST:]])
         turned = ratios + more * (load[:, 0] / load[:, 1])[:, None]
         a = ratios * load[:, :1]
-        return (basis @ self._k_zs) * a, (basis @ self._k_as) * turned, load[:, 0]
+        return (basis @ self._k_zs) * a, (basis @ self._k_as) * turned
 
-    def _round(self, state: Array, zetas: list[Array | None]) -> Array:
-        """β_n and the shadow again, from those of the round before: (M, 14)."""
+    def _round(self, h: Array, state: Array) -> tuple[Array, Array]:
+        """β_n and the shadow again, from those of the round before: (M, 14); and u_n."""
         beta, shade = state[:, :-1], np.clip(state[:, -1:], 0.0, 1.0)
-        w = self._lift(beta)
-        pressed, _, _ = self._of_asperities(self.h + w)
+        pressed, _ = self._of_asperities(h + self._lift(h, beta))
         u = 2 * math.sqrt(2) * ((1 - shade) * pressed + self.k_pp * beta)
         out = np.zeros_like(state)
-        for i, seat in enumerate(self.seats):
-            zeta = zetas[i] = seat.places(self.h, u, seat.gaps, zetas[i])
-            density = seat.density(zeta, u)
-            loads = density * seat.values[:, 0] * (seat.part.factor / self.field.unit)
-            basis = hermite(np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT))
-            out[:, :-1] += np.einsum("hm,hmn->hn", loads, basis)
+        for seat in self.seats:
+            columns, moments = seat.sums(h, u)
+            out[:, :-1] += (seat.part.factor / self.field.unit) * moments
             if self.shadow in COLUMNS:
-                column = COLUMNS.index(self.shadow)
-                out[:, -1] += seat.part.factor * (density @ seat.values[:, column])
+                out[:, -1] += seat.part.factor * columns[:, COLUMNS.index(self.shadow)]
         if self.shadow not in COLUMNS:
             out[:, -1] = self.coverage
-        self._u = u
-        return out
+        return out, u
 
-    def _lift(self, beta: Array) -> Array:
+    def _lift(self, h: Array, beta: Array) -> Array:
         """w where particles carry β: (M,)."""
-        w = np.zeros(len(self.h))
-        for _ in range(8):
-            _, weights, _ = self._of_asperities(self.h + w)
-            w = 2 * math.sqrt(2) * np.sum(weights * beta, axis=1)
-            w = np.maximum(w, self.h[0] - self.h)
+        w = np.zeros(len(h))
+        for _ in range(12):
+            _, weights = self._of_asperities(h + w)
+            before, w = w, 2 * math.sqrt(2) * np.sum(weights * beta, axis=1)
+            w = np.maximum(w, self.h[0] - h)
+            if np.max(np.abs(w - before), initial=0.0) < 1e-12:
+                break
         return w
 
     def _solved(self) -> tuple[Array, Array]:
-        """Iteration after Anderson, all separations at once."""
-        state = np.zeros((len(self.h), MOMENTS + 2))
-        zetas: list[Array | None] = [None] * len(self.seats)
+        """Iteration after Anderson, all separations at once, each until it is found."""
+        u, w = np.zeros((len(self.h), MOMENTS + 1)), np.zeros(len(self.h))
+        rest = np.arange(len(self.h))
+        state = np.zeros((len(rest), MOMENTS + 2))
         states: list[Array] = []
         misses: list[Array] = []
-        before = np.zeros((len(self.h), MOMENTS + 1))
         for _ in range(ROUNDS):
-            miss = self._round(state, zetas) - state
-            change = np.max(np.abs(self._u - before), axis=1)
-            before = self._u
-            if np.all(change < CLOSE) and len(misses):
-                return self._u, self._lift(state[:, :-1])
-            states, misses = [*states, state][-MEMORY:], [*misses, miss][-MEMORY:]
+            found, now = self._round(self.h[rest], state)
+            misses = [*misses, found - state][-MEMORY:]
+            states = [*states, state][-MEMORY:]
+            change = np.max(np.abs(now - u[rest]), axis=1)
+            u[rest] = now
+            w[rest] = self._lift(self.h[rest], state[:, :-1])
+            more = (change >= CLOSE) | (len(states) < 2)
+            rest = rest[more]
+            if not len(rest):
+                return u, w
+            states = [each[more] for each in states]
+            misses = [each[more] for each in misses]
             state = _accelerated(states, misses)
-        bad = self.h[change >= CLOSE]
         raise NoEquilibrium(
             "no equilibrium: the ground of the particles was not found at separations from "
-            f"{bad.min():.3g} to {bad.max():.3g} sigma (law field)"
+            f"{self.h[rest].min():.3g} to {self.h[rest].max():.3g} sigma (law field)"
         )
 
     @cached_property
@@ -218,15 +234,6 @@ class Ground:
         out = np.asarray(self._spline(np.minimum(h, self.h[-1]), derivative))
         out[h > self.h[-1]] = 0.0
         out[h < self.h[0]] = np.nan
-        return out
-
-    def columns_of(self, seat: Seat, h: Array) -> Array:
-        """What the particles of one seat carry at h: (N, 7)."""
-        out = np.empty((len(h), len(COLUMNS)))
-        for part in np.array_split(np.arange(len(h)), max(1, len(h) // 64)):
-            u = self.at(h[part])[:, :-1]
-            zeta = seat.places(h[part], u, seat.gaps)
-            out[part] = seat.density(zeta, u) @ seat.values
         return out
 
 
@@ -265,7 +272,7 @@ class GroundedPart(Part):
     def _spline(self) -> tuple[BSpline, float]:
         """ln of the load and the other columns over it, and where they end."""
         h = self.ground.h
-        values = self.ground.columns_of(self.seat, h)
+        values, _ = self.seat.sums(h, self.ground.u)
         some = values[:, 0] > TINY
         last = int(np.argmin(some)) if not some.all() else len(h)
         if last < 6:
@@ -320,7 +327,7 @@ class GroundedPart(Part):
         narrow = self._gap_under_largest(squeeze) * self.seat.unit
         h = self._h(d)
         u = self.ground.at(h)[:, :-1]
-        density = self.seat.density(self.seat.places(h, u, self.seat.gaps), u)
+        _, density = self.seat.places(h, u, self.seat.gaps)
         return self.factor * (density @ (self.seat.values[:, 0] * (self.seat.gaps < narrow)))
 
     def most_in_gaps(self, d: Array, squeeze: float) -> Array:
@@ -337,8 +344,8 @@ class GroundedPart(Part):
         rise = np.concatenate([average.top - deep, rise])
         weights = np.concatenate([deep_weights, weights])
         u = self.ground.at(h)[:, :-1]
-        zeta = seat.places(h, u, seat.unit * gaps)
-        share = seat.unit * seat.density(zeta, u)
+        zeta, density = seat.places(h, u, seat.unit * gaps)
+        share = seat.unit * density
         near = np.any(np.abs(zeta - seat.mean) < DENSITY * seat.width, axis=0)
         gaps, rise, weights, share = gaps[near], rise[near], weights[near], share[:, near]
         found = average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])
