@@ -263,7 +263,7 @@ class GroundedPart(Part):
         assert isinstance(part.average, SeatAverage)
         super().__init__(part.average, part.scale, part.density, offset=part.offset)
         self.ground, self.seat = ground, seat
-        self._shift = field_offset(seat, ground.field)
+        self._cut: dict[tuple[int, ...], list[BSpline]] = {}
 
     def _h(self, d: Array) -> Array:
         return self.ground.field.h(d)
@@ -293,9 +293,12 @@ class GroundedPart(Part):
     def _derivatives(self, d: Array, columns: tuple[int, ...]) -> Array:
         """Columns per factor with two derivatives in h: (N, len(columns), 3)."""
         spline, last = self._spline
+        if columns not in self._cut:
+            some = BSpline(spline.t, np.ascontiguousarray(spline.c[:, [0, *columns]]), 5)
+            self._cut[columns] = [some, some.derivative(1), some.derivative(2)]
         h = self._h(d)
         inside = np.clip(h, self.ground.h[0], max(last, self.ground.h[0]))
-        value, first, second = (np.asarray(spline(inside, n)) for n in range(3))
+        value, first, second = (each(inside) for each in self._cut[columns])
         F = np.exp(value[:, 0])
         F1 = F * first[:, 0]
         F2 = F * (second[:, 0] + first[:, 0] ** 2)
@@ -304,7 +307,7 @@ class GroundedPart(Part):
             if column == 0:
                 out[:, i] = np.stack([F, F1, F2], axis=-1)
                 continue
-            r, r1, r2 = value[:, column], first[:, column], second[:, column]
+            r, r1, r2 = value[:, i + 1], first[:, i + 1], second[:, i + 1]
             out[:, i, 0] = F * r
             out[:, i, 1] = F1 * r + F * r1
             out[:, i, 2] = F2 * r + 2 * F1 * r1 + F * r2
@@ -317,8 +320,14 @@ class GroundedPart(Part):
         return self.factor / sigma ** np.arange(3) * self._derivatives(d, (0, shadow))
 
     def columns(self, d: Array) -> Array:
-        every = tuple(range(len(COLUMNS)))
-        return self.factor * np.maximum(self._derivatives(d, every)[:, :, 0], 0.0)
+        spline, last = self._spline
+        h = self._h(d)
+        value = spline(np.clip(h, self.ground.h[0], max(last, self.ground.h[0])))
+        value[:, 0] = np.exp(value[:, 0])
+        value[:, 1:] = np.maximum(value[:, 1:], 0.0) * value[:, :1]
+        value[h > last] = 0.0
+        value[h < self.ground.h[0]] = np.nan
+        return self.factor * value
 
     def direct_columns(self, d: Array) -> Array:
         return self.columns(d)
@@ -361,15 +370,22 @@ class LiftedSum(FieldSum):
     def __init__(self, field: FieldSum, ground: Ground):
         self.__dict__.update(vars(field))
         self.plain, self.ground = field, ground
+        lift = make_interp_spline(ground.h, ground.w, k=5)
+        self._lift = [lift, lift.derivative(1), lift.derivative(2)]
+
+    def _at(self, d: Array, derivative: int = 0) -> Array:
+        """w over σ, or a derivative with respect to h; nothing beyond the table."""
+        h, (low, high) = self.h(d), self.ground.h[[0, -1]]
+        out = self._lift[derivative](np.clip(h, low, high))
+        return np.where(h > high, 0.0, out)
 
     def _lifted(self, d: Array) -> Array:
-        return d + self.sigma * self.ground.at(self.h(d))[:, -1]
+        return d + self.sigma * self._at(d)
 
     def load(self, d: Array) -> Array:
-        h = self.h(d)
         F = self.plain.load(self._lifted(d))
-        first = 1 + self.ground.at(h, 1)[:, -1]
-        second = self.ground.at(h, 2)[:, -1] / self.sigma
+        first = 1 + self._at(d, 1)
+        second = self._at(d, 2) / self.sigma
         bend = F[:, 2] * first**2 + F[:, 1] * second
         return np.stack([F[:, 0], F[:, 1] * first, bend], axis=-1)
 
