@@ -59,7 +59,9 @@ def spread(series, h: np.ndarray, edges: Edges) -> Edges:
     for way in (sorted(x for x in h if x > 2), sorted((x for x in h if x < 2), reverse=True)):
         known = [(2.0, edges)]
         for goal in way:
-            for x in np.linspace(known[-1][0], goal, 1 + int(np.ceil(abs(goal - known[-1][0]) / 0.26)))[1:]:
+            for x in np.linspace(
+                known[-1][0], goal, 1 + int(np.ceil(abs(goal - known[-1][0]) / 0.26))
+            )[1:]:
                 guess = known[-1][1]
                 if len(known) > 1:
                     (x0, e0), (x1, e1) = known[-2:]

@@ -397,7 +397,9 @@ class LiftedSum(FieldSum):
 
 
 def grounded(
-    field: FieldSum, populations: Sequence[SeatedParticles], laws: Sequence[object],
+    field: FieldSum,
+    populations: Sequence[SeatedParticles],
+    laws: Sequence[object],
     diameters: Sequence[float],
 ) -> tuple[LiftedSum, list[SeatedParticles]]:
     """The asperities and every population on ground that all of them press down."""

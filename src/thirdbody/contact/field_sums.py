@@ -128,8 +128,5 @@ class FieldSpots(AsperitySpots):
 
 
 @asperity_sum_of.register(Field)
-def _of_field(
-    law: Field, rough: Roughness, surfaces: MaterialPair, datum: float
-) -> FieldSum:
+def _of_field(law: Field, rough: Roughness, surfaces: MaterialPair, datum: float) -> FieldSum:
     return FieldSum(law, rough, surfaces, datum)
-

@@ -22,11 +22,10 @@ from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
-from ..laws.base import AbstractParticleLaw, SeatedLaw
-from ..laws.particle.breakage import about_strength
 from ..quantities.say import percent
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
+from .doubts import about_area, about_elastic, about_particles
 from .load_scan import DEEPEST, RESIDUAL, explained, load_scan
 
 __all__ = ["pull_off", "roots", "solve"]
@@ -508,13 +507,18 @@ def _warnings(
                 f"{tips.name}: at the highest load {percent(share, digits=2)} of the asperities' "
                 f"load is on those {tips.beyond}"
             )
-    out += _about_elastic(contact, bound, full, d)
+    out += about_elastic(contact, bound, full, d)
     if bound.particles is not None:
         out += about_particles(contact)
         if bound.particles.in_one_layer >= 0.3:
             out.append(
                 f"fragments in one layer would cover {bound.particles.in_one_layer:.2g} of the "
                 "nominal area where the gap closes"
+            )
+        if bound.one_field and 0.3 < np.nanmax(full["shadow"], initial=0.0) < 1:
+            out.append(
+                f"particles lie over {np.nanmax(full['shadow']):.2g} of the nominal area: the "
+                "ground that they press down is meant for 0.3 at most"
             )
         if np.any(full["shadow"] >= 1):
             out.append("particles shadow the whole area: the area correction was cut at zero")
@@ -524,68 +528,3 @@ def _warnings(
         if np.any(np.isfinite(d)):
             out += about_pressed(contact, d)
     return tuple(out)
-
-
-def about_area(contact: Contact, most: float) -> list[str]:
-    """What states whose real area reaches this leave out."""
-    out = []
-    if most > 0.2:
-        out.append(
-            f"A_t reaches {most:.3g}: above 0.2 neighbouring contacts interact, "
-            "which this model neglects"
-        )
-    if most > CLOSE and any(_lies_anywhere(contact.law_of(p)) for p in contact.populations):
-        out.append(
-            f"A_t reaches {most:.3g}: pressed point by point, surfaces with more than "
-            f"{CLOSE:g} were 0.04 to 0.65 sigma further apart than this model says, and their "
-            "particles carried 7 to 17 % less"
-        )
-    return out
-
-
-CLOSE = 0.05
-"""Real area above which summits grow together that this model counts one by one; the numbers are
-those of the book's page "Point by point"."""
-
-
-def _lies_anywhere(law: AbstractParticleLaw) -> bool:
-    """Whether particles rest on the rough surface itself, as those that were pressed."""
-    return isinstance(law, SeatedLaw) and law.seat == "rough"
-
-
-BROAD = 8.0
-"""Nayak bandwidth above which elastic asperities are known to have too little area."""
-
-
-def _about_elastic(
-    contact: Contact, bound: Interface, full: dict[str, Array], d: Array
-) -> list[str]:
-    """What is known of elastic asperities of a broad spectrum, where these carry area."""
-    alpha = contact.roughness.alpha
-    with np.errstate(invalid="ignore"):
-        count = np.isfinite(d) & (full["A_ss"] > 0.1 * full["A_t"])
-    if not alpha > BROAD or not np.any(count):
-        return []
-    _, elastic, *others = bound.asperities.fields(np.array([d[count].max()]))[0]
-    if not elastic > sum(others):
-        return []
-    return [
-        f"alpha = {alpha:.3g}: elastic asperities at alpha = 12 have 30 to 38 % less area at equal "
-        "load than boundary elements, at alpha = 670 less than half; where they yield (A = F/H) "
-        "this does not matter"
-    ]
-
-
-def about_particles(contact: Contact) -> list[str]:
-    """One sentence for each way in which the particles leave the model's validity."""
-    out = []
-    for each in contact.populations:
-        out += contact.law_of(each).warnings(contact.surfaces, contact.roughness, each)
-        out += about_strength(each, contact.surfaces)
-    covered = sum(each.coverage for each in contact.populations)
-    if covered >= 0.3:
-        out.append(
-            f"particles would cover {covered:.2g} of the nominal area: above 0.3 they touch each "
-            "other"
-        )
-    return out

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.columns import labels, labels_of
-from ...equilibrium.solve import about_area, about_particles, solve
+from ...equilibrium.doubts import about_area, about_particles
+from ...equilibrium.solve import solve
 from ...equilibrium.states import state_columns, varied
 from ...errors import RangeWarning
 from ...numerics.sampling import DESIGNS, Span

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ...contact.contact import Contact
 from ...contact.interface import Interface, interface
 from ...errors import InvalidValue, RangeWarning
-from ..load_scan import DEEPEST, LoadScan, load_scan
+from ..load_scan import LoadScan, load_scan
 from ..solve import pull_off, solve
 from .cubic import _LogCubic
 from .writers import _PLACES, ContactTable, TableError, _is_number

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from ...populations.heights import GaussianHeights
 from ..base import AbstractAsperityLaw, AbstractParticleLaw, Branch, Jump, SeatedLaw
@@ -75,7 +75,6 @@ class Field(AbstractAsperityLaw):
     citation = "this library; the half-space programme of Kalker 1977 on one Gaussian field"
     provenance = "derived"
     valid_range = "Gaussian heights, α 2.5 to 30; h from 0.2 σ, from −1 σ where H/(E*g) ≤ 0.4"
-    beyond: ClassVar[str] = "below the lowest separation of its table"
 
     remainder: bool = True
 

@@ -233,9 +233,7 @@ def _solved(
     return edges, size
 
 
-def _slope(
-    basis: _Basis, h: Array, chi: Array, edges: Edges, kappa: float, turns: Array
-) -> Array:
+def _slope(basis: _Basis, h: Array, chi: Array, edges: Edges, kappa: float, turns: Array) -> Array:
     """Slopes of ``turns`` in the three variables: (N, 3, 3)."""
     out = np.empty((len(h), 3, 3))
     for j in range(3):

@@ -216,4 +216,3 @@ def rolled_off(alpha: float, hurst: float = HURST) -> Spectrum:
     share = shares(float(brentq(miss, *ends, xtol=1e-14, rtol=1e-14)))
     longest = math.sqrt(2 / float(share @ q**2))
     return Spectrum(q=q * longest, weight=share)
-
