@@ -89,7 +89,9 @@ def march(series, h: np.ndarray, chis: list[float], edges: Edges) -> dict[float,
             guess = now
             if before is not None:
                 ratio = np.log(chi / at) / np.log(at / last_at)
-                step = ratio * np.stack([a - b for a, b in zip(now[:3], before[:3])], axis=1)
+                step = ratio * np.stack(
+                    [a - b for a, b in zip(now[:3], before[:3], strict=True)], axis=1
+                )
                 step[:, 1] = np.clip(step[:, 1], -1.0, 1.0)
                 guess = now.plus(np.where(now.elastic[:, None], 0.0, step))
             try:

@@ -26,7 +26,7 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
 
 from ..errors import NoEquilibrium
-from ..laws.base import COLUMNS
+from ..laws.base import COLUMNS, SeatedLaw
 from ..laws.field.programme import MOMENTS
 from ..laws.field.table import FIRST, TAU
 from ..numerics.chebyshev import chebyshev_transform
@@ -399,15 +399,14 @@ class LiftedSum(FieldSum):
 def grounded(
     field: FieldSum,
     populations: Sequence[SeatedParticles],
-    laws: Sequence[object],
+    laws: Sequence[SeatedLaw],
     diameters: Sequence[float],
 ) -> tuple[LiftedSum, list[SeatedParticles]]:
     """The asperities and every population on ground that all of them press down."""
     seats, owners = [], []
     for i, (each, law) in enumerate(zip(populations, laws, strict=True)):
         for part in each.parts:
-            mean, width = law.zeta_mean, law.zeta_std  # type: ignore[attr-defined]
-            seats.append(Seat(part, field.sigma, mean, width))
+            seats.append(Seat(part, field.sigma, law.zeta_mean, law.zeta_std))
             owners.append(i)
     density = np.array([sum(part.density for part in each.parts) for each in populations])
     mean_diameter = float(density @ np.array(diameters) / density.sum())

@@ -9,7 +9,7 @@ with what `thirdbody.laws.field` says of the surface. It stands where a sum over
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -100,7 +100,7 @@ class FieldSpots(AsperitySpots):
         if share is None:
             number = np.broadcast_to(spots.number, (len(count), spots.number.shape[1]))
 
-        def each(values: Array) -> Array:
+        def each(values: Any) -> Any:
             flat = values if share is None else values[:, 0]
             return np.broadcast_to(flat, number.shape)
 

@@ -12,12 +12,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..laws.base import SeatedLaw
 from ..populations.particles import Particles
 from .asperity_sums import asperity_sum
 from .contact import Contact
 from .field_ground import grounded
 from .field_sums import FieldSum
-from .particle_sums import particle_sum, together_in
+from .particle_sums import SeatedParticles, particle_sum, together_in
 
 Array = NDArray[np.float64]
 
@@ -39,12 +40,13 @@ class Interface:
             for law, each in zip(laws, contact.populations, strict=True)
         ]
         if self.populations and isinstance(self.asperities, FieldSum):
-            self.asperities, self.populations = grounded(
+            self.asperities, found = grounded(
                 self.asperities,
-                self.populations,
-                laws,
+                [each for each in self.populations if isinstance(each, SeatedParticles)],
+                [law for law in laws if isinstance(law, SeatedLaw)],
                 [each.diameter.mean_diameter for each in contact.populations],
             )
+            self.populations = list(found)
         self.particles = together_in(self.populations) if self.populations else None
 
     @property
