@@ -51,14 +51,17 @@ STEP = 0.2
 """Distance of separations of the table over σ, or over the width of the seat."""
 ROUNDS, CLOSE, MEMORY = 60, 1e-9, 4
 """Of the iteration: the most, the last change of u/σ, and how many steps it remembers."""
+SPOTS = 0.25
+"""Width of panels of gaps of single particles over that of the seat."""
 HIGHEST_SEAT = 4.0
 """Height over σ beyond which the ground is as there: 3e-5 of it lie higher."""
 DENSITY = 8.5
 """Widths of the seat beyond which nothing is counted."""
 FAR = 30.0
 """Separation over σ from which asperities are as there: nothing of them is left."""
-TOGETHER = 24
-"""Separations whose gaps are laid out together."""
+PANELS = np.array([0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.26, 0.33, 0.4, 0.5, 0.6, 0.75, 1.0])
+NODES = 12
+"""Of sums over seats: 2e-5 of a load."""
 TERMS = 16
 """Of k_n over τ."""
 TINY = 1e-250
@@ -84,50 +87,64 @@ class Seat:
         self.part, self.mean, self.width = part, mean, width
         self.average = part.average
         self.unit = part.scale / sigma
-        sizes = self.average.average
-        gaps, rise, weights = sizes.gaps(self.average.width)
-        below = sizes.bottom - np.arange(12, -0.5, -1.0) * self.average.width
-        deep, deep_weights = panel_rule(below, 6)
-        floor = np.broadcast_to(self.average.floor, (len(deep), len(COLUMNS)))
-        self.gaps = self.unit * np.concatenate([deep, gaps])
-        """Gaps of the nodes over σ, increasing."""
-        weights = self.unit * np.concatenate([deep_weights, weights])
-        values = np.maximum(sizes.average(gaps, rise), 0.0)
-        self.values = weights[:, None] * np.concatenate([floor, values])
+        """Size of the standardised particles over σ."""
 
-    def places(self, h: Array, u: Array, gaps: Array) -> tuple[Array, Array]:
-        """ζ where the gap is one of these, and dN/d(gap/σ) there: (N, M) for h (N,), u (N, 13)."""
-        wanted = h[:, None] - gaps
-        zeta = wanted + heights(u, wanted)[0]
-        for _ in range(20):
-            value, slope = heights(u, zeta)
-            step = (zeta - value - wanted) / np.maximum(1 - slope, 0.2)
-            zeta = zeta - step
-            if np.max(np.abs(step), initial=0.0) < 1e-11:
-                break
-        slope = heights(u, zeta)[1]
+    def gaps(self, h: Array, u: Array) -> tuple[Array, Array, Array]:
+        """Heights ζ, gaps over σ and weights dN of sums at h (N,) with u (N, 13): (N, M) each.
+
+        From the lowest ground on which the largest particle is squeezed, in the root of the
+        distance from there, as loads set in like powers of it.
+        """
+        low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
+        top = self.unit * self.average.average.top
+        grid = np.linspace(low, high, 69)
+        below = h[:, None] - grid + heights(u, np.broadcast_to(grid, (len(h), 69)))[0] < top
+        first = np.argmax(below, axis=1)
+        first = np.where(below.any(axis=1), first, 68)
+        left, right = grid[np.maximum(first - 1, 0)], grid[first]
+        for _ in range(45):
+            middle = 0.5 * (left + right)
+            under = h - middle + heights(u, middle[:, None])[0][:, 0] < top
+            left, right = np.where(under, left, middle), np.where(under, middle, right)
+        root, weight = panel_rule(np.sqrt(PANELS), NODES)
+        span = np.maximum(high - right, 0.0)[:, None]
+        zeta = right[:, None] + span * root**2
         z = (zeta - self.mean) / self.width
         normal = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
-        return zeta, normal / np.maximum(1 - slope, 0.2)
+        weight = 2 * span * root * weight * normal
+        return zeta, h[:, None] - zeta + heights(u, zeta)[0], weight
 
     def sums(self, h: Array, u: Array) -> tuple[Array, Array]:
-        """Columns per factor (N, 7), and the loads' moments (N, 13), at increasing h (N,)."""
-        columns = np.zeros((len(h), len(COLUMNS)))
-        moments = np.zeros((len(h), MOMENTS + 1))
-        for start in range(0, len(h), TOGETHER):
-            rows = slice(start, start + TOGETHER)
-            high = np.max(np.sum(np.abs(u[rows]), axis=1)) + DENSITY * self.width
-            ends = h[rows][0] - self.mean - high, h[rows][-1] - self.mean + high
-            near = slice(*np.searchsorted(self.gaps, ends).tolist())
-            zeta, density = self.places(h[rows], u[rows], self.gaps[near])
-            columns[rows] = density @ self.values[near]
-            x = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
-            before, now = np.zeros_like(x), density * self.values[near, 0]
-            for n in range(MOMENTS + 1):
-                moments[rows, n] = now.sum(axis=1)
-                later = (x * now - math.sqrt(n) * before) / math.sqrt(n + 1)
-                before, now = now, later
+        """Columns per factor (N, 7), and the loads' moments (N, 13), at h (N,)."""
+        zeta, gaps, weight = self.gaps(h, u)
+        values = self.average.average((gaps / self.unit).ravel()).reshape(*gaps.shape, -1)
+        values = np.maximum(values, 0.0)
+        columns = np.einsum("hm,hmk->hk", weight, values)
+        moments = np.empty((len(h), MOMENTS + 1))
+        x = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
+        before, now = np.zeros_like(x), weight * values[:, :, 0]
+        for n in range(MOMENTS + 1):
+            moments[:, n] = now.sum(axis=1)
+            before, now = now, (x * now - math.sqrt(n) * before) / math.sqrt(n + 1)
         return columns, moments
+
+    def shares(self, h: Array, u: Array, nodes: Array) -> Array:
+        """How many particles lie in each of these gaps over σ, increasing: (N, M).
+
+        Those between two gaps count to both, by their distances: sums over what is linear in
+        between are exact.
+        """
+        _, gaps, weight = self.gaps(h, u)
+        inside = (gaps >= nodes[0]) & (gaps <= nodes[-1])
+        gaps = np.clip(gaps, nodes[0], nodes[-1])
+        after = np.clip(np.searchsorted(nodes, gaps, side="right"), 1, len(nodes) - 1)
+        part = (gaps - nodes[after - 1]) / (nodes[after] - nodes[after - 1])
+        weight = np.where(inside, weight, 0.0)
+        out = np.zeros((len(h), len(nodes)))
+        rows = np.arange(len(h))[:, None]
+        np.add.at(out, (rows, after - 1), weight * (1 - part))
+        np.add.at(out, (rows, after), weight * part)
+        return out
 
 
 class Ground:
@@ -335,33 +352,31 @@ class GroundedPart(Part):
     def load_in_gaps(self, d: Array, squeeze: float) -> Array:
         narrow = self._gap_under_largest(squeeze) * self.seat.unit
         h = self._h(d)
-        u = self.ground.at(h)[:, :-1]
-        _, density = self.seat.places(h, u, self.seat.gaps)
-        return self.factor * (density @ (self.seat.values[:, 0] * (self.seat.gaps < narrow)))
+        _, gaps, weight = self.seat.gaps(h, self.ground.at(h)[:, :-1])
+        load = self.seat.average.average((gaps / self.seat.unit).ravel())[:, 0]
+        return self.factor * np.sum(weight * load.reshape(gaps.shape) * (gaps < narrow), axis=1)
 
     def most_in_gaps(self, d: Array, squeeze: float) -> Array:
-        # the ground only goes down: gaps are wider than where it is rigid, but for its mean
-        return np.full(len(d), math.inf)
+        return np.full(len(d), math.inf)  # no bound without its ground: it is looked at
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         h, seat = self._h(d), self.seat
-        average = seat.average.average
-        gaps, rise, weights = average.gaps(seat.average.width, splits)
-        below = average.bottom - np.arange(12, -0.5, -1.0) * seat.average.width
-        deep, deep_weights = panel_rule(below, 14)
-        gaps = np.concatenate([deep, gaps])
-        rise = np.concatenate([average.top - deep, rise])
-        weights = np.concatenate([deep_weights, weights])
-        u = self.ground.at(h)[:, :-1]
-        zeta, density = seat.places(h, u, seat.unit * gaps)
-        share = seat.unit * density
-        near = np.any(np.abs(zeta - seat.mean) < DENSITY * seat.width, axis=0)
-        gaps, rise, weights, share = gaps[near], rise[near], weights[near], share[:, near]
-        found = average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])
-        found = found.of_size(self.scale, self.density)
-        total = found.total(found.load)
-        wanted = self.columns(d)[:, 0]
-        return found.thinned(np.divide(wanted, total, out=np.ones_like(total), where=total > 0))
+        average, u = seat.average.average, self.ground.at(h)[:, :-1]
+        gaps, rise, _ = average.gaps(SPOTS * seat.average.width, splits)
+        _, found, _ = seat.gaps(h, u)
+        # below the gaps of the tables loads no longer change, but depths do
+        low = min(float(found.min()) / seat.unit, float(gaps[0]) - seat.average.width)
+        count = max(8, math.ceil(4 * (gaps[0] - low) / seat.average.width))
+        below = np.linspace(low, gaps[0], count + 1)[:-1]
+        gaps = np.concatenate([below, gaps, [average.top]])
+        rise = np.concatenate([average.top - below, rise, [0.0]])
+        share = seat.shares(h, u, seat.unit * gaps)
+        near = np.any(share > 0, axis=0)
+        gaps, rise, share = gaps[near, None], rise[near, None], share[:, near]
+        spots = average.spots_in(gaps, rise, splits, share, 1.0)
+        spots = spots.of_size(self.scale, self.density)
+        total, wanted = spots.total(spots.load), self.columns(d)[:, 0]
+        return spots.thinned(np.divide(wanted, total, out=np.ones_like(total), where=total > 0))
 
 
 class LiftedSum(FieldSum):
