@@ -13,6 +13,8 @@ import thirdbody as tb
 from thirdbody.contact.evaluation import spots_of
 from thirdbody.contact.interface import Interface, interface
 from thirdbody.errors import InvalidValue, NoEquilibrium
+from thirdbody.explicit import surface_of
+from thirdbody.laws.field.own import OwnSpectrum
 
 E_STAR, SIGMA = 112e9, 0.3e-6
 EXPLICIT = {
@@ -61,12 +63,27 @@ def ground_at(zeta, u):
     return float(np.polynomial.hermite_e.hermeval(min(max(zeta, -4.0), 4.0), u / norm))
 
 
+@pytest.fixture(scope="module")
+def box():
+    """The waves of the boxes of 102 µm that were pressed."""
+    surface = surface_of(contact(), size=512, spacing=0.2e-6, seed=1)
+    return OwnSpectrum.of(surface, box=True)
+
+
+def test_waves_of_a_box(box):
+    assert box.spectrum.alpha == pytest.approx(5.0, rel=2e-3)
+    k = box.spectrum.integrals(0.0, 3)
+    assert k[1:] == pytest.approx([1.654, 1.023, 0.791], abs=1e-3)
+    with pytest.raises(InvalidValue, match="must be as many numbers"):
+        OwnSpectrum(q=(1.0, 2.0), weight=(1.0,))
+
+
 @pytest.mark.parametrize("ratio", list(EXPLICIT))
-def test_against_surfaces_pressed_point_by_point(ratio):
+def test_against_surfaces_pressed_point_by_point(ratio, box):
     loads, h, share, error, part = EXPLICIT[ratio]
-    state = solved(contact(ratio), F_star=np.array(loads))
-    # h of surfaces of 102 µm against that of infinite ones: 0.02 σ, and 0.005 σ of the runs
-    assert state.h / SIGMA == pytest.approx(h, abs=0.025)
+    law = tb.asperity.Field(spectrum=box)
+    state = solved(contact(ratio, law=law), F_star=np.array(loads))
+    assert state.h / SIGMA == pytest.approx(h, abs=0.02)
     off = np.abs(100 * state.particle_load_share - share)
     assert np.all(off < np.maximum(part * np.array(share), 2.5 * np.array(error)))
 
@@ -98,8 +115,9 @@ def test_derivatives_of_the_load(size):
 def test_load_of_particles_on_their_ground():
     case = contact(0.1)
     bound = interface(case)
-    ground, one = bound.asperities.ground, case.particle_law.one(
-        surfaces=case.surfaces, particle=case.particles.material
+    ground, one = (
+        bound.asperities.ground,
+        case.particle_law.one(surfaces=case.surfaces, particle=case.particles.material),
     )
     x = case.particles.diameter.mean
     for h in (0.5, 1.3, 2.4):
@@ -138,9 +156,7 @@ def test_ground_by_its_own_equation():
 def test_units():
     """Lengths three times as large and stresses twice: the same numbers."""
     small = contact(0.1)
-    body = small.surfaces.first.replace(
-        E=2 * small.surfaces.first.E, H=2 * small.surfaces.first.H
-    )
+    body = small.surfaces.first.replace(E=2 * small.surfaces.first.E, H=2 * small.surfaces.first.H)
     large = tb.Contact(
         surfaces=tb.MaterialPair(body, body),
         roughness=tb.Roughness(sigma=3 * SIGMA, R=9e-6, alpha=5.0),
@@ -202,7 +218,7 @@ def test_what_it_does_not_know_is_refused(changes, words):
 
 
 def test_where_its_table_ends():
-    with pytest.raises(NoEquilibrium, match="h = 0.2 sigma, where its table ends"):
+    with pytest.raises(NoEquilibrium, match=r"h = 0\.2 sigma, where its table ends"):
         solved(contact(0.5, density=0), F_star=0.3)
     with pytest.raises(InvalidValue, match="where the table of the law field ends"):
         solved(contact(density=0), d=-5 * SIGMA)

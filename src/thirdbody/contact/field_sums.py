@@ -15,6 +15,7 @@ import numpy as np
 
 from ..laws.asperity.field import TIP, Field
 from ..laws.field.formulas import area, hardness_ratio, load, rms_gradient
+from ..laws.field.own import own_field
 from ..laws.field.table import field_of
 from ..populations.materials import MaterialPair
 from ..populations.roughness import Roughness
@@ -42,7 +43,8 @@ class FieldSum:
         self.datum = datum
         self.gradient = rms_gradient(rough)
         chi = hardness_ratio(rough, E_star=surfaces.E_star, H=surfaces.H)
-        self.surface = field_of(chi, rough.alpha)
+        own = law.spectrum
+        self.surface = field_of(chi, rough.alpha) if own is None else own_field(own, chi)
         self.unit = surfaces.E_star * self.gradient
         self.highest = (HIGHEST * self.sigma - rough.y_s) / self.sigma_s
         self.deepest = self.centre + self.surface.lowest * self.sigma - rough.y_s

@@ -147,6 +147,8 @@ class AbstractAsperityLaw(Law):
 
     __slots__ = ()
     registry: ClassVar[dict[str, type[Law]]] = {}
+    of_surface: ClassVar[bool] = False
+    """It says what a rough surface does as a whole; of one tip it borrows what another law says."""
     beyond: ClassVar[str] = ""
     """What an asperity is past `valid_to`, to follow "x % of the asperities' area is"."""
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...populations.heights import GaussianHeights
 from ..base import AbstractAsperityLaw, AbstractParticleLaw, Branch, Jump, SeatedLaw
+from ..field.own import OwnSpectrum
 from ..field.table import ALPHAS
 from .zmc import ZMC
 
@@ -39,6 +40,9 @@ class Field(AbstractAsperityLaw):
     ----------
     remainder : bool, optional
         Count ε; False leaves the theory with nothing fitted.
+    spectrum : OwnSpectrum, optional
+        Waves of a measured map; those of the library's spectrum of equal α by default. The
+        roughness of the contact should be that of the same map at the same cut-off.
 
     Notes
     -----
@@ -76,9 +80,17 @@ class Field(AbstractAsperityLaw):
     provenance = "derived"
     valid_range = "Gaussian heights, α 2.5 to 30; h from 0.2 σ, from −1 σ where H/(E*g) ≤ 0.4"
 
+    of_surface = True
+
     remainder: bool = True
+    spectrum: OwnSpectrum | None = None
 
     def _problems(self) -> list[str]:
+        if not isinstance(self.spectrum, OwnSpectrum | None):
+            return [
+                f"Field.spectrum = {self.spectrum!r} must be an OwnSpectrum or None, e.g. "
+                "OwnSpectrum.of(from_topography(...))"
+            ]
         if not isinstance(self.remainder, bool):
             return [f"Field.remainder = {self.remainder!r} must be True or False"]
         return []

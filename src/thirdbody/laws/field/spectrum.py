@@ -34,6 +34,8 @@ HURST = 0.8
 """Of the spectra that ship, as `thirdbody.explicit.surface_of` draws them."""
 WAVES = 200
 """Gauss nodes in q: 1e-12 of the moments for every α of the table."""
+WIGNER = 3.900
+"""Of 1/r on a square lattice in a neutralising background."""
 FARTHEST = 80.0
 """Distance at which ρ is cut: what lies beyond is 1e-5 of k_2 and nothing of k_1."""
 
@@ -50,6 +52,10 @@ class Spectrum:
         Share of each in the variance [1]; they sum to 1, and ⟨q²⟩ = 2.
     farthest : float
         Distance over √(m0/m2) to which its autocorrelation is known [1].
+    box : float
+        Side of a square after which the surface repeats itself [1], 0 if it does not. Then
+        powers n ≥ 2 lose the mean pressure of all boxes, (3.900/L)∫ρⁿ r dr, and n = 1 is the sum
+        over the waves.
 
     Examples
     --------
@@ -60,6 +66,7 @@ class Spectrum:
     q: Array
     weight: Array
     farthest: float = FARTHEST
+    box: float = 0.0
 
     def mean(self, power: float) -> float:
         """⟨q^power⟩."""
@@ -86,6 +93,12 @@ class Spectrum:
         return r.ravel(), (half[:, None] * weight).ravel()
 
     @cached_property
+    def _weights(self) -> Array:
+        """Of `nodes`, less what a box does not have."""
+        r, weight = self.nodes
+        return weight * (1 - WIGNER * r / self.box) if self.box else weight
+
+    @cached_property
     def _known(self) -> Array:
         return self.correlations(self.nodes[0])
 
@@ -101,7 +114,7 @@ class Spectrum:
     def integrals(self, tau: float, count: int) -> Array:
         """k_n(τ) for n = 0 … count, with 0 in the place of k_0."""
         _, of_s, _ = self.filtered(tau)
-        out = _powers(of_s, self.nodes[1], count)
+        out = _powers(of_s, self._weights, count)
         a = 1 - tau
         norm = a * a + 2 * a * tau * self.mean(1) + tau * tau * self.mean(2)
         # without what the cut leaves out
@@ -121,14 +134,14 @@ class Spectrum:
         near = 0.5 * r * (1 + at)
         weight = 0.5 * r * weight
         plain, once, _ = self.correlations(near)
-        own = _powers(self._known[0], self.nodes[1], count) - _powers(plain, weight, count)
+        own = _powers(self._known[0], self._weights, count) - _powers(plain, weight, count)
         own[1] = self.mean(-1) - float(weight @ plain)
         mixed = np.empty((len(tau), count + 1))
         for row, t in zip(mixed, tau.tolist(), strict=True):
             a = 1 - t
             root = math.sqrt(a * a + 2 * a * t * self.mean(1) + t * t * self.mean(2))
             far = (a * self._known[0] + t * self._known[1]) / root
-            row[:] = _powers(far, self.nodes[1], count)
+            row[:] = _powers(far, self._weights, count)
             row[1] = (a * self.mean(-1) + t) / root
             row -= _powers((a * plain + t * once) / root, weight, count)
         own[0], mixed[:, 0] = -r, -r
