@@ -508,6 +508,11 @@ def _warnings(
                 f"load is on those {tips.beyond}"
             )
     out += about_elastic(contact, bound, full, d)
+    if bound.one_field and contact.outputs:
+        out.append(
+            "the law field knows no single spots: what outputs say of asperities is of the summits "
+            "of zmc, in number and area scaled to its load and area"
+        )
     if bound.particles is not None:
         out += about_particles(contact)
         if bound.particles.in_one_layer >= 0.3:

@@ -2,6 +2,7 @@
 
 from ...reference import elliptic_hertz
 from ..base import AbstractAsperityLaw, Branch, Jump
+from ..field.own import OwnSpectrum
 from .adhesive import DMT, JKR
 from .ceb import CEB
 from .coated import Coated
@@ -23,6 +24,7 @@ __all__ = [
     "JG",
     "JKR",
     "KE",
+    "OwnSpectrum",
     "REGISTRY",
     "ZMC",
     "AbstractAsperityLaw",
