@@ -24,7 +24,6 @@ __all__ = [
     "JG",
     "JKR",
     "KE",
-    "OwnSpectrum",
     "REGISTRY",
     "ZMC",
     "AbstractAsperityLaw",
@@ -35,5 +34,6 @@ __all__ = [
     "Field",
     "Hermite",
     "Jump",
+    "OwnSpectrum",
     "elliptic_hertz",
 ]
