@@ -232,7 +232,7 @@ def sizes(pen: Pen, mean: float) -> Distribution:
 ROUND = tuple(
     name
     for name, kind in tb.asperity.REGISTRY.items()
-    if kind.scale_free and name not in ("elliptic-ceb", "elliptic-zmc")
+    if kind.scale_free and not kind.of_surface and name not in ("elliptic-ceb", "elliptic-zmc")
 )
 """Laws that a particle may follow."""
 

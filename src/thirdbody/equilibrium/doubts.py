@@ -40,9 +40,9 @@ def about_area(contact: Contact, most: float) -> list[str]:
     chi = _hardness_ratio(contact)
     if most > SMALL and anywhere and MIDDLE[0] < chi < MIDDLE[1]:
         out.append(
-            f"A_t reaches {most:.3g} and H/(E*g) = {chi:.2g}, with the RMS gradient g: pressed point "
-            "by point at 0.41, particles carried 22 to 26 % less than this model says from a real "
-            'area of 0.006 on; the asperity law "field" was within 5 %'
+            f"A_t reaches {most:.3g} and H/(E*g) = {chi:.2g}, with the RMS gradient g: pressed "
+            "point by point at 0.41, particles carried 22 to 26 % less than this model says from "
+            'a real area of 0.006 on; the asperity law "field" was within 5 %'
         )
     elif most > CLOSE and anywhere:
         out.append(
