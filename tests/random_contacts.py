@@ -233,7 +233,7 @@ def sizes(pen: Pen, mean: float) -> Distribution:
 ROUND = tuple(
     name
     for name, kind in tb.asperity.REGISTRY.items()
-    if kind.scale_free and name not in ("elliptic-ceb", "elliptic-zmc")
+    if kind.scale_free and not kind.of_surface and name not in ("elliptic-ceb", "elliptic-zmc")
 )
 """Laws that a particle may follow."""
 
@@ -363,7 +363,7 @@ def draw(seed: int, index: int) -> Drawn:
     first = material(pen)
     second = first if pen.chance(0.4) else material(pen, first.H * pen.log(0.1, 10.0))
     pair = tb.MaterialPair(first, second)
-    law = asperity_law(pen, tuple(tb.asperity.REGISTRY))
+    law = asperity_law(pen, tuple(n for n, k in tb.asperity.REGISTRY.items() if not k.of_surface))
     rough = roughness(pen, law)
     if law.name == "coated":
         law = law.replace(t=rough.sigma * pen.log(0.1, 10.0))

@@ -279,7 +279,8 @@ EXTRA = {
     "elliptic-zmc": {"ratio": 4.0},
     "jg": {"hardness_ratio": 2.86},
 }
-MONOTONE = [name for name in REGISTRY if name not in ADHESIVE]
+TIPS = [name for name, kind in REGISTRY.items() if not kind.of_surface]
+MONOTONE = [name for name in TIPS if name not in ADHESIVE]
 
 
 @pytest.mark.parametrize("heights", OTHER_HEIGHTS)

@@ -357,6 +357,8 @@ def a_round_ellipse_is_a_circle(law: Law) -> None:
 # ---------------------------------------------------------------------------------- sums
 def exponential_heights(law: Law) -> None:
     """F/A does not depend on h, and d ln F/dh = −1; with adhesion too while all is in reach."""
+    if law.of_surface:
+        return  # no sum over tips
     d = np.array([-0.9, 0.0, 1.5, 4.0, 9.0]) * SIGMA_S
     if getattr(law, "unloading", False):
         d = d[1:]
@@ -373,6 +375,8 @@ def exponential_heights(law: Law) -> None:
 
 def derivative_of_the_sum(law: Law) -> None:
     """dF/dd = −η[∫F₁′φ + ΣJφ(d + ω_i)], jumps of the law included, and the difference."""
+    if law.of_surface:
+        return
     for name in ("gaussian", "exponential"):
         heights = HEIGHTS[name]
         bare = contact(law, heights)

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from functools import lru_cache, partial
+from functools import lru_cache, partial, singledispatch
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,9 +26,20 @@ from ..populations.materials import MaterialPair
 from ..populations.roughness import Roughness
 from .spots import AsperitySpots
 
-__all__ = ["AsperitySum", "DensitySum", "GaussianSum", "MixedSum", "asperity_sum", "reduced_sum"]
+__all__ = [
+    "SEARCHED",
+    "AsperitySum",
+    "DensitySum",
+    "GaussianSum",
+    "MixedSum",
+    "asperity_sum",
+    "asperity_sum_of",
+    "reduced_sum",
+]
 
 Array = NDArray[np.float64]
+SEARCHED = -3.0
+"""Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
 KINDS = (0, 1, 1, 1)
 """Which columns are measured against each other: load, areas by regime."""
 
@@ -361,6 +373,8 @@ class AsperitySum:
         self.centre = datum * rough.sigma
         self.reduced = reduced_sum(bound, rough.heights, float(w))
         self.highest = self.reduced.highest
+        self.searched = SEARCHED
+        self.deepest = self.centre - ReducedSum.DEEPEST * self.sigma_s
 
     def load(self, d: Array) -> Array:
         """F_ss without shadow [Pa], and its first and second derivative: (N, 3)."""
@@ -418,6 +432,8 @@ class MixedSum:
             )
             self.parts.append(AsperitySum(law.replace(ratio=ratio), alike, surfaces, datum))
         self.highest = max(part.highest for part in self.parts)
+        self.searched = SEARCHED
+        self.deepest = self.centre - ReducedSum.DEEPEST * self.sigma_s
 
     def load(self, d: Array) -> Array:
         """As `AsperitySum.load`."""
@@ -439,7 +455,15 @@ class MixedSum:
 @lru_cache(maxsize=512)
 def asperity_sum(
     law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
-) -> AsperitySum | MixedSum:
+) -> Any:
     """The cached sum over the asperities of a rough surface."""
+    return asperity_sum_of(law, rough, surfaces, datum)
+
+
+@singledispatch
+def asperity_sum_of(
+    law: AbstractAsperityLaw, rough: Roughness, surfaces: MaterialPair, datum: float
+) -> Any:
+    """The sum over the asperities of a rough surface, by the kind of its law."""
     kind = AsperitySum if rough.ellipticity is None else MixedSum
     return kind(law, rough, surfaces, datum)

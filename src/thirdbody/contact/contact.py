@@ -91,6 +91,9 @@ class Contact(Value):
         out = out or self._population_problems()
         if not out and self.roughness.ellipticity is not None:
             out += _shape_problems(self.asperity_law)
+        if not out:
+            laws = [self.law_of(each) for each in self.populations]
+            out += self.asperity_law.problems(self.roughness, laws)
         return out or problems_of(self.outputs, self)
 
     def _population_problems(self) -> list[str]:

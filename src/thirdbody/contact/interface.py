@@ -12,12 +12,15 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ..laws.base import SeatedLaw
 from ..populations.particles import Particles
 from ..quantities.progress import advance
 from .asperity_sums import asperity_sum
 from .broken_averages import is_rough
 from .contact import Contact
-from .particle_sums import particle_sum, together_in
+from .field_ground import grounded
+from .field_sums import FieldSum
+from .particle_sums import SeatedParticles, particle_sum, together_in
 
 Array = NDArray[np.float64]
 
@@ -39,12 +42,31 @@ class Interface:
             particle_sum(law, contact.surfaces, contact.roughness, each)
             for law, each in zip(laws, contact.populations, strict=True)
         ]
+        if self.populations and isinstance(self.asperities, FieldSum):
+            self.asperities, found = grounded(
+                self.asperities,
+                [each for each in self.populations if isinstance(each, SeatedParticles)],
+                [law for law in laws if isinstance(law, SeatedLaw)],
+                [each.diameter.mean_diameter for each in contact.populations],
+            )
+            self.populations = list(found)
         self.particles = together_in(self.populations) if self.populations else None
 
     @property
     def mean_plane(self) -> float:
         """h − d [m]: separation from the mean surface plane minus d."""
         return self.contact.roughness.y_s - self.asperities.centre
+
+    @property
+    def lowest(self) -> float:
+        """Lowest separation d [m] that is searched."""
+        skin = self.asperities
+        return float(skin.centre + skin.searched * skin.sigma_s)
+
+    @property
+    def one_field(self) -> bool:
+        """Whether the rough surface is one field of heights, not a sum over summits."""
+        return isinstance(self.asperities, FieldSum)
 
     def load(self, d: Array) -> Array:
         """F_t [Pa] with first and second derivative: (N, 3)."""

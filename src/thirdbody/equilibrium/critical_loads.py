@@ -12,9 +12,10 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import InvalidValue
 from ..quantities.carried import takes_units
-from .load_scan import DEEPEST, load_scan
+from .load_scan import load_scan
 from .modes import EPS_1, EPS_2, WINDOW
 from .states import FEWEST, carries, state_columns
+from .status import DEEPEST
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

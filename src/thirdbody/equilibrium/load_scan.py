@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..contact.interface import Interface
 from ..errors import NoEquilibrium
 from ..numerics.roots import halley_root
-from .status import DEEPEST, Status, Statuses
+from .status import Status, Statuses
 
 Array = NDArray[np.float64]
 
@@ -47,8 +47,8 @@ class LoadScan:
         self.bound = bound
         asperities = bound.asperities
         sigma_s, centre = asperities.sigma_s, asperities.centre
-        low = centre + DEEPEST * sigma_s
-        near = np.arange(DEEPEST, min(10.0, asperities.highest), 0.2)
+        low = bound.lowest
+        near = np.arange(asperities.searched, min(10.0, asperities.highest), 0.2)
         far = np.arange(10.0, asperities.highest, 1.0)
         # the last asperity of a bounded distribution sets in like a power of its distance
         edge = asperities.highest - np.geomspace(1e-6, 0.2, 12)
@@ -66,6 +66,8 @@ class LoadScan:
                 count = int(np.ceil((top - low) / particles.resolution))
                 grid.append(np.linspace(low, top, min(max(count, 2), 20_000)))
         d = np.unique(np.concatenate(grid))
+        if bound.one_field:
+            d = d[d >= low]
         F, slope, _ = bound.load(d).T
         if np.any(F < 0):
             # adhesion: the load sets in at a separation where it changes its sign
@@ -109,6 +111,15 @@ class LoadScan:
             return float(d[-1])
         low, high = d[above[-1]], d[above[-1] + 1]
         return float(brentq(lambda x: self.bound.load(np.array([x]))[0, 0], low, high, xtol=1e-24))
+
+    @property
+    def _lowest(self) -> str:
+        """The lowest separation, in words."""
+        asperities = self.bound.asperities
+        if self.bound.one_field:
+            h = (self.bound.lowest + self.bound.mean_plane) / asperities.sigma
+            return f"h = {h:.2g} sigma, where its table ends"
+        return f"{asperities.searched:g} sigma_s"
 
     # ------------------------------------------------------------------ brackets
     def cells(self, target: Array, branch: str) -> Index:
@@ -155,7 +166,7 @@ class LoadScan:
             return Status.TOO_MUCH, (
                 f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is beyond "
                 f"{top:.4g} Pa (F* = {top / E:.3g}), the most this model carries down to a "
-                f"separation d of {DEEPEST:g} sigma_s; {why}"
+                f"separation d of {self._lowest}; {why}"
             )
         return Status.TOO_LITTLE, (
             f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is below the "

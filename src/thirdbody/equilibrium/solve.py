@@ -21,14 +21,14 @@ from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, tell_of_range
-from ..laws.particle.breakage import about_strength
 from ..quantities.carried import takes_units
 from ..quantities.say import percent
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
 from .crowding import about_area, crowded
-from .load_scan import DEEPEST, RESIDUAL, explained, load_scan
-from .status import Status, Statuses
+from .doubts import about_elastic, about_particles
+from .load_scan import RESIDUAL, explained, load_scan
+from .status import DEEPEST, Status, Statuses
 
 __all__ = ["pull_off", "roots", "solve"]
 
@@ -187,7 +187,7 @@ def _result(
     raw, path = None, "compiled"
     target = None if name == "d" else values
     if target is None:
-        deep = values < deepest(contact)
+        deep = values < bound.asperities.deepest
         if scalar and deep.any():
             raise InvalidValue(f"d = {values[0]:g} m is refused: {why_deep(contact)}")
         separation = np.where(deep, np.nan, values)
@@ -217,17 +217,19 @@ def _result(
 
 def deepest(contact: Contact) -> float:
     """Lowest separation d [m] at which states are evaluated."""
-    rough = contact.roughness
-    datum = next((contact.law_of(each).centre for each in contact.populations), 0.0)
-    return datum * rough.sigma - ReducedSum.DEEPEST * rough.sigma_s
+    return float(interface(contact).asperities.deepest)
 
 
 def why_deep(contact: Contact) -> str:
     """What is allowed of separations, and why."""
-    return (
-        f"it must be at least {deepest(contact):.4g} m, {-ReducedSum.DEEPEST:g} sigma_s from the "
-        "mean asperity height, below which no asperity model holds; check its sign and its unit"
-    )
+    if interface(contact).one_field:
+        why = "where the table of the law field ends"
+    else:
+        why = (
+            f"{-ReducedSum.DEEPEST:g} sigma_s from the mean asperity height, below which no "
+            "asperity model holds"
+        )
+    return f"it must be at least {deepest(contact):.4g} m, {why}; check its sign and its unit"
 
 
 @takes_units
@@ -332,7 +334,7 @@ def pull_off(contact: Contact) -> tuple[float, float]:
 
     bound = interface(contact)
     asperities = bound.asperities
-    steps = np.linspace(DEEPEST, min(asperities.highest, 10.0), 400)
+    steps = np.linspace(asperities.searched, min(asperities.highest, 10.0), 400)
     d = asperities.centre + asperities.sigma_s * steps
     F = bound.load(d)[:, 0]
     i = int(np.argmin(F))
@@ -512,7 +514,7 @@ def _warnings(
     """One sentence for each way in which these states leave the model's validity."""
     out = about_area(contact, float(np.nanmax(full["A_t"], initial=0.0)))
     height = (d - bound.asperities.centre) / bound.asperities.sigma_s
-    if np.any(height < DEEPEST):
+    if not bound.one_field and np.any(height < DEEPEST):
         out.append(
             f"the separation d goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
             "every asperity is in contact and the model is invalid"
@@ -525,13 +527,23 @@ def _warnings(
                 f"{tips.name}: at the highest load {percent(share, digits=2)} of the asperities' "
                 f"load is on those {tips.beyond}"
             )
-    out += _about_elastic(contact, bound, full, d)
+    out += about_elastic(contact, bound, full, d)
+    if bound.one_field and contact.outputs:
+        out.append(
+            "the law field knows no single spots: what outputs say of asperities is of the summits "
+            "of zmc, in number and area scaled to its load and area"
+        )
     if bound.particles is not None:
         out += about_particles(contact)
         if bound.particles.in_one_layer >= 0.3:
             out.append(
                 f"fragments in one layer would cover {bound.particles.in_one_layer:.2g} of the "
                 "nominal area where the gap closes"
+            )
+        if bound.one_field and 0.3 < np.nanmax(full["shadow"], initial=0.0) < 1:
+            out.append(
+                f"particles lie over {np.nanmax(full['shadow']):.2g} of the nominal area: the "
+                "ground that they press down is meant for 0.3 at most"
             )
         if np.any(full["shadow"] >= 1):
             out.append("particles shadow the whole area: the area correction was cut at zero")
@@ -541,41 +553,3 @@ def _warnings(
         if np.any(np.isfinite(d)):
             out += about_pressed(contact, d)
     return tuple(out)
-
-
-BROAD = 8.0
-"""Nayak bandwidth above which elastic asperities are known to have too little area."""
-
-
-def _about_elastic(
-    contact: Contact, bound: Interface, full: dict[str, Array], d: Array
-) -> list[str]:
-    """What is known of elastic asperities of a broad spectrum, where these carry area."""
-    alpha = contact.roughness.alpha
-    with np.errstate(invalid="ignore"):
-        count = np.isfinite(d) & (full["A_ss"] > 0.1 * full["A_t"])
-    if not alpha > BROAD or not np.any(count):
-        return []
-    _, elastic, *others = bound.asperities.fields(np.array([d[count].max()]))[0]
-    if not elastic > sum(others):
-        return []
-    return [
-        f"alpha = {alpha:.3g}: elastic asperities at alpha = 12 have 30 to 38 % less area at equal "
-        "load than boundary elements, at alpha = 670 less than half; where they yield (A = F/H) "
-        "this does not matter"
-    ]
-
-
-def about_particles(contact: Contact) -> list[str]:
-    """One sentence for each way in which the particles leave the model's validity."""
-    out = []
-    for each in contact.populations:
-        out += contact.law_of(each).warnings(contact.surfaces, contact.roughness, each)
-        out += about_strength(each, contact.surfaces)
-    covered = sum(each.coverage for each in contact.populations)
-    if covered >= 0.3:
-        out.append(
-            f"particles would cover {covered:.2g} of the nominal area: above 0.3 they touch each "
-            "other"
-        )
-    return out

@@ -148,6 +148,8 @@ class AbstractAsperityLaw(Law):
 
     __slots__ = ()
     registry: ClassVar[dict[str, type[Law]]] = {}
+    of_surface: ClassVar[bool] = False
+    """It says what a rough surface does as a whole; of one tip it borrows what another law says."""
     beyond: ClassVar[str] = ""
     """What an asperity is past `valid_to`, to follow "x % of the asperities' area is"."""
 
@@ -178,6 +180,12 @@ class AbstractAsperityLaw(Law):
     def valid_to(self) -> float:
         """Reduced interference y up to which the law is meant; `beyond` says what lies there."""
         return math.inf
+
+    def problems(
+        self, roughness: Roughness, particle_laws: Sequence[AbstractParticleLaw]
+    ) -> list[str]:
+        """Why this law does not know such a surface, or such particles on it, one sentence each."""
+        return []
 
     def bound(self, *, R: Number, E_star: Number, H: Number, nu: float | None = None) -> Self:
         """The law with what its formulas need to know of the contact; itself by default.

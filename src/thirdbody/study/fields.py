@@ -35,12 +35,14 @@ def needed_fields(kind: type) -> list[str]:
 
 @cache
 def filled_in(kind: Any) -> frozenset[str]:
-    """Options of an asperity law that a contact sets, whatever is given for them."""
+    """Options of an asperity law that a contact sets, whatever is given, or that are no number."""
     if not issubclass(kind, asperity.AbstractAsperityLaw):
         return frozenset()
     found = set()
     for item in dataclasses.fields(kind):
-        if item.default is None:
+        if item.default is None and "quantity" not in item.metadata:
+            found.add(item.name)
+        elif item.default is None:
             given = kind(**{item.name: 0.1})
             used = given.bound(R=1e-6, E_star=1e11, H=1e9, nu=0.3)
             if getattr(used, item.name) != 0.1:

@@ -12,7 +12,8 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..equilibrium.load_scan import DEEPEST, load_scan
+from ..equilibrium.load_scan import load_scan
+from ..equilibrium.status import DEEPEST
 from ..errors import InvalidValue, NoEquilibrium
 from ..numerics.quadrature import gauss_legendre
 
@@ -56,7 +57,7 @@ class Skin:
             self.bound = interface(source)
             self.E_star = source.E_ss
             skin = self.bound.asperities
-            self.floor = self.origin = skin.centre + DEEPEST * skin.sigma_s
+            self.floor = self.origin = self.bound.lowest
             self.step = skin.sigma_s
             bottom = self.bound.load(np.array([self.floor]))[0]
             self.lowest = (float(bottom[0]), float(bottom[1]))

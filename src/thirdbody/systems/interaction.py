@@ -31,8 +31,9 @@ import numpy as np
 from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..equilibrium.columns import Equilibrium
-from ..equilibrium.load_scan import DEEPEST, load_scan
+from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import given_load, solve
+from ..equilibrium.status import DEEPEST
 from ..errors import InvalidValue, NoEquilibrium
 from ..laws.base import REGIMES
 from ..numerics.quadrature import panel_rule, subdivide

@@ -24,6 +24,7 @@ VALIDATED = {
     "ke": "public code (loads); closed exponential sum",
     "elliptic-zmc": "Hertz's ellipse by quadrature; ZMC at λ = 1",
     "jg": "two public codes",
+    "field": "surfaces pressed point by point; the programme maximised on a grid",
     "hermite": "C¹, Hertz's slope at yield, H at the end",
 }
 """What the shipped laws were held against, beside what all of them were."""

@@ -21,7 +21,8 @@ from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.columns import labels, labels_of
 from ...equilibrium.crowding import about_area, chi_of
-from ...equilibrium.solve import about_particles, solve
+from ...equilibrium.doubts import about_particles
+from ...equilibrium.solve import solve
 from ...equilibrium.states import state_columns, varied
 from ...equilibrium.status import WORDS as STATUS_WORDS
 from ...equilibrium.status import Status

@@ -12,10 +12,12 @@ import numpy as np
 
 from ...contact.asperity_sums import AsperitySum, GaussianSum, GaussianSums, gaussian_sums, scales
 from ...contact.contact import Contact
+from ...contact.field_sums import FieldSum
 from ...contact.interface import Interface
 from ...contact.particle_averages import SeatAverage, size_average
 from ...contact.particle_sums import SeatedParticles
 from ...errors import NotCompiled
+from ...laws.asperity import Field
 from ...laws.base import COLUMNS, AbstractAsperityLaw
 from ...laws.particle.series import Series as ParticleSeries
 from ...populations.heights import GaussianHeights
@@ -86,6 +88,8 @@ class InterfaceRows(Rows):
         self._finish()
 
     def _add_asperities(self, row: np.void, asperities: Any) -> None:
+        if isinstance(asperities, FieldSum):
+            raise NotCompiled("the law field is not compiled")
         if not isinstance(asperities, AsperitySum) or pulls(asperities.reduced.law):
             raise NotCompiled("asperities of several shapes, or that attract")
         reduced = asperities.reduced
@@ -164,6 +168,8 @@ class StateRows(Rows):
     def _add_asperities(self, contact: Contact, datum: float) -> dict[str, Any]:
         """Lay out the panels, and say what that is in the fields of an `INTERFACE`."""
         rough, surfaces = self.varied.roughness, self.varied.surfaces
+        if isinstance(contact.asperity_law, Field):
+            raise NotCompiled("the law field is not compiled")
         law = common_law(contact.asperity_law, rough, surfaces)
         if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity or pulls(law):
             raise NotCompiled(

@@ -22,7 +22,7 @@ from ...contact.contact import Contact
 from ...contact.interface import Interface, interface
 from ...errors import InvalidValue, RangeWarning, tell_of_range
 from ...quantities.carried import takes_units
-from ..load_scan import DEEPEST, LoadScan, load_scan
+from ..load_scan import LoadScan, load_scan
 from ..solve import pull_off, solve
 from .cubic import _LogCubic
 from .writers import _PLACES, ContactTable, TableError, _is_number
@@ -171,7 +171,7 @@ def _upper_end(bound: Interface, scan: LoadScan) -> float:
 
 
 def _bottom(bound: Interface) -> float:
-    return bound.asperities.centre + DEEPEST * bound.asperities.sigma_s
+    return bound.lowest
 
 
 def _lower_end(bound: Interface, d_high: float) -> float:
@@ -220,7 +220,9 @@ def _check_range(bound: Interface, low: float, high: float, shift: float, name: 
     if low < bottom - 1e-12 * bound.asperities.sigma_s:
         raise InvalidValue(
             f"low: {name} = {low + shift:.6g} m must be >= {bottom + shift:.6g} m, "
-            f"{DEEPEST:g} sigma_s, where every asperity is in contact and the model ends"
+            f"{bound.asperities.searched:.3g} sigma_s, where "
+            + ("its table ends" if bound.one_field else "every asperity is in contact")
+            + " and the model ends"
         )
     if not low < high:
         raise InvalidValue(
@@ -250,7 +252,7 @@ def _above(bound: Interface, scan: LoadScan, d_high: float, p_last: float) -> fl
     load rises again.
     """
     asperities = bound.asperities
-    d = asperities.centre + asperities.sigma_s * np.linspace(DEEPEST, 10, 400)
+    d = asperities.centre + asperities.sigma_s * np.linspace(asperities.searched, 10, 400)
     pull = 0.0
     if np.any(bound.load(d)[:, 0] < 0):
         pull = pull_off(bound.contact)[0] * (1 + 1e-6)

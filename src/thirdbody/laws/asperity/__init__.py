@@ -2,10 +2,12 @@
 
 from ...reference import elliptic_hertz
 from ..base import AbstractAsperityLaw, Branch, Jump
+from ..field.own import OwnSpectrum
 from .adhesive import DMT, JKR
 from .ceb import CEB
 from .coated import Coated
 from .elliptic import EllipticCEB, EllipticZMC
+from .field import Field
 from .gw import GW
 from .hermite import Hermite
 from .jg import JG
@@ -29,7 +31,9 @@ __all__ = [
     "Coated",
     "EllipticCEB",
     "EllipticZMC",
+    "Field",
     "Hermite",
     "Jump",
+    "OwnSpectrum",
     "elliptic_hertz",
 ]

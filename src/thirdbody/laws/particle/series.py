@@ -157,6 +157,11 @@ class Series(SeatedLaw, _OfTips):
         name = type(self).__name__
         if not isinstance(self.law, AbstractAsperityLaw):
             out.append(f"{name}.law = {self.law!r} must be a law of one contact, e.g. Hermite()")
+        elif self.law.of_surface:
+            out.append(
+                f"{name}.law = {type(self.law).__name__} is a law of a whole surface; particles "
+                "need a law of one contact, e.g. Hermite()"
+            )
         elif not self.law.scale_free:
             out.append(
                 f"{name}.law = {type(self.law).__name__} has a length of its own; particles of "

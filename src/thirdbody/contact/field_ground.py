@@ -1,0 +1,438 @@
+r"""The ground of particles on a rough surface that is one field of heights.
+
+Asperities and particles press the ground at height ζ down by the mean displacement
+
+.. math:: \frac{u(\zeta)}{\sigma} = 2\sqrt2\sum_{n=0}^{12}\left[(1-\varsigma)\,k_n^{zs}a_n
+          + k_n^{pp}\beta_n\right]\mathrm{he}_n(\zeta), \qquad
+          \beta_n = \frac{n_A}{E^*g}\int F_1\,\mathrm{he}_n(\zeta)\,dN(\zeta)
+
+with F_1 of particles in gaps h − ζ + u(ζ), and particles press down the ground of asperities,
+which then see the separation h + w,
+
+.. math:: w = 2\sqrt2\sum_n k_n^{as}\beta_n\,a_n'(h + w)/a_0'(h + w) .
+
+k_n^pp and k_n^as leave out what lies nearer than one diameter, and half of one; their n = 0 is
+minus that distance, as the mean plane sinks with the nominal pressure and nothing else does.
+β_n are found by iteration at separations of a table; between these every column is a spline.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.interpolate import BSpline, make_interp_spline
+
+from ..errors import NoEquilibrium
+from ..laws.base import COLUMNS, SeatedLaw
+from ..laws.field.programme import MOMENTS
+from ..laws.field.table import FIRST, TAU
+from ..numerics.chebyshev import chebyshev_transform
+from ..numerics.quadrature import panel_rule
+from .field_sums import FieldSum
+from .particle_averages import SeatAverage
+from .particle_sums import Part, SeatedParticles
+from .spots import AsperitySpots
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from ..laws.spots import ParticleSpots
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Ground", "GroundedPart", "LiftedSum", "grounded"]
+
+STEP = 0.2
+"""Distance of separations of the table over σ, or over the width of the seat."""
+ROUNDS, CLOSE, MEMORY = 60, 1e-9, 4
+"""Of the iteration: the most, the last change of u/σ, and how many steps it remembers."""
+SPOTS = 0.25
+"""Width of panels of gaps of single particles over that of the seat."""
+HIGHEST_SEAT = 4.0
+"""Height over σ beyond which the ground is as there: 3e-5 of it lie higher."""
+DENSITY = 8.5
+"""Widths of the seat beyond which nothing is counted."""
+FAR = 30.0
+"""Separation over σ from which asperities are as there: nothing of them is left."""
+PANELS = np.array([0, 0.01, 0.03, 0.06, 0.1, 0.15, 0.2, 0.26, 0.33, 0.4, 0.5, 0.6, 0.75, 1.0])
+NODES = 12
+"""Of sums over seats: 2e-5 of a load."""
+TERMS = 16
+"""Of k_n over τ."""
+TINY = 1e-250
+
+
+def heights(u: Array, zeta: Array) -> tuple[Array, Array]:
+    """Σ u_n he_n and its slope at ζ (N, M) for u (N, 13), constant far from the mean plane."""
+    x = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
+    after = later = slope_after = slope_later = np.zeros_like(x)
+    for n in range(MOMENTS, -1, -1):  # Clenshaw
+        a, b = x / math.sqrt(n + 1), math.sqrt((n + 1) / (n + 2))
+        slope = a * slope_after + after / math.sqrt(n + 1) - b * slope_later
+        value = u[:, n : n + 1] + a * after - b * later
+        later, after, slope_later, slope_after = after, value, slope_after, slope
+    return after, np.where(x == zeta, slope_after, 0.0)
+
+
+class Seat:
+    """Particles of one shape of size distribution on ground that gives way."""
+
+    def __init__(self, part: Part, sigma: float, mean: float, width: float):
+        assert isinstance(part.average, SeatAverage)
+        self.part, self.mean, self.width = part, mean, width
+        self.average = part.average
+        self.unit = part.scale / sigma
+        """Size of the standardised particles over σ."""
+
+    def gaps(self, h: Array, u: Array) -> tuple[Array, Array, Array]:
+        """Heights ζ, gaps over σ and weights dN of sums at h (N,) with u (N, 13): (N, M) each.
+
+        From the lowest ground on which the largest particle is squeezed, in the root of the
+        distance from there, as loads set in like powers of it.
+        """
+        low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
+        top = self.unit * self.average.average.top
+        grid = np.linspace(low, high, 69)
+        below = h[:, None] - grid + heights(u, np.broadcast_to(grid, (len(h), 69)))[0] < top
+        first = np.argmax(below, axis=1)
+        first = np.where(below.any(axis=1), first, 68)
+        left, right = grid[np.maximum(first - 1, 0)], grid[first]
+        for _ in range(45):
+            middle = 0.5 * (left + right)
+            under = h - middle + heights(u, middle[:, None])[0][:, 0] < top
+            left, right = np.where(under, left, middle), np.where(under, middle, right)
+        root, weight = panel_rule(np.sqrt(PANELS), NODES)
+        span = np.maximum(high - right, 0.0)[:, None]
+        zeta = right[:, None] + span * root**2
+        z = (zeta - self.mean) / self.width
+        normal = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
+        weight = 2 * span * root * weight * normal
+        return zeta, h[:, None] - zeta + heights(u, zeta)[0], weight
+
+    def sums(self, h: Array, u: Array) -> tuple[Array, Array]:
+        """Columns per factor (N, 7), and the loads' moments (N, 13), at h (N,)."""
+        zeta, gaps, weight = self.gaps(h, u)
+        values = self.average.average((gaps / self.unit).ravel()).reshape(*gaps.shape, -1)
+        values = np.maximum(values, 0.0)
+        columns = np.einsum("hm,hmk->hk", weight, values)
+        moments = np.empty((len(h), MOMENTS + 1))
+        x = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
+        before, now = np.zeros_like(x), weight * values[:, :, 0]
+        for n in range(MOMENTS + 1):
+            moments[:, n] = now.sum(axis=1)
+            before, now = now, (x * now - math.sqrt(n) * before) / math.sqrt(n + 1)
+        return columns, moments
+
+    def shares(self, h: Array, u: Array, nodes: Array) -> Array:
+        """How many particles lie in each of these gaps over σ, increasing: (N, M).
+
+        Those between two gaps count to both, by their distances: sums over what is linear in
+        between are exact.
+        """
+        _, gaps, weight = self.gaps(h, u)
+        inside = (gaps >= nodes[0]) & (gaps <= nodes[-1])
+        gaps = np.clip(gaps, nodes[0], nodes[-1])
+        after = np.clip(np.searchsorted(nodes, gaps, side="right"), 1, len(nodes) - 1)
+        part = (gaps - nodes[after - 1]) / (nodes[after] - nodes[after - 1])
+        weight = np.where(inside, weight, 0.0)
+        out = np.zeros((len(h), len(nodes)))
+        rows = np.arange(len(h))[:, None]
+        np.add.at(out, (rows, after - 1), weight * (1 - part))
+        np.add.at(out, (rows, after), weight * part)
+        return out
+
+
+class Ground:
+    """Displacements of the ground over the separation, solved once for an interface.
+
+    Attributes
+    ----------
+    h : array (M,)
+        Separations over σ of the table.
+    u : array (M, 13)
+        Hermite moments of the particles' ground over σ.
+    w : array (M,)
+        Lift of the asperities' ground over σ.
+    """
+
+    def __init__(self, field: FieldSum, seats: Sequence[Seat], apart: float, shadow: str):
+        self.field, self.seats, self.shadow = field, list(seats), shadow
+        self.coverage = 0.0
+        spectrum = field.surface.spectrum
+        x, transform = chebyshev_transform(TERMS)
+        tau = 0.5 * (1 + x)
+        self.k_pp, _ = spectrum.integrals_from(apart, tau, MOMENTS)
+        self._k_zs = transform @ spectrum.integrals_from(0.0, tau, MOMENTS)[1]
+        self._k_as = transform @ spectrum.integrals_from(0.5 * apart, tau, MOMENTS)[1]
+        lowest = field.surface.lowest
+        reach = max((seat.average.high * seat.unit + field_offset(seat, field)) for seat in seats)
+        width = min(1.0, *(seat.width for seat in seats))
+        count = max(8, math.ceil((reach - lowest) / (STEP * width)))
+        self.h = np.linspace(lowest, max(reach, lowest + 1.0), count + 1)
+        self.u, self.w = self._solved()
+
+    def _of_asperities(self, h: Array) -> tuple[Array, Array]:
+        """k_n^zs a_n and k_n^as a_n′/a_0′ at h: (N, 13) each."""
+        surface, h = self.field.surface, np.minimum(h, FAR)
+        columns, slopes = surface.columns(h), surface.columns(h, 1)
+        load = surface.load(h)
+        basis = np.polynomial.chebyshev.chebvander(2 * columns[:, TAU] - 1, TERMS - 1)
+        one = np.ones((len(h), 1))
+        ratios = np.hstack([one, columns[:, FIRST:]])
+        more = np.hstack([0 * one, slopes[:, FIRST:]])
+        turned = ratios + more * (load[:, 0] / load[:, 1])[:, None]
+        a = ratios * load[:, :1]
+        return (basis @ self._k_zs) * a, (basis @ self._k_as) * turned
+
+    def _round(self, h: Array, state: Array) -> tuple[Array, Array]:
+        """β_n and the shadow again, from those of the round before: (M, 14); and u_n."""
+        beta, shade = state[:, :-1], np.clip(state[:, -1:], 0.0, 1.0)
+        pressed, _ = self._of_asperities(h + self._lift(h, beta))
+        u = 2 * math.sqrt(2) * ((1 - shade) * pressed + self.k_pp * beta)
+        out = np.zeros_like(state)
+        for seat in self.seats:
+            columns, moments = seat.sums(h, u)
+            out[:, :-1] += (seat.part.factor / self.field.unit) * moments
+            if self.shadow in COLUMNS:
+                out[:, -1] += seat.part.factor * columns[:, COLUMNS.index(self.shadow)]
+        if self.shadow not in COLUMNS:
+            out[:, -1] = self.coverage
+        return out, u
+
+    def _lift(self, h: Array, beta: Array) -> Array:
+        """w where particles carry β: (M,)."""
+        w = np.zeros(len(h))
+        for _ in range(12):
+            _, weights = self._of_asperities(h + w)
+            before, w = w, 2 * math.sqrt(2) * np.sum(weights * beta, axis=1)
+            w = np.maximum(w, self.h[0] - h)
+            if np.max(np.abs(w - before), initial=0.0) < 1e-12:
+                break
+        return w
+
+    def _solved(self) -> tuple[Array, Array]:
+        """Iteration after Anderson, all separations at once, each until it is found."""
+        u, w = np.zeros((len(self.h), MOMENTS + 1)), np.zeros(len(self.h))
+        rest = np.arange(len(self.h))
+        state = np.zeros((len(rest), MOMENTS + 2))
+        states: list[Array] = []
+        misses: list[Array] = []
+        for _ in range(ROUNDS):
+            found, now = self._round(self.h[rest], state)
+            misses = [*misses, found - state][-MEMORY:]
+            states = [*states, state][-MEMORY:]
+            change = np.max(np.abs(now - u[rest]), axis=1)
+            u[rest] = now
+            w[rest] = self._lift(self.h[rest], state[:, :-1])
+            more = (change >= CLOSE) | (len(states) < 2)
+            rest = rest[more]
+            if not len(rest):
+                return u, w
+            states = [each[more] for each in states]
+            misses = [each[more] for each in misses]
+            state = _accelerated(states, misses)
+        raise NoEquilibrium(
+            "no equilibrium: the ground of the particles was not found at separations from "
+            f"{self.h[rest].min():.3g} to {self.h[rest].max():.3g} sigma (law field)"
+        )
+
+    @cached_property
+    def _spline(self) -> BSpline:
+        columns = np.column_stack([self.u, self.w])
+        return make_interp_spline(self.h, columns, k=5)
+
+    def at(self, h: Array, derivative: int = 0) -> Array:
+        """u_n and w, or a derivative, at h: (N, 14); beyond the table as at its end."""
+        out = np.asarray(self._spline(np.minimum(h, self.h[-1]), derivative))
+        out[h > self.h[-1]] = 0.0
+        out[h < self.h[0]] = np.nan
+        return out
+
+
+def field_offset(seat: Seat, field: FieldSum) -> float:
+    """h − (d + offset)/σ of a part."""
+    return (field.rough.y_s - field.centre - seat.part.offset) / field.sigma
+
+
+def _accelerated(states: list[Array], misses: list[Array]) -> Array:
+    """The next state: the combination of the last ones that misses least, row by row."""
+    if len(states) == 1:
+        return states[0] + 0.5 * misses[0]
+    last, miss = states[-1], misses[-1]
+    d_state = np.stack([last - each for each in states[:-1]], axis=-1)
+    d_miss = np.stack([miss - each for each in misses[:-1]], axis=-1)
+    size = np.max(np.abs(d_miss), axis=(1, 2))[:, None, None] + 1e-300
+    part = np.linalg.pinv(d_miss / size, rcond=1e-8) @ miss[..., None] / size
+    part = np.clip(part, -3.0, 3.0)
+    return last + miss - ((d_state + d_miss) @ part)[..., 0]
+
+
+class GroundedPart(Part):
+    """A `Part` whose ground gives way."""
+
+    def __init__(self, ground: Ground, seat: Seat):
+        part = seat.part
+        assert isinstance(part.average, SeatAverage)
+        super().__init__(part.average, part.scale, part.density, offset=part.offset)
+        self.ground, self.seat = ground, seat
+        self._cut: dict[tuple[int, ...], list[BSpline]] = {}
+
+    def _h(self, d: Array) -> Array:
+        return self.ground.field.h(d)
+
+    @cached_property
+    def _spline(self) -> tuple[BSpline, float]:
+        """ln of the load and the other columns over it, and where they end."""
+        h = self.ground.h
+        values, _ = self.seat.sums(h, self.ground.u)
+        some = values[:, 0] > TINY
+        last = int(np.argmin(some)) if not some.all() else len(h)
+        if last < 6:
+            knots = np.array([0.0] * 6 + [1.0] * 6)
+            return BSpline(knots, np.zeros((6, len(COLUMNS))), 5), -math.inf
+        values, h = values[:last], h[:last]
+        rows = np.column_stack([np.log(values[:, 0]), values[:, 1:] / values[:, :1]])
+        return make_interp_spline(h, rows, k=5), float(h[-1])
+
+    @property
+    def marks(self) -> Array:
+        return np.empty(0)
+
+    @property
+    def stretch(self) -> float:
+        return math.inf
+
+    def _derivatives(self, d: Array, columns: tuple[int, ...]) -> Array:
+        """Columns per factor with two derivatives in h: (N, len(columns), 3)."""
+        spline, last = self._spline
+        if columns not in self._cut:
+            some = BSpline(spline.t, np.ascontiguousarray(spline.c[:, [0, *columns]]), 5)
+            self._cut[columns] = [some, some.derivative(1), some.derivative(2)]
+        h = self._h(d)
+        inside = np.clip(h, self.ground.h[0], max(last, self.ground.h[0]))
+        value, first, second = (each(inside) for each in self._cut[columns])
+        F = np.exp(value[:, 0])
+        F1 = F * first[:, 0]
+        F2 = F * (second[:, 0] + first[:, 0] ** 2)
+        out = np.empty((len(h), len(columns), 3))
+        for i, column in enumerate(columns):
+            if column == 0:
+                out[:, i] = np.stack([F, F1, F2], axis=-1)
+                continue
+            r, r1, r2 = value[:, i + 1], first[:, i + 1], second[:, i + 1]
+            out[:, i, 0] = F * r
+            out[:, i, 1] = F1 * r + F * r1
+            out[:, i, 2] = F2 * r + 2 * F1 * r1 + F * r2
+        out[h > last] = 0.0
+        out[h < self.ground.h[0]] = np.nan
+        return out
+
+    def load(self, d: Array, shadow: int) -> Array:
+        sigma = self.ground.field.sigma
+        return self.factor / sigma ** np.arange(3) * self._derivatives(d, (0, shadow))
+
+    def columns(self, d: Array) -> Array:
+        spline, last = self._spline
+        h = self._h(d)
+        value = spline(np.clip(h, self.ground.h[0], max(last, self.ground.h[0])))
+        value[:, 0] = np.exp(value[:, 0])
+        value[:, 1:] = np.maximum(value[:, 1:], 0.0) * value[:, :1]
+        value[h > last] = 0.0
+        value[h < self.ground.h[0]] = np.nan
+        return self.factor * value
+
+    def direct_columns(self, d: Array) -> Array:
+        return self.columns(d)
+
+    def load_in_gaps(self, d: Array, squeeze: float) -> Array:
+        narrow = self._gap_under_largest(squeeze) * self.seat.unit
+        h = self._h(d)
+        _, gaps, weight = self.seat.gaps(h, self.ground.at(h)[:, :-1])
+        load = self.seat.average.average((gaps / self.seat.unit).ravel())[:, 0]
+        return self.factor * np.sum(weight * load.reshape(gaps.shape) * (gaps < narrow), axis=1)
+
+    def most_in_gaps(self, d: Array, squeeze: float) -> Array:
+        return np.full(len(d), math.inf)  # no bound without its ground: it is looked at
+
+    def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
+        h, seat = self._h(d), self.seat
+        average, u = seat.average.average, self.ground.at(h)[:, :-1]
+        gaps, rise, _ = average.gaps(SPOTS * seat.average.width, splits)
+        _, found, _ = seat.gaps(h, u)
+        # below the gaps of the tables loads no longer change, but depths do
+        low = min(float(found.min()) / seat.unit, float(gaps[0]) - seat.average.width)
+        count = max(8, math.ceil(4 * (gaps[0] - low) / seat.average.width))
+        below = np.linspace(low, gaps[0], count + 1)[:-1]
+        gaps = np.concatenate([below, gaps, [average.top]])
+        rise = np.concatenate([average.top - below, rise, [0.0]])
+        share = seat.shares(h, u, seat.unit * gaps)
+        near = np.any(share > 0, axis=0)
+        gaps, rise, share = gaps[near, None], rise[near, None], share[:, near]
+        spots = average.spots_in(gaps, rise, splits, share, 1.0)
+        spots = spots.of_size(self.scale, self.density)
+        total, wanted = spots.total(spots.load), self.columns(d)[:, 0]
+        return spots.thinned(np.divide(wanted, total, out=np.ones_like(total), where=total > 0))
+
+
+class LiftedSum(FieldSum):
+    """A `FieldSum` whose ground particles press down: it sees h + w."""
+
+    def __init__(self, field: FieldSum, ground: Ground):
+        self.__dict__.update(vars(field))
+        self.plain, self.ground = field, ground
+        lift = make_interp_spline(ground.h, ground.w, k=5)
+        self._lift = [lift, lift.derivative(1), lift.derivative(2)]
+
+    def _at(self, d: Array, derivative: int = 0) -> Array:
+        """w over σ, or a derivative with respect to h; nothing beyond the table."""
+        h, (low, high) = self.h(d), self.ground.h[[0, -1]]
+        out = self._lift[derivative](np.clip(h, low, high))
+        return np.where(h > high, 0.0, out)
+
+    def _lifted(self, d: Array) -> Array:
+        return d + self.sigma * self._at(d)
+
+    def load(self, d: Array) -> Array:
+        F = self.plain.load(self._lifted(d))
+        first = 1 + self._at(d, 1)
+        second = self._at(d, 2) / self.sigma
+        bend = F[:, 2] * first**2 + F[:, 1] * second
+        return np.stack([F[:, 0], F[:, 1] * first, bend], axis=-1)
+
+    def fields(self, d: Array) -> Array:
+        return self.plain.fields(self._lifted(d))
+
+    def spots(self, d: Array) -> list[AsperitySpots]:
+        return self.plain.spots(self._lifted(d))
+
+
+def grounded(
+    field: FieldSum,
+    populations: Sequence[SeatedParticles],
+    laws: Sequence[SeatedLaw],
+    diameters: Sequence[float],
+) -> tuple[LiftedSum, list[SeatedParticles]]:
+    """The asperities and every population on ground that all of them press down."""
+    seats, owners = [], []
+    for i, (each, law) in enumerate(zip(populations, laws, strict=True)):
+        for part in each.parts:
+            seats.append(Seat(part, field.sigma, law.zeta_mean, law.zeta_std))
+            owners.append(i)
+    density = np.array([sum(part.density for part in each.parts) for each in populations])
+    mean_diameter = float(density @ np.array(diameters) / density.sum())
+    # √(m0/m2) = √2 σ/g
+    apart = mean_diameter * field.gradient / (math.sqrt(2) * field.sigma)
+    ground = Ground(field, seats, apart, populations[0].shadow)
+    out = []
+    for i, each in enumerate(populations):
+        parts: list[Part] = [
+            GroundedPart(ground, seat) for seat, owner in zip(seats, owners, strict=True)
+            if owner == i
+        ]  # fmt: skip
+        out.append(SeatedParticles(parts, each.shadow, each.coverage))
+    return LiftedSum(field, ground), out

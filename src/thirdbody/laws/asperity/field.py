@@ -1,0 +1,147 @@
+"""The rough surface as one field of heights, in the place of a sum over summits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ...populations.heights import GaussianHeights
+from ..base import AbstractAsperityLaw, AbstractParticleLaw, Branch, Jump, SeatedLaw
+from ..field.own import OwnSpectrum
+from ..field.table import ALPHAS
+from .zmc import ZMC
+
+if TYPE_CHECKING:
+    from ...populations.roughness import Roughness
+
+__all__ = ["Field"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Field(AbstractAsperityLaw):
+    r"""A Gaussian surface pressed as a whole: summits merge, push each other apart, and yield.
+
+    .. math:: F_{ss} = (1 - \varsigma)\,E^* g\,(-\Phi'(h))\,(1 + \varepsilon), \qquad
+              \Phi(h) = \max_{b,\ 0 \le f \le \chi}\ c\langle s f\rangle - h\langle f\rangle
+              - \sqrt2\sum_{n\ge1} k_n(b)\,a_n^2
+
+    The elastic half-space with a greatest pressure H, all pressures that depend on one Gaussian
+    field s, the heights z sharpened by :math:`1 + b|q|`. h is the separation of the mean planes
+    over σ, g the RMS gradient, χ = H/(E*g), f = p/(E*g), a_n the Hermite moments of f(s), k_n
+    integrals over powers of the autocorrelation of s, c = ⟨zs⟩/σ.
+
+    It is exact for plastic surfaces (bearing area) and for full elastic contact. Nothing is
+    fitted but ε: 1 % at χ = 0.02, 5 % at 0.18, 8 % at 0.41, 16 % elastic (α = 5, small areas).
+    Particles rest on ground that all asperities and particles press down, and asperities stand
+    on ground that particles press down.
+
+    Parameters
+    ----------
+    remainder : bool, optional
+        Count ε; False leaves the theory with nothing fitted.
+    spectrum : OwnSpectrum, optional
+        Waves of a measured map; those of the library's spectrum of equal α by default. The
+        roughness of the contact should be that of the same map at the same cut-off.
+
+    Notes
+    -----
+    Held against 54 clean surfaces pressed point by point: separation within 0.013 σ (elastic,
+    α = 15: 0.027), area within 3 % (χ > 0.25: 5 %; α = 15 elastic 4 %). Spectra that differ from
+    the library's at equal α move h by 0.02 to 0.045 σ.
+
+    It is a law of a surface, not of one tip: where one tip is asked for, it answers as `ZMC`, and
+    outputs that need single spots take those of `ZMC` in number and area scaled to F_ss and A_ss.
+    States below h = 0.2 σ are refused for χ > 0.4, and below −1 σ always; so are heights that are
+    not Gaussian, elliptic tips, α below 2.5 or above 30, and particles that do not rest on the
+    rough surface.
+
+    References
+    ----------
+    The programme: Kalker 1977, J. Inst. Maths Applics 20, 243 (variational half-space). Hermite
+    sums: Mehler 1866, J. reine angew. Math. 66, 161, doi:10.1515/crll.1866.66.161. Capped
+    pressure: Almqvist, Sahlin, Larsson, Glavatskih 2007, Tribol. Int. 40, 574,
+    doi:10.1016/j.triboint.2005.11.008. The restriction to one field is this library's.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), asperity_law=Field(),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> round(tb.solve(contact, F_star=1e-3).h / 100e-9, 2) > 1.5
+    True
+    """
+
+    name = "field"
+    title = "one field of heights"
+    year = 2026
+    citation = "this library; the half-space programme of Kalker 1977 on one Gaussian field"
+    provenance = "derived"
+    valid_range = "Gaussian heights, α 2.5 to 30; h from 0.2 σ, from −1 σ where H/(E*g) ≤ 0.4"
+
+    of_surface = True
+
+    remainder: bool = True
+    spectrum: OwnSpectrum | None = None
+
+    def _problems(self) -> list[str]:
+        if not isinstance(self.spectrum, OwnSpectrum | None):
+            return [
+                f"Field.spectrum = {self.spectrum!r} must be an OwnSpectrum or None, e.g. "
+                "OwnSpectrum.of(from_topography(...))"
+            ]
+        if not isinstance(self.remainder, bool):
+            return [f"Field.remainder = {self.remainder!r} must be True or False"]
+        return []
+
+    def problems(
+        self, roughness: Roughness, particle_laws: Sequence[AbstractParticleLaw]
+    ) -> list[str]:
+        out = []
+        if not isinstance(roughness.heights, GaussianHeights):
+            out.append(
+                "Contact.asperity_law field takes Gaussian heights: the distribution of summits "
+                f"{type(roughness.heights).__name__} says nothing of the field between them; use "
+                "GaussianHeights, or another law"
+            )
+        if roughness.ellipticity is not None:
+            out.append(
+                "Contact.asperity_law field has no summits of several shapes; remove the "
+                "ellipticity, or take elliptic-zmc"
+            )
+        low, high = ALPHAS
+        if not low <= roughness.alpha <= high:
+            out.append(
+                f"Contact.asperity_law field knows bandwidths alpha from {low:g} to {high:g}, not "
+                f"{roughness.alpha:.4g}; use another law"
+            )
+        out += [
+            f"Contact.asperity_law field needs particles that rest on the rough surface: take "
+            f'Series(seat="rough") in the place of {law.name}'
+            + (f' with seat = "{law.seat}"' if isinstance(law, SeatedLaw) else "")
+            for law in particle_laws
+            if not (isinstance(law, SeatedLaw) and law.seat == "rough")
+        ]
+        return out
+
+    # ------------------------------------------------------------ where one tip is asked for
+    def yield_interference(self, *, R, E_star, H):
+        """That of `ZMC` [m]."""
+        return TIP.yield_interference(R=R, E_star=E_star, H=H)
+
+    @property
+    def breakpoints(self) -> tuple[float, ...]:
+        return TIP.breakpoints
+
+    @property
+    def branches(self) -> tuple[Branch, ...]:
+        return TIP.branches
+
+    @property
+    def jumps(self) -> dict[float, Jump]:
+        return TIP.jumps
+
+
+TIP = ZMC()
+"""What one summit does, where a result needs one."""

@@ -1,0 +1,191 @@
+r"""The field of a surface by its own spectrum: a measured map, or a map that repeats itself.
+
+The waves of a map are taken ring by ring, :math:`w(q) = \sum_{|q|}|\hat z|^2`, and what the table
+holds for the library's spectrum is solved for them: some tenths of a second for each hardness.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import ndtr, ndtri
+
+from ...errors import InvalidValue
+from ...quantities.value import Value
+from .programme import TERMS, Edges, pressed
+from .spectrum import FARTHEST, Spectrum
+from .table import (
+    EDGE,
+    HARD,
+    PLASTIC,
+    SOFT,
+    TAU,
+    FieldSurface,
+    field_of,
+    plastic_energy,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ...populations.measured.surface import Topography
+
+    Array = NDArray[np.float64]
+
+__all__ = ["OwnSpectrum", "own_field"]
+
+RINGS, BINS = 40, 260
+"""Rings of the longest waves that are kept apart, and bins of the others."""
+LOW = np.array([-1.0, -0.7, -0.4, -0.1])
+HIGH = np.array([0.2, 0.4, 0.65, 0.95, 1.3, 1.65, 2.0, 2.4, 2.8, 3.3, 3.8, 4.4, 5.0])
+SKEWED, PEAKED = 0.3, 0.8
+"""|skewness| and |excess kurtosis| from which heights are not taken for Gaussian."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OwnSpectrum(Value):
+    """Waves of a rough surface, for `thirdbody.asperity.Field`.
+
+    Parameters
+    ----------
+    q : tuple of float
+        Wavenumbers |q| [1/m], increasing.
+    weight : tuple of float
+        Share of each in the variance of heights [1].
+    box : float, optional
+        Side after which the surface repeats itself [m], where it is pressed as such; 0 for a
+        sample of a surface that goes on.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> own = OwnSpectrum.of(tb.from_topography("example"))
+    >>> 2 < own.spectrum.alpha < 30
+    True
+    """
+
+    q: tuple[float, ...]
+    weight: tuple[float, ...]
+    box: float = 0.0
+
+    def _problems(self) -> list[str]:
+        if len(self.q) != len(self.weight) or len(self.q) < 8:
+            return ["OwnSpectrum.q and weight must be as many numbers, 8 at least"]
+        if not (all(a < b for a, b in zip(self.q, self.q[1:], strict=False)) and self.q[0] > 0):
+            return ["OwnSpectrum.q must be increasing numbers above 0 [1/m]"]
+        if not (min(self.weight) >= 0 and sum(self.weight) > 0):
+            return ["OwnSpectrum.weight must be numbers from 0, not all 0"]
+        if not 0 <= self.box < math.inf:
+            return [f"OwnSpectrum.box = {self.box!r} must be a length from 0 [m]"]
+        return []
+
+    @classmethod
+    def of(
+        cls, surface: Topography, *, cutoff: float | None = None, box: bool = False
+    ) -> OwnSpectrum:
+        """The waves of a map.
+
+        Parameters
+        ----------
+        surface : Topography
+            A map, with heights that are nearly Gaussian.
+        cutoff : float, optional
+            As in `Topography.roughness`; the same must be given to both.
+        box : bool, optional
+            Of a map that repeats itself: press it as such, without its surroundings.
+
+        Raises
+        ------
+        InvalidValue
+            A profile, missing points, or heights that are not Gaussian.
+        """
+        if surface.dim != 2:
+            raise InvalidValue("a profile does not tell the waves of a surface: measure a map")
+        z = np.array(surface.filtered(cutoff), dtype=float)
+        if not np.all(np.isfinite(z)):
+            raise InvalidValue(
+                "the map has missing points, and its waves are not known; crop it, or fill them"
+            )
+        t = (z - z.mean()) / z.std()
+        skewness, excess = float(np.mean(t**3)), float(np.mean(t**4) - 3)
+        if abs(skewness) > SKEWED or abs(excess) > PEAKED:
+            raise InvalidValue(
+                f"heights of skewness {skewness:.2g} and excess kurtosis {excess:.2g} are not "
+                f"Gaussian (up to {SKEWED:g} and {PEAKED:g}), which the law field asks for; use a "
+                "sum over summits with the measured heights"
+            )
+        if not surface.periodic:
+            window = [np.hanning(n + 2)[1:-1] for n in t.shape]
+            t = t * np.multiply.outer(*window)
+        power = np.abs(np.fft.fft2(t)) ** 2
+        sides = [
+            2 * math.pi * np.fft.fftfreq(n, d)
+            for n, d in zip(t.shape, surface.spacing, strict=True)
+        ]
+        q = np.hypot(sides[0][:, None], sides[1])
+        q, weight = _rings(q.ravel()[1:], power.ravel()[1:])
+        side = min(n * d for n, d in zip(t.shape, surface.spacing, strict=True))
+        return cls(q=tuple(q.tolist()), weight=tuple(weight.tolist()), box=side if box else 0.0)
+
+    @property
+    def spectrum(self) -> Spectrum:
+        """In the units of the theory: ⟨q²⟩ = 2."""
+        return _spectrum(self)
+
+
+def _rings(q: Array, power: Array) -> tuple[Array, Array]:
+    """Wavenumbers and shares of rings of waves, the longest ones each by itself."""
+    near = np.unique(np.round(q, 9 - math.floor(math.log10(q.min()))))
+    edges = near[: RINGS + 1]
+    edges = np.concatenate([0.5 * (edges[1:] + edges[:-1]), np.linspace(edges[-1], q.max(), BINS)])
+    which = np.searchsorted(np.unique(edges), q)
+    total = np.bincount(which, power)
+    some = total > 1e-14 * total.sum()
+    mean = np.bincount(which, power * q)[some] / total[some]
+    return mean, total[some] / total.sum()
+
+
+@lru_cache(maxsize=32)
+def _spectrum(own: OwnSpectrum) -> Spectrum:
+    q, weight = np.array(own.q), np.array(own.weight)
+    weight = weight / weight.sum()
+    unit = math.sqrt(2 / float(weight @ q**2))
+    farthest = min(FARTHEST, math.pi / (q[0] * unit))
+    return Spectrum(q=q * unit, weight=weight, farthest=farthest, box=own.box / unit)
+
+
+@lru_cache(maxsize=64)
+def own_field(own: OwnSpectrum, chi: float) -> FieldSurface:
+    """The surface of these waves at χ, solved.
+
+    Raises
+    ------
+    InvalidValue
+        α outside that of the table, from which the solution starts.
+    """
+    spectrum = own.spectrum
+    alpha = spectrum.alpha
+    start = field_of(chi, alpha)
+    h = np.concatenate([LOW, HIGH]) if chi <= SOFT else HIGH
+    h = h[h >= (start.lowest if chi <= SOFT else HARD)]
+    known = start.columns(h)
+    low = h + known[:, EDGE]
+    share = np.clip(known[:, PLASTIC], 1e-12, 1 - 1e-6)
+    high = -ndtri(share * ndtr(-low))
+    width = np.log(np.maximum(high - low, 1e-3))
+    edges = Edges(low, width, np.clip(known[:, TAU], 0.0, 1.0), np.zeros(len(h), bool))
+    found = pressed(spectrum.series(TERMS), h, chi, edges)
+    rows = np.column_stack(
+        [
+            np.log(found.energy / plastic_energy(h, chi)),
+            found.low - h,
+            found.plastic,
+            found.edges.tau,
+            found.moments[:, 1:] / found.moments[:, :1],
+        ]
+    )
+    return FieldSurface(chi=chi, alpha=alpha, h=h, rows=rows, spectrum=spectrum)

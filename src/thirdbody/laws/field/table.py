@@ -1,0 +1,217 @@
+"""The table of the law of one field, and what a contact takes from it.
+
+Stored are solutions of `thirdbody.laws.field.programme` for surfaces of the library's spectrum,
+made by ``benchmarks/field_table.py``; or those of one measured surface.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from importlib import resources
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.interpolate import BSpline, make_interp_spline
+from scipy.special import erfcx, ndtr
+
+from ...errors import InvalidValue
+from .programme import MOMENTS
+from .spectrum import Spectrum, rolled_off
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["ALPHAS", "FieldSurface", "bearing", "field_of", "plastic_energy"]
+
+ALPHAS = (2.5, 30.0)
+"""Bandwidths of the table."""
+LEAST, MOST = 0.01, 3.0
+"""χ of the table: below, differences from the plastic surface fall like χ; above, no surface of
+the table yields where it weighs."""
+SOFT = 0.4
+"""χ up to which separations below `HARD` are known."""
+HARD = 0.2
+"""Lowest separation over σ at any χ: what is stiff then is nearly flat."""
+LOW, EDGE, PLASTIC, TAU, FIRST = range(5)
+"""Columns: ln Φ over that of the plastic surface, s_0 − h, plastic share, τ, a_n/a_0 from n = 1."""
+COLUMNS = FIRST + MOMENTS
+
+
+def bearing(h: Array) -> Array:
+    """Q(h), the part of a Gaussian surface above h: (N,)."""
+    return ndtr(-h)
+
+
+def plastic_energy(h: Array, chi: float) -> Array:
+    """Φ where stiffness is no hindrance, χ[φ(h) − hQ(h)]: (N,)."""
+    density = np.exp(-0.5 * h * h) / math.sqrt(2 * math.pi)
+    with np.errstate(over="ignore", invalid="ignore"):
+        mills = math.sqrt(0.5 * math.pi) * erfcx(h / math.sqrt(2))
+        near = density * (1 - h * mills)
+    # far away 1 − hM is a difference of nearly equal numbers
+    far = density / np.maximum(h * h, 1.0)
+    far = far * (1 - 3 / np.maximum(h * h, 1.0) + 15 / np.maximum(h, 1.0) ** 4)
+    return chi * np.where(h > 30, far, np.where(h < -5, density - h * ndtr(-h), near))
+
+
+def plastic_rows(h: Array) -> Array:
+    """The columns of a plastic surface: (N, COLUMNS)."""
+    density = np.exp(-0.5 * h * h) / math.sqrt(2 * math.pi)
+    out = np.zeros((len(h), COLUMNS))
+    out[:, PLASTIC] = 1.0
+    # ∫_h^∞ he_n φ = he_{n−1}(h) φ(h)/√n
+    before, now = np.zeros_like(h), np.ones_like(h)
+    for n in range(1, MOMENTS + 1):
+        out[:, FIRST + n - 1] = now * density / (math.sqrt(n) * ndtr(-h))
+        before, now = now, (h * now - math.sqrt(n - 1) * before) / math.sqrt(n)
+    return out
+
+
+@lru_cache(maxsize=1)
+def stored() -> dict[str, Array]:
+    """The table that ships: h, chi, alpha and rows (α, χ, h, columns)."""
+    file = resources.files("thirdbody").joinpath("data/field.npz")
+    with resources.as_file(file) as path, np.load(path) as data:
+        return {name: data[name] for name in ("h", "chi", "alpha", "rows")}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FieldSurface:
+    """What a surface of one spectrum and hardness ratio does at every separation.
+
+    Lengths across the surface are over σ, along it over √(m0/m2); pressures over E*g, with the RMS
+    gradient g.
+
+    Parameters
+    ----------
+    chi, alpha : float
+        H/(E*g) and Nayak's bandwidth [1].
+    h : array (M,)
+        Separations of the table.
+    rows : array (M, COLUMNS)
+        As in `LOW` … `FIRST`.
+    spectrum : Spectrum
+        From which the ground of particles comes.
+    """
+
+    chi: float
+    alpha: float
+    h: Array
+    rows: Array
+    spectrum: Spectrum
+
+    @property
+    def lowest(self) -> float:
+        """Separation over σ below which nothing is known."""
+        return float(self.h[0])
+
+    @cached_property
+    def _logs(self) -> list[BSpline]:
+        """The first column with its derivatives, by itself: what a load needs."""
+        spline = make_interp_spline(self.h, self.rows[:, LOW], k=5)
+        return [spline, *(spline.derivative(n) for n in (1, 2, 3))]
+
+    def _log(self, h: Array) -> list[Array]:
+        """ln Φ over that of the plastic surface with three derivatives: four arrays (N,)."""
+        if np.any((h > self.h[-1]) | (h < self.lowest)):
+            return [self.columns(h, n)[:, LOW] for n in range(4)]
+        return [spline(h) for spline in self._logs]
+
+    @cached_property
+    def _series(self) -> tuple[BSpline, Array]:
+        """Splines of every column, and their first two terms in 1 − h_M/h beyond the last."""
+        spline = make_interp_spline(self.h, self.rows, k=5)
+        end = self.h[-1:]
+        value, slope, bend = (spline(end, nu)[0] for nu in range(3))
+        # u = 1 − h_M/h has the slope 1/h_M and the bend −2/h_M² there
+        last = float(end[0])
+        first = slope * last
+        second = 0.5 * (bend * last**2 + 2 * first)
+        second[1:] = 0.0
+        return spline, np.stack([value, first, second])
+
+    def columns(self, h: Array, derivative: int = 0) -> Array:
+        """Every column, or a derivative of it with respect to h: (N, COLUMNS)."""
+        spline, (value, first, second) = self._series
+        out = np.asarray(spline(h, derivative))
+        if np.any(beyond := h > self.h[-1]):
+            far, last = h[beyond, None], float(self.h[-1])
+            u = 1 - last / far
+            du = (last / far**2, -2 * last / far**3, 6 * last / far**4)
+            if derivative == 0:
+                out[beyond] = value + first * u + second * u * u
+            elif derivative == 1:
+                out[beyond] = (first + 2 * second * u) * du[0]
+            elif derivative == 2:
+                out[beyond] = (first + 2 * second * u) * du[1] + 2 * second * du[0] ** 2
+            else:
+                out[beyond] = (first + 2 * second * u) * du[2] + 6 * second * du[0] * du[1]
+        out[h < self.lowest] = np.nan
+        return out
+
+    def load(self, h: Array) -> Array:
+        """⟨f⟩ = −dΦ/dh with its first and second derivative: (N, 3)."""
+        y = self._log(h)
+        density = np.exp(-0.5 * h * h) / math.sqrt(2 * math.pi)
+        # Φ = P e^y with P of the plastic surface
+        P = plastic_energy(h, self.chi)
+        P1, P2, P3 = -self.chi * ndtr(-h), self.chi * density, -self.chi * h * density
+        e = np.exp(y[0])
+        first = P1 + P * y[1]
+        second = P2 + 2 * P1 * y[1] + P * (y[2] + y[1] ** 2)
+        third = P3 + 3 * P2 * y[1] + 3 * P1 * (y[2] + y[1] ** 2)
+        third = third + P * (y[3] + 3 * y[1] * y[2] + y[1] ** 3)
+        return np.stack([-e * first, -e * second, -e * third], axis=-1)
+
+    def energy(self, h: Array) -> Array:
+        """Φ: (N,)."""
+        return plastic_energy(h, self.chi) * np.exp(self.columns(h)[:, LOW])
+
+
+@lru_cache(maxsize=256)
+def field_of(chi: float, alpha: float) -> FieldSurface:
+    """The surface of the library's spectrum at χ and α, from the table that ships.
+
+    Raises
+    ------
+    InvalidValue
+        α outside the table.
+    """
+    low, high = ALPHAS
+    if not low <= alpha <= high:
+        raise InvalidValue(
+            f"asperity_law field: the bandwidth alpha = {alpha:.4g} must be from {low:g} to "
+            f"{high:g}, as far as its table goes; use another law"
+        )
+    data = stored()
+    h, known, every = data["h"], data["chi"], data["rows"]
+    at = min(max(chi, LEAST), MOST)
+    if at <= SOFT:
+        some, most = h == h, known <= 1.3 * SOFT
+    else:
+        some, most = h >= HARD, known == known
+    across = _lagrange(np.log(data["alpha"]), math.log(alpha))
+    rows = np.tensordot(across, every[:, most][:, :, some], 1)
+    rows = make_interp_spline(np.log(known[most]), rows, k=3)(math.log(at))
+    if chi < LEAST:
+        plain = plastic_rows(h[some])
+        rows = plain + (rows - plain) * (chi / LEAST)
+    if chi > MOST:
+        rows[:, LOW] += math.log(MOST / chi)  # Φ itself no longer changes
+    rows[:, PLASTIC] = np.clip(rows[:, PLASTIC], 0.0, 1.0)
+    rows[:, TAU] = np.clip(rows[:, TAU], 0.0, 1.0)
+    return FieldSurface(chi=chi, alpha=alpha, h=h[some], rows=rows, spectrum=rolled_off(alpha))
+
+
+def _lagrange(nodes: Array, x: float) -> Array:
+    """Weights of the polynomial through Chebyshev's points with both ends: (N,)."""
+    if np.any(hit := np.abs(nodes - x) < 1e-14):
+        return hit.astype(float)
+    weight = (-1.0) ** np.arange(len(nodes))
+    weight[[0, -1]] *= 0.5
+    weight = weight / (x - nodes)
+    return weight / weight.sum()

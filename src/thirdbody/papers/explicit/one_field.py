@@ -1,0 +1,165 @@
+"""The stored states, pressed point by point, by the law of one field and by the sum over summits.
+
+``python -m thirdbody.papers.explicit.one_field`` prints every state. Nothing is pressed: the states
+are those of ``data/explicit_comparison.json``, and nothing was fitted to them. The law takes the
+waves of the boxes that were pressed (102 µm, which repeat themselves), since these have fewer long
+waves than an endless surface; ``--endless`` takes the library's spectrum.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+import thirdbody as tb
+
+from ...explicit import surface_of
+from ...laws.field.own import OwnSpectrum
+from ..seats import comparison
+from .cases import CASES, SIGMA, Case
+from .compared import FULL
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["OPEN", "State", "against_stored", "errors"]
+
+OPEN = ("valleys", "summits")
+"""Cases that no law of heights alone can follow: their seats know more than their height."""
+HEAVY = 1.01e-4
+"""F* from which the runs are exact enough to tell laws apart."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class State:
+    """One stored state: pressed, by the sum over summits as stored, and by one field."""
+
+    case: str
+    F_star: float
+    share: tuple[float, float, float]
+    h: tuple[float, float, float]
+    area: tuple[float, float, float]
+    share_error: float
+
+    def off(self, field: bool) -> tuple[float, float, float]:
+        """Share over that pressed, less 1; separation less that pressed [σ]; area as the share."""
+        i = 2 if field else 1
+        return (
+            self.share[i] / self.share[0] - 1,
+            self.h[i] - self.h[0],
+            self.area[i] / self.area[0] - 1,
+        )
+
+
+@lru_cache(maxsize=8)
+def _box(case: Case) -> OwnSpectrum:
+    surface = surface_of(case.contact, size=FULL.size, spacing=FULL.spacing, seed=1)
+    return OwnSpectrum.of(surface, box=True)
+
+
+def _law(case: Case, endless: bool) -> tb.asperity.Field:
+    if endless:
+        return tb.asperity.Field()
+    alike = next(
+        each for each in CASES if each.contact.roughness.alpha == case.contact.roughness.alpha
+    )
+    return tb.asperity.Field(spectrum=_box(alike))
+
+
+def against_stored(
+    *, endless: bool = False, cases: Sequence[str] | None = None
+) -> tuple[State, ...]:
+    """Every stored state of these cases, all by default.
+
+    Parameters
+    ----------
+    endless : bool, optional
+        The library's spectrum of an endless surface in the place of the boxes' own waves.
+    cases : sequence of str, optional
+        Names of cases.
+
+    Examples
+    --------
+    >>> states = against_stored(endless=True, cases=["soft_x2"])
+    >>> max(abs(state.off(field=True)[0]) for state in states) < 0.02
+    True
+    """
+    rows = comparison()
+    out = []
+    for case in CASES:
+        own = [row for row in rows if row["case"] == case.name]
+        if not own or (cases is not None and case.name not in cases):
+            continue
+        seat = {name: own[0][name] for name in ("zeta_mean", "zeta_std")}
+        contact = case.contact.replace(
+            asperity_law=_law(case, endless),
+            particle_law=case.contact.particle_law.replace(**seat),
+        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", tb.RangeWarning)
+            found = tb.solve(contact, F_star=np.array([row["F_star"] for row in own]))
+        share, h, area = (np.asarray(v) for v in (found.particle_load_share, found.h, found.A_t))
+        out += [
+            State(
+                case=case.name,
+                F_star=row["F_star"],
+                share=(row["share"], row["share_statistical"], float(share[i])),
+                h=(row["h_over_sigma"], row["h_over_sigma_statistical"], float(h[i]) / SIGMA),
+                area=(row["A_t"], row["A_t_statistical"], float(area[i])),
+                share_error=row["share_error"],
+            )
+            for i, row in enumerate(own)
+        ]
+    return tuple(out)
+
+
+def errors(states: Sequence[State], *, field: bool) -> dict[str, tuple[float, float]]:
+    """Worst and RMS of share [1], separation [σ] and area [1]."""
+    off = np.array([state.off(field) for state in states])
+    rms = np.sqrt(np.mean(off**2, axis=0))
+    worst = np.max(np.abs(off), axis=0)
+    return {name: (float(worst[i]), float(rms[i])) for i, name in enumerate(("share", "h", "area"))}
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Print every state, and worst and RMS of both laws."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--endless", action="store_true", help="the library's spectrum")
+    states = against_stored(endless=parser.parse_args(arguments).endless)
+    print("case, F*: share (one field, summits) in %, h in sigma, area in %; error of the share")
+    for state in states:
+        new, old = state.off(True), state.off(False)
+        print(
+            f"{state.case:14} {state.F_star:7.0e}: {100 * new[0]:+5.1f} ({100 * old[0]:+5.1f})  "
+            f"{new[1]:+.3f} ({old[1]:+.3f})  {100 * new[2]:+5.1f} ({100 * old[2]:+5.1f}); "
+            f"{100 * state.share_error / state.share[0]:.1f}"
+        )
+    groups = {
+        "F* > 1e-4": [s for s in states if s.F_star > HEAVY and s.case not in OPEN],
+        "F* <= 1e-4": [s for s in states if s.F_star <= HEAVY and s.case not in OPEN],
+        "valleys, summits": [s for s in states if s.case in OPEN],
+    }
+    for words, some in groups.items():
+        for field in (False, True):
+            found = errors(some, field=field)
+            law = "one field" if field else "summits"
+            print(
+                f"{words}, {len(some)} states, {law}: worst and RMS: "
+                f"share {100 * found['share'][0]:.1f}, {100 * found['share'][1]:.1f} %; "
+                f"h {found['h'][0]:.3f}, {found['h'][1]:.3f} sigma; "
+                f"area {100 * found['area'][0]:.1f}, {100 * found['area'][1]:.1f} %"
+            )
+    return 0 if math.isfinite(sum(state.share[2] for state in states)) else 1
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

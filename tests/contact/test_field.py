@@ -1,0 +1,250 @@
+"""The law of one field in a contact: surfaces pressed point by point, ground, refusals, spots."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import thirdbody as tb
+from thirdbody.contact.evaluation import spots_of
+from thirdbody.contact.interface import Interface, interface
+from thirdbody.errors import InvalidValue, NoEquilibrium
+from thirdbody.explicit import surface_of
+from thirdbody.laws.field.own import OwnSpectrum
+
+E_STAR, SIGMA = 112e9, 0.3e-6
+EXPLICIT = {
+    0.04464: (
+        [2.232e-4, 8.929e-4, 2.232e-3, 4.464e-3, 8.929e-3, 1.339e-2],
+        [2.433, 1.884, 1.459, 1.094, 0.686, 0.421],
+        [6.469, 4.480, 3.361, 2.658, 1.990, 1.624],
+        [0.077, 0.016, 0.005, 0.015, 0.002, 0.004],
+        0.03,
+    ),
+    0.1: (
+        [5e-4, 2e-3, 5e-3, 1e-2, 2e-2, 3e-2],
+        [2.270, 1.698, 1.265, 0.907, 0.544, 0.323],
+        [8.07, 5.543, 4.126, 3.220, 2.310, 1.829],
+        [0.15, 0.027, 0.019, 0.006, 0.005, 0.009],
+        0.04,
+    ),
+}
+"""By H/E*: F*, h/σ, share in %, its error, and how far off a share may be."""
+
+
+def contact(ratio=0.04464, *, density=1e11, size=SIGMA, law=None, **others):
+    body = tb.Material(E=2 * E_STAR * (1 - 0.09), nu=0.3, H=ratio * E_STAR)
+    particles = tb.Particles(
+        material=body.replace(H=4 * body.H), areal_density=density,
+        diameter=tb.Monodisperse(mean=size),
+    )  # fmt: skip
+    given = {
+        "surfaces": tb.MaterialPair(body, body),
+        "roughness": tb.Roughness(sigma=SIGMA, R=3e-6, alpha=5.0),
+        "asperity_law": law or tb.asperity.Field(),
+        "particles": particles if density else None,
+    }
+    return tb.Contact(**given | others)
+
+
+def solved(case, **load):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return tb.solve(case, **load)
+
+
+def ground_at(zeta, u):
+    """Σ u_n He_n/√n! at a height."""
+    norm = np.array([math.sqrt(math.factorial(n)) for n in range(len(u))])
+    return float(np.polynomial.hermite_e.hermeval(min(max(zeta, -4.0), 4.0), u / norm))
+
+
+@pytest.fixture(scope="module")
+def box():
+    """The waves of the boxes of 102 µm that were pressed."""
+    surface = surface_of(contact(), size=512, spacing=0.2e-6, seed=1)
+    return OwnSpectrum.of(surface, box=True)
+
+
+def test_waves_of_a_box(box):
+    assert box.spectrum.alpha == pytest.approx(5.0, rel=2e-3)
+    k = box.spectrum.integrals(0.0, 3)
+    assert k[1:] == pytest.approx([1.654, 1.023, 0.791], abs=1e-3)
+    with pytest.raises(InvalidValue, match="must be as many numbers"):
+        OwnSpectrum(q=(1.0, 2.0), weight=(1.0,))
+
+
+@pytest.mark.parametrize("ratio", list(EXPLICIT))
+def test_against_surfaces_pressed_point_by_point(ratio, box):
+    loads, h, share, error, part = EXPLICIT[ratio]
+    law = tb.asperity.Field(spectrum=box)
+    state = solved(contact(ratio, law=law), F_star=np.array(loads))
+    assert state.h / SIGMA == pytest.approx(h, abs=0.02)
+    off = np.abs(100 * state.particle_load_share - share)
+    assert np.all(off < np.maximum(part * np.array(share), 2.5 * np.array(error)))
+
+
+def test_without_particles_it_is_the_clean_contact():
+    loads = np.geomspace(1e-6, 1e-2, 9)
+    clean = solved(contact(density=0), F_star=loads)
+    none = solved(contact().replace(particles=contact().particles.replace(areal_density=0.0)),
+                  F_star=loads)  # fmt: skip
+    for name, values in clean.columns().items():
+        assert np.array_equal(values, none.columns()[name]), name
+    few = solved(contact(density=1e3), F_star=loads)
+    assert few.h == pytest.approx(clean.h, rel=1e-5)
+
+
+@pytest.mark.parametrize("size", [0.67 * SIGMA, 2 * SIGMA, 6 * SIGMA])
+def test_derivatives_of_the_load(size):
+    bound = interface(contact(size=size, density=3e11 if size < SIGMA else 2e10))
+    d = np.linspace(bound.lowest + 0.2 * SIGMA, size + 3 * SIGMA, 30)
+    step = 1e-4 * SIGMA
+    values = bound.load(d)
+    for n in (0, 1):
+        slope = (bound.load(d + step)[:, n] - bound.load(d - step)[:, n]) / (2 * step)
+        assert slope == pytest.approx(values[:, n + 1], rel=2e-5, abs=1e-6 * abs(values[0, n + 1]))
+    fields = bound.fields(d)
+    assert fields["F_ss"] + fields["F_sa"] == pytest.approx(values[:, 0], rel=1e-12)
+
+
+def test_load_of_particles_on_their_ground():
+    case = contact(0.1)
+    bound = interface(case)
+    ground, one = (
+        bound.asperities.ground,
+        case.particle_law.one(surfaces=case.surfaces, particle=case.particles.material),
+    )
+    x = case.particles.diameter.mean
+    for h in (0.5, 1.3, 2.4):
+        d = np.array([h * SIGMA - bound.mean_plane])
+        u = ground.at(bound.asperities.h(d))[0, :-1]
+
+        def load(zeta, u=u, h=h):
+            gap = SIGMA * (h - zeta + ground_at(zeta, u))
+            force = one(np.array([max(1 - gap / x, 0.0)]))[0, 0] * x**2
+            return force * math.exp(-(zeta**2) / 2) / math.sqrt(2 * math.pi)
+
+        expected = 1e11 * quad(load, h - x / SIGMA - 1, 8, limit=400, epsrel=1e-9)[0]
+        assert bound.fields(d)["F_sa"][0] == pytest.approx(expected, rel=2e-4)
+
+
+def test_ground_by_its_own_equation():
+    """u_n of the table put into the definition give themselves again."""
+    bound = interface(contact(0.1, density=4e11))
+    ground = bound.asperities.ground
+    rows = np.flatnonzero((ground.h > 0.5) & (ground.h < 2.5))
+    h, u = ground.h[rows], ground.u[rows]
+    (seat,) = ground.seats
+    columns, moments = seat.sums(h, u)
+    beta = seat.part.factor / bound.asperities.unit * moments
+    shade = seat.part.factor * columns[:, 5:6]
+    pressed, weights = ground._of_asperities(h + ground.w[rows])
+    again = 2 * math.sqrt(2) * ((1 - shade) * pressed + ground.k_pp * beta)
+    assert again == pytest.approx(u, abs=1e-8)
+    assert 2 * math.sqrt(2) * np.sum(weights * beta, axis=1) == pytest.approx(
+        ground.w[rows], abs=1e-8
+    )
+    assert np.all(u[:, 1] > 0)  # high ground is pressed most
+    assert np.all(ground.w[rows] > 0)
+
+
+def test_units():
+    """Lengths three times as large and stresses twice: the same numbers."""
+    small = contact(0.1)
+    body = small.surfaces.first.replace(E=2 * small.surfaces.first.E, H=2 * small.surfaces.first.H)
+    large = tb.Contact(
+        surfaces=tb.MaterialPair(body, body),
+        roughness=tb.Roughness(sigma=3 * SIGMA, R=9e-6, alpha=5.0),
+        asperity_law=tb.asperity.Field(),
+        particles=tb.Particles(
+            material=body.replace(H=4 * body.H), areal_density=1e11 / 9,
+            diameter=tb.Monodisperse(mean=3 * SIGMA),
+        ),
+    )  # fmt: skip
+    loads = np.array([1e-4, 1e-3, 1e-2])
+    one, other = (solved(each, F_star=loads) for each in (small, large))
+    assert other.h == pytest.approx(3 * one.h, rel=1e-7)
+    assert other.A_t == pytest.approx(one.A_t, rel=1e-7)
+    assert other.particle_load_share == pytest.approx(one.particle_load_share, rel=1e-6)
+
+
+def test_spots_add_up_to_the_state():
+    case = contact(outputs=(tb.outputs.Counts(),))
+    state = solved(case, F_star=np.array([1e-4, 1e-3, 5e-3]))
+    bound = interface(case)
+    asperities, particles = spots_of(case, bound, state.d, state.shadow)
+    fields = bound.fields(state.d)
+    assert sum(s.total(s.load) for s in asperities) == pytest.approx(fields["F_ss"], rel=1e-9)
+    assert sum(s.total(s.area) for s in asperities) == pytest.approx(fields["A_ss"], rel=1e-9)
+    assert sum(s.total(s.load) for s in particles) == pytest.approx(fields["F_sa"], rel=1e-9)
+    assert sum(s.total(s.areas[0]) for s in particles) == pytest.approx(fields["A_sa"], rel=1e-5)
+
+
+def test_several_populations_share_the_ground():
+    case = contact()
+    half = case.particles.replace(areal_density=0.5e11)
+    both = case.replace(particles=(half, half))
+    loads = np.array([3e-4, 3e-3])
+    one, two = (solved(each, F_star=loads) for each in (case, both))
+    assert two.h == pytest.approx(one.h, rel=1e-9)
+    assert two.particle_load_share == pytest.approx(one.particle_load_share, rel=1e-8)
+    assert two.populations[0].load_share == pytest.approx(one.particle_load_share / 2, rel=1e-6)
+
+
+def test_particles_of_many_sizes():
+    wide = contact().particles.replace(diameter=tb.LogNormal(median=SIGMA, gsd=1.6))
+    state = solved(contact(particles=wide), F_star=np.array([1e-5, 1e-4, 1e-3]))
+    assert set(state.status) == {"ok"}
+    assert np.all(np.diff(state.particle_load_share) < 0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"roughness": tb.Roughness(sigma=SIGMA, R=3e-6, alpha=2.0)}, "from 2.5 to 30"),
+        ({"roughness": tb.Roughness(sigma=SIGMA, R=3e-6, heights=tb.WeibullHeights(shape=2.0))},
+         "Gaussian heights"),
+        ({"particle_law": tb.particle.Series(seat="plane")}, 'Series.seat="rough"|seat = "plane"'),
+    ],
+)  # fmt: skip
+def test_what_it_does_not_know_is_refused(changes, words):
+    with pytest.raises(InvalidValue, match=words):
+        contact(**changes)
+
+
+def test_where_its_table_ends():
+    with pytest.raises(NoEquilibrium, match=r"h = 0\.2 sigma, where its table ends"):
+        solved(contact(0.5, density=0), F_star=0.3)
+    with pytest.raises(InvalidValue, match="where the table of the law field ends"):
+        solved(contact(density=0), d=-5 * SIGMA)
+    soft = solved(contact(0.02, density=0), F_star=0.013)
+    assert -1 < soft.h / SIGMA < 0
+
+
+def test_one_warning_for_crowded_contacts():
+    soft = contact(0.02, density=0)
+    with pytest.warns(tb.RangeWarning, match="up to 0.5 only"):
+        tb.solve(soft, F_star=0.013)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        tb.solve(soft, F_star=0.008)
+    with pytest.warns(tb.RangeWarning, match="H/\\(E\\*g\\) = 0.41"):
+        tb.solve(contact(0.1, law=tb.asperity.ZMC()), F_star=2e-3)
+
+
+def test_the_engine_says_why_it_is_numpy():
+    state = solved(contact(density=0), F_star=np.geomspace(1e-5, 1e-3, 5001))
+    assert state.engine == "numpy: the law field is not compiled"
+
+
+def test_a_seat_of_its_own_height_and_width():
+    """Particles on high narrow seats carry more, at any ground."""
+    seats = [tb.particle.Series(zeta_mean=m, zeta_std=s) for m, s in ((0, 1), (1.0, 0.5))]
+    one, other = (solved(contact(particle_law=seat), F_star=1e-3) for seat in seats)
+    assert other.particle_load_share > 1.3 * one.particle_load_share
+    assert isinstance(interface(contact(particle_law=seats[1])), Interface)
