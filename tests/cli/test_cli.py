@@ -314,7 +314,10 @@ def test_an_answer_that_cannot_be_written_is_an_error(command, where):
     result = subprocess.run(words, shell=True, capture_output=True, text=True, timeout=300)
     assert result.returncode == 2
     if "2>" not in where:
-        assert re.fullmatch(r"error: cannot read or write the output: .*\n", result.stderr)
+        told = result.stderr
+        if command.startswith(f"solve {DUSTY}"):  # the states are solved and warned of before
+            told = re.sub(r"\A(warning: .*\n)+", "", told)
+        assert re.fullmatch(r"error: cannot read or write the output: .*\n", told)
 
 
 def test_odd_numbers_of_threads_are_refused():
@@ -438,7 +441,7 @@ def test_interrupt_exits_130_with_one_line_and_no_file(tmp_path):
     command = [sys.executable, "-m", "thirdbody", "solve", str(DUSTY)]
     command += ["--set", "load.F_star.points=1000000", "--csv", str(tmp_path / "states.csv")]
     # the warning about sigma says that the study is being computed
-    command += ["--set", "roughness.R=0.02"]
+    command += ["--set", 'roughness.R="2 cm"']
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as running:

@@ -61,8 +61,8 @@ def test_a_pipe_that_ends_is_read(tmp_path):
 
 @pytest.mark.parametrize("name", EVERY)
 def test_no_command_reads_a_device(name, tmp_path):
-    out = ["--out", tmp_path / "out"] if name in ("sweep", "table") else []
-    done = run(name, "/dev/zero", *out)
+    out = {"sweep": ["--out", tmp_path / "out"], "table": ["--out", tmp_path / "out.inp"]}
+    done = run(name, "/dev/zero", *out.get(name, []))
     assert done.exit_code == 2
     assert done.stderr.splitlines() == [
         "error: cannot read /dev/zero: it is a device, not a study file"

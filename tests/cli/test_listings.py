@@ -25,5 +25,5 @@ def test_defaults_are_said_with_their_units(command, monkeypatch):
         cells += [row[start:end].strip() for row in rows]
     assert not [cell for cell in cells if re.search(RAW, cell)]
     some = {"laws": {"200 GPa", "100 nm", "0.05 J/m²", '"hermite"', "true"}}
-    some["outputs"] = {"1 mm²", "0 nm", '"hard"', "required", "-"}
+    some["outputs"] = {"1 mm²", "0 nm", '"by_hardness"', "required", "-"}
     assert some[command] <= set(cells)

@@ -272,7 +272,7 @@ def test_states_far_apart_are_laid_out_in_groups():
         tracemalloc.stop()
     assert most < 400e6
     assert np.ptp(together.d) > 90e-6
-    assert len(together.warnings) == 4
+    assert len(together.warnings) == 4  # area, seat, strength, asperities one by one
     for i in (0, 150, 299):
         alone = tb.solve(contact, F_star=float(loads[i]))
         for name, value in alone.outputs.items():

@@ -12,7 +12,7 @@ from scipy.special import j0, ndtr
 
 import thirdbody as tb
 from thirdbody.errors import InvalidValue
-from thirdbody.laws.field.formulas import area, hardness_ratio, load, remainder, rms_gradient
+from thirdbody.laws.field.formulas import area, hardness_ratio, load, remainder
 from thirdbody.laws.field.programme import Edges, pressed
 from thirdbody.laws.field.spectrum import rolled_off
 from thirdbody.laws.field.table import field_of
@@ -188,9 +188,9 @@ def test_the_remainder():
 def test_gradient_of_a_surface():
     rough = tb.Roughness(sigma=2e-7, R=4e-6, alpha=8.0)
     m4 = math.pi * (0.375 / rough.R) ** 2
-    m2 = rms_gradient(rough) ** 2 / 2
+    m2 = rough.slope ** 2 / 2
     assert rough.sigma**2 * m4 / m2**2 == pytest.approx(8.0)
-    assert hardness_ratio(rough, E_star=1e11, H=2e9) == pytest.approx(0.02 / rms_gradient(rough))
+    assert hardness_ratio(rough, E_star=1e11, H=2e9) == pytest.approx(0.02 / rough.slope)
 
 
 def test_no_table_beyond_its_bandwidths():

@@ -97,10 +97,12 @@ def read_study(
 
     Files that are to be written must be none of those that are read.
     """
+    from ..equilibrium.compiled.batch import threads
     from ..quantities.files import refuse_clashes
     from ..study import load_study
     from ..study.whole import files_of
 
+    threads()  # an odd number of them is told before anything is solved, and whoever solves it
     asked = load_study(file, settings or ())
     if any(writes):
         refuse_clashes(writes, files_of(file, settings or ()))

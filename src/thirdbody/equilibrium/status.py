@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..contact.asperity_sums import ReducedSum
+from ..contact.asperity_sums import SEARCHED, ReducedSum
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 __all__ = ["DEEPEST", "MOST_AREA", "SENTENCES", "WORDS", "Status", "Statuses"]
 
-DEEPEST = -3.0
+DEEPEST = SEARCHED
 """Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
 MOST_AREA = 0.5
 """Real area from which contacts that are counted one by one have grown together: a plane at the

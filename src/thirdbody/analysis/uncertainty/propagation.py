@@ -565,7 +565,7 @@ class _Bands:
             share = np.mean(words == ("" if mode == "none" else mode), axis=1)
             self.modes[mode].append(float(share.mean()))
             self.mode_errors[mode].append(float(share.std(ddof=1) / math.sqrt(REPLICATES)))
-        self.solved.append(float(np.mean(state["status"] == "ok")))
+        self.solved.append(float(np.mean(np.isfinite(state["d"]))))
 
 
 def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propagation]:
