@@ -224,7 +224,9 @@ def test_edge_of_the_feasible_region(at):
     ],
 )
 def test_too_extreme_is_refused_when_built(skew, kurtosis):
-    with pytest.raises(tb.InvalidValue, match=r"kurtosis .* (too extreme|impossible|at most 1e\+40)"):
+    with pytest.raises(
+        tb.InvalidValue, match=r"kurtosis .* (too extreme|impossible|at most 1e\+40)"
+    ):
         tb.JohnsonHeights(skewness=skew, kurtosis=kurtosis)
 
 

@@ -487,7 +487,10 @@ def test_rules_of_the_objects_are_told_with_the_keys_of_the_file(problems, old, 
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ('"histogram"\nedges = [3e-6, 2e-6, 1e-6]\ncounts = [1, 2]', ["particles.edges", "increase"]),
+        (
+            '"histogram"\nedges = [3e-6, 2e-6, 1e-6]\ncounts = [1, 2]',
+            ["particles.edges", "increase"],
+        ),
         ('"histogram"\nedges = ["1 GPa"]\ncounts = "x"', ["particles.edges[0]", "pressure"]),
         ('"uniform"\nlow = "3 nm"\nhigh = "1 nm"', ["particles.high", "above particles.low"]),
         ('"mixture"\nweights = [1]\nparts = []', ["particles.parts = []", "list of size"]),
