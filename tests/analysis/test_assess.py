@@ -272,7 +272,7 @@ def test_at_separations_the_loads_are_those_carried_there():
     assert [page.mode for page in found.pages] == list(state.mode)
     assert found.unsolved == ("At 20 µm nothing is in contact.",)
     modes = found.sections()[0]
-    assert [row[modes.head.index("separation")] for row in modes.rows] == ["400 nm", "250 nm"]
+    assert [row[modes.head.index("separation d")] for row in modes.rows] == ["400 nm", "250 nm"]
     assert any("carry at its separations" in said for said in modes.sentences)
 
 
