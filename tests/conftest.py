@@ -51,7 +51,8 @@ def pytest_sessionstart(session):
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=tb.Particles(material=tb.materials["SiO2"], diameter=dust, areal_density=1e11),
     )
-    vary = {"particles.material.H": np.linspace(4e9, 5e9, 32)}
+    # harder than both surfaces: particles that are squashed are not for the compiled engine
+    vary = {"particles.material.H": np.linspace(8e9, 9e9, 32)}
     tb.solve_states(contact, F_star=1e-5, vary=vary)
 
 

@@ -72,8 +72,23 @@ def test_loads_beyond_a_double_are_refused_by_name(load):
 
 def test_the_ends_of_what_is_computed_are_taken():
     assert tb.Roughness(sigma=SMALLEST, R=LARGEST).sigma == SMALLEST
-    with pytest.raises(tb.InvalidValue, match="from 1e-40 to 1e"):
+    with pytest.raises(tb.InvalidValue, match=r"sigma = 5e-41 must be at least 1e-40 \[m\]"):
         tb.Roughness(sigma=SMALLEST / 2, R=1e-6)
+    with pytest.raises(tb.InvalidValue, match=r"R = 2e\+40 must be at most 1e\+40 \[m\]"):
+        tb.Roughness(sigma=1e-7, R=2 * LARGEST)
+
+
+@pytest.mark.parametrize("tiny", [5e-324, 1e-300, SMALLEST / 2])
+def test_what_may_be_zero_may_be_as_small_as_it_likes(tiny):
+    assert tb.Material(E=2e11, nu=tiny, H=5e9).nu == tiny
+    assert tb.Material(E=2e11, nu=-tiny, H=5e9).nu == -tiny
+    assert tb.particle.Horng2022(datum=-tiny).datum == -tiny
+    surfaces = tb.MaterialPair(*(tb.Material(E=2e11, nu=nu, H=5e9) for nu in (tiny, 0.0)))
+    state = tb.solve(CONTACT.replace(surfaces=surfaces), F_star=1e-5)
+    plain = tb.MaterialPair(*(tb.Material(E=2e11, nu=0.0, H=5e9) for _ in range(2)))
+    assert state.d == tb.solve(CONTACT.replace(surfaces=plain), F_star=1e-5).d
+    with pytest.raises(tb.InvalidValue, match=r"E = .* must be at least 1e-40 \[Pa\]"):
+        tb.Material(E=tiny, nu=0.3, H=5e9)
 
 
 def test_numbers_in_text_may_be_beyond_a_double():

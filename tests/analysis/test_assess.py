@@ -272,7 +272,7 @@ def test_at_separations_the_loads_are_those_carried_there():
     assert [page.mode for page in found.pages] == list(state.mode)
     assert found.unsolved == ("At 20 µm nothing is in contact.",)
     modes = found.sections()[0]
-    assert [row[modes.head.index("separation")] for row in modes.rows] == ["400 nm", "250 nm"]
+    assert [row[modes.head.index("separation d")] for row in modes.rows] == ["400 nm", "250 nm"]
     assert any("carry at its separations" in said for said in modes.sentences)
 
 
@@ -521,10 +521,11 @@ def test_particles_that_break_are_told_with_all_bounds_of_their_fragments():
         assert percent(shares[-1]) in said
     assert shares[0] < shares[1] < shares[2]
     assert "particles.strength.size_exponent" in said
-    assert enough(contact, None, ()) == 64  # each builds its own tables
+    particles = ["particles.strength.sigma_0"]
+    assert enough(contact, None, particles) == 64  # each is summed by itself
     whole = contact.replace(**{"particles.strength": None})
     assert not about_fragments(whole, {"pressure": 20e6})
-    assert enough(whole, None, ()) == 4096
+    assert enough(whole, None, ["particles.material.H"]) == 4096
 
 
 def test_few_samples_where_each_has_tables_of_its_own():

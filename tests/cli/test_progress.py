@@ -54,3 +54,19 @@ def test_a_terminal_sees_every_part(name, tmp_path, monkeypatch, capfd):
         "report": ["states", "error bars", "which inputs matter", "figures"],
     }
     assert told == [(i, f"{name}: {part}") for i, part in enumerate(parts[name])]
+
+
+@pytest.mark.parametrize(
+    ("early", "told"), [(True, [1, 2, 3, 5, 6]), (False, [3, 6])], ids=["bar", "function"]
+)
+def test_no_state_is_told_twice(early, told, monkeypatch):
+    """Two blocks of three states, told while they are solved and once they are written."""
+    clock = iter(range(1, 100))
+    monkeypatch.setattr(progress.time, "monotonic", lambda: float(next(clock)))
+    heard = []
+    cost = progress.Cost(6, heard.append, early=early)
+    for counts, written in (((1, 0.5, 0.5, 1), 3), ((0, 2, 1), 6)):
+        for count in counts:
+            cost(count)
+        cost.finished(written)
+    assert heard == told

@@ -476,7 +476,7 @@ def test_no_particle_is_loaded_in_a_gap_above_the_largest(sizes, seat, fragments
         {"size_exponent": 0.0},
         {"size_exponent": 0.05},
         {"ratio": 0.999999},
-        {"ratio": 1e-300, "size_exponent": 0.0},
+        {"ratio": 1e-39, "size_exponent": 0.0},
         {"size_exponent": 0.0, "x_c": 1e-300},
     ],
     ids=str,

@@ -397,3 +397,18 @@ def test_a_study_is_a_contact_and_loads(tmp_path):
     assert study.solve().d.tolist() == tb.solve(study.contact, pressure=[1e6, 5e6]).d.tolist()
     with pytest.raises(tb.InvalidValue, match=r"roughness\.sigma"):
         tb.load_study(file, ["roughness.sigma=-1"])
+
+
+def test_a_copy_tells_only_of_slips_that_are_new():
+    """A slip is told where it is made, not again by whoever changes something else."""
+    steel = tb.materials["S45C"]
+    contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel), roughness=ROUGH)
+    with pytest.warns(tb.RangeWarning, match=r"roughness\.R = 0\.02 is taken as 0\.02 m"):
+        contact = contact.replace(**{"roughness.R": 0.02})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        contact.replace(outputs=())
+        contact.replace(**{"roughness.sigma": 2e-7})
+    with pytest.warns(tb.RangeWarning, match=r"roughness\.sigma = 0\.03") as heard:
+        contact.replace(**{"roughness.sigma": 0.03})
+    assert len(heard) == 1

@@ -180,18 +180,25 @@ def warn_of_slip(where: str, about: Mapping[str, Any], number: float) -> None:
         )
 
 
-def warn_of_slips(value: Value, *, prefix: str = "") -> None:
-    """Warn of every number of a value, and of the values in it, that looks like a slip."""
+def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None) -> None:
+    """Warn of every number of a value, and of the values in it, that looks like a slip.
+
+    Of a copy of ``before`` only what has changed is told: the rest was, when that was made.
+    """
     if _told.get() or not dataclasses.is_dataclass(value):  # an output or law of one's own
         return
     for name, about, _ in _declared(type(value)):
-        part = getattr(value, name)
+        part, old = getattr(value, name), getattr(before, name, None)
+        if part is old:
+            continue
         if about:
             if part is not None and unit_meant(about, part):
                 warn_of_slip(prefix + name, about, part)
         elif isinstance(part, (Value, tuple)):
+            known = dict(_values_in(prefix + name, old))
             for where, inner in _values_in(prefix + name, part):
-                warn_of_slips(inner, prefix=f"{where}.")
+                if inner is not known.get(where):
+                    warn_of_slips(inner, prefix=f"{where}.", before=known.get(where))
 
 
 @cache
@@ -216,6 +223,8 @@ class Value:
 
     __slots__ = ()
     _classes: ClassVar[dict[str, type[Value]]] = {}
+    _tells_of_slips: ClassVar[bool] = False
+    """Whether it warns of numbers in it that look like slips, when it is made."""
 
     def __init_subclass__(cls, *, stand_in: bool = False, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
@@ -277,7 +286,11 @@ class Value:
         for head, deeper in inner.items():
             where, part = f"{type(self).__name__}.{head}", now.get(head, getattr(self, head))
             now[head] = _replaced(where, part, deeper)
-        return dataclasses.replace(self, **now)  # type: ignore[type-var]
+        with slips_are_told():
+            out = dataclasses.replace(self, **now)  # type: ignore[type-var]
+        if self._tells_of_slips:
+            warn_of_slips(out, before=self)
+        return out
 
     def unchecked(self, **changes: Any) -> Self:
         """A copy with some fields changed to what needs no check and no warning."""
