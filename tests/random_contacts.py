@@ -35,9 +35,8 @@ from thirdbody.contact.interface import interface
 from thirdbody.equilibrium import solve as solving
 from thirdbody.equilibrium.columns import COLUMNS, about
 from thirdbody.equilibrium.compiled import batch as engine
-from thirdbody.equilibrium.load_scan import DEEPEST
 from thirdbody.equilibrium.states import state_columns
-from thirdbody.equilibrium.status import Status
+from thirdbody.equilibrium.status import DEEPEST, Status
 from thirdbody.populations.distributions import Distribution
 from thirdbody.quantities.value import Value
 

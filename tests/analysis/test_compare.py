@@ -26,7 +26,7 @@ CLEAN = ROOT / "examples" / "two_body_reference.toml"
 DUSTY = ROOT / "examples" / "dusty_ball_screw.toml"
 STEEL = tb.materials["S45C"]
 LOADS = np.geomspace(1e-6, 1e-3, 7)
-USUAL = ["zmc", "gw", "ceb", "ke", "jg", "hermite"]
+USUAL = ["zmc", "gw", "ceb", "ke", "jg", "field", "hermite"]
 
 
 def contact(**changes):

@@ -188,7 +188,7 @@ def test_the_remainder():
 def test_gradient_of_a_surface():
     rough = tb.Roughness(sigma=2e-7, R=4e-6, alpha=8.0)
     m4 = math.pi * (0.375 / rough.R) ** 2
-    m2 = rough.slope ** 2 / 2
+    m2 = rough.slope**2 / 2
     assert rough.sigma**2 * m4 / m2**2 == pytest.approx(8.0)
     assert hardness_ratio(rough, E_star=1e11, H=2e9) == pytest.approx(0.02 / rough.slope)
 

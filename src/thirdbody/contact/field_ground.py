@@ -23,7 +23,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import BSpline, make_interp_spline
 
 from ..errors import NoEquilibrium
 from ..laws.base import COLUMNS, SeatedLaw
@@ -40,6 +39,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
+    from scipy.interpolate import BSpline
 
     from ..laws.spots import ParticleSpots
 
@@ -244,6 +244,8 @@ class Ground:
     @cached_property
     def _spline(self) -> BSpline:
         columns = np.column_stack([self.u, self.w])
+        from scipy.interpolate import make_interp_spline
+
         return make_interp_spline(self.h, columns, k=5)
 
     def at(self, h: Array, derivative: int = 0) -> Array:
@@ -294,9 +296,13 @@ class GroundedPart(Part):
         last = int(np.argmin(some)) if not some.all() else len(h)
         if last < 6:
             knots = np.array([0.0] * 6 + [1.0] * 6)
+            from scipy.interpolate import BSpline
+
             return BSpline(knots, np.zeros((6, len(COLUMNS))), 5), -math.inf
         values, h = values[:last], h[:last]
         rows = np.column_stack([np.log(values[:, 0]), values[:, 1:] / values[:, :1]])
+        from scipy.interpolate import make_interp_spline
+
         return make_interp_spline(h, rows, k=5), float(h[-1])
 
     @property
@@ -311,6 +317,8 @@ class GroundedPart(Part):
         """Columns per factor with two derivatives in h: (N, len(columns), 3)."""
         spline, last = self._spline
         if columns not in self._cut:
+            from scipy.interpolate import BSpline
+
             some = BSpline(spline.t, np.ascontiguousarray(spline.c[:, [0, *columns]]), 5)
             self._cut[columns] = [some, some.derivative(1), some.derivative(2)]
         h = self._h(d)
@@ -385,6 +393,8 @@ class LiftedSum(FieldSum):
     def __init__(self, field: FieldSum, ground: Ground):
         self.__dict__.update(vars(field))
         self.plain, self.ground = field, ground
+        from scipy.interpolate import make_interp_spline
+
         lift = make_interp_spline(ground.h, ground.w, k=5)
         self._lift = [lift, lift.derivative(1), lift.derivative(2)]
 

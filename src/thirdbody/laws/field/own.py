@@ -63,7 +63,7 @@ class OwnSpectrum(Value):
     Examples
     --------
     >>> import thirdbody as tb
-    >>> own = OwnSpectrum.of(tb.from_topography("example"))
+    >>> own = OwnSpectrum.of(tb.surfaces.from_topography("example"))
     >>> 2 < own.spectrum.alpha < 30
     True
     """

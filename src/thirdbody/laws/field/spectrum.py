@@ -16,7 +16,6 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import brentq
 from scipy.special import j0
 
 from ...errors import InvalidValue
@@ -226,6 +225,8 @@ def rolled_off(alpha: float, hurst: float = HURST) -> Spectrum:
         raise InvalidValue(
             f"no spectrum that rolls off and ends has the bandwidth α = {alpha:.4g}; it is above 2"
         )
+    from scipy.optimize import brentq
+
     share = shares(float(brentq(miss, *ends, xtol=1e-14, rtol=1e-14)))
     longest = math.sqrt(2 / float(share @ q**2))
     return Spectrum(q=q * longest, weight=share)

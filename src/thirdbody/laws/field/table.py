@@ -13,7 +13,6 @@ from importlib import resources
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.interpolate import BSpline, make_interp_spline
 from scipy.special import erfcx, ndtr
 
 from ...errors import InvalidValue
@@ -22,6 +21,7 @@ from .spectrum import Spectrum, rolled_off
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from scipy.interpolate import BSpline
 
     Array = NDArray[np.float64]
 
@@ -112,6 +112,8 @@ class FieldSurface:
     @cached_property
     def _logs(self) -> list[BSpline]:
         """The first column with its derivatives, by itself: what a load needs."""
+        from scipy.interpolate import make_interp_spline
+
         spline = make_interp_spline(self.h, self.rows[:, LOW], k=5)
         return [spline, *(spline.derivative(n) for n in (1, 2, 3))]
 
@@ -124,6 +126,8 @@ class FieldSurface:
     @cached_property
     def _series(self) -> tuple[BSpline, Array]:
         """Splines of every column, and their first two terms in 1 − h_M/h beyond the last."""
+        from scipy.interpolate import make_interp_spline
+
         spline = make_interp_spline(self.h, self.rows, k=5)
         end = self.h[-1:]
         value, slope, bend = (spline(end, nu)[0] for nu in range(3))
@@ -196,6 +200,8 @@ def field_of(chi: float, alpha: float) -> FieldSurface:
         some, most = h >= HARD, known == known
     across = _lagrange(np.log(data["alpha"]), math.log(alpha))
     rows = np.tensordot(across, every[:, most][:, :, some], 1)
+    from scipy.interpolate import make_interp_spline
+
     rows = make_interp_spline(np.log(known[most]), rows, k=3)(math.log(at))
     if chi < LEAST:
         plain = plastic_rows(h[some])

@@ -112,21 +112,26 @@ def against_stored(
             State(
                 case=case.name,
                 F_star=row["F_star"],
-                share=(row["share"], row["share_statistical"], float(share[i])),
+                share=(_number(row["share"]), row["share_statistical"], float(share[i])),
                 h=(row["h_over_sigma"], row["h_over_sigma_statistical"], float(h[i]) / SIGMA),
                 area=(row["A_t"], row["A_t_statistical"], float(area[i])),
-                share_error=row["share_error"],
+                share_error=_number(row["share_error"]),
             )
             for i, row in enumerate(own)
         ]
     return tuple(out)
 
 
+def _number(value: float | None) -> float:
+    """A stored number; NaN where too little was drawn to know it."""
+    return math.nan if value is None else value
+
+
 def errors(states: Sequence[State], *, field: bool) -> dict[str, tuple[float, float]]:
-    """Worst and RMS of share [1], separation [σ] and area [1]."""
+    """Worst and RMS of share [1], separation [σ] and area [1], of what was pressed."""
     off = np.array([state.off(field) for state in states])
-    rms = np.sqrt(np.mean(off**2, axis=0))
-    worst = np.max(np.abs(off), axis=0)
+    rms = np.sqrt(np.nanmean(off**2, axis=0))
+    worst = np.nanmax(np.abs(off), axis=0)
     return {name: (float(worst[i]), float(rms[i])) for i, name in enumerate(("share", "h", "area"))}
 
 
