@@ -63,8 +63,12 @@ class OwnSpectrum(Value):
     Examples
     --------
     >>> import thirdbody as tb
-    >>> own = OwnSpectrum.of(tb.surfaces.from_topography("example"))
-    >>> 2 < own.spectrum.alpha < 30
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=300e-9, R=3e-6))
+    >>> from thirdbody.explicit import surface_of
+    >>> own = OwnSpectrum.of(surface_of(contact, size=128, spacing=200e-9), box=True)
+    >>> 4 < own.spectrum.alpha < 6
     True
     """
 

@@ -21,6 +21,7 @@ from scipy.special import j0
 from ...errors import InvalidValue
 from ...numerics.chebyshev import chebyshev_transform
 from ...numerics.quadrature import gauss_legendre
+from ...numerics.roots import bracketed_root
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -215,18 +216,16 @@ def rolled_off(alpha: float, hurst: float = HURST) -> Spectrum:
         density = weight * q * (1 + (q / math.exp(log_ratio)) ** 2) ** (-1 - hurst)
         return density / density.sum()
 
-    def miss(log_ratio: float) -> float:
-        share = shares(log_ratio)
-        return float(1.5 * (share @ q**4) / (share @ q**2) ** 2) - alpha
+    def miss(log_ratio: Array) -> Array:
+        rows = [shares(float(one)) for one in np.atleast_1d(log_ratio)]
+        return np.array([1.5 * (row @ q**4) / (row @ q**2) ** 2 for row in rows]) - alpha
 
-    ends = (math.log(1e-3), math.log(1e3))
-    low, high = map(miss, ends)
-    if not low > 0 > high:
+    ends = np.array([math.log(1e-3)]), np.array([math.log(1e3)])
+    root = float(bracketed_root(miss, *ends)[0])
+    if math.isnan(root):
         raise InvalidValue(
             f"no spectrum that rolls off and ends has the bandwidth α = {alpha:.4g}; it is above 2"
         )
-    from scipy.optimize import brentq
-
-    share = shares(float(brentq(miss, *ends, xtol=1e-14, rtol=1e-14)))
+    share = shares(root)
     longest = math.sqrt(2 / float(share @ q**2))
     return Spectrum(q=q * longest, weight=share)
