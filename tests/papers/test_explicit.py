@@ -165,7 +165,8 @@ def test_the_short_form(tmp_path):
     assert len(done.points) == sum(len(c.loads) or 2 for c in explicit.CASES)
     for point in done.points:
         assert 0 <= point.share[0] <= 1
-        if point.case.group == "sizes":
+        # too few surfaces may leave a share without an error: then there is nothing to hold it to
+        if point.case.group == "sizes" and math.isfinite(point.share[1]):
             stated = seats.STATED_AGREEMENT[round(point.case.diameter, 12)]
             allowed = stated * point.share[0] + 4.3 * point.share[1]
             assert abs(point.statistical - point.share[0]) < allowed, point.case.name
