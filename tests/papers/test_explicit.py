@@ -164,8 +164,9 @@ def test_the_short_form(tmp_path):
     assert done.left_out == 0
     assert len(done.points) == sum(len(c.loads) or 2 for c in explicit.CASES)
     for point in done.points:
-        assert 0 <= point.share[0] <= 1
-        # too few surfaces may leave a share without an error: then there is nothing to hold it to
+        # too few surfaces may leave a share without an error, or unknown between bounds: there is
+        # nothing to hold it to then
+        assert 0 <= point.share[0] <= 1 or math.isnan(point.share[0])
         if point.case.group == "sizes" and math.isfinite(point.share[1]):
             stated = seats.STATED_AGREEMENT[round(point.case.diameter, 12)]
             allowed = stated * point.share[0] + 4.3 * point.share[1]
