@@ -117,3 +117,15 @@ def test_squashed_particles_are_told_of_from_a_fifth_of_their_radius_on():
                     {"particles.material": tb.materials["Al2O3"]}):  # fmt: skip
         case = case.replace(**changed)
         assert not told(9.2e-6)[1]
+
+
+@pytest.mark.filterwarnings("error::RuntimeWarning")
+def test_sizes_down_to_zero_are_weighed():
+    wide = tb.TruncatedGaussian(mean=300e-9, std=3e-6)
+    case = contact(300e-9).replace(
+        particles=tb.Particles(
+            material=tb.materials["SiO2"].replace(K_c=0.67e6), areal_density=1e-9, diameter=wide
+        ),
+        particle_law=tb.particle.Series(),
+    )
+    assert brittle(case, 100e-9)

@@ -421,3 +421,18 @@ def test_moments_over_a_short_stretch_keep_their_digits(dist, q, stretch):
     for n in range(4):
         want = float(exact_moment(dist, n, a, b))
         assert float(dist.partial_moment(n, a, b)) == pytest.approx(want, rel=2e-14)
+
+
+@pytest.mark.parametrize(
+    ("kind", "narrow", "wide"),
+    [
+        (tb.TruncatedGaussian, {"mean": 4e-7, "std": 5e-28}, {"mean": 4e-7, "std": 4e-16}),
+        (tb.LogNormal, {"median": 1e-6, "gsd": 1 + 1e-15}, {"median": 1e-6, "gsd": 1 + 1e-9}),
+        (tb.Uniform, {"low": 1e-6, "high": 1.000000000000001e-6}, {"low": 0.999e-6, "high": 1e-6}),
+    ],
+)
+def test_sizes_that_numbers_cannot_tell_apart_are_one_size(kind, narrow, wide):
+    with pytest.raises(tb.InvalidValue, match="use Monodisperse"):
+        kind(**narrow)
+    sizes = kind(**wide)
+    assert sizes.support[0] <= sizes.mean_diameter <= sizes.support[1]

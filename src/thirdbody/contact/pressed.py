@@ -221,8 +221,9 @@ def _broken(
     most = strength.of_size(np.maximum(spots.x, np.finfo(float).tiny))
     beyond = (spots.x > strength.least(material)) & (spots.load > most * spots.x**2)
     if np.any(beyond):  # the surfaces around a particle only lessen its tension
-        squeeze = (spots.depths[0] + spots.depths[1]) / spots.x
+        approach = np.broadcast_to(spots.depths[0] + spots.depths[1], beyond.shape)[beyond]
+        squeeze = approach / np.broadcast_to(spots.x, beyond.shape)[beyond]
         found = np.zeros(beyond.shape)
-        found[beyond] = tension(one, material.nu, strength.confinement).met(squeeze[beyond])
+        found[beyond] = tension(one, material.nu, strength.confinement).met(squeeze)
         beyond &= found > most
     return beyond

@@ -42,6 +42,19 @@ __all__ = [
 
 NORMAL_CUT = 8.5
 """Standard deviations after which a Gaussian tail holds less than 1e-17."""
+NARROWEST = 1e-11
+"""Width of the support over the largest diameter below which rounding blurs its shape."""
+
+
+def _blurred(sizes: Distribution, width: str) -> list[str]:
+    """Why sizes lie too close together for numbers to tell them apart, or nothing."""
+    low, high = sizes.support
+    if high - low > NARROWEST * high or not math.isfinite(high):
+        return []
+    return [
+        f"{type(sizes).__name__}.{width} must spread the diameters by more than {NARROWEST:g} of "
+        f"the largest, {high:g} m; for one single size use Monodisperse"
+    ]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,6 +95,9 @@ class TruncatedGaussian(Distribution):
         hint="for one single size use Monodisperse",
     )
     n: float = quantity("n", "1", "cut in standard deviations", default=3.0, gt=0)
+
+    def _problems(self) -> list[str]:
+        return _blurred(self, f"std = {self.std:g} m")
 
     @property
     def support(self) -> tuple[float, float]:
@@ -185,6 +201,9 @@ class LogNormal(Distribution):
 
     median: float = quantity("x_m", "m", "median diameter", gt=0, hint=LENGTH_HINT)
     gsd: float = quantity("σ_g", "1", "geometric standard deviation", gt=1, le=20)
+
+    def _problems(self) -> list[str]:
+        return _blurred(self, f"gsd = {self.gsd!r}")
 
     @property
     def s(self) -> float:
@@ -326,7 +345,7 @@ class Uniform(Distribution):
 
     def _problems(self) -> list[str]:
         if self.high > self.low:
-            return []
+            return _blurred(self, f"low = {self.low!r} m")
         return [
             f"Uniform.high = {self.high:g} must be above Uniform.low = {self.low:g} [m]; "
             "for one single size use Monodisperse"
