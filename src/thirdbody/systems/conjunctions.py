@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["GLASS", "Hertz", "Line", "Oil", "Point"]
 
 GLASS = 1e12
-"""Viscosity at which an oil counts as a glass, the cap of Barus' exponential [Pa s]."""
+"""Viscosity at which an oil counts as a glass: no formula of an oil goes beyond [Pa s]."""
 
 
 class Hertz(NamedTuple):
@@ -143,11 +143,11 @@ class Oil(Value):
         \left[\left(1 + \frac{p}{p_r}\right)^z - 1\right], \quad
         z = \frac{\alpha p_r}{\ln\eta + 9.67}
 
-        \text{Barus:}\quad \eta(p) = \min(\eta\,e^{\alpha p}, 10^{12}\,\text{Pa s}), \qquad
+        \text{Barus:}\quad \eta(p) = \eta\,e^{\alpha p}, \qquad
         \tau = \min\!\left(\tau_E\,\operatorname{asinh}\frac{\eta(p)\,\dot\gamma}{\tau_E},\
         \tau_L\right)
 
-    with p_r = 1.96·10⁸ Pa.
+    with p_r = 1.96·10⁸ Pa. From 10¹² Pa s on an oil is a glass: η(p) stays there.
 
     Parameters
     ----------
@@ -191,10 +191,12 @@ class Oil(Value):
         """
         p = np.asarray(pressure, float)
         if self.viscosity == "barus":
-            return self.eta * np.exp(np.minimum(self.alpha * p, math.log(GLASS / self.eta)))
-        span = math.log(self.eta) + 9.67
-        z = self.alpha * 1.96e8 / span
-        return self.eta * np.exp(span * ((1 + p / 1.96e8) ** z - 1))
+            log_ratio = self.alpha * p
+        else:
+            span = math.log(self.eta) + 9.67
+            z = self.alpha * 1.96e8 / span
+            log_ratio = span * ((1 + p / 1.96e8) ** z - 1)
+        return self.eta * np.exp(np.minimum(log_ratio, math.log(GLASS / self.eta)))
 
     def shear_stress(self, rate: Any, *, pressure: Any) -> Any:
         """Shear stress of the film [Pa]; NaN without an Eyring stress.
