@@ -33,6 +33,10 @@ HIGHEST = 36.0
 """Separation of the mean planes over σ above which the density underflows."""
 
 
+ROUNDING = 1e-12
+"""Of a separation over σ."""
+
+
 class FieldSum:
     """One rough surface as a field, as a function of the separation d [m]."""
 
@@ -47,7 +51,11 @@ class FieldSum:
         self.surface = field_of(chi, rough.alpha) if own is None else own_field(own, chi)
         self.unit = surfaces.E_star * self.gradient
         self.highest = (HIGHEST * self.sigma - rough.y_s) / self.sigma_s
-        self.deepest = self.centre + self.surface.lowest * self.sigma - rough.y_s
+        self._ends(self.surface.lowest)
+
+    def _ends(self, lowest: float) -> None:
+        """Nothing is known below this separation over σ, inside the table whatever the rounding."""
+        self.deepest = self.centre + (lowest + ROUNDING) * self.sigma - self.rough.y_s
         self.searched = (self.deepest - self.centre) / self.sigma_s
 
     def h(self, d: Array) -> Array:

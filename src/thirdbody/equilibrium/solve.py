@@ -223,7 +223,7 @@ def deepest(contact: Contact) -> float:
 def why_deep(contact: Contact) -> str:
     """What is allowed of separations, and why."""
     if interface(contact).one_field:
-        why = "where the table of the law field ends"
+        why = interface(contact).why_lowest
     else:
         why = (
             f"{-ReducedSum.DEEPEST:g} sigma_s from the mean asperity height, below which no "
