@@ -426,6 +426,9 @@ class LiftedSum(FieldSum):
     def fields(self, d: Array) -> Array:
         return self.plain.fields(self._lifted(d))
 
+    def stiffness(self, d: Array) -> Array:
+        return self.plain.stiffness(self._lifted(d))
+
     def spots(self, d: Array) -> list[AsperitySpots]:
         return self.plain.spots(self._lifted(d))
 
