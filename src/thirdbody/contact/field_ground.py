@@ -178,7 +178,7 @@ class Ground:
 
     def _of_asperities(self, h: Array) -> tuple[Array, Array]:
         """k_n^zs a_n and k_n^as a_n′/a_0′ at h: (N, 13) each."""
-        surface, h = self.field.surface, np.minimum(h, FAR)
+        surface, h = self.field.surface, np.clip(h, self.h[0], FAR)
         columns, slopes = surface.columns(h), surface.columns(h, 1)
         load = surface.load(h)
         basis = np.polynomial.chebyshev.chebvander(2 * columns[:, TAU] - 1, TERMS - 1)
@@ -239,6 +239,14 @@ class Ground:
         raise NoEquilibrium(
             "no equilibrium: the ground of the particles was not found at separations from "
             f"{self.h[rest].min():.3g} to {self.h[rest].max():.3g} sigma (law field)"
+        )
+
+    @property
+    def lowest(self) -> float:
+        """Separation over σ from which asperities on lifted ground are within their table."""
+        outside = np.flatnonzero((self.w < 0) & (self.h + self.w <= self.h[0] + 1e-9))
+        return float(
+            self.h[min(int(outside[-1]) + 1, len(self.h) - 1)] if len(outside) else self.h[0]
         )
 
     @cached_property
@@ -393,6 +401,7 @@ class LiftedSum(FieldSum):
     def __init__(self, field: FieldSum, ground: Ground):
         self.__dict__.update(vars(field))
         self.plain, self.ground = field, ground
+        self._ends(ground.lowest)
         from scipy.interpolate import make_interp_spline
 
         lift = make_interp_spline(ground.h, ground.w, k=5)
@@ -416,6 +425,9 @@ class LiftedSum(FieldSum):
 
     def fields(self, d: Array) -> Array:
         return self.plain.fields(self._lifted(d))
+
+    def stiffness(self, d: Array) -> Array:
+        return self.plain.stiffness(self._lifted(d))
 
     def spots(self, d: Array) -> list[AsperitySpots]:
         return self.plain.spots(self._lifted(d))

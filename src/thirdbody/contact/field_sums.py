@@ -8,13 +8,13 @@ with what `thirdbody.laws.field` says of the surface. It stands where a sum over
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
 from ..laws.asperity.field import TIP, Field
-from ..laws.field.formulas import area, hardness_ratio, load
+from ..laws.field.formulas import area, hardness_ratio, load, stiffness
 from ..laws.field.own import own_field
 from ..laws.field.table import field_of
 from ..populations.materials import MaterialPair
@@ -33,6 +33,10 @@ HIGHEST = 36.0
 """Separation of the mean planes over σ above which the density underflows."""
 
 
+ROUNDING = 1e-12
+"""Of a separation over σ."""
+
+
 class FieldSum:
     """One rough surface as a field, as a function of the separation d [m]."""
 
@@ -47,7 +51,11 @@ class FieldSum:
         self.surface = field_of(chi, rough.alpha) if own is None else own_field(own, chi)
         self.unit = surfaces.E_star * self.gradient
         self.highest = (HIGHEST * self.sigma - rough.y_s) / self.sigma_s
-        self.deepest = self.centre + self.surface.lowest * self.sigma - rough.y_s
+        self._ends(self.surface.lowest)
+
+    def _ends(self, lowest: float) -> None:
+        """Nothing is known below this separation over σ, inside the table whatever the rounding."""
+        self.deepest = self.centre + (lowest + ROUNDING) * self.sigma - self.rough.y_s
         self.searched = (self.deepest - self.centre) / self.sigma_s
 
     def h(self, d: Array) -> Array:
@@ -66,6 +74,11 @@ class FieldSum:
         A, plastic = area(self.surface, h, remains=self.law.remainder)
         return np.stack([F, A * (1 - plastic), np.zeros_like(F), A * plastic], axis=-1)
 
+    def stiffness(self, d: Array) -> Array:
+        """δp/δ of the patches that touch, their edges at rest, without shadow [Pa/m]: (N,)."""
+        found = stiffness(self.surface, self.h(d), remains=self.law.remainder)
+        return self.unit / self.sigma * found
+
     def share_beyond(self, d: float) -> float:
         """Its range ends where its table does: nothing is carried beyond."""
         return 0.0
@@ -79,7 +92,8 @@ class FieldSum:
         tiny = np.finfo(float).tiny
         count = F / np.maximum(F_tips, tiny)
         size = np.sum(areas, axis=0) / np.maximum(count * np.sum(areas_tips, axis=0), tiny)
-        return [FieldSpots.of(spots, count, np.where(F > 0, size, 1.0))]
+        found = FieldSpots.of(spots, count, np.where(F > 0, size, 1.0))
+        return [replace(found, stiffness=self.stiffness(d), regimes=np.stack(areas, axis=-1))]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -90,9 +104,22 @@ class FieldSpots(AsperitySpots):
     ----------
     size : array (N,)
         Area of each spot over that of its law [1].
+    stiffness : array (N,)
+        Of all patches at rest together [Pa/m], from the field.
+    regimes : array (N, 3)
+        A_e, A_ep, A_p of the field [1].
     """
 
     size: Array
+    stiffness: Array
+    regimes: Array
+
+    def thinned(self, factor: Array) -> Self:
+        return replace(
+            super().thinned(factor),
+            stiffness=self.stiffness * factor,
+            regimes=self.regimes * factor[:, None],
+        )
 
     @classmethod
     def of(cls, spots: AsperitySpots, count: Array, size: Array) -> Self:
@@ -122,6 +149,8 @@ class FieldSpots(AsperitySpots):
             lowest=spots.lowest,
             density=spots.density * count,
             size=size,
+            stiffness=np.full_like(size, np.nan),
+            regimes=np.full((len(size), 3), np.nan),
         )
 
     def area_at(self, omega: Array) -> Array:

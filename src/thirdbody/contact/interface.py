@@ -64,6 +64,14 @@ class Interface:
         return float(skin.centre + skin.searched * skin.sigma_s)
 
     @property
+    def why_lowest(self) -> str:
+        """What the lowest separation is, in words that follow a length."""
+        if self.one_field:
+            h = (self.lowest + self.mean_plane) / self.contact.roughness.sigma
+            return f"h = {h:.2g} sigma, where the table of the law field ends"
+        return f"{self.asperities.searched:g} sigma_s, where every asperity is in contact"
+
+    @property
     def one_field(self) -> bool:
         """Whether the rough surface is one field of heights, not a sum over summits."""
         return isinstance(self.asperities, FieldSum)

@@ -91,6 +91,13 @@ class AbstractOutput(Law):
         """Why this contact cannot have this output, one sentence each."""
         return []
 
+    def one_by_one(self, contact: Any) -> bool:
+        """Whether it asks what single asperities do, which a law of the whole surface cannot say.
+
+        Such a law answers with summits scaled to its load and area, and says so.
+        """
+        return True
+
     def warnings(self, state: Any, values: Mapping[str, Array]) -> list[str]:
         """Where these states leave the range of the output, one sentence each."""
         return []

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from ..contact.evaluation import bodies_of
+from ..contact.field_sums import FieldSpots
 from ..contact.output import AbstractOutput, Column, missing
 from ..populations.materials import Material
 from ..quantities.say import number, percent
@@ -49,22 +50,28 @@ def _through_asperities(
 ) -> Array:
     """Σ n/(ψR) of the asperities per nominal area: (N,)."""
     pair = state.contact.surfaces
+    rho_1, rho_2 = rho(pair.first), rho(pair.second)
 
-    def conductance(spots: AsperitySpots) -> Array:
+    def conductance(spots: AsperitySpots, film: float, mean_free_path: float) -> Array:
         touches = spots.area > 0
         b = np.sqrt(np.where(touches, spots.area, 1.0) / np.pi)
-        R = spot_resistance(
-            b,
-            rho_1=rho(pair.first),
-            rho_2=rho(pair.second),
-            film=film,
-            mean_free_path=mean_free_path,
-        )
+        R = spot_resistance(b, rho_1=rho_1, rho_2=rho_2, film=film, mean_free_path=mean_free_path)
         return np.where(touches, 1 / R, 0.0)
 
+    def summed(film: float, mean_free_path: float) -> Array:
+        return state.total(lambda spots: conductance(spots, film, mean_free_path))
+
+    if patches := [each for each in state.asperities if isinstance(each, FieldSpots)]:
+        whole = sum((each.stiffness / each.E_star for each in patches), np.zeros_like(state.d))
+        found = 2 / (rho_1 + rho_2) * whole
+        if film or mean_free_path:  # in series, as spots have them
+            with np.errstate(divide="ignore", invalid="ignore"):
+                more = 1 / summed(film, mean_free_path) - 1 / summed(0.0, 0.0)
+                found = np.where(found > 0, 1 / (1 / found + more), 0.0)
+        return found
     A_ss = state.total(lambda spots: spots.area)
     psi = spreading(np.sqrt(np.minimum(A_ss, 1.0)), form=form)
-    return state.total(conductance) / psi
+    return summed(film, mean_free_path) / psi
 
 
 def _through_particles(
@@ -191,6 +198,11 @@ class ThermalConductance(AbstractOutput):
     of magnitude for a contact without particles. Elastic-plastic asperities have more spots and
     1 to 2 times its value. Y is the separation of the mean planes h.
 
+    The law `thirdbody.asperity.Field` has no spots: its patches conduct as they are stiff (Barber),
+    :math:`2K/[E^*(1/k_1+1/k_2)]` with the stiffness K of the patches at rest, crowded or not, and
+    ``form`` has no effect. It is 3 % off up to a real area of 0.1, 11 % low at 0.3 where the surface
+    is plastic; a film lies in series to that, by spots scaled to its area.
+
     Particles do not take part in ψ: most of their resistance is their own. Grains below 0.1 µm
     conduct worse than the bulk of their crystal: give them their own conductivity. Flakes conduct
     at least as well as the ball of their thickness that is used here.
@@ -199,7 +211,8 @@ class ThermalConductance(AbstractOutput):
     ----------
     Cooper, Mikic, Yovanovich 1969, Int. J. Heat Mass Transfer 12, 279,
     doi:10.1016/0017-9310(69)90011-8; Yovanovich 2005, IEEE Trans. Compon. Packag. Technol. 28,
-    182, doi:10.1109/TCAPT.2005.848483; the particle is derived.
+    182, doi:10.1109/TCAPT.2005.848483; Barber 2003, Proc. R. Soc. A 459, 53,
+    doi:10.1098/rspa.2002.1038; the particle is derived.
 
     Examples
     --------
@@ -243,6 +256,9 @@ class ThermalConductance(AbstractOutput):
 
     def problems(self, contact: Contact) -> list[str]:
         return missing(self, _asked(contact, self.particles), "thermal_conductivity")
+
+    def one_by_one(self, contact: Contact) -> bool:
+        return bool(self.film or self.A_n)
 
     def of(self, state: Solved) -> dict[str, Array]:
         asperities = _through_asperities(state, _thermal, self.form, film=self.film)
@@ -307,13 +323,19 @@ class ElectricalConductance(AbstractOutput):
     -----
     Two solids that close on dust, a ball on a flat: `thirdbody.systems.contact_probability`.
 
+    The law `thirdbody.asperity.Field` has no spots: its patches conduct as they are stiff (Barber),
+    :math:`2K/[E^*(\rho_1+\rho_2)]` with the stiffness K of the patches at rest, crowded or not, and
+    ``form`` has no effect. It is 3 % off up to a real area of 0.1, 11 % low at 0.3 where the surface
+    is plastic; film and free path lie in series to that, by spots scaled to its area.
+
     Without films and with the electrons as the only carriers of heat, the thermal conductance is
     :math:`L\,T` times this one (Wiedemann and Franz; `thirdbody.effects.single.heat.LORENZ`).
 
     References
     ----------
     Holm 1967, Electric Contacts; Wexler 1966, Proc. Phys. Soc. 89, 927,
-    doi:10.1088/0370-1328/89/4/316; the particle is derived.
+    doi:10.1088/0370-1328/89/4/316; Barber 2003, Proc. R. Soc. A 459, 53,
+    doi:10.1098/rspa.2002.1038; the particle is derived.
 
     Examples
     --------
@@ -356,6 +378,9 @@ class ElectricalConductance(AbstractOutput):
 
     def problems(self, contact: Contact) -> list[str]:
         return missing(self, _asked(contact, self.particles), "resistivity")
+
+    def one_by_one(self, contact: Contact) -> bool:
+        return bool(self.film or self.mean_free_path or self.A_n)
 
     def of(self, state: Solved) -> dict[str, Array]:
         small: dict[str, Any] = dict(film=self.film, mean_free_path=self.mean_free_path)

@@ -82,6 +82,9 @@ class Crushing(AbstractOutput):
         "load_if_whole": Column("F_w/F", "1", "load of particles if none broke, over theirs"),
     }
 
+    def one_by_one(self, contact: Contact) -> bool:
+        return False  # of particles alone
+
     def problems(self, contact: Contact) -> list[str]:
         if any(each.strength is not None for each in contact.populations):
             return []

@@ -146,6 +146,9 @@ class Dents(AbstractOutput):
             "and only those, need the size of their fragments [m]"
         ]
 
+    def one_by_one(self, contact: Contact) -> bool:
+        return False  # of particles alone
+
     def problems(self, contact: Contact) -> list[str]:
         if self.debris == "hard":
             return self._contradictions(contact)

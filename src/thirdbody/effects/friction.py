@@ -437,6 +437,10 @@ class Friction(AbstractOutput):
         return self.motion(spots).side
 
     # ------------------------------------------------------------------ the interface
+    def one_by_one(self, contact: Contact) -> bool:
+        # shear goes by area and load in all; spots that grow and tips that plough do not
+        return self.alpha_T is not None or self.ratio(contact) > self.hardness_ratio
+
     def of(self, state: Solved) -> dict[str, Array]:
         nothing = np.zeros_like(state.d)
         force = dict.fromkeys((*PARTS, "plough_1", "plough_2", "rolling"), nothing)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..contact.field_sums import FieldSpots
 from ..contact.output import AbstractOutput, Column
 from ..errors import InvalidValue
 from ..laws.base import REGIMES
@@ -197,6 +198,19 @@ class Wear(AbstractOutput):
         found = {name: (values[0], values[1]) for name, values in out.items()}
         return found | {"rolls": (rolls * spots.load, ~rolls * spots.load)}
 
+    def _worn_asperities(self, state: Solved) -> Array:
+        """Σ K a over the asperities [1]; of one field by its own areas."""
+        if patches := [each for each in state.asperities if isinstance(each, FieldSpots)]:
+            kinds = np.arange(len(REGIMES))
+            return sum(
+                (self._archard("ss", kinds, each.regimes).sum(axis=1) for each in patches),
+                np.zeros_like(state.d),
+            )
+        return state.total(lambda spots: self._archard("ss", spots.regime, spots.area))
+
+    def one_by_one(self, contact: Contact) -> bool:
+        return False  # what asperities wear goes by areas
+
     def of(self, state: Solved) -> dict[str, Array]:
         friction: Friction = state.output("friction")
         surfaces = state.contact.surfaces
@@ -204,7 +218,7 @@ class Wear(AbstractOutput):
         volume = {
             name: [nothing, nothing] for name in ("ss", "sa", "groove", "roll", "cut", "rolls")
         }
-        worn = state.total(lambda spots: self._archard("ss", spots.regime, spots.area))
+        worn = self._worn_asperities(state)
         H = (surfaces.first.H, surfaces.second.H)
         shares = (0.5, 0.5) if H[0] == H[1] else (float(H[0] < H[1]), float(H[0] > H[1]))
         volume["ss"] = [share * worn for share in shares]

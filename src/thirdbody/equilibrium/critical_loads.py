@@ -14,7 +14,7 @@ from ..errors import InvalidValue
 from ..quantities.carried import takes_units
 from .load_scan import load_scan
 from .modes import EPS_1, EPS_2, WINDOW
-from .states import FEWEST, carries, state_columns
+from .states import FEWEST, carries, state_columns, varied
 from .status import DEEPEST
 
 if TYPE_CHECKING:
@@ -131,6 +131,18 @@ class Shares:
         deepest = rough.y_s - (first["h"] - first["d"]) + DEEPEST * rough.sigma_s
         self.top = np.asarray(first["d"], float)
         self.bottom = np.where(np.isnan(last["d"]), deepest, last["d"])
+        if contact.asperity_law.of_surface:
+            self.bottom = np.maximum(self.bottom, self._ends(np.flatnonzero(np.isnan(last["d"]))))
+
+    def _ends(self, which: NDArray[np.intp]) -> Array:
+        """Lowest separation of a law of the whole surface, whose end depends on the contact."""
+        out = np.full(self.count, -np.inf)
+        for i in which.tolist():
+            own = {name: values[i].item() for name, values in self.vary.items()}
+            out[i] = (
+                interface(varied(self.contact, own)).lowest + 1e-9 * self.contact.roughness.sigma
+            )
+        return out
 
     def _solve(self, **given: Any) -> Arrays:
         return state_columns(self.contact, **given, vary=self.vary or None)

@@ -223,7 +223,7 @@ def deepest(contact: Contact) -> float:
 def why_deep(contact: Contact) -> str:
     """What is allowed of separations, and why."""
     if interface(contact).one_field:
-        why = "where the table of the law field ends"
+        why = interface(contact).why_lowest
     else:
         why = (
             f"{-ReducedSum.DEEPEST:g} sigma_s from the mean asperity height, below which no "
@@ -528,10 +528,12 @@ def _warnings(
                 f"load is on those {tips.beyond}"
             )
     out += about_elastic(contact, bound, full, d)
-    if bound.one_field and contact.outputs:
+    scaled = [each.name for each in contact.outputs if each.one_by_one(contact)]
+    if bound.one_field and scaled:
+        names = ", ".join(f"outputs.{name}" for name in scaled)
         out.append(
-            "the law field knows no single spots: what outputs say of asperities is of the summits "
-            "of zmc, in number and area scaled to its load and area"
+            f"the law field knows no single spots: what {names} says of asperities is of the "
+            "summits of zmc, in number and area scaled to its load and area"
         )
     if bound.particles is not None:
         out += about_particles(contact)

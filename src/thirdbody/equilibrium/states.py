@@ -240,7 +240,10 @@ def _with_outputs(
     # states of one contact share their spots; those of one surface share its tables, and those
     # that differ in the number of particles alone share the spots of one particle
     count = arrays.get(DENSITY, np.ones(len(loads)))
-    for which in _alike({**arrays, DENSITY: count == 0}, len(loads)):
+    alike = {**arrays, DENSITY: count == 0}
+    if contact.asperity_law.of_surface:  # where particles stand depends on how many there are
+        alike = dict(arrays)
+    for which in _alike(alike, len(loads)):
         own = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
         crowd = count[which] / (count[which[0]] or 1.0)
         values, _ = evaluate(own, interface(own), _taken(out, which), crowd)

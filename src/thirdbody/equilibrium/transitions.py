@@ -162,6 +162,11 @@ def transitions(
     -----
     A scan of 200 loads, refined around each crossing to 1e-9 of the load.
 
+    C is read off a curve that is nearly straight, with two bends of opposite sign: where asperities
+    begin to carry (dust in a ball screw, F* = 5e-5: +0.030 by `ZMC`, +0.014 by `Field`) and where
+    particles cease to (5e-4: −0.035, −0.011). Which of the two is larger changes with the law, and
+    C with it by a factor of ten, while B changes by 9 %.
+
     References
     ----------
     Horng et al. 2022, section 3, doi:10.3390/lubricants10070164.

@@ -13,7 +13,6 @@ import numpy as np
 from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..equilibrium.load_scan import load_scan
-from ..equilibrium.status import DEEPEST
 from ..errors import InvalidValue, NoEquilibrium
 from ..numerics.quadrature import gauss_legendre
 
@@ -42,8 +41,8 @@ class Skin:
     """A pressure law p(u) [Pa] with its slope, and where it may be used.
 
     Made of a `Contact`, or of a callable ``pressure(gap) -> (p, dp/dgap)`` over arrays with E*.
-    Below ``floor`` (−3 σ_s) the law of a contact is continued by its tangent, so that iterates
-    may pass there; a solution may not.
+    Below ``floor`` (−3 σ_s, or where the table of one field ends) the law of a contact is continued
+    by its tangent, so that iterates may pass there; a solution may not.
     """
 
     def __init__(self, source: Contact | Callable[..., Any], E_star: float | None):
@@ -325,10 +324,10 @@ def balance_at(
 
 def _deep_enough(skin: Skin, found: Balance) -> Balance:
     """The balance, unless it lies where the law of the skin ends."""
-    if np.min(found.gap) < skin.floor:
+    if skin.bound is not None and np.min(found.gap) < skin.floor:
         raise NoEquilibrium(
-            f"the local gap falls to {np.min(found.gap):.4g} m, below the {skin.floor:.4g} m "
-            f"({DEEPEST:g} sigma_s) at which every asperity is in contact"
+            f"the local gap falls to {np.min(found.gap):.4g} m, below the {skin.floor:.4g} m of "
+            f"{skin.bound.why_lowest}"
         )
     return found
 

@@ -142,6 +142,11 @@ def mean_interaction(
     -------
     MeanInteraction
 
+    Raises
+    ------
+    InvalidValue
+        A law of the whole surface (`thirdbody.asperity.Field`), which holds the interaction.
+
     Notes
     -----
     Provenance: recalled; the shape factors are derived. The balance has one root where the load
@@ -166,6 +171,7 @@ def mean_interaction(
     for name, value in (("nominal_area", nominal_area), ("kappa", kappa)):
         if not (math.isfinite(value) and value > 0):
             raise InvalidValue(f"{name} = {value!r} must be > 0")
+    _check_sum(contact)
     bound = interface(contact)
     compliance = kappa * math.sqrt(nominal_area) / contact.E_ss
     if d_0 is None:
@@ -206,6 +212,17 @@ def mean_interaction(
         nominal_area=nominal_area,
         kappa=kappa,
     )
+
+
+def _check_sum(contact: Contact) -> None:
+    """Only a sum over summits lacks what contacts do to each other."""
+    if contact.asperity_law.of_surface:
+        raise InvalidValue(
+            f"asperity_law {contact.asperity_law.name}: its pressures already press each other's "
+            "ground down, and interaction would count that twice; call solve, or take a law of "
+            'single asperities, e.g. "zmc"; how two bodies sink in as a whole is that of '
+            "rough_body"
+        )
 
 
 # ------------------------------------------------------------------------------ local
@@ -431,6 +448,12 @@ def local_interaction(
     -------
     LocalInteraction
 
+    Raises
+    ------
+    InvalidValue
+        Particles, elliptic or adhesive tips, or a law of the whole surface
+        (`thirdbody.asperity.Field`), which holds the interaction.
+
     Notes
     -----
     Provenance: the formula 1.12√(pW)/E* recalled, rederived here. For a given separation the
@@ -452,6 +475,7 @@ def local_interaction(
     >>> round((near.d - alone.d) * 1e9, 3), round(near.A_t / alone.A_t - 1, 4)
     (5.588, -0.009)
     """
+    _check_sum(contact)
     name, values, scalar = given_load(contact, pressure, F_star, d)
     sums = _SelfLoaded(contact)
     if nominal_area is not None and not nominal_area > 0:

@@ -322,6 +322,8 @@ def mixed_film(
     h_T = bodies.thickness(u, np.exp(x))
     h = height_of(h_T, sigma=sigma)
     d = h - interface(contact).mean_plane
+    if np.any(deep := d < bodies.floor):
+        _refuse_deep(contact, float(u[deep].max()))
     state, notes = _solve_heard(contact, d)
     notes += _ranges(bodies, u, h_T / sigma)
 
@@ -395,13 +397,26 @@ class Lubricated:
 
     @property
     def floor(self) -> float:
-        """Separation d below which all asperities are crushed, which no film asks for [m]."""
-        return interface(self.contact).asperities.centre + DEEPEST * self.contact.roughness.sigma
+        """Separation d below which all asperities are crushed, or the law ends [m]."""
+        skin = interface(self.contact).asperities
+        return float(max(skin.centre + DEEPEST * self.contact.roughness.sigma, skin.deepest))
 
     def solid_share(self, h: Array) -> Array:
         """Load of asperities and particles at h above the mean plane [m], over the load."""
         bound = interface(self.contact)
         return bound.load(np.maximum(h - bound.mean_plane, self.floor))[:, 0] / self.p
+
+
+def _refuse_deep(contact: Contact, speed: float) -> None:
+    """A gap that is narrower than the law of the solids knows."""
+    bound = interface(contact)
+    end = f"{DEEPEST:g} sigma from the mean asperity height"
+    if bound.one_field:
+        end = bound.why_lowest
+    raise NoEquilibrium(
+        f"no equilibrium at speed = {speed:g} m/s: the film leaves a gap below {end}, where what "
+        "the solids carry is not known; take a higher speed or a smaller load"
+    )
 
 
 def lubricated(

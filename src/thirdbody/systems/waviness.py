@@ -155,9 +155,10 @@ class Histogram:
     def _at(self, skin: Skin, d: float, bare: bool = False) -> Balance:
         gap = d - self.heights
         p, slope = skin(gap)
-        if not bare and np.min(gap) < skin.floor:
+        if not bare and skin.bound is not None and np.min(gap) < skin.floor:
             raise NoEquilibrium(
-                f"the local gap falls to {np.min(gap):.4g} m, where every asperity is in contact"
+                f"the local gap falls to {np.min(gap):.4g} m, below the {skin.floor:.4g} m of "
+                f"{skin.bound.why_lowest}"
             )
         grid = Grid(self.heights, -self.heights, np.zeros((0, 0)), self.weights)
         return Balance(

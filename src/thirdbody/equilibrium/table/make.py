@@ -220,9 +220,7 @@ def _check_range(bound: Interface, low: float, high: float, shift: float, name: 
     if low < bottom - 1e-12 * bound.asperities.sigma_s:
         raise InvalidValue(
             f"low: {name} = {low + shift:.6g} m must be >= {bottom + shift:.6g} m, "
-            f"{bound.asperities.searched:.3g} sigma_s, where "
-            + ("its table ends" if bound.one_field else "every asperity is in contact")
-            + " and the model ends"
+            f"{bound.why_lowest} and the model ends"
         )
     if not low < high:
         raise InvalidValue(

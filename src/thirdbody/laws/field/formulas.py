@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import ndtr
 
+from .conduction import patch_remainder
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["area", "hardness_ratio", "load", "remainder"]
+__all__ = ["area", "hardness_ratio", "load", "remainder", "stiffness"]
 
 
 def hardness_ratio(rough: Roughness, *, E_star: float, H: float) -> float:
@@ -79,3 +81,13 @@ def area(surface: FieldSurface, h: Array, *, remains: bool) -> tuple[Array, Arra
         whole = carried * (1 + e)
     plastic = np.clip(columns[:, PLASTIC], 0.0, 1.0)
     return whole / (surface.chi * ratio), np.where(ratio >= 1, 1.0, plastic)
+
+
+def stiffness(surface: FieldSurface, h: Array, *, remains: bool) -> Array:
+    r"""Kσ/(E*g) of the patches that touch, whose conductance is 2K/(E*(ρ_1 + ρ_2)): (N,).
+
+    Without the remainder a lower bound. An elastic surface has K = −dF/dh but for 2 % (h from
+    0.7 σ on, with the remainder); where a surface yields, −dF/dh is less.
+    """
+    more = patch_remainder(surface.alpha) if remains else 0.0
+    return (1 + more) * surface.stiffness(h)

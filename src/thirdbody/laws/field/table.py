@@ -16,6 +16,7 @@ import numpy as np
 from scipy.special import erfcx, ndtr
 
 from ...errors import InvalidValue
+from .conduction import TERMS, patch_stiffness
 from .programme import MOMENTS
 from .spectrum import Spectrum, rolled_off
 
@@ -170,6 +171,29 @@ class FieldSurface:
         third = P3 + 3 * P2 * y[1] + 3 * P1 * (y[2] + y[1] ** 2)
         third = third + P * (y[3] + 3 * y[1] * y[2] + y[1] ** 3)
         return np.stack([-e * first, -e * second, -e * third], axis=-1)
+
+    @cached_property
+    def _stiffness(self) -> BSpline:
+        """ln of κ over the bearing area at the separations of the table."""
+        from scipy.interpolate import make_interp_spline
+
+        stiff = self._patches(self.rows)
+        return make_interp_spline(self.h, np.log(stiff / ndtr(-self.h)), k=5)
+
+    def _patches(self, columns: Array, h: Array | None = None) -> Array:
+        h = self.h if h is None else h
+        return patch_stiffness(
+            self.spectrum.series(TERMS), h + columns[:, EDGE], np.clip(columns[:, TAU], 0.0, 1.0)
+        )
+
+    def stiffness(self, h: Array) -> Array:
+        """κ = Kσ/(E*g), the stiffness of the patches that touch, not less: (N,)."""
+        inside = np.clip(h, self.lowest, self.h[-1])
+        out = np.exp(self._stiffness(inside)) * ndtr(-inside)
+        if np.any(beyond := h > self.h[-1]):
+            out[beyond] = self._patches(self.columns(h[beyond]), h[beyond])
+        out[h < self.lowest] = np.nan
+        return out
 
     def energy(self, h: Array) -> Array:
         """Φ: (N,)."""

@@ -29,7 +29,9 @@ GROUPS = {
     "bumps": "The same, with the law of a resolved bump",
     "spectra": "Spectrum of the roughness",
     "materials": "Hardness",
+    "hard": "Hardness over what flattens slopes, χ = H/(E*g), x/σ = 1",
     "mixtures": "Sizes spread log-normally",
+    "debris": "Debris wider than summits",
     "densities": "Particles per area",
     "seats": "Seats",
     "loads": "Large loads",
@@ -63,8 +65,12 @@ def _contact(
     H: tuple[float, float] | None = None,
     sizes: tb.Distribution | None = None,
     law: Any = None,
+    harder: float = 4.0,
 ) -> tb.Contact:
-    """The interface of the stored runs, with other numbers."""
+    """The interface of the stored runs, with other numbers.
+
+    Particles of a surface whose hardness is given are so many times ``harder``.
+    """
     base = stored_contact(over_sigma * SIGMA)
     body = base.surfaces.first
     surfaces = base.surfaces
@@ -73,7 +79,7 @@ def _contact(
     material = particles.material
     if H is not None:
         surfaces = tb.MaterialPair(body.replace(H=H[0]), body.replace(H=H[1]))
-        material = body.replace(H=4 * max(H))
+        material = body.replace(H=harder * max(H))
     rough = base.roughness
     if alpha != 5.0:
         # asperities of a Gaussian surface, Nayak 1971
@@ -91,6 +97,13 @@ def _contact(
         ),
         particle_law=law or base.particle_law,
     )
+
+
+def _hard(chi: float, alpha: float = 5.0, over_sigma: float = 1.0, **other: Any) -> tb.Contact:
+    """Surfaces of the hardness χE*g."""
+    plain = _contact(over_sigma, alpha=alpha)
+    H = chi * plain.E_ss * plain.roughness.slope
+    return _contact(over_sigma, alpha=alpha, H=(H, H), **other)
 
 
 def _named(over_sigma: float) -> str:
@@ -144,9 +157,25 @@ def _cases() -> tuple[Case, ...]:
         ("large_soft", f"soft, H/E* = 0.018, {_named(1)}", _contact(1.0, H=(soft, soft))),
     ):
         out.append(Case(name=name, group="loads", words=words, contact=case, loads=LARGE))
+    out += _crowded()
     return tuple(out)
 
 
+def _crowded() -> list[Case]:
+    """Surfaces hard against their slopes, and soft debris, at real areas of 0.002 to 0.25."""
+    out = [
+        Case(name=f"chi{chi:g}_alpha{alpha:g}", group="hard", words=f"χ = {chi:g}, α = {alpha:g}",
+             contact=_hard(chi, alpha), loads=CROWDED)
+        for chi, alpha in ((0.4, 5.0), (0.7, 5.0), (0.4, 3.0), (0.4, 15.0))
+    ]  # fmt: skip
+    debris = tb.LogNormal(median=5 * SIGMA, gsd=1.5)
+    wide = _hard(0.6, over_sigma=5.0, sizes=debris, density=1e10, harder=0.5)
+    words = f"half as hard, median {_named(5)}, σ_g = 1.5, χ = 0.6"
+    out.append(Case(name="debris", group="debris", words=words, contact=wide, loads=CROWDED))
+    return out
+
+
 LARGE = (2e-3, 4e-3, 8e-3)
+CROWDED = (4e-4, 4e-3, 1.6e-2)
 CASES = _cases()
 """Every row."""
