@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from ...quantities.progress import heartbeat
 from ...quantities.say import number, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, ParquetFile, Settings, XlsxFile, read_study
@@ -52,7 +53,8 @@ def command(
     files.need(figure)
     if figure is not None:
         figure_format(figure)  # refused before long work
-    result = run_film(asked)
+    with heartbeat("film"):
+        result = run_film(asked)
     for sentence in result["warnings"][len(asked.notes) :]:
         warn(sentence)
     drawn = None
