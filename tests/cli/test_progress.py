@@ -21,7 +21,7 @@ UNCOUNTED = {
     "film": ("oil_film",),
     "table": ("dusty_ball_screw", "--out", "table.csv", "--tolerance", "1e-2"),
     "explicit": LONG["explicit"],
-    "design": ("additive", "--set", "design.points=2"),
+    "design": ("additive", "--set", "design.points=4"),
 }
 """Commands that show no parts of their work, or only on a terminal."""
 

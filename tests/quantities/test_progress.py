@@ -206,9 +206,14 @@ def test_a_work_without_parts_says_that_it_goes_on(beats, monkeypatch):
 
 def test_a_work_that_fails_stops_its_heartbeat(beats):
     threads = threading.active_count()
-    with pytest.raises(tb.InvalidValue), progress.heartbeat("solve"):
+
+    @progress.heartbeat("solve")
+    def failing():
         beats(1)
         raise tb.InvalidValue("no")
+
+    with pytest.raises(tb.InvalidValue):
+        failing()
     assert threading.active_count() == threads
 
 

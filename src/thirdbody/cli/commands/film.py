@@ -90,7 +90,9 @@ def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, 
     mine |= {name: "m" for name in mine if name == "largest"}
     mine |= {name: "1/m^2" for name in mine if name.endswith(": areal_density")}
     units |= mine
-    return columns, {name: "" if name == "regime" else unit for name, unit in units.items()}
+    return columns, {
+        name: "" if name in ("regime", "status") else unit for name, unit in units.items()
+    }
 
 
 def _show(result: dict[str, Any]) -> None:
