@@ -25,6 +25,8 @@ PIP     := install
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 export MPLBACKEND ?= Agg
+# commands that tests start are compiled once, not at every start
+unexport PYTHONDONTWRITEBYTECODE
 
 # files, not single tests, lie beside each other on a worker: what they share is made once
 PYTEST   = $(RUN)/python -m pytest -q -n $(WORKERS) --dist worksteal --durations 10

@@ -139,17 +139,17 @@ def other_cases():
                 particles=dust.replace(diameter=diameter, shape=shape),
             ),
         )
-    debris = tb.Particles(material=SOFT, areal_density=3e11, diameter=SIZES["lognormal"])
-    yield (
-        "two populations",
-        tb.Contact(surfaces=pair, roughness=ROUGH, particles=(dust, debris)),
-    )
+    small = tb.Monodisperse(mean=0.8 * MEAN)
+    for sizes, name in ((small, "two populations"), (SIZES["lognormal"], MANY)):
+        debris = tb.Particles(material=SOFT, areal_density=3e11, diameter=sizes)
+        yield name, tb.Contact(surfaces=pair, roughness=ROUGH, particles=(dust, debris))
     shapes = tb.Ellipticity(ratios=(1.5, 4.0), weights=(2.0, 1.0), radii=(1.0, 1.4))
     law = tb.asperity.REGISTRY["elliptic-zmc"]()
     rough = ROUGH.replace(ellipticity=shapes)
     yield "ellipticity", tb.Contact(surfaces=pair, roughness=rough, asperity_law=law)
 
 
+MANY = "two populations, one of many sizes"
 QUICK = {f"{subject.label} gaussian" for subject in SUBJECTS}
 CASES = dict(itertools.chain(two_body_cases(), particle_cases(), other_cases()))
 
@@ -174,7 +174,8 @@ def chosen():
     for i, name in enumerate(CASES):
         grains = name.startswith(("series ", "flakes ")) and i % 7
         heights = name.startswith("ceb ") and name not in QUICK
-        yield pytest.param(name, marks=pytest.mark.slow if grains or heights else ())
+        slow = grains or heights or name == MANY
+        yield pytest.param(name, marks=pytest.mark.slow if slow else ())
 
 
 @pytest.mark.parametrize("name", list(chosen()))

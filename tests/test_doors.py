@@ -260,15 +260,18 @@ def test_what_may_happen_is_let_pass():
         assert not mutated_studies.problems(drawn, mutated_studies.Ended(status, out, err))
 
 
-@pytest.mark.parametrize("index", range(4))
+@pytest.mark.parametrize(
+    "index", [0, 2, *(pytest.param(index, marks=pytest.mark.slow) for index in (1, 3))]
+)
 def test_contact_with_all_that_it_may_have(index):
     result = random_contacts.run(40, index, shares=3, whole=True)
     assert not result["failed"], random_contacts.told(result)
 
 
+@pytest.mark.slow
 def test_all_that_a_contact_may_have_is_drawn():
     drawn = []
-    for index in range(120):
+    for index in range(60):
         try:
             drawn.append(random_contacts.draw_whole(40, index).contact)
         except tb.InvalidValue:

@@ -242,7 +242,7 @@ class Squashed(Side):
     def first(self, excess: Any) -> float:
         """The first indentation at which this is positive."""
         u = np.linspace(0, 0.49999, 2001)[1:]
-        i = int(np.argmax([excess(each) > 0 for each in u]))
+        i = int(np.argmax(excess(u) > 0))
         return brentq(excess, u[i] - u[0], u[i])
 
     def free(self, delta: Any) -> Any:
@@ -432,12 +432,20 @@ def integral(f: Any, *edges: Any) -> Any:
         tuple(zip(*box, strict=True)) for box in itertools.product(*map(itertools.pairwise, edges))
     ]
 
+    values: dict[bytes, Any] = {}
+
+    def at(v: Any) -> Any:
+        """f, which both passes ask for at the points of every box."""
+        if (key := v.tobytes()) not in values:
+            values[key] = f(*v.T).T
+        return values[key]
+
     def total(f: Any, rtol: float, atol: float) -> Any:
         return sum(cubature(f, *box, rtol=rtol, atol=atol).estimate for box in boxes)
 
-    size = np.abs(total(lambda v: f(*v.T).T, 0.1, 0.0))
+    size = np.abs(total(at, 0.1, 0.0))
     size[size == 0] = 1.0
-    return size * total(lambda v: f(*v.T).T / size, 1e-11, 1e-12)
+    return size * total(lambda v: at(v) / size, 1e-11, 1e-12)
 
 
 def between(low: float, high: float, points: Any) -> Any:

@@ -15,12 +15,36 @@ LONG = {
     "design": ("additive", "--set", "design.points=8"),
     "explicit": ("explicit", "--surfaces", "1", "--size", "128", "--set", "load.F_star=1e-5"),
 }
+UNCOUNTED = {
+    "solve": ("quartz_in_bearing",),
+    "compare": ("two_body_reference",),
+    "film": ("oil_film",),
+    "table": ("dusty_ball_screw", "--out", "table.csv", "--tolerance", "1e-2"),
+    "explicit": LONG["explicit"],
+    "design": ("additive", "--set", "design.points=4"),
+}
+"""Commands that show no parts of their work, or only on a terminal."""
+
+
+@pytest.mark.parametrize("name", UNCOUNTED)
+def test_long_work_says_in_a_pipe_that_it_goes_on(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(progress, "EVERY", 1e6)
+    stem, *options = UNCOUNTED[name]
+    quiet = run(name, BY_NAME[stem], *options)
+    assert "still at work" not in quiet.stderr
+    monkeypatch.setattr(progress, "EVERY", 1e-3)
+    done = run(name, BY_NAME[stem], *options)
+    assert f"{name}: still at work after " in done.stderr
+    assert (done.exit_code, done.stdout) == (quiet.exit_code, quiet.stdout)
 
 
 @pytest.mark.parametrize("name", LONG)
 def test_a_pipe_is_told_nothing(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(progress, "LONG", math.inf)  # what takes long is told, also to a pipe
+    # what takes long is told, also to a pipe
+    monkeypatch.setattr(progress, "LONG", math.inf)
+    monkeypatch.setattr(progress, "EVERY", 1e6)
     stem, *options = LONG[name]
     done = run(name, BY_NAME[stem], *options)
     assert done.exit_code in (0, 3), done.output

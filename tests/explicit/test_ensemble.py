@@ -99,9 +99,9 @@ def test_what_a_draw_carries_on_average_counts_the_tail_of_the_sizes():
     found = sums._expected(
         contact, surface, tb.explicit.RandomSeats(), np.empty(0), np.array([h]), gaussian=True
     )
-    x, weight = gauss(np.log(1e-8), np.log(3e-5), 4000)
+    x, weight = gauss(np.log(1e-8), np.log(3e-5), 500)
     x, weight = np.exp(x), weight * np.exp(x) * sizes.pdf(np.exp(x))
-    zeta, share = gauss(-8, 8, 800)
+    zeta, share = gauss(-8, 8, 400)
     share = share * np.exp(-(zeta**2) / 2) / np.sqrt(2 * np.pi)
     squeeze = x[:, None] + sigma * zeta - h
     load = np.sum(weight[:, None] * share * x[:, None] ** 2 * law.force(squeeze / x[:, None]))

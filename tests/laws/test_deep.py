@@ -253,13 +253,13 @@ def test_tables_and_definition_agree():
             seats = np.sort([gap - x * (1 - k) for k in [0.0, *one.kinks]])
 
             def f(z):
-                squeezed = one(np.array([1 - (gap - z) / x]))[0, 0]
+                squeezed = one(1 - (gap - z) / x)[:, 0]
                 return x * x * squeezed * stats.norm.pdf(z, 0, 100e-9)
 
             ends = [*np.clip(seats, -9e-7, 9e-7), 9e-7]
             return (
                 sum(
-                    integrate.fixed_quad(np.vectorize(f), a, b, n=24)[0]
+                    integrate.fixed_quad(f, a, b, n=24)[0]
                     for a, b in itertools.pairwise(ends)
                     if b > a
                 )

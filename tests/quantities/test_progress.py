@@ -1,5 +1,6 @@
 """Long work says what it costs and how far it is, whoever does it, by a clock of the test."""
 
+import threading
 import warnings
 
 import numpy as np
@@ -168,6 +169,52 @@ def test_a_part_of_another_work_moves_its_bar():
         (1.25, "samples, half"),
         (1.5, "ends"),
     ]
+
+
+@pytest.fixture
+def beats(monkeypatch):
+    """A function that waits for the next lines of a heartbeat, and gives the last."""
+    lines, told = [], threading.Event()
+
+    def hear(line, **_):
+        lines.append(line)
+        told.set()
+
+    def after(count):
+        for _ in range(count):
+            told.clear()
+            assert told.wait(60)
+        return lines[-1]
+
+    monkeypatch.setattr(progress, "print", hear, raising=False)
+    monkeypatch.setattr(progress, "EVERY", 1e-3)
+    monkeypatch.setattr(progress, "_terminal", lambda: False)
+    return after
+
+
+def test_a_work_without_parts_says_that_it_goes_on(beats, monkeypatch):
+    monkeypatch.setattr(progress, "time", clock := Clock(0.0))
+    threads = threading.active_count()
+    with progress.heartbeat("solve"):
+        assert beats(1) == "solve: still at work after 0 s"
+        clock.now += 240.0
+        for _ in range(3):
+            progress.advance()
+        assert beats(3) == "solve: still at work after 4 minutes, contacts so far: 3"
+    assert threading.active_count() == threads
+
+
+def test_a_work_that_fails_stops_its_heartbeat(beats):
+    threads = threading.active_count()
+
+    @progress.heartbeat("solve")
+    def failing():
+        beats(1)
+        raise tb.InvalidValue("no")
+
+    with pytest.raises(tb.InvalidValue):
+        failing()
+    assert threading.active_count() == threads
 
 
 @pytest.mark.parametrize(

@@ -112,7 +112,7 @@ def test_the_same_in_other_words_is_the_same(film):
     assert first.speed == pytest.approx(other.speed, rel=1e-15)
     assert first.load == pytest.approx(other.load, rel=1e-15)
     two = other.at(by_hand()[0]).columns()
-    for name in one.keys() - {"residual", "regime"}:
+    for name in one.keys() - {"residual", "regime", "status"}:
         assert one[name] == pytest.approx(two[name], rel=1e-11), name
 
 
@@ -383,7 +383,7 @@ def test_json_csv_and_figure(tmp_path):
     told = json.loads(done.stdout)
     head, *rows = csv.reader(numbers.open(encoding="utf-8"))
     assert head[:4] == ["speed [m/s]", "hersey [1]", "pressure [Pa]", "h [m]"]
-    assert head[-2:] == ["residual [1]", "S45C: passing [1]"]
+    assert head[-3:] == ["residual [1]", "status", "S45C: passing [1]"]
     assert "regime" in head
     assert [float(row[head.index("mu [1]")]) for row in rows] == told["states"]["mu"]
     assert figure.read_bytes().startswith(b"<?xml")

@@ -235,4 +235,4 @@ def test_mistakes():
     with pytest.raises(tb.NoEquilibrium, match="no contact"):
         rough_sphere(contact, radius=5e-3, d=1e-3)
     with pytest.raises(tb.NoEquilibrium, match="every asperity"):
-        rough_sphere(steel_contact(1e-9), radius=5e-3, load=100.0)
+        rough_sphere(steel_contact(5e-9), radius=5e-3, load=100.0)

@@ -8,7 +8,8 @@ import numpy as np
 
 from ..laws.base import AbstractParticleLaw, SeatedLaw
 from ..laws.field.formulas import hardness_ratio
-from .status import MOST_AREA
+from ..quantities.say import percent
+from .status import MOST_AREA, Status
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["about_area", "chi_of", "crowded"]
+__all__ = ["about_area", "chi_of", "crowded", "crowded_places"]
 
 CLOSE = 0.05
 """Real area above which summits grow together that this model counts one by one; the numbers are
@@ -78,6 +79,38 @@ def crowded(contact: Contact, A_t: Array) -> NDArray[np.bool_]:
         return np.zeros(np.shape(A_t), bool)
     with np.errstate(invalid="ignore"):
         return np.asarray(A_t > MOST_AREA)
+
+
+def crowded_places(contact: Contact, A_t: Array, load: Array) -> tuple[float, str]:
+    """The share of the load [1] at places that are crowded, and the status of the whole.
+
+    Parameters
+    ----------
+    contact : Contact
+    A_t : array (N,)
+        Real area per nominal area of each place [1].
+    load : array (N,)
+        What each place carries, in any unit: its pressure times its share of the area.
+
+    Returns
+    -------
+    float, str
+        The status is "ok", or a sentence that begins with "crowded".
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> steel = tb.materials["S45C"]
+    >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+    ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+    >>> crowded_places(contact, np.array([0.2, 0.6]), np.array([3.0, 1.0]))[0]
+    0.25
+    """
+    close = crowded(contact, A_t)
+    if not np.any(close):
+        return 0.0, Status.OK.sentence
+    share = float(np.sum(load[close]) / np.sum(load))
+    return share, f"{Status.CROWDED.sentence}; so it is where {percent(share)} of the load is"
 
 
 def about_area(contact: Contact, most: float, chi: Sequence[float] = ()) -> list[str]:

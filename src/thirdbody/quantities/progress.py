@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 import time
 import warnings
 from collections.abc import Callable, Iterator
@@ -18,6 +19,7 @@ __all__ = [
     "advance",
     "counted",
     "duration",
+    "heartbeat",
     "nested",
     "reporting",
     "solved",
@@ -280,6 +282,53 @@ def watched(what: str, total: int, wanted: bool | Report) -> Iterator[None]:
         cost = Cost(total, report, "" if wanted else f"contacts of {what}")
         with counted(total, lambda done, expected: cost(1.0)):
             yield
+
+
+@contextmanager
+def heartbeat(title: str) -> Iterator[None]:
+    """Says that a work still goes on whose parts are not shown, and how many contacts are bound.
+
+    On a terminal a line that stays in its place, after a second; elsewhere one every half minute.
+
+    Parameters
+    ----------
+    title : str
+        What stands in front.
+    """
+    bound, start, ended = 0, time.monotonic(), threading.Event()
+
+    def count(done: int, expected: int) -> None:
+        nonlocal bound
+        bound = done
+
+    def words() -> str:
+        more = f", contacts so far: {bound}" if bound > 1 else ""
+        return f"{title}: still at work after {duration(time.monotonic() - start)}{more}"
+
+    beat = _beat_on_terminal if _terminal() else _beat_in_lines
+    thread = threading.Thread(target=beat, args=(words, ended), daemon=True)
+    thread.start()
+    try:
+        with counted(0, count):
+            yield
+    finally:
+        ended.set()
+        thread.join()
+
+
+def _beat_in_lines(words: Callable[[], str], ended: threading.Event) -> None:
+    while not ended.wait(EVERY):
+        print(words(), file=sys.stderr, flush=True)
+
+
+def _beat_on_terminal(words: Callable[[], str], ended: threading.Event) -> None:
+    if ended.wait(SURE):
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status(words()) as shown:
+        while not ended.wait(SURE):
+            shown.update(words())
 
 
 # -------------------------------------------------------------------------- states

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.contact import Contact
+from ..equilibrium.crowding import crowded_places
 from ..equilibrium.solve import solve
 from ..equilibrium.words import meets
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
@@ -306,7 +307,7 @@ class Pressed:
     peak_pressure : float or None
         Largest pressure between the rough bodies [Pa].
     note : str
-        Why it was not integrated, or not with the rough body.
+        Why it was not integrated, or not with the rough body; or that places of it are crowded.
     particles_held : float or None
         Particles that lie on the area of one contact, on average [1]; None without particles.
     """
@@ -327,14 +328,17 @@ class Pressed:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Where the bodies themselves yield."""
+        """Where contacts have grown together, and where the bodies themselves yield."""
+        crowd = self.real_area is not None and self.note.startswith("crowded")
+        close = (f"under {value_of(self.force, 'N')}: {self.note}",) if crowd else ()
         if self.maximum <= self.yields:
-            return ()
+            return close
         if self.kind == "flat":
             first = "the yield stress Y = 0.375 H: p_0 = 1.6 Y = 0.6 H at first yield under a ball"
         else:
             first = "p_0 = 1.6 Y = 0.6 H, at which yield begins below a ball (ZMC, k = 0.4)"
         return (
+            *close,
             f"under {value_of(self.force, 'N')} the bodies themselves yield: the largest pressure, "
             f"{value_of(self.maximum, 'Pa')}, is above {value_of(self.yields, 'Pa')}, {first}; "
             "Hertz and the elastic bodies then overestimate the pressure",
@@ -427,21 +431,24 @@ def _integrated(contact: Contact, body: Body, force: float, hertz: Hertz) -> dic
     try:
         if isinstance(shape, Line):
             roller = rough_cylinder(contact, radius=shape.R, load=one / shape.length, quick=True)
-            return _told(contact, roller, shape.length)
+            return _values(contact, roller, shape.length)
         if isinstance(shape, Point) and shape.ratio == 1:
-            return _told(contact, rough_sphere(contact, radius=shape.R, load=one, quick=True), 1.0)
+            ball = rough_sphere(contact, radius=shape.R, load=one, quick=True)
+            return _values(contact, ball, 1.0)
     except (NoEquilibrium, InvalidValue) as error:
         why = str(error).splitlines()[0]
-    return _over_pressure(contact, shape, hertz) | ({"note": why} if why else {})
+    found = _over_pressure(contact, shape, hertz)
+    return found | ({"note": why} if why and not found.get("note") else {})
 
 
-def _told(contact: Contact, found: Any, length: float) -> dict[str, Any]:
+def _values(contact: Contact, found: Any, length: float) -> dict[str, Any]:
     share = None if contact.two_body else found.particle_load_share
     return {
         "method": "rough body",
         "real_area": length * found.real_area,
         "particle_load_share": share,
         "peak_pressure": found.peak_pressure,
+        "note": "" if found.status == "ok" else found.status,
     }
 
 
@@ -451,10 +458,11 @@ def _over_pressure(contact: Contact, shape: Point | Line | None, hertz: Hertz) -
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
         state = solve(contact, pressure=pressure)
-    status = np.atleast_1d(state.status)
-    if bad := [text for text in status.tolist() if text != "ok"]:
-        return {"note": bad[0]}
+    known = np.isfinite(np.atleast_1d(state.A_t))
+    if not known.all():
+        return {"note": np.atleast_1d(state.status)[~known].tolist()[0]}
     load = weights @ pressure
+    _, crowd = crowded_places(contact, np.atleast_1d(state.A_t), weights * pressure)
     share = None
     if not contact.two_body:
         share = float(weights @ (pressure * np.atleast_1d(state.particle_load_share)) / load)
@@ -463,6 +471,7 @@ def _over_pressure(contact: Contact, shape: Point | Line | None, hertz: Hertz) -
         "real_area": float(hertz.area) * float(weights @ np.atleast_1d(state.A_t)),
         "particle_load_share": share,
         "peak_pressure": float(hertz.maximum),
+        "note": "" if crowd == "ok" else crowd,
     }
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import interface
+from ..equilibrium.crowding import crowded_places
 from ..equilibrium.load_scan import load_scan
 from ..errors import InvalidValue, NoEquilibrium
 from ..numerics.quadrature import gauss_legendre
@@ -37,6 +38,11 @@ NODES = (40, 60, 90, 135, 200, 300, 450)
 
 
 # ------------------------------------------------------------------------------ the skin
+def crowded_warning(status: str) -> tuple[str, ...]:
+    """What a status that is not "ok" is warned of."""
+    return () if status == "ok" else (status,)
+
+
 class Skin:
     """A pressure law p(u) [Pa] with its slope, and where it may be used.
 
@@ -83,6 +89,11 @@ class Skin:
             p = np.where(deep, value + tangent * (gap - self.floor), p)
             slope = np.where(deep, tangent, slope)
         return p, slope
+
+    def crowded_places(self, A_t: Array, load: Array) -> tuple[float, str]:
+        """The share of the load [1] at places that are crowded, and the status of the whole."""
+        assert self.bound is not None
+        return crowded_places(self.bound.contact, A_t, load)
 
     def one(self, gap: float) -> tuple[float, float]:
         p, slope = self(np.array([gap]))

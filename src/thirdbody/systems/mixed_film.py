@@ -159,6 +159,8 @@ class MixedFilm:
         "boundary", "mixed" or "full film", by the share of the solids.
     residual : float or array (N,)
         Imbalance of the shares |1 − their sum| [1].
+    status : str or array (N,)
+        "ok", or why the numbers of the solids are no answer, as in `Equilibrium`.
     state : Equilibrium
         The dry side: the contact at the same separation.
     warnings : tuple of str
@@ -200,6 +202,7 @@ class MixedFilm:
     viscosity: Number = _column("η_p", "Pa s", "viscosity at the pressure of the film")
     regime: Any = _column("regime", "", "boundary, mixed or full film, by the share of the solids")
     residual: Number = _column("r", "1", "imbalance of the shares |1 − their sum|")
+    status: Any = _column("status", "", "ok, or why the numbers of the solids are no answer")
     state: Equilibrium = field(repr=False)
     warnings: tuple[str, ...] = ()
 
@@ -351,6 +354,7 @@ def mixed_film(
         "viscosity": oil.at(p * film_share),
         "regime": _regimes(ss + sa, few, most),
         "residual": np.abs(film_share + (ss + sa) - 1),
+        "status": np.asarray(state.status, dtype=str),
     }
     for sentence in notes:
         tell_of_range(sentence)

@@ -39,6 +39,7 @@ from .elastic_balance import (
     _line_weights,
     _ring_compliance,
     balance,
+    crowded_warning,
     to_series,
 )
 
@@ -83,6 +84,11 @@ class RoughBody:
         Load of the particles over the total load [1].
     resolution, residual : float
         Last coefficients of the pressure over the largest [1], largest error of the gap [m].
+    crowded_share : float or None
+        Share of the load at places where contacts have grown together, so that a model that counts
+        them one by one has no answer [1]; None for a plain pressure law.
+    status : str
+        "ok", or a sentence that begins with "crowded".
     warnings : tuple of str
         Where the body leaves the range of the model.
 
@@ -114,6 +120,8 @@ class RoughBody:
     particle_load_share: float | None
     resolution: float
     residual: float
+    crowded_share: float | None = None
+    status: str = "ok"
     warnings: tuple[str, ...] = ()
 
 
@@ -126,13 +134,15 @@ def _result(
     ring = state.extent**2 * _ring_compliance(n)[2] / (2 * math.pi)
     axis = (-1.0) ** np.arange(n) @ to_series(n)[1]
     axis_gap = state.d + float(axis @ (grid.compliance @ p))
-    area = share = None
+    area = share = close = None
+    status = "ok"
     if skin.bound is not None:
         fields_ = skin.bound.fields(state.gap)
         area = float(grid.weights @ fields_["A_t"])
         share = float(grid.weights @ fields_["F_sa"]) / state.load
+        close, status = skin.crowded_places(fields_["A_t"], grid.weights * p)
     a_hertz, p_hertz = shape.hertz(state.load)
-    notes = skin.warnings
+    notes = skin.warnings + crowded_warning(status)
     if state.tail > resolved:
         notes += (f"the pressure is resolved to {state.tail:.1g} only: its edge is very sharp",)
     return RoughBody(
@@ -153,6 +163,8 @@ def _result(
         particle_load_share=share,
         resolution=state.tail,
         residual=state.residual,
+        crowded_share=close,
+        status=status,
         warnings=notes,
     )
 

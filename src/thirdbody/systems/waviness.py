@@ -25,7 +25,16 @@ import numpy as np
 from ..contact.contact import Contact
 from ..errors import InvalidValue, NoEquilibrium
 from ..quantities.carried import takes_units
-from .elastic_balance import OUT_OF_REACH, WIDENED, Balance, Grid, Skin, balance, to_series
+from .elastic_balance import (
+    OUT_OF_REACH,
+    WIDENED,
+    Balance,
+    Grid,
+    Skin,
+    balance,
+    crowded_warning,
+    to_series,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -62,6 +71,11 @@ class WavyContact:
         Load of the particles over the total load [1].
     resolution : float
         Last coefficients of the pressure over the largest [1]; 0 for a measured wave.
+    crowded_share : float or None
+        Share of the load at places where contacts have grown together, so that a model that counts
+        them one by one has no answer [1]; None for a plain pressure law.
+    status : str
+        "ok", or a sentence that begins with "crowded".
     warnings : tuple of str
         Where the contact leaves the range of the model.
 
@@ -90,6 +104,8 @@ class WavyContact:
     A_sa: float | None
     particle_load_share: float | None
     resolution: float
+    crowded_share: float | None = None
+    status: str = "ok"
     warnings: tuple[str, ...] = ()
 
 
@@ -169,11 +185,13 @@ class Histogram:
 def _result(skin: Skin, state: Balance, cosine: bool) -> WavyContact:
     grid = state.grid
     areas: dict[str, float | None] = dict.fromkeys(("A_t", "A_ss", "A_sa"))
-    share = None
+    share = close = None
+    status = "ok"
     if skin.bound is not None:
         fields = skin.bound.fields(state.gap)
         areas = {name: float(grid.weights @ fields[name]) for name in areas}
         share = float(grid.weights @ fields["F_sa"]) / state.load
+        close, status = skin.crowded_places(fields["A_t"], grid.weights * state.pressure)
     return WavyContact(
         d=state.d,
         pressure=state.load,
@@ -186,7 +204,9 @@ def _result(skin: Skin, state: Balance, cosine: bool) -> WavyContact:
         local_pressure=state.pressure,
         particle_load_share=share,
         resolution=state.tail,
-        warnings=skin.warnings,
+        crowded_share=close,
+        status=status,
+        warnings=skin.warnings + crowded_warning(status),
         **areas,
     )
 

@@ -10,6 +10,7 @@ import typer
 
 from ...equilibrium.words import load_of
 from ...errors import InvalidValue, NoEquilibrium
+from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table
 from ..options import ParquetFile, Settings, StudyFile, XlsxFile, not_a_folder, read_study
@@ -73,7 +74,8 @@ def command(
     files = TableFiles(csv_file, xlsx_file, parquet_file)
     files.need()
     asked = read_study(study, settings, writes=[*files, *_of_folder(out)])
-    found = compared(asked.contact, **_equal_loads(asked), laws=_words(names))
+    with heartbeat("compare"):
+        found = compared(asked.contact, **_equal_loads(asked), laws=_words(names))
     for sentence in filter(None, found.attrs["warnings"].splitlines()):
         warn(sentence)
     reasons = found.columns["status"]

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ...quantities.progress import heartbeat
 from ...quantities.say import concentration_of, number, percent, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, ParquetFile, Settings, XlsxFile, read_study
@@ -45,7 +47,9 @@ def command(
     files.need(figure)
     if figure is not None:
         figure_format(figure)  # refused before long work
-    best = design_study(asked, progress=sys.stderr.isatty())
+    bar = sys.stderr.isatty()
+    with nullcontext() if bar else heartbeat("design"):
+        best = design_study(asked, progress=bar)
     for sentence in best.warnings:
         warn(sentence)
     columns = {name: each.values.tolist() for name, each in best.of_points.items()}

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from ...errors import InvalidValue
+from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, Settings, StudyFile, not_a_folder, read_study
@@ -68,11 +70,13 @@ def command(
     if out is not None:
         claim_results(out, asked, maps=maps)
     kept = None if out is None else out / "surfaces"
+    # a measured surface is one: nothing counts it
+    bar = sys.stderr.isatty() and len(asked.faces) != 1
     try:
-        result = run_explicit(
-            asked, folder=kept, maps=maps, workers=workers, scheduler=scheduler,
-            progress=sys.stderr.isatty(),
-        )  # fmt: skip
+        with nullcontext() if bar else heartbeat("explicit"):
+            result = run_explicit(
+                asked, folder=kept, maps=maps, workers=workers, scheduler=scheduler, progress=bar
+            )
     except BaseException:
         if out is not None:
             release_folder(out)

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from ...quantities.progress import heartbeat
 from ...quantities.say import number, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, ParquetFile, Settings, XlsxFile, read_study
@@ -52,7 +53,8 @@ def command(
     files.need(figure)
     if figure is not None:
         figure_format(figure)  # refused before long work
-    result = run_film(asked)
+    with heartbeat("film"):
+        result = run_film(asked)
     for sentence in result["warnings"][len(asked.notes) :]:
         warn(sentence)
     drawn = None
@@ -88,7 +90,9 @@ def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, 
     mine |= {name: "m" for name in mine if name == "largest"}
     mine |= {name: "1/m^2" for name in mine if name.endswith(": areal_density")}
     units |= mine
-    return columns, {name: "" if name == "regime" else unit for name, unit in units.items()}
+    return columns, {
+        name: "" if name in ("regime", "status") else unit for name, unit in units.items()
+    }
 
 
 def _show(result: dict[str, Any]) -> None:

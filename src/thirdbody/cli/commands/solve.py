@@ -21,6 +21,7 @@ from ...equilibrium.words import (
     unsolved,
 )
 from ...errors import NoEquilibrium
+from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, unit_of, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, ParquetFile, Settings, StudyFile, XlsxFile, read_study
@@ -70,7 +71,8 @@ def command(
         )
     files.need()
     asked = read_study(study, settings, writes=files.asked)
-    result = run_study(asked)
+    with heartbeat("solve"):
+        result = run_study(asked)
     for sentence in result["warnings"][len(asked.notes) :]:
         warn(sentence)
     statuses = result["states"]["status"]

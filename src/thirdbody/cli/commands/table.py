@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from ...errors import InvalidValue
+from ...quantities.progress import heartbeat
 from ...quantities.say import value_of
 from ..options import Settings, StudyFile, metres, read_study
 
@@ -60,7 +61,8 @@ def command(
         raise InvalidValue(*problems)
     contact = read_study(study, settings, writes=[out]).contact
     need_folders(out)
-    made = table(contact, low=ends[0], high=ends[1], tolerance=tolerance, coordinate=coordinate)
+    with heartbeat("table"):
+        made = table(contact, low=ends[0], high=ends[1], tolerance=tolerance, coordinate=coordinate)
     write, _ = FORMATS[name]
     write(made, out, **({} if units is None else {"units": units}))
     first, last = (value_of(float(made.p(end)), "Pa") for end in made.h[[0, -1]])
