@@ -37,7 +37,7 @@ TOLD = 0.01
 
 
 def buried(contact: Contact, d: Array) -> Array:
-    """Share of the particles' load on those that sit deeper than their radius: (N,).
+    """Share of the particles' load on those that sink in deeper than their radius: (N,).
 
     Zero where the particle law knows no single particles.
     """
@@ -72,7 +72,7 @@ def _shares(contact: Contact, d: Array, *, brittle: bool = True) -> tuple[Array,
         for spots in groups:
             total += spots.total(spots.load)
             if split:
-                deep += spots.total(spots.load * (np.maximum(*spots.depths) > spots.half))
+                deep += spots.total(spots.load * (np.maximum(*spots.sinks) > spots.half))
             if strength is not None:
                 one = contact.law_of(each).one(surfaces=contact.surfaces, particle=each.material)
                 beyond = _broken(spots, strength, one, each.material)
@@ -180,7 +180,7 @@ def _squeeze_under(
 def _wide_squeeze(law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material) -> float:
     """Squeeze over diameter at which a squashed particle's contact is `WIDE`; inf for others."""
     one = law.one(surfaces=surfaces, particle=particle)
-    if not getattr(one, "spreads", False) or getattr(law, "deep", "off") == "table":
+    if not getattr(one, "spreads", False) or all(one.knows_sink):
         return math.inf
     squeezes = np.geomspace(1e-6, 2.0, 400)
     wide = np.minimum(*one.at(squeezes).areas) > math.pi * (WIDE / 2) ** 2
@@ -193,12 +193,9 @@ def _radius_squeeze(
 ) -> tuple[float, ...]:
     """Squeeze over diameter at which a particle sits as deep as its radius."""
 
-    if getattr(law, "deep", "off") == "table":
-        return ()  # it follows particles to any depth
-
     def beyond(eps: Array) -> Array:
         one = law.probe(eps, surfaces=surfaces, particle=particle)
-        return np.ravel(np.maximum(*one.depths) - one.half)
+        return np.ravel(np.maximum(*one.sinks) - one.half)
 
     found = bracketed_root(beyond, np.array([1e-6]), np.array([4.0]), xrtol=1e-12)
     return tuple(found[np.isfinite(found)].tolist())

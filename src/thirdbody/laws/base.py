@@ -347,6 +347,9 @@ class OneParticle(ABC):
         Of the softer body of each side [Pa].
     shape : Angular, optional
         Of particles that are not round.
+    knows_sink : (bool, bool), optional
+        Whether the law says of each side how deep the particle sinks into the surface, and how
+        much of the indentation is its own squash.
     """
 
     kinks: Sequence[float] | Array
@@ -356,6 +359,7 @@ class OneParticle(ABC):
     yields: tuple[float, float]
     hardness: tuple[float, float]
     shape: Angular | None = None
+    knows_sink: tuple[bool, bool] = (False, False)
 
     @abstractmethod
     @takes_units
@@ -416,6 +420,7 @@ class OneParticle(ABC):
             yields=self.yields,
             hardness=self.hardness,
             shape=self.shape,
+            knows_sink=self.knows_sink,
         )
 
 

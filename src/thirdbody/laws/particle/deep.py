@@ -33,6 +33,8 @@ TERMS = 10
 """Of series of the roots of its slopes."""
 SOFT, RIGID = 0.4, 10.0
 """Hardness ratios up to which surfaces count as rigid, and from which the particle does."""
+SINK_AT = np.linspace(LAW_ENDS, TABLE_ENDS, 19)
+"""Squeezes ε of the table, at which sinks stand."""
 SOFTEST_KAPPA = 8.0
 """E*/H below which the elastic part of the table is not extrapolated further."""
 
@@ -44,8 +46,8 @@ class SqueezeCurve(NamedTuple):
     """ln F/(πR²H), with the hardness H of the softer body [1]."""
     log_area: Array
     """ln A/(πR²) [1]."""
-    share: Array
-    """Sink of the particle into the surface over its squeeze [1]."""
+    sinks: Array
+    """Sink of the particle into the surface over R, at the squeezes `SINK_AT` [1]."""
 
 
 class _Run(NamedTuple):
@@ -77,11 +79,10 @@ class _Run(NamedTuple):
         root: Array = chebval(own, self.series[name]["root"]) * math.sqrt((step[1] - step[0]) / 2)
         return np.where(eps <= self.high * (1 + 1e-9), root, 0.0)
 
-    def share(self, places: Array) -> Array:
-        """Sink into each surface over the squeeze (N,), beyond the run as at its end."""
-        eps = np.clip(squeeze_at(places), self.low, self.high)
-        share: Array = chebval(place_of(eps, self.low, self.high), self.series["share"])
-        return share
+    @property
+    def share(self) -> Array:
+        """Sink into each surface over the squeeze, at `SINK_AT`."""
+        return np.array(self.series["sink"]) / SINK_AT
 
     @property
     def node(self) -> float:
@@ -89,7 +90,7 @@ class _Run(NamedTuple):
         return math.log(min(max(self.ratio, SOFT), RIGID))
 
 
-COLUMNS = ("own", "area", "share")
+COLUMNS = ("own", "area", "sink")
 """Load without what touching collars carry, contact area, and sink over the squeeze."""
 
 
@@ -148,7 +149,7 @@ def squeeze_curve(ratio: float, friction: float, kappa: float) -> SqueezeCurve:
 
     Load and area rise with the squeeze: the square roots of the slopes of their logarithms are
     interpolated, in ln ρ and in m by monotone cubics and in 1/κ in straight lines, so that no
-    combination falls.
+    combination falls. Sinks are those of rigid-plastic bodies, in ln ρ in straight lines.
 
     Parameters
     ----------
@@ -174,10 +175,29 @@ def squeeze_curve(ratio: float, friction: float, kappa: float) -> SqueezeCurve:
         root = Chebyshev(transform @ row[1:])
         return ((root * root).integ(lbnd=-1) + row[0]).coef
 
-    share = _between(x, nodes, np.array([run.share(places) for run in welded]))
     log_load = logarithm("own")
     log_load[0] -= math.log(math.pi * FULL)
-    return SqueezeCurve(log_load, logarithm("area"), transform @ share)
+    return SqueezeCurve(log_load, logarithm("area"), _sinks(x, friction, frictions))
+
+
+def _sinks(x: float, friction: float, frictions: Array) -> Array:
+    """Sinks over R at `SINK_AT`, between the rigid-plastic runs: never falling with the squeeze.
+
+    Nor do they rise faster than it, so that the squash of the particle never falls either.
+    """
+    from scipy.interpolate import make_interp_spline
+
+    shares = []
+    for m in frictions:
+        runs = _chosen(m)
+        nodes = np.array([run.node for run in runs])
+        # in straight lines: a cubic is half as steep again where a particle begins to embed
+        between = make_interp_spline(nodes, np.array([run.share for run in runs]), k=1)
+        shares.append(between(np.clip(x, nodes[0], nodes[-1])))
+    out = _between(friction, frictions, np.array(shares)) * SINK_AT
+    for i in range(1, len(out)):
+        out[i] = np.clip(out[i], out[i - 1], out[i - 1] + (SINK_AT[i] - SINK_AT[i - 1]))
+    return out
 
 
 def _row(run: _Run, name: str, places: Array) -> Array:
@@ -254,6 +274,7 @@ class DeepSide(Side):
     """
 
     spreads = True
+    knows_sink = True
 
     def __init__(
         self,
@@ -271,7 +292,7 @@ class DeepSide(Side):
         self.hill = form.friction / (3 * math.sqrt(3))
         curve = squeeze_curve(form.ratio, form.friction, E_star / H)
         self._table = np.stack([curve.log_load, curve.log_area], axis=-1)
-        self._share = curve.share
+        self._sunk = curve.sinks
         self._at_top = np.exp(chebval(1.0, self._table))
         self.end = self._sinks(max(1 / form.ratio, 1.0))
         turns = [y for y in self.law.breakpoints if y < self._reduced(LAW_ENDS)]
@@ -366,10 +387,19 @@ class DeepSide(Side):
         return self._columns(y)[1] / self._squeeze(1.0)
 
     def sink(self, delta: Array) -> Array:
-        """How deep the particle sinks into the surface, of an approach δ; both over x."""
-        eps = np.clip(delta / self.R, LAW_ENDS, TABLE_ENDS)
-        share = chebval(place_of(eps, LAW_ENDS, TABLE_ENDS), self._share)
-        return delta * np.clip(share, 0.0, 1.0)
+        """How deep the particle sinks into the surface, of an approach δ; both over x.
+
+        Of rigid-plastic bodies, a monotone cubic through what was computed. Beyond the table in
+        the same proportion, and from `end` on, where neither body gives way further, whole.
+        """
+        from scipy.interpolate import pchip_interpolate
+
+        eps = np.asarray(delta, dtype=float) / self.R
+        nodes, sinks = np.append(0.0, SINK_AT), np.append(0.0, self._sunk)
+        within: Array = pchip_interpolate(nodes, sinks, np.clip(eps, 0.0, TABLE_ENDS))
+        disc = np.clip(eps, TABLE_ENDS, self.end) - TABLE_ENDS
+        whole = np.maximum(eps - self.end, 0.0)
+        return self.R * (within + disc * (sinks[-1] / TABLE_ENDS) + whole)
 
 
 THINNEST = -30.0

@@ -60,6 +60,8 @@ class Side:
     """
 
     spreads = False
+    knows_sink = False
+    """`sink` is not the whole indentation, but what was computed."""
 
     def __init__(
         self,
@@ -233,6 +235,7 @@ class SqueezedParticle(OneParticle):
         self.hardness = (float(self.sides[0].H), float(self.sides[1].H))
         self.great_circle = self.breadth * math.pi / 4
         self.spreads = any(side.spreads for side in self.sides)
+        self.knows_sink = (self.sides[0].knows_sink, self.sides[1].knows_sink)
         self.equal = first == second and forms[0] == forms[1]
         one, two = self.sides
         kinks = set()
