@@ -321,8 +321,6 @@ class Squeezed(NamedTuple):
     """Indentations δ_1 and δ_2 over x, ε in sum."""
     areas: tuple[Array, Array]
     """Contact areas over x² [1]."""
-    sinks: tuple[Array, Array] | None = None
-    """Depths of the impressions in the surfaces over x, where they are not the indentations."""
 
 
 class OneParticle(ABC):
@@ -371,6 +369,10 @@ class OneParticle(ABC):
     def regime(self, side: int, depth: Array) -> NDArray[np.intp]:
         """Index into `REGIMES` of side 0 or 1 indented by depth over x (N,)."""
 
+    def sinks(self, depths: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Depths of the impressions in the surfaces, of indentations (N,); all over x."""
+        return depths
+
     @cached_property
     def panels(self) -> Array:
         """The kinks, and more ε between kinks that lie far apart."""
@@ -382,7 +384,7 @@ class OneParticle(ABC):
     def __call__(self, eps: Array) -> Array:
         """The seven `COLUMNS` per x² at ε: (N, 7)."""
         eps = np.asarray(eps, dtype=float)
-        load, depths, (one, two), _ = self.at(eps)
+        load, depths, (one, two) = self.at(eps)
         regime = self.regime(0, depths[0])
         out = np.empty((len(eps), len(COLUMNS)))
         out[:, 0] = load
@@ -403,9 +405,10 @@ class OneParticle(ABC):
         first, second = (
             x**2 * np.where(eps > 0, area, 0.0).reshape(x.shape) for area in found.areas
         )
-        first_sink, second_sink = (
-            x * sink.reshape(x.shape) for sink in found.sinks or found.depths
-        )
+        sinks = (one, two)
+        if any(self.knows_sink):
+            first_sink, second_sink = self.sinks(found.depths)
+            sinks = (x * first_sink.reshape(x.shape), x * second_sink.reshape(x.shape))
         regimes = [self.regime(i, found.depths[i]).reshape(x.shape) for i in (0, 1)]
         return ParticleSpots(
             share=share,
@@ -414,7 +417,7 @@ class OneParticle(ABC):
             x=x,
             radius=self.tip_radius * x,
             depths=(one, two),
-            sinks=(first_sink, second_sink),
+            sinks=sinks,
             areas=(first, second),
             regimes=(regimes[0], regimes[1]),
             yields=self.yields,

@@ -384,9 +384,9 @@ class FilmParticles(Value):
         particle = self._particle()
 
         def excess(eps: float) -> float:
-            squeezed = particle.at(np.array([eps]))
-            depths = squeezed.depths if self.debris == "hard" else squeezed.sinks
-            return float(depths[side][0]) / depth - 1
+            depths = particle.indentations(np.array([eps]))
+            sinks = depths if self.debris == "hard" else particle.sinks(depths)
+            return float(sinks[side][0]) / depth - 1
 
         if excess(particle.kinks[-1]) <= 0:
             return math.inf

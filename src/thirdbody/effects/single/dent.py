@@ -321,8 +321,8 @@ def dent_of(
     -----
     Depth left by `thirdbody.effects.single.ploughing.residual_depth`, where the source stands; the
     width is that under load, of a cap as deep as the sink and as wide as the contact
-    (`ParticleSpots.impression_radius`). Angular particles leave dents as wide as their contact: up to the end
-    of their rounded tip a cap, from there on a cone, V = πa²δ_res/3.
+    (`ParticleSpots.impression_radius`). Angular particles leave dents as wide as their contact: up
+    to the end of their rounded tip a cap, from there on a cone, V = πa²δ_res/3.
 
     Examples
     --------

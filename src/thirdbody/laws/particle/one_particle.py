@@ -374,8 +374,11 @@ class SqueezedParticle(OneParticle):
             load=self.force(eps, one),
             depths=depths,
             areas=(first.area(one), second.area(two)),
-            sinks=(first.sink(one), second.sink(two)),
         )
+
+    def sinks(self, depths: tuple[Array, Array]) -> tuple[Array, Array]:
+        one, two = depths
+        return self.sides[0].sink(one), self.sides[1].sink(two)
 
     def __call__(self, eps: Array) -> Array:
         out = OneParticle.__call__(self, eps)
