@@ -28,6 +28,7 @@ def contact(*, size=300e-9, density=0.0, first=STEEL, second=STEEL, dust=SILICA,
         surfaces=tb.MaterialPair(first, second),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=particles,
+        particle_law=tb.particle.Series(deep="off"),
         outputs=(FRICTION, heat),
     )
 
