@@ -172,7 +172,7 @@ def test_the_template_with_steel_debris_tells(tmp_path):
 
     text = resources.files("thirdbody").joinpath("data/studies/rolling-bearing.toml").read_text()
     file = tmp_path / "study.toml"
-    file.write_text(text + "\n[outputs.dents]\n")
+    file.write_text(text + '\n[particle_law]\nname = "series"\ndeep = "off"\n\n[outputs.dents]\n')
     found = run_study(load_study(file))
     assert all(n is None or n > 0 for n in found["states"]["n_dents_1"])
     assert any(n for n in found["states"]["n_dents_1"])
@@ -230,23 +230,27 @@ def test_ductile_particles_are_as_wide_as_they_are_squashed():
     assert wide[0] < x
 
 
-def test_a_film_is_a_contact_with_a_plane_seat():
+@pytest.mark.parametrize("deep", ["off", "table"])
+def test_a_film_is_a_contact_with_a_plane_seat(deep):
     """The single-particle route and the contact agree where the gap is one height."""
-    law = Series(deep="off", seat="plane")
+    law = Series(deep=deep, seat="plane")
     h = 300e-9
+    tight = 1e-7 if deep == "off" else 1e-4  # sums do not stop at the squeezes of the table
     found = tb.solve(contact(law=law), d=h).outputs
     film = oil_particles.FilmParticles(
         surfaces=tb.MaterialPair(STEEL, SOFT), material=SILICA, diameter=SIZES,
-        number=1e10 / h, film=h, entry=1.0, deep="off",
+        number=1e10 / h, film=h, entry=1.0, deep=deep,
     )  # fmt: skip
     for side in (1, 2):
         dents = film.dents(side)
-        assert found[f"n_dents_{side}"] == pytest.approx(dents.number, rel=1e-7)
-        assert found[f"dent_depth_{side}"] == pytest.approx(dents.depth, rel=1e-7)
-        assert found[f"dent_width_{side}"] == pytest.approx(dents.diameter, rel=1e-7)
-        assert found[f"dent_volume_{side}"] == pytest.approx(dents.volume, rel=1e-7)
+        assert found[f"n_dents_{side}"] == pytest.approx(dents.number, rel=tight)
+        assert found[f"dent_depth_{side}"] == pytest.approx(dents.depth, rel=tight)
+        assert found[f"dent_width_{side}"] == pytest.approx(dents.diameter, rel=tight)
+        assert found[f"dent_volume_{side}"] == pytest.approx(dents.volume, rel=tight)
         assert found[f"dent_depth_p95_{side}"] == pytest.approx(dents.depth_p95, rel=0.02)
-        assert found[f"embedded_{side}"] == pytest.approx(dents.number * dents.embedded, rel=1e-6)
+        assert found[f"embedded_{side}"] == pytest.approx(
+            dents.number * dents.embedded, rel=1e-6 if deep == "off" else 1e-4
+        )
 
 
 def test_refusals():

@@ -400,14 +400,13 @@ class DeepSide(Side):
     def sink(self, delta: Array) -> Array:
         """How deep the particle sinks into the surface, of an approach δ; both over x.
 
-        Of rigid-plastic bodies, a monotone cubic through what was computed. Beyond the table in
-        the same proportion, and from `end` on, where neither body gives way further, whole.
+        Of rigid-plastic bodies, in straight lines between what was computed, so that neither it
+        nor the squash of the particle ever falls. Beyond the table in the same proportion, and
+        from `end` on, where the particle gives way no further, whole.
         """
-        from scipy.interpolate import pchip_interpolate
-
         eps = np.asarray(delta, dtype=float) / self.R
         nodes, sinks = np.append(0.0, SINK_AT), np.append(0.0, self._sunk)
-        within: Array = pchip_interpolate(nodes, sinks, np.clip(eps, 0.0, TABLE_ENDS))
+        within = np.interp(eps, nodes, sinks)
         disc = np.clip(eps, TABLE_ENDS, self.end) - TABLE_ENDS
         whole = np.maximum(eps - self.end, 0.0)
         return self.R * (within + disc * (sinks[-1] / TABLE_ENDS) + whole)
