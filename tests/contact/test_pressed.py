@@ -20,7 +20,7 @@ def contact(size, material="SiO2", **more):
             areal_density=1e-2 / size**2,
             diameter=tb.TruncatedGaussian(mean=size, std=0.05 * size),
         ),
-        particle_law=tb.particle.Series(seat="plane"),
+        particle_law=tb.particle.Series(deep="off", seat="plane"),
         **more,
     )
 
@@ -70,7 +70,7 @@ def test_what_does_not_break_is_not_told_of():
 @pytest.mark.parametrize(("size", "spread"), [(300e-9, 0.05), (300e-9, 0.3), (8e-6, 0.2)])
 def test_bounds_of_the_shares_hold(seat, size, spread):
     """What the tables say at most is never less than what every particle says."""
-    case = contact(size).replace(particle_law=tb.particle.Series(seat=seat))
+    case = contact(size).replace(particle_law=tb.particle.Series(deep="off", seat=seat))
     sizes = tb.TruncatedGaussian(mean=size, std=spread * size)
     case = case.replace(**{"particles.diameter": sizes})
     quiet = 0
@@ -84,7 +84,7 @@ def test_bounds_of_the_shares_hold(seat, size, spread):
 
 
 def test_single_particles_are_left_alone_where_the_tables_suffice(monkeypatch):
-    case = contact(300e-9).replace(particle_law=tb.particle.Series(seat="rough"))
+    case = contact(300e-9).replace(particle_law=tb.particle.Series(deep="off", seat="rough"))
     tb.solve(case, pressure=1e5)
     monkeypatch.setattr(pressed, "_shares", lambda *_: pytest.fail("single particles evaluated"))
     assert not tb.solve(case, pressure=1e5).warnings
@@ -99,7 +99,7 @@ def test_squashed_particles_are_told_of_from_a_fifth_of_their_radius_on():
         particles=tb.Particles(
             material=soft, diameter=tb.Monodisperse(mean=10e-6), areal_density=1e8
         ),
-        particle_law=tb.particle.Series(seat="plane"),
+        particle_law=tb.particle.Series(deep="off", seat="plane"),
     )
 
     def told(gap):
@@ -113,7 +113,7 @@ def test_squashed_particles_are_told_of_from_a_fifth_of_their_radius_on():
         if abs(width - 0.2) > 0.005:
             assert said == (width > 0.2), gap
     # a sphere that stays one is not told of, nor a hard particle
-    for changed in ({"particle_law": tb.particle.Series(seat="plane", soft="sphere")},
+    for changed in ({"particle_law": tb.particle.Series(deep="off", seat="plane", soft="sphere")},
                     {"particles.material": tb.materials["Al2O3"]}):  # fmt: skip
         case = case.replace(**changed)
         assert not told(9.2e-6)[1]
