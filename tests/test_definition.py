@@ -255,7 +255,7 @@ def test_particles_that_break(name):
 
 def test_the_balance():
     """The separation that the definition's own root finds."""
-    contact = CASES["series rough one size footprint silica like"]
+    contact = next(case for name, case in CASES.items() if name.startswith("series rough one"))
     state = tb.solve(contact, pressure=5e6)
     assert state.d == pytest.approx(definition.separation(contact, 5e6), rel=1e-12)
 

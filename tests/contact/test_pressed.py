@@ -117,3 +117,37 @@ def test_squashed_particles_are_told_of_from_a_fifth_of_their_radius_on():
                     {"particles.material": tb.materials["Al2O3"]}):  # fmt: skip
         case = case.replace(**changed)
         assert not told(9.2e-6)[1]
+
+
+def test_particles_of_the_table_say_what_holds_them():
+    """From the first side at 0.15 of its radius on, and where collars may touch."""
+    law = tb.particle.Series(seat="plane")
+
+    def told(gap, ratio):
+        dust = tb.Particles(
+            material=STEEL.replace(H=ratio * STEEL.H),
+            diameter=tb.Monodisperse(mean=10e-6),
+            areal_density=1e8,
+        )
+        case = contact(10e-6).replace(particle_law=law, particles=dust)
+        state = tb.solve(case, d=gap * 10e-6)
+        assert not any("laws of one contact end" in text for text in state.warnings)
+        assert not any("squashed to contacts" in text for text in state.warnings)
+        return [text for text in state.warnings if "held to a computation" in text]
+
+    for ratio in (0.6, 5.0):
+        assert not told(0.86, ratio)
+        (text,) = told(0.84, ratio)
+        assert "friction_factor" in text
+    assert "collars" not in told(0.34, 5.0)[0]
+    assert "collars" in told(0.30, 5.0)[0]
+    assert "collars" not in told(0.30, 0.6)[0]
+
+
+def test_angular_grains_still_end_with_the_law_of_one_contact():
+    case = contact(2e-6).replace(particle_law=tb.particle.Series(seat="plane"))
+    grains = case.particles.replace(shape=tb.Angular(roundness=0.5, angle="30 deg"))
+    soft = tb.MaterialPair(STEEL, STEEL.replace(H=1e9))
+    state = tb.solve(case.replace(particles=grains, surfaces=soft), d=0.1e-6)
+    assert any("laws of one contact end" in text for text in state.warnings)
+    assert not any("held to a computation" in text for text in state.warnings)
