@@ -21,7 +21,6 @@ from scipy.optimize import least_squares
 DATA = Path(__file__).parents[1] / "src/thirdbody/data"
 DEGREE = 6
 """Of the root of the slope."""
-SHARE_DEGREE = 9
 
 
 def place(eps: np.ndarray) -> np.ndarray:
@@ -48,25 +47,35 @@ def rising(first: float, root: Chebyshev) -> Chebyshev:
     return (root * root).integ(lbnd=-1) + first
 
 
-def series_of(eps: np.ndarray, curve: dict) -> tuple[dict, float]:
+def sinking(eps: np.ndarray, sink: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+    """Sinks at the wanted squeezes that never fall, nor rise faster than the squeeze.
+
+    Beyond the last one that was computed they stay.
+    """
+    out = np.interp(wanted, eps, np.minimum(sink, eps))
+    for i in range(1, len(out)):
+        most = out[i - 1] + (wanted[i] - wanted[i - 1])
+        out[i] = min(max(out[i], out[i - 1]), most)
+    return out
+
+
+def series_of(table_eps: np.ndarray, curve: dict) -> tuple[dict, float]:
     """The series of a curve, and the largest relative distance of its load from the runs."""
     reached = np.array([value is not None for value in curve["F"]])
     load, area, sink, collar = (
         np.array(curve[name], dtype=float)[reached] for name in ("F", "A", "sink", "collar")
     )
-    eps = eps[reached]
+    eps = table_eps[reached]
     s = place(eps)
     own = np.maximum.accumulate(load * (1 - collar))
     columns = {"own": own, "area": np.maximum.accumulate(area)}
     fits = {name: rising_series(s, np.log(values)) for name, values in columns.items()}
     off = np.expm1(rising(*fits["own"])(s) - np.log(own))
-    share = np.clip(sink / eps, 0.0, 1.0)
-    sunk = Chebyshev.fit(s, share, min(SHARE_DEGREE, len(s) - 2), domain=[-1, 1])
     out = {name: curve[name] for name in ("rho", "m", "E_over_Y", "surfaces")}
     out["from"], out["to"] = float(eps[0]), float(eps[-1])
     for name, (first, root) in fits.items():
         out[name] = {"first": round(first, 12), "root": np.round(root.coef, 12).tolist()}
-    out["share"] = np.round(sunk.coef, 12).tolist()
+    out["sink"] = np.round(sinking(eps, sink, table_eps), 12).tolist()
     return out, float(np.max(np.abs(off)))
 
 

@@ -41,7 +41,8 @@ def depth(x):
 
 
 # %%
-# How deep one grain goes: depth grows with size less film, and part of it recovers. The film does
+# How deep one grain goes: depth grows with size less film, the grain takes part of that itself, and
+# part of it recovers. The film does
 # not give way here, so these depths are upper bounds.
 x = np.geomspace(film, 30e-6, 300)
 harmful = float(brentq(lambda y: float(depth(y)[0]) - roughness, film, 10e-6))
@@ -86,9 +87,10 @@ figure.savefig(told[0] if told else "ball_screw_dents.png", dpi=150)
 # %%
 # What to do about it.
 print(
-    f"Grains above {harmful * 1e6:.2f} µm dent deeper than the roughness, which is every grain "
-    f"of this dust: {oil.above(harmful) * 1e-4:.0f} per cm² and overrolling at 10 mg/L. A 10 µm "
+    f"Quartz is 1.6 times as hard as this steel, and more squashed than embedded. Grains above "
+    f"{harmful * 1e6:.2f} µm dent deeper than the roughness: "
+    f"{oil.above(harmful) * 1e-4:.0f} per cm² and overrolling at 10 mg/L. A 10 µm "
     f"filter stops the dents deeper than {at:.1f} µm, but that is one in {kept:.0f}: keep the "
     "dust out with wipers, a filter alone does not save the surface."
 )
-assert abs(harmful - 0.626e-6) < 0.002e-6
+assert abs(harmful - 1.575e-6) < 0.005e-6

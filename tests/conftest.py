@@ -50,6 +50,7 @@ def pytest_sessionstart(session):
         surfaces=bodies,
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=tb.Particles(material=tb.materials["SiO2"], diameter=dust, areal_density=1e11),
+        particle_law=tb.particle.Series(deep="off"),
     )
     # harder than both surfaces: particles that are squashed are not for the compiled engine
     vary = {"particles.material.H": np.linspace(8e9, 9e9, 32)}

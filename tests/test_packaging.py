@@ -323,6 +323,7 @@ def test_consequences_in_the_errata():
             surfaces=tb.MaterialPair(steel, steel),
             roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
             particles=dust,
+            particle_law=tb.particle.Series(deep="off"),
         )
         critical[name] = tb.transitions(contact)
         assert critical[name].F_tpca.A.value is None

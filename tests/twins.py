@@ -132,7 +132,7 @@ def series_twin(
     contact = base(
         interface,
         tb.Particles(material=material(particle), diameter=distributions[0], areal_density=density),
-        tb.particle.Series(**options),
+        tb.particle.Series(deep="off", **options),
     )
     law = oracle.Series(
         particle,

@@ -12,10 +12,14 @@ Particles that break are followed from one generation of pieces to the next.
 from __future__ import annotations
 
 import itertools
+import json
+from importlib import resources
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import Chebyshev
 from scipy.integrate import cubature
+from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq, minimize_scalar
 from scipy.optimize.elementwise import find_root
 from scipy.special import ndtr
@@ -210,6 +214,8 @@ def half_of(law: Any, E_star: float, surface: Any, particle: Any, shape: Any) ->
             return Faced(law.law, *body, shape)
         return Side(law.law, shape.tip_radius, *body, np.pi / 4 * shape.flatness**2)
     sphere = Side(law.law, law.tip_radius, *body)
+    if getattr(law, "follows_table", False) and sphere.plastic:
+        return Deep(law.law, *body, particle.H / surface.H, law.friction_factor)
     if law.soft == "sphere" or not particle.H < surface.H:
         return sphere
     if law.onset == "jg":
@@ -311,6 +317,134 @@ class SquashedOfJG(Squashed):
         p = np.where(delta < 1.9 * self.omega_1, elastic, np.maximum(self.bare(delta), self.S_y))
         hill = 2 * self.m / (3 * np.sqrt(3)) * np.sqrt(area / np.pi) / (1 - 2 * delta)
         return p + hill * self.S_y, area
+
+
+class Deep(Side):
+    r"""Half of a particle of size 1 that follows the computed curves.
+
+    .. math:: F = F_L^{1-w} F_T^{\,w}, \qquad A = A_L^{1-w} A_T^{\,w}, \qquad w = u^2(3-2u)
+
+    from ε = 0.05 (u = 0) to 0.15 (u = 1) of its radius; beyond 0.95 a disc of constant volume, up
+    to where its mean pressure is the hardness of the surface.
+    """
+
+    def __init__(self, law: Any, E_star: float, H: float, nu: float, ratio: float, m: float):
+        super().__init__(law, 0.5, E_star, H, nu)
+        self.tables = [series_of(name, ratio, m, E_star / H) for name in ("own", "area")]
+        self.hill, self.end = m / (3 * np.sqrt(3)), 0.475
+        most = H * max(1.0, 1 / ratio)
+        if self.disc(0.475)[0] < most:
+            self.end = 0.5 - np.exp(-31.0)
+            if self.disc(self.end)[0] > most:
+                lean = brentq(lambda v: self.disc(0.5 - np.exp(v))[0] - most, -31, np.log(0.025))
+                self.end = 0.5 - np.exp(lean)
+        self.cap = 0.075
+        wide = np.linspace(self.cap, self.end, 400)
+        i = int(np.argmax(self.area(wide) > np.pi / 4))
+        points = [0.025, 0.075, 0.225, 0.375, 0.44, 0.475, self.end]
+        if i:
+            off = lambda u: self.area(u) - np.pi / 4  # noqa: E731
+            points.append(brentq(off, wide[i - 1], wide[i], xtol=1e-16))
+        points += [u for u in self.omega_1 * np.array(self.law.breakpoints) if u < self.cap]
+        points += [0.5 - 0.025 / 4**i for i in range(1, 25)]
+        self.kinks = np.unique([u for u in points if u <= self.end])
+
+    def table(self, delta: Any) -> Any:
+        """Load and area of the curves."""
+        at = place(np.clip(2 * delta, 0.05, 0.95))
+        load, area = (np.exp(series(at)) for series in self.tables)
+        return load * self.H / 2.84 / 4, area * np.pi / 4
+
+    def disc(self, delta: Any) -> Any:
+        """Mean pressure and area beyond the curves."""
+        load, area = self.table(np.array(0.475))
+        t, thick = 1 - 2 * np.asarray(delta), 0.05
+        rise = lambda area, t: 1 + self.hill * np.sqrt(area / (np.pi / 4)) / t  # noqa: E731
+        return load / area * rise(area * thick / t, t) / rise(area, thick), area * thick / t
+
+    def area(self, delta: Any) -> Any:
+        return self(delta)[1:].sum(axis=0)
+
+    def __call__(self, delta: Any) -> Any:
+        u = np.minimum(np.asarray(delta, dtype=float), self.end)
+        tip, (load, area) = Tip.__call__(self, u), self.table(u)
+        v = np.clip(np.log(np.maximum(u, 1e-300) / 0.025) / np.log(3.0), 0.0, 1.0)
+        w = v**2 * (3 - 2 * v)
+        bare = np.maximum(tip[1:].sum(axis=0), 1e-300)
+        blended = np.maximum(tip[0], 1e-300) ** (1 - w) * load**w, bare ** (1 - w) * area**w
+        p, wide = self.disc(u)
+        load = np.where(w == 0, tip[0], np.where(u > 0.475, p * wide, blended[0]))
+        area = np.where(w == 0, tip[1:].sum(axis=0), np.where(u > 0.475, wide, blended[1]))
+        areas = np.where(tip[1:] > 0, area, 0.0)
+        plastic = np.stack([0 * area, 0 * area, area])
+        return np.stack([load, *np.where(u >= self.cap, plastic, areas)])
+
+
+def place(eps: Any, low: float = 0.05, high: float = 0.95) -> Any:
+    """Where ln ε/(1 − ε) lies between that of two squeezes, as −1 and 1."""
+    at, first, last = (np.log(e / (1 - e)) for e in (eps, low, high))
+    return (2 * at - first - last) / (last - first)
+
+
+def series_of(name: str, ratio: float, m: float, kappa: float) -> Any:
+    """ln F/(Y R²), Y of the softer body, or ln A/(πR²), between the computed runs.
+
+    First value and roots of the slope go by monotone cubics over ln ρ and m and in straight lines
+    over H/E*; ten terms of the root, squared and summed up, give a polynomial that never falls.
+    """
+    text = resources.files("thirdbody").joinpath("data/deep_series.json").read_text("utf-8")
+    runs = [run for run in json.loads(text)["curves"] if run["surfaces"] == 2]
+    for run in runs:
+        rho, E_over_Y = float(run["rho"]), float(run["E_over_Y"])
+        body = 1 if rho in (0, np.inf) else 2
+        run |= {"rho": rho, "x": np.log(np.clip(rho, 0.4, 10.0))}
+        run["soft"] = 2.84 * (min(rho, 1.0) or 1.0) * 0.91 * body / E_over_Y
+
+    x, soft = np.log(np.clip(ratio, 0.4, 10.0)), 1 / max(kappa, 8.0)
+    rigid = [run for run in runs if run["soft"] == 0]
+
+    def row(run: Any, eps: Any) -> Any:
+        step = place(0.95, run["from"], run["to"]) - place(0.05, run["from"], run["to"])
+        root = Chebyshev(run[name]["root"])(place(eps, run["from"], run["to"]))
+        own = name == "own" and run["rho"] not in (0, np.inf)
+        first = run[name]["first"] - (np.log(min(run["rho"], 1.0)) if own else 0.0)
+        inside = eps <= run["to"] * (1 + 1e-9)
+        return np.append(first, np.where(inside, root * np.sqrt(step / 2), 0.0))
+
+    def change(run: Any, eps: Any) -> Any:
+        twin = next(it for it in rigid if (it["m"], it["rho"]) == (1, run["rho"]))
+        shorter = min(run["to"], twin["to"]) * (1 + 1e-9)
+        return (row(run, eps) - row(twin, eps)) * np.append(1.0, eps <= shorter)
+
+    def across(at: float, nodes: Any, rows: Any) -> Any:
+        order = np.argsort(nodes)
+        nodes, rows = np.array(nodes)[order], np.array(rows)[order]
+        if len(nodes) == 1:
+            return rows[0]
+        return PchipInterpolator(nodes, rows, axis=0)(np.clip(at, nodes[0], nodes[-1]))
+
+    def over_hardness(some: Any, of: Any) -> Any:
+        return across(x, [run["x"] for run in some], [of(run) for run in some])
+
+    def values(s: Any) -> Any:
+        eps = 1 / (1 + np.exp(-np.log(19.0) * s))
+        out = over_hardness([run for run in rigid if run["m"] == 1], lambda run: row(run, eps))
+        factors = sorted({run["m"] for run in rigid})
+        out = out + across(m, factors, [
+            over_hardness([run for run in rigid if run["m"] == f], lambda run: change(run, eps))
+            for f in factors
+        ])  # fmt: skip
+        elastic = [run for run in runs if run["soft"] > 0]
+        nodes = sorted({run["x"] for run in elastic})
+        some = [[run for run in elastic if run["x"] == node] for node in nodes]
+        slopes = [
+            across(soft, [it["soft"] for it in here], [change(it, eps) / it["soft"] for it in here])
+            for here in some
+        ]
+        return out + soft * across(x, nodes, slopes)
+
+    root = Chebyshev.interpolate(lambda s: values(s)[1:], 9)
+    return (root * root).integ(lbnd=-1) + values(np.zeros(1))[0]
 
 
 def squeezed(one: Side, two: Side, eps: Any) -> Any:

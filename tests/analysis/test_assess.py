@@ -511,6 +511,7 @@ def test_particles_that_break_are_told_with_all_bounds_of_their_fragments():
         surfaces=tb.MaterialPair(steel, steel),
         roughness=tb.Roughness(sigma=50e-9, R=20e-6),
         particles=dust,
+        particle_law=tb.particle.Series(deep="off"),
     )
     (said,) = about_fragments(contact, {"pressure": 20e6})
     shares = []
@@ -540,6 +541,7 @@ def test_few_samples_where_each_has_tables_of_its_own():
         surfaces=tb.MaterialPair(steel, steel),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=debris,
+        particle_law=tb.particle.Series(deep="off"),
     )
     hard = soft.replace(particles=debris.replace(material=tb.materials["SiC"]))
     mixed = soft.replace(particles=(debris, hard.particles))

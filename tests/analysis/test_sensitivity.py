@@ -19,7 +19,7 @@ import thirdbody as tb
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 
 BRONZE = tb.Material(E=110e9, nu=0.34, H=1.9e9)
-PLANE = DUSTY.replace(particle_law=tb.particle.Series(seat="plane"))
+PLANE = DUSTY.replace(particle_law=tb.particle.Series(deep="off", seat="plane"))
 MONODISPERSE = PLANE.replace(
     surfaces=tb.MaterialPair(STEEL, BRONZE), **{"particles.diameter": tb.Monodisperse(mean=300e-9)}
 )

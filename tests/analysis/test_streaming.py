@@ -153,7 +153,10 @@ def test_samples_are_the_designs_and_the_states_are_theirs(design):
     assert_array_equal(data.pressure, 1e6 + draw[:, 1] * (1e8 - 1e6))
     i = 6
     one = DUSTY.replace(
-        **{DENSITY: float(data[DENSITY][i]), "particle_law": tb.particle.Series(seat="plane")}
+        **{
+            DENSITY: float(data[DENSITY][i]),
+            "particle_law": tb.particle.Series(deep="off", seat="plane"),
+        }
     )
     state = tb.solve(one, pressure=float(data.pressure[i]))
     assert data.A_t.sel({"particle_law.seat": "plane"})[i].item() == pytest.approx(

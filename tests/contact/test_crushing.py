@@ -23,7 +23,7 @@ SOFTER = tb.Material(E=180e9, nu=0.3, H=3e9)
 QUARTZ = tb.Material(E=95.8e9, nu=0.082, H=12e9, name="quartz")
 PAIR = tb.MaterialPair(STEEL, STEEL)
 STRENGTH = tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3, size_exponent=0.55, x_c=0.96e-6)
-ONE = tb.particle.Series().one(surfaces=PAIR, particle=QUARTZ)
+ONE = tb.particle.Series(deep="off").one(surfaces=PAIR, particle=QUARTZ)
 UNIFORM = tb.Uniform(low=4e-6, high=8e-6)
 FRAGMENTS = ("gone", "footprint", "all")
 
@@ -43,7 +43,7 @@ def expected_load(x, gap, strength, one=ONE):
 def contact_of(strength, *, seat="rough", sizes=UNIFORM, pair=PAIR, material=QUARTZ, **others):
     dust = tb.Particles(material=material, diameter=sizes, areal_density=1e8, strength=strength)
     others = {"roughness": tb.Roughness(sigma=0.5e-6, R=1e-4)} | others
-    law = tb.particle.Series(seat=seat)
+    law = tb.particle.Series(deep="off", seat=seat)
     return tb.Contact(surfaces=pair, particles=dust, particle_law=law, **others)
 
 
@@ -99,7 +99,7 @@ def test_a_realistic_case():
             surfaces=tb.MaterialPair(hard, hard),
             roughness=tb.Roughness(sigma=50e-9, R=20e-6),
             particles=dust,
-            particle_law=tb.particle.Series(seat="plane"),
+            particle_law=tb.particle.Series(deep="off", seat="plane"),
             outputs=(tb.outputs.Crushing(),) if strength else (),
         )
         state = tb.solve(contact, d=gaps)
@@ -141,7 +141,7 @@ def test_largest_tension_under_the_pressure_of_plastic_contacts(nu, g, s):
 def test_running_maximum_from_its_definition():
     eps = np.geomspace(1e-7, 1.5, 40_000)
     for pair in (PAIR, tb.MaterialPair(STEEL, SOFTER)):
-        one = tb.particle.Series().one(surfaces=pair, particle=QUARTZ)
+        one = tb.particle.Series(deep="off").one(surfaces=pair, particle=QUARTZ)
         inside = tension(one, 0.2, "sphere")
         found = one.at(eps)
         s = [np.minimum(2 * np.sqrt(area / np.pi), 1.0) for area in found.areas]
@@ -310,7 +310,7 @@ def test_what_pieces_bear_is_bounded(seat):
 
 def test_crush_embed_size():
     hard = tb.Material(E=206e9, nu=0.29, H=7.4e9)
-    one = tb.particle.Series().one(surfaces=tb.MaterialPair(hard, hard), particle=QUARTZ)
+    one = tb.particle.Series(deep="off").one(surfaces=tb.MaterialPair(hard, hard), particle=QUARTZ)
     x = 1e-3 * crush_embed_size(one, Breakage.of(STRENGTH, QUARTZ, 1e-3))
     # g = 0.211 at the Poisson ratio of quartz
     assert x == pytest.approx(1e-3 * (0.211 * np.pi * 7.4e9 / 4 / 67e6) ** (-1 / 0.55), rel=0.12)

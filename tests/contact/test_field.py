@@ -164,7 +164,7 @@ def test_units():
         particles=tb.Particles(
             material=body.replace(H=4 * body.H), areal_density=1e11 / 9,
             diameter=tb.Monodisperse(mean=3 * SIGMA),
-        ),
+        ), particle_law=tb.particle.Series(deep="off"),
     )  # fmt: skip
     loads = np.array([1e-4, 1e-3, 1e-2])
     one, other = (solved(each, F_star=loads) for each in (small, large))
@@ -209,7 +209,7 @@ def test_particles_of_many_sizes():
         ({"roughness": tb.Roughness(sigma=SIGMA, R=3e-6, alpha=2.0)}, "from 2.5 to 30"),
         ({"roughness": tb.Roughness(sigma=SIGMA, R=3e-6, heights=tb.WeibullHeights(shape=2.0))},
          "Gaussian heights"),
-        ({"particle_law": tb.particle.Series(seat="plane")}, 'Series.seat="rough"|seat = "plane"'),
+        ({"particle_law": tb.particle.Series(deep="off", seat="plane")}, 'Series.seat="rough"|seat = "plane"'),
     ],
 )  # fmt: skip
 def test_what_it_does_not_know_is_refused(changes, words):
@@ -244,7 +244,9 @@ def test_the_engine_says_why_it_is_numpy():
 
 def test_a_seat_of_its_own_height_and_width():
     """Particles on high narrow seats carry more, at any ground."""
-    seats = [tb.particle.Series(zeta_mean=m, zeta_std=s) for m, s in ((0, 1), (1.0, 0.5))]
+    seats = [
+        tb.particle.Series(deep="off", zeta_mean=m, zeta_std=s) for m, s in ((0, 1), (1.0, 0.5))
+    ]
     one, other = (solved(contact(particle_law=seat), F_star=1e-3) for seat in seats)
     assert other.particle_load_share > 1.3 * one.particle_load_share
     assert isinstance(interface(contact(particle_law=seats[1])), Interface)

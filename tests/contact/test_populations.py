@@ -35,7 +35,7 @@ def contact(*particles, **more):
 
 @pytest.mark.parametrize("seat", ["rough", "plane"])
 def test_halves_make_the_whole(seat):
-    law = tb.particle.Series(seat=seat)
+    law = tb.particle.Series(deep="off", seat=seat)
     half = DUST.replace(areal_density=2.5e10)
     two = tb.solve(contact(half, half, particle_law=law), pressure=LOADS)
     one = tb.solve(contact(DUST, particle_law=law), pressure=LOADS)
@@ -75,7 +75,9 @@ def test_shares_add_up():
 
 
 def test_each_may_follow_its_own_law():
-    plane = DUST.replace(law=tb.particle.Series(seat="plane", shadow="none"), name="plane")
+    plane = DUST.replace(
+        law=tb.particle.Series(deep="off", seat="plane", shadow="none"), name="plane"
+    )
     state = tb.solve(contact(DUST, plane), pressure=LOADS)
     for index, particles in enumerate((DUST, plane)):
         for i, d in enumerate(state.d):
@@ -93,7 +95,7 @@ def test_without_density_there_is_no_population():
 
 
 def test_round_trip_and_many_states():
-    two = contact(DUST, DEBRIS.replace(law=tb.particle.Series(zeta_mean=-0.5)))
+    two = contact(DUST, DEBRIS.replace(law=tb.particle.Series(deep="off", zeta_mean=-0.5)))
     assert tb.Contact.from_dict(two.to_dict()) == two
     many = tb.solve(two, pressure=np.geomspace(1e5, 1e8, 6001))
     few = tb.solve(two, pressure=many.pressure[::1000])

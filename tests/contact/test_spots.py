@@ -31,7 +31,7 @@ def contact(sizes="narrow", *, seat="rough", law=None, heights=None, second=STEE
         roughness=rough,
         asperity_law=law or tb.asperity.ZMC(),
         particles=dust,
-        particle_law=tb.particle.Series(seat=seat),
+        particle_law=tb.particle.Series(deep="off", seat=seat),
         **others,
     )
 
@@ -243,7 +243,7 @@ def dust_on_a_fine_surface(**change):
             diameter=tb.Uniform(low=1e-6, high=100e-6),
             areal_density=1e6,
         ),
-        particle_law=tb.particle.Series(zeta_mean=0.3, zeta_std=0.3),
+        particle_law=tb.particle.Series(deep="off", zeta_mean=0.3, zeta_std=0.3),
     ).replace(**change)
 
 

@@ -108,7 +108,7 @@ def contact(*outputs, seat="rough", particles=True, second=STEEL):
         surfaces=tb.MaterialPair(STEEL, second),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=dust if particles else None,
-        particle_law=tb.particle.Series(seat=seat),
+        particle_law=tb.particle.Series(deep="off", seat=seat),
         outputs=outputs,
     )
 

@@ -84,7 +84,9 @@ def test_elastic_particles_by_stiffness():
         size=200e-9,
         roughness=tb.Roughness(sigma=50e-9, R=100e-6),
         asperity_law=tb.asperity.GW(),
-        particle_law=tb.particle.Series(law=tb.asperity.GW(), seat="plane", shadow="none"),
+        particle_law=tb.particle.Series(
+            deep="off", law=tb.asperity.GW(), seat="plane", shadow="none"
+        ),
     )
     state = tb.solve(case, pressure=1e6)
     bare = case.replace(particles=None)

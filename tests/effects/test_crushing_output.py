@@ -21,7 +21,7 @@ def contact_of(strength, *, sizes=SIZES, material=QUARTZ, density=1e7, law=None,
         particles=tb.Particles(
             material=material, diameter=sizes, areal_density=density, strength=strength
         ),
-        particle_law=law or tb.particle.Series(seat="plane"),
+        particle_law=law or tb.particle.Series(deep="off", seat="plane"),
         outputs=outputs,
     )
 
@@ -30,7 +30,7 @@ def contact_of(strength, *, sizes=SIZES, material=QUARTZ, density=1e7, law=None,
 @pytest.mark.parametrize("fragments", ["gone", "footprint", "all"])
 @pytest.mark.parametrize("seat", ["plane", "rough"])
 def test_what_crushing_tells(fragments, seat):
-    law = tb.particle.Series(seat=seat)
+    law = tb.particle.Series(deep="off", seat=seat)
     strength = tb.WeibullStrength.of(QUARTZ, fragments=fragments)
     contact = contact_of(strength, law=law, outputs=tb.outputs.Crushing(A_n=1e-4))
     d = np.array([12e-6, 4e-6, 1e-6])
@@ -99,7 +99,7 @@ def test_what_is_broken_does_not_heal():
 
 @QUIET
 def test_many_loads_are_those_of_few():
-    rough = tb.particle.Series()
+    rough = tb.particle.Series(deep="off")
     contact = contact_of(tb.WeibullStrength.of(QUARTZ), law=rough)
     loads = np.geomspace(1e4, 5e6, 6000)
     many, few = tb.solve(contact, pressure=loads), tb.solve(contact, pressure=loads[::400])

@@ -28,7 +28,7 @@ def contact(first=STEEL, second=SOFT, *, dents=None, law=None, material=SILICA, 
         surfaces=tb.MaterialPair(first, second),
         roughness=ROUGH,
         particles=dust,
-        particle_law=law or Series(),
+        particle_law=law or Series(deep="off"),
         outputs=dents or Dents(),
     )
 
@@ -47,7 +47,7 @@ def thrown():
     gap = float(state.d) + ROUGH.y_s - ROUGH.sigma * rng.standard_normal(n)
     x = SIZES.sample(rng, n)
     spots = co.squeezed_particle(
-        Series().law, *co.contact_sides(system.surfaces, SILICA), 0.5
+        Series(deep="off").law, *co.contact_sides(system.surfaces, SILICA), 0.5
     ).spots(
         x[:, None],
         np.maximum(x - gap, 0.0)[:, None],
@@ -172,7 +172,7 @@ def test_the_template_with_steel_debris_tells(tmp_path):
 
     text = resources.files("thirdbody").joinpath("data/studies/rolling-bearing.toml").read_text()
     file = tmp_path / "study.toml"
-    file.write_text(text + "\n[outputs.dents]\n")
+    file.write_text(text + '\n[particle_law]\nname = "series"\ndeep = "off"\n\n[outputs.dents]\n')
     found = run_study(load_study(file))
     assert all(n is None or n > 0 for n in found["states"]["n_dents_1"])
     assert any(n for n in found["states"]["n_dents_1"])
@@ -221,32 +221,36 @@ def test_ductile_particles_are_as_wide_as_they_are_squashed():
     dust = tb.Particles(material=debris, areal_density=1e10, diameter=tb.Monodisperse(mean=x))
     pair = tb.MaterialPair(STEEL, STEEL)
     one = tb.Contact(surfaces=pair, roughness=tb.Roughness(sigma=20e-9, R=2.8e-6), particles=dust,
-                     particle_law=Series(seat="plane"), outputs=Dents(debris="ductile"))  # fmt: skip
+                     particle_law=Series(deep="off", seat="plane"), outputs=Dents(debris="ductile"))  # fmt: skip
     gaps = np.array([0.9, 0.6, 0.3]) * x
     wide = tb.solve(one, d=gaps).outputs["dent_width_1"]
     assert wide[1:] == pytest.approx(one_dent.flattened_diameter(x, gap=gaps[1:]), rel=1e-9)
-    area = Series().single(x, gaps, surfaces=pair, particle=debris)["area_1"]
+    area = Series(deep="off").single(x, gaps, surfaces=pair, particle=debris)["area_1"]
     assert wide == pytest.approx(2 * np.sqrt(area / math.pi), rel=1e-9)
     assert wide[0] < x
 
 
-def test_a_film_is_a_contact_with_a_plane_seat():
+@pytest.mark.parametrize("deep", ["off", "table"])
+def test_a_film_is_a_contact_with_a_plane_seat(deep):
     """The single-particle route and the contact agree where the gap is one height."""
-    law = Series(seat="plane")
+    law = Series(deep=deep, seat="plane")
     h = 300e-9
+    tight = 1e-7 if deep == "off" else 1e-4  # sums do not stop at the squeezes of the table
     found = tb.solve(contact(law=law), d=h).outputs
     film = oil_particles.FilmParticles(
         surfaces=tb.MaterialPair(STEEL, SOFT), material=SILICA, diameter=SIZES,
-        number=1e10 / h, film=h, entry=1.0,
+        number=1e10 / h, film=h, entry=1.0, deep=deep,
     )  # fmt: skip
     for side in (1, 2):
         dents = film.dents(side)
-        assert found[f"n_dents_{side}"] == pytest.approx(dents.number, rel=1e-7)
-        assert found[f"dent_depth_{side}"] == pytest.approx(dents.depth, rel=1e-7)
-        assert found[f"dent_width_{side}"] == pytest.approx(dents.diameter, rel=1e-7)
-        assert found[f"dent_volume_{side}"] == pytest.approx(dents.volume, rel=1e-7)
+        assert found[f"n_dents_{side}"] == pytest.approx(dents.number, rel=tight)
+        assert found[f"dent_depth_{side}"] == pytest.approx(dents.depth, rel=tight)
+        assert found[f"dent_width_{side}"] == pytest.approx(dents.diameter, rel=tight)
+        assert found[f"dent_volume_{side}"] == pytest.approx(dents.volume, rel=tight)
         assert found[f"dent_depth_p95_{side}"] == pytest.approx(dents.depth_p95, rel=0.02)
-        assert found[f"embedded_{side}"] == pytest.approx(dents.number * dents.embedded, rel=1e-6)
+        assert found[f"embedded_{side}"] == pytest.approx(
+            dents.number * dents.embedded, rel=1e-6 if deep == "off" else 1e-4
+        )
 
 
 def test_refusals():

@@ -31,6 +31,7 @@ def contact(x_a=500e-9, density=1e10, *, first=STEEL, second=STEEL, particle=SIL
         surfaces=tb.MaterialPair(first, second),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=dust if x_a else None,
+        particle_law=tb.particle.Series(deep="off"),
         outputs=(Friction(**(TAU | friction)),),
     )
 

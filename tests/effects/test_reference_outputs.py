@@ -43,6 +43,7 @@ def dry(x_a, eta_a=1e10, pressure=5e6, second=METAL, outputs=()):
         surfaces=tb.MaterialPair(METAL, second),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=particles,
+        particle_law=tb.particle.Series(deep="off"),
         outputs=outputs,
     )
     with warnings.catch_warnings():
@@ -72,6 +73,7 @@ def ball_on_flat(x_a, speed):
         particles=tb.Particles(material=SILICA, diameter=sizes, areal_density=1e10)
         if x_a
         else None,
+        particle_law=tb.particle.Series(deep="off"),
     )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", tb.RangeWarning)
@@ -114,7 +116,7 @@ def adachi(W, A, v, H_b, H_s):
 
 
 def dent():
-    law = tb.particle.Series()
+    law = tb.particle.Series(deep="off")
     particle = law.probe(np.array([0.75]), surfaces=tb.MaterialPair(STEEL, STEEL), particle=SILICA)
     return float(particle.of_size(2e-6, 1.0).depths[0][0, 0])
 
@@ -217,6 +219,7 @@ VALUES = {
                     areal_density=1e11,
                     diameter=tb.TruncatedGaussian(mean=300e-9, std=30e-9),
                 ),
+                particle_law=tb.particle.Series(deep="off"),
             ),
             pressure=5e6,
         ),

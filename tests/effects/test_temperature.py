@@ -28,6 +28,7 @@ def contact(*, size=300e-9, density=0.0, first=STEEL, second=STEEL, dust=SILICA,
         surfaces=tb.MaterialPair(first, second),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=particles,
+        particle_law=tb.particle.Series(deep="off"),
         outputs=(FRICTION, heat),
     )
 
@@ -101,7 +102,7 @@ def test_explicit_particles(second_H):
     spots = replace(
         groups[0], share=None, number=np.ones((1, len(x))), load=f[None], x=x[None],
         radius=x[None] / 2, depths=tuple(each[None] for each in delta),
-        areas=tuple(each[None] for each in a),
+        sinks=tuple(each[None] for each in delta), areas=tuple(each[None] for each in a),
     )  # fmt: skip
     Q = sum(FRICTION.of_particles(spots).values())[0]
     rolls, side = FRICTION.rolls(spots)[0], FRICTION.sliding_side(spots)[0]

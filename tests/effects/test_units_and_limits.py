@@ -49,6 +49,7 @@ def contact(x_a=300e-9, density=1e10, first=STEEL, second=SOFT, outputs=tuple(OU
         surfaces=tb.MaterialPair(first, second),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=dust if density else None,
+        particle_law=tb.particle.Series(deep="off"),
         outputs=outputs,
     )
 

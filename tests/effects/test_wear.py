@@ -31,6 +31,7 @@ def contact(first=STEEL, second=SOFT, *, wear=None, friction=FRICTION, density=1
         surfaces=tb.MaterialPair(first, second),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=dust if density else None,
+        particle_law=tb.particle.Series(deep="off"),
         outputs=(friction, wear or Wear(**ALL), *splits),
     )
 

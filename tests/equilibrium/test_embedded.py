@@ -38,7 +38,9 @@ def dusty(seat="plane", shape="gaussian", sigma=10e-9, cover=1e-5) -> tb.Contact
             diameter=sizes,
             areal_density=cover / (np.pi / 4 * sizes.moment(2)),
         ),
-        particle_law=tb.particle.Series(seat=seat, **({"h_0": 2e-8} if seat == "offset" else {})),
+        particle_law=tb.particle.Series(
+            deep="off", seat=seat, **({"h_0": 2e-8} if seat == "offset" else {})
+        ),
     )
 
 

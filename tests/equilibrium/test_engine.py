@@ -661,6 +661,7 @@ def test_one_length_alone_changes_no_shape(sizes, name, material):
         surfaces=tb.MaterialPair(steel, steel),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=tb.Particles(material=silica, areal_density=1e10, diameter=sizes),
+        particle_law=tb.particle.Series(deep="off"),
     )
     vary = {f"particles.diameter.{name}": getattr(sizes, name) * np.linspace(0.7, 1.4, 30)}
     assert not engine.own_particles(case, vary)

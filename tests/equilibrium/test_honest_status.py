@@ -27,7 +27,7 @@ def dusty(law=None, sizes=None, density: float = 1e11) -> tb.Contact:
         diameter=sizes or tb.TruncatedGaussian(mean=3e-7, std=2.4e-8),
         areal_density=density,
     )
-    return base(oracle.Interface(), particles, law or tb.particle.Series())
+    return base(oracle.Interface(), particles, law or tb.particle.Series(deep="off"))
 
 
 # ------------------------------------------------------------------------ the path taken
@@ -190,6 +190,7 @@ class TestJump:
     def test_residuals(self, law, shadow):
         """Laws that jump, seats that shade at once: ok means carried, and else there is no ok."""
         series = tb.particle.Series(
+            deep="off",
             law=tb.asperity.REGISTRY[law](**({"nu": 0.3} if law != "hermite" else {})),
             seat="plane",
             shadow=shadow,
@@ -209,7 +210,9 @@ class TestJump:
 
     def test_steep_for_floats_is_no_jump(self):
         """So few and so small loads that an ulp of d changes them: they are carried."""
-        contact = dusty(tb.particle.Series(seat="plane"), tb.Monodisperse(mean=5e-6), 1e9)
+        contact = dusty(
+            tb.particle.Series(deep="off", seat="plane"), tb.Monodisperse(mean=5e-6), 1e9
+        )
         F = tb.solve(contact, d=5e-6 * (1 - np.geomspace(2e-8, 1e-6, 50))).F_star
         found = tb.solve(contact, F_star=F * 1.01)
         assert set(found.status) == {"ok"}
@@ -273,7 +276,7 @@ def soft_dust(
     soft = tb.Material(E=2e9, nu=0.3, H=50e6)
     density = coverage / (np.pi / 4 * sizes.moment(2))
     particles = tb.Particles(material=soft, diameter=sizes, areal_density=density)
-    law = tb.particle.Series(soft="sphere", seat="plane", shadow=shadow)
+    law = tb.particle.Series(deep="off", soft="sphere", seat="plane", shadow=shadow)
     return base(oracle.Interface(), particles, law)
 
 
@@ -340,7 +343,7 @@ class TestSeveralSeparations:
         cover = 10 ** rng.uniform(-2, -0.1, count)
         contact = soft_dust(tb.TruncatedGaussian(mean=1e-7, std=1e-8), coverage=0.1)
         contact = contact.replace(
-            particle_law=tb.particle.Series(seat=seat, shadow=shadow),
+            particle_law=tb.particle.Series(deep="off", seat=seat, shadow=shadow),
             particles=contact.particles.replace(material=material(oracle.SILICA)),
         )
         moment = contact.particles.diameter.moment(2) / 1e-14

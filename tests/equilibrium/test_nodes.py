@@ -24,7 +24,7 @@ def case(diameter, seat="rough", particle=SILICA, surfaces=(STEEL, STEEL), densi
         roughness=tb.Roughness(sigma=SIGMA, R=2.8e-6),
         particles=tb.Particles(material=particle, areal_density=density, diameter=diameter),
         particle_law=tb.particle.Series(
-            soft="sphere", seat=seat, **({"h_0": SIGMA} if seat == "offset" else {})
+            deep="off", soft="sphere", seat=seat, **({"h_0": SIGMA} if seat == "offset" else {})
         ),
     )
 

@@ -110,7 +110,9 @@ def reference_contact(row: dict) -> tb.Contact:
         one = tb.asperity.Hermite() if p["kind_p"] == "hermite" else tb.asperity.ZMC()
         h_0 = p.get("h0", 0.0)
         seat = row.get("seat", "offset" if h_0 else "plane")
-        law = tb.particle.Series(law=one, soft="sphere", seat=seat, h_0=h_0, shadow=p["shadow"])
+        law = tb.particle.Series(
+            deep="off", law=one, soft="sphere", seat=seat, h_0=h_0, shadow=p["shadow"]
+        )
     else:
         xxd = p["law"] == "xxd"
         law = tb.particle.Horng2022(

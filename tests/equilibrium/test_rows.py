@@ -31,7 +31,7 @@ def contact(seat: str, sizes: str, shadow: str = "footprint") -> tb.Contact:
         particles=tb.Particles(
             material=tb.materials["SiO2"], diameter=SIZES[sizes], areal_density=1e10
         ),
-        particle_law=tb.particle.Series(seat=seat, shadow=shadow),
+        particle_law=tb.particle.Series(deep="off", seat=seat, shadow=shadow),
     )
 
 

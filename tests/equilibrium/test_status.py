@@ -31,7 +31,7 @@ def dusty(**changes) -> tb.Contact:
         diameter=tb.TruncatedGaussian(mean=3e-7, std=2.4e-8),
         areal_density=1e11,
     )
-    return base(oracle.Interface(), particles, tb.particle.Series(**changes))
+    return base(oracle.Interface(), particles, tb.particle.Series(deep="off", **changes))
 
 
 def test_every_code_has_a_word_and_a_sentence():

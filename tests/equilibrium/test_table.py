@@ -41,7 +41,7 @@ def contact(law=None, heights=None, sizes=None, particle_law=None, **options):
     )
 
 
-PLANE = tb.particle.Series(seat="plane")
+PLANE = tb.particle.Series(deep="off", seat="plane")
 CONTACTS = {
     "zmc": contact(),
     "ke": contact(tb.asperity.KE()),
@@ -241,7 +241,7 @@ def test_jumps_are_refused():
     one = contact(sizes="one size", particle_law=tb.particle.Horng2022())
     with pytest.raises(tb.InvalidValue, match=r"^p jumps by 0\.289 at h"):
         tb.table(one)
-    law = tb.particle.Series(seat="plane", law=tb.asperity.KE())
+    law = tb.particle.Series(deep="off", seat="plane", law=tb.asperity.KE())
     broken = contact(sizes="one size", particle_law=law)
     with pytest.raises(tb.InvalidValue, match=r"^A_t jumps by 0\.0261 at h"):
         tb.table(broken)

@@ -28,6 +28,7 @@ CONTACT = tb.Contact(
     particles=tb.Particles(
         material=SILICA, areal_density=2e11, diameter=tb.Monodisperse(mean=4e-7)
     ),
+    particle_law=tb.particle.Series(deep="off"),
 )
 
 

@@ -19,7 +19,7 @@ def never(shape):
 
 
 def one_body(x, y, diameter, particle=SILICA, law=None, surfaces=PAIR):
-    law = law or tb.particle.Series()
+    law = law or tb.particle.Series(deep="off")
     return Bodies(
         x=np.array([x]), y=np.array([y]), diameter=np.array([diameter]), lift=np.zeros(1),
         kind=np.zeros(1, np.int64), laws=(LawTable(law.one(surfaces=surfaces, particle=particle)),),
@@ -361,13 +361,18 @@ def test_one_particle_on_a_flat_follows_its_law(side, share):
     nothing = np.zeros((n, n))
     state = press(nothing, side / n, PAIR.E_star, c=nothing, bodies=bodies, load=load, tol=1e-11)
     images = lattice_constant((side, side)) * load / (np.pi * PAIR.E_star)
-    law = tb.particle.Series().single(3e-7, state.h - images, surfaces=PAIR, particle=SILICA)
+    law = tb.particle.Series(deep="off").single(
+        3e-7, state.h - images, surfaces=PAIR, particle=SILICA
+    )
     assert float(law["force"]) == pytest.approx(load, rel=3e-5)
 
 
 def test_the_table_of_a_law_is_the_law_and_its_own_inverse():
     soft = STEEL.replace(H=1e9)
-    for law, particle in ((tb.particle.Series(), SILICA), (tb.particle.Series(), STEEL)):
+    for law, particle in (
+        (tb.particle.Series(deep="off"), SILICA),
+        (tb.particle.Series(deep="off"), STEEL),
+    ):
         one = law.one(surfaces=tb.MaterialPair(STEEL, soft), particle=particle)
         table = LawTable(one)
         eps = np.geomspace(1e-2 * one.kinks[0], 0.999 * one.kinks[-1], 777)

@@ -25,6 +25,7 @@ def contact(density=5e11, diameter=None, **changes):
             areal_density=density,
             diameter=diameter or tb.Monodisperse(mean=3e-7),
         ),
+        particle_law=tb.particle.Series(deep="off"),
     )
     return made.replace(**changes)
 
@@ -73,7 +74,7 @@ def test_particles_follow_their_law_and_its_dents():
     bodies = STATE.particles
     carries = bodies.force.values > 0
     assert np.sum(carries) > 20
-    law = tb.particle.Series().single(
+    law = tb.particle.Series(deep="off").single(
         bodies.diameter.values,
         (bodies.diameter - bodies["squeeze"]).values,
         surfaces=STATE.contact.surfaces,

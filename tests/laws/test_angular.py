@@ -32,13 +32,13 @@ def angular(roundness=0.25, degrees=35.0, flatness=1.0):
 
 def load(eps, shape, surfaces=HARD, particle=QUARTZ, law=None):
     """Load over x² [Pa]."""
-    law = (law or Series()).of_shape(shape)
+    law = (law or Series(deep="off")).of_shape(shape)
     found = law.single(1.0, 1 - np.asarray(eps), surfaces=surfaces, particle=particle)
     return found["force"]
 
 
 def one(shape, surfaces=HARD, particle=QUARTZ, law=None):
-    return (law or Series()).of_shape(shape).one(surfaces=surfaces, particle=particle)
+    return (law or Series(deep="off")).of_shape(shape).one(surfaces=surfaces, particle=particle)
 
 
 def side(shape, E_over_H=40.0, law=None, H=1e9):
@@ -53,7 +53,7 @@ def contact(shape=None, surfaces=UNLIKE, outputs=(), law=None, **options):
     )  # fmt: skip
     return tb.Contact(
         surfaces=surfaces, roughness=ROUGH, particles=dust, outputs=outputs,
-        particle_law=law or Series(),
+        particle_law=law or Series(deep="off"),
     )  # fmt: skip
 
 
@@ -129,10 +129,12 @@ def test_a_round_shape_is_a_sphere(degrees):
 
 
 def test_a_sphere_is_what_the_law_is_written_for():
-    law = Series()
+    law = Series(deep="off")
     assert law.of_shape(tb.Sphere()) is law
     assert contact(tb.Sphere()) == contact()
-    assert contact().law_of(contact().particles) is contact().particle_law or law == Series()
+    assert contact().law_of(contact().particles) is contact().particle_law or law == Series(
+        deep="off"
+    )
 
 
 @pytest.mark.parametrize("degrees", [10.0, 30.0, 60.0])
@@ -155,7 +157,7 @@ def test_unequal_plastic_cones():
     """δ_1/δ_2 = √(H_2/H_1)."""
     stiff = tb.Material(E=1e18, nu=0.3, H=8e9)
     pair = tb.MaterialPair(stiff, stiff.replace(H=2e9))
-    law = Series().of_shape(angular(1e-7, 40.0))
+    law = Series(deep="off").of_shape(angular(1e-7, 40.0))
     found = law.single(1.0, 0.8, surfaces=pair, particle=stiff.replace(H=1e10))
     assert float(found["delta_2"] / found["delta_1"]) == pytest.approx(2.0, rel=1e-5)
 
@@ -295,7 +297,7 @@ def test_many_states_are_each_state(vary):
 
 def test_a_closed_gap():
     """Particles that the surfaces swallow carry the smaller pressure of their two sides."""
-    case = contact(angular(0.25, 35.0, 1.2), law=Series(seat="plane", shadow="none"))
+    case = contact(angular(0.25, 35.0, 1.2), law=Series(deep="off", seat="plane", shadow="none"))
     dust = case.particles
     lowest = min(half.pressure * half.H for half in one(dust.shape, UNLIKE).sides)
     covered = np.pi / 4 * 1.2**2 * dust.areal_density * dust.diameter.moment(2)
@@ -340,7 +342,7 @@ def test_grains_that_break_may_be_angular():
 # ---------------------------------------------------------------------------- what they leave
 def test_dents_are_cones():
     case = contact(angular(0.1, 30.0), surfaces=HARD, outputs=(tb.outputs.Dents(),),
-                   law=Series(seat="plane"))  # fmt: skip
+                   law=Series(deep="off", seat="plane"))  # fmt: skip
     case = case.replace(**{"particles.diameter": tb.Monodisperse(mean=1e-6)})
     state = tb.solve(case, d=6e-7)
     law = case.law_of(case.particles)
@@ -357,7 +359,9 @@ def test_half_a_radius_is_a_quarter_of_the_size():
     """Grains are counted as embedded from x/4 in one side, whatever the radius of their tip."""
     outputs = (tb.outputs.Dents(),)
     for d, n in ((5.2e-7, 0.0), (4.8e-7, 2e10)):
-        case = contact(angular(), surfaces=HARD, outputs=outputs, law=Series(seat="plane"))
+        case = contact(
+            angular(), surfaces=HARD, outputs=outputs, law=Series(deep="off", seat="plane")
+        )
         case = case.replace(**{"particles.diameter": tb.Monodisperse(mean=1e-6)})
         assert tb.solve(case, d=d).outputs["embedded_1"] == pytest.approx(n)
 
@@ -366,7 +370,9 @@ def test_half_a_radius_is_a_quarter_of_the_size():
 def test_the_groove_no_longer_grows_with_load(degrees):
     """μ_p of an unsupported particle between unlike surfaces tends to (2/π) tan β."""
     friction = tb.outputs.Friction(tau_ss=0.0, tau_sa=0.0, rear="rigid")
-    case = contact(angular(0.05, degrees), outputs=(friction,), law=Series(seat="plane"))
+    case = contact(
+        angular(0.05, degrees), outputs=(friction,), law=Series(deep="off", seat="plane")
+    )
     case = case.replace(**{"particles.diameter": tb.Monodisperse(mean=1e-6)})
     law = case.law_of(case.particles)
     spots = law.probe(np.array([0.4, 0.6]), surfaces=UNLIKE, particle=QUARTZ)

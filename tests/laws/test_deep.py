@@ -210,7 +210,8 @@ def test_who_is_dented():
     """A particle as hard as the surfaces is squashed; one three times as hard embeds."""
     sinks = {}
     for ratio in (1.0, 2.0, 3.0):
-        spots = DEEP.probe(np.array([0.3, 0.5, 0.9]), surfaces=PAIR, particle=particle_of(ratio))
+        law = Series(friction_factor=1.0)
+        spots = law.probe(np.array([0.3, 0.5, 0.9]), surfaces=PAIR, particle=particle_of(ratio))
         sinks[ratio] = np.ravel(spots.sinks[0]) / 0.5
     assert np.all(sinks[1.0] < 0.2)
     assert sinks[2.0][0] < 0.25
@@ -219,9 +220,73 @@ def test_who_is_dented():
     assert float(hard.sinks[0][0, 0]) == pytest.approx(0.25, rel=0.02)
 
 
-def test_options_that_contradict_each_other_are_refused():
-    with pytest.raises(tb.InvalidValue, match="deep"):
-        Series(deep="table", soft="sphere")
+@pytest.mark.parametrize("options", [dict(soft="sphere"), dict(onset="jg")])
+def test_the_choices_of_other_laws_put_the_table_aside(options):
+    eps = np.array([0.02, 0.3, 0.9])
+    for ratio in (0.5, 2.0):
+        one, two = (single(eps, ratio, deep=deep, **options) for deep in ("table", "off"))
+        np.testing.assert_array_equal(one["force"], two["force"])
+        assert not any(Series(**options).one(surfaces=PAIR, particle=particle_of(ratio)).knows_sink)
+
+
+# ---------------------------------------------------------------------------- how deep it sinks
+def sinks_over_R(ratio, eps, m=1.0):
+    return np.ravel(side(ratio, m).sink(0.5 * np.asarray(eps))) / 0.5
+
+
+def test_a_rigid_particle_sinks_by_the_whole_squeeze():
+    eps = np.linspace(1e-4, 1.7, 300)
+    np.testing.assert_allclose(sinks_over_R(1e3, eps), eps, rtol=1e-12)
+    assert np.all(sinks_over_R(0.3, eps[eps < 0.95]) == 0.0)
+
+
+def test_sinks_at_the_hardness_ratios_that_were_computed():
+    """Welded: none embeds at ρ = 1, ρ = 2 passes R/4 late and never R/2, ρ = 3 halfway."""
+    eps = np.linspace(0.05, 0.95, 2000)
+    one, two, three = (sinks_over_R(ratio, eps) for ratio in (1.0, 2.0, 3.0))
+    assert np.max(one[eps <= 0.93]) < 0.17
+    assert eps[np.argmax(two > 0.25)] == pytest.approx(0.83, abs=0.01)
+    assert np.max(two) < 0.5
+    assert eps[np.argmax(three > 0.5)] == pytest.approx(0.503, abs=0.005)
+
+
+def test_sink_and_squash_share_the_squeeze():
+    """Neither falls as a particle is squeezed, whatever its hardness and friction."""
+    eps = np.linspace(0.0, 1.6, 1500)
+    for _ in range(60):
+        ratio = math.exp(RNG.uniform(math.log(0.2), math.log(20)))
+        sink = sinks_over_R(ratio, eps, RNG.uniform(0.02, 1.0))
+        assert np.all(np.diff(sink) >= -1e-12), ratio
+        assert np.all(np.diff(eps - sink) >= -1e-12), ratio
+        assert sink[0] == 0.0
+
+
+@pytest.mark.parametrize("m", [0.05, 0.2, 1.0])
+def test_no_hardness_is_a_cliff_for_the_sink(m):
+    """One per cent of a particle's hardness moves its sink by less than 3 % of the squeeze."""
+    eps = np.linspace(0.02, 0.95, 200)
+    for ratio in np.geomspace(0.3, 12, 150):
+        one, two = (sinks_over_R(factor * ratio, eps, m) for factor in (0.995, 1.005))
+        assert np.max(np.abs(one - two) / eps) < 0.03, ratio
+
+
+@pytest.mark.parametrize("m", [0.0, 0.2, 1.0])
+def test_sinks_are_those_of_the_table(m):
+    table = json.loads(
+        resources.files("thirdbody").joinpath("data/deep_squeeze.json").read_text("utf-8")
+    )
+    compared = 0
+    for curve in table["curves"]:
+        ratio = float(curve["rho"])
+        if (curve["m"], curve["E_over_Y"], curve["surfaces"]) != (m, "inf", 2) or ratio == 0:
+            continue
+        known = np.array([value is not None for value in curve["sink"]])
+        said = np.array(curve["sink"], dtype=float)[known]
+        found = squeeze_curve(min(ratio, 10.0), m, 1e12).sinks[known]
+        # what is beyond the error of the table: nothing
+        np.testing.assert_allclose(found, said, atol=0.002)
+        compared += 1
+    assert compared >= 7
 
 
 def test_thin_discs_go_on_until_they_sink_into_the_surface():

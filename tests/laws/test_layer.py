@@ -354,7 +354,7 @@ def test_a_vanishing_coating_in_a_contact_is_no_coating():
 
 def test_refusals():
     with pytest.raises(tb.InvalidValue, match="length of its own"):
-        tb.particle.Series(law=coated(STIFF))
+        tb.particle.Series(deep="off", law=coated(STIFF))
     with pytest.raises(tb.InvalidValue, match="scale"):
         coated(STIFF).reduced("force", 1.0)
     with pytest.raises(tb.InvalidValue, match=r"Coated\.t"):

@@ -113,7 +113,7 @@ def test_a_new_law_works_everywhere(package):
             diameter=tb.TruncatedGaussian(mean=x, std=0.05 * x),
             areal_density=density,
         ),
-        particle_law=tb.particle.Series(law=law, seat="plane", shadow="none"),
+        particle_law=tb.particle.Series(deep="off", law=law, seat="plane", shadow="none"),
     )
     gap = 2.2e-7
     m_1, m_2 = (float(dusty.particles.diameter.partial_moment(n, gap, 1.0)) for n in (1, 2))
@@ -124,7 +124,7 @@ def test_a_new_law_works_everywhere(package):
     # and in everything built on top
     assert tb.Contact.from_dict(dusty.to_dict()) == dusty
     assert "Abbott" in tb.cite(dusty)
-    on_rough = dusty.replace(particle_law=tb.particle.Series(law=law))
+    on_rough = dusty.replace(particle_law=tb.particle.Series(deep="off", law=law))
     loads = np.geomspace(1e-8, 1e-3, 6)
     states = tb.solve(on_rough, F_star=loads)
     np.testing.assert_allclose(states.F_star, loads, rtol=1e-9)

@@ -211,7 +211,7 @@ def pair_of(first, second, dust, rule="hermite") -> oracle.Squeezed:
 
 
 def single(first, second, dust, x, gap, rule="hermite", soft="squashed") -> dict:
-    law = tb.particle.Series(law=LAWS[rule](), soft=soft)
+    law = tb.particle.Series(deep="off", law=LAWS[rule](), soft=soft)
     return law.single(
         x,
         gap,

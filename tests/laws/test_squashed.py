@@ -22,7 +22,7 @@ HARD = tb.MaterialPair(STEEL, STEEL)
 
 def load(eps, *, second=STEEL, particle=SOFT, **options):
     """Load over x² [Pa]."""
-    law, pair = Series(**options), tb.MaterialPair(STEEL, second)
+    law, pair = Series(deep="off", **options), tb.MaterialPair(STEEL, second)
     return law.single(1.0, 1 - np.asarray(eps), surfaces=pair, particle=particle)["force"]
 
 
@@ -64,7 +64,7 @@ def test_loads(options, eps, value, rel):
     ],
 )
 def test_final_heights(options, value):
-    one = Series(**options).one(surfaces=HARD, particle=SOFT)
+    one = Series(deep="off", **options).one(surfaces=HARD, particle=SOFT)
     assert 1 - one.kinks[-1] == pytest.approx(value, rel=1e-8)
 
 
@@ -147,14 +147,14 @@ def test_a_thin_pancake_is_as_high_as_friction_makes_it():
 
 def test_it_keeps_its_scales():
     base = load([0.05, 0.3, 0.9])
-    bigger = Series().single(3e-6, 3e-6 * (1 - np.array([0.05, 0.3, 0.9])), surfaces=HARD,
+    bigger = Series(deep="off").single(3e-6, 3e-6 * (1 - np.array([0.05, 0.3, 0.9])), surfaces=HARD,
                              particle=SOFT)["force"]  # fmt: skip
     assert bigger == pytest.approx(9e-12 * base, rel=1e-12)
 
     def scaled(body):
         return tb.Material(E=2 * body.E, nu=body.nu, H=2 * body.H)
 
-    twice = Series().single(
+    twice = Series(deep="off").single(
         1.0,
         1 - np.array([0.05, 0.3, 0.9]),
         surfaces=tb.MaterialPair(scaled(STEEL), scaled(STEEL)),
@@ -167,7 +167,7 @@ def test_surfaces_swapped():
     eps = np.array([1e-4, 0.02, 0.3, 0.8, 1.1])
     for second in (LEAD, tb.Material(E=110e9, nu=0.33, H=2e9)):
         one, two = (
-            Series().single(1.0, 1 - eps, surfaces=tb.MaterialPair(*pair), particle=SOFT)
+            Series(deep="off").single(1.0, 1 - eps, surfaces=tb.MaterialPair(*pair), particle=SOFT)
             for pair in ((STEEL, second), (second, STEEL))
         )
         assert one["force"] == pytest.approx(two["force"], rel=1e-11)
@@ -177,7 +177,7 @@ def test_surfaces_swapped():
 def test_both_sides_carry_one_load():
     second = tb.Material(E=110e9, nu=0.33, H=2e9)
     pair = tb.MaterialPair(STEEL, second)
-    one = Series().one(surfaces=pair, particle=SOFT)
+    one = Series(deep="off").one(surfaces=pair, particle=SOFT)
     eps = np.geomspace(1e-9, 0.999 * one.kinks[-1], 500)
     depths = one.indentations(eps)
     loads = [side.force(depth) for side, depth in zip(one.sides, depths, strict=True)]
@@ -191,7 +191,9 @@ def test_only_where_the_particle_is_softer():
     for particle, second in ((equal, STEEL), (tb.materials["SiO2"], STEEL), (SOFT, LEAD)):
         pair = tb.MaterialPair(LEAD if particle is SOFT else STEEL, second)
         new, old = (
-            Series(soft=soft).single(1.0, 1 - eps, surfaces=pair, particle=particle)["force"]
+            Series(deep="off", soft=soft).single(1.0, 1 - eps, surfaces=pair, particle=particle)[
+                "force"
+            ]
             for soft in ("squashed", "sphere")
         )
         assert np.array_equal(new, old)
@@ -279,7 +281,7 @@ def contact(seat, shadow="footprint", density=1e10, particle=SOFT, **options):
             areal_density=density,
             diameter=tb.TruncatedGaussian(mean=300e-9, std=60e-9),
         ),
-        particle_law=Series(seat=seat, shadow=shadow, **options),
+        particle_law=Series(deep="off", seat=seat, shadow=shadow, **options),
     )
 
 

@@ -26,6 +26,7 @@ def paper(law: tb.asperity.AbstractAsperityLaw, **changes) -> tb.Contact:
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         asperity_law=law,
         particles=DUST,
+        particle_law=tb.particle.Series(deep="off"),
     ).replace(**changes)
 
 
@@ -99,7 +100,7 @@ SQUEEZED = ("gw", "ceb", "zmc", "hermite", "ke", "jg")
 @pytest.mark.parametrize("name", SQUEEZED)
 def test_law_of_the_particles(name):
     law = gentle(FIRST[name])
-    one = paper(FIRST["zmc"].law, particle_law=tb.particle.Series(law=law))
+    one = paper(FIRST["zmc"].law, particle_law=tb.particle.Series(deep="off", law=law))
     balanced(tb.solve(one, F_star=LOADS), LOADS)
     assert tb.transitions(one).F_cr1.status in STATUS
 
@@ -108,7 +109,7 @@ def test_law_of_the_particles(name):
 def test_law_of_one_particle_between_equal_surfaces(name):
     """Each side carries the load of the law with half the squeeze, up to the great circle."""
     law = FIRST[name].law
-    one = tb.particle.Series(law=law)
+    one = tb.particle.Series(deep="off", law=law)
     x = 300e-9
     delta = x * np.geomspace(1e-5, 0.1, 12)
     got = one.single(x, x - delta, surfaces=tb.MaterialPair(STEEL, STEEL), particle=SILICA)
@@ -126,7 +127,7 @@ def test_law_of_the_particles_between_unequal_surfaces(name):
     one = paper(
         FIRST["zmc"].law,
         surfaces=tb.MaterialPair(STEEL, soft),
-        particle_law=tb.particle.Series(law=gentle(FIRST[name]), seat="plane"),
+        particle_law=tb.particle.Series(deep="off", law=gentle(FIRST[name]), seat="plane"),
     )
     balanced(tb.solve(one, F_star=LOADS), LOADS)
 

@@ -381,7 +381,7 @@ def test_density_of_the_material_counts():
 
 
 def test_name_and_law_pass_through():
-    law = tb.particle.Series(seat="plane")
+    law = tb.particle.Series(deep="off", seat="plane")
     dust = from_code("18/16/13", name="debris", law=law)
     assert (dust.name, dust.law) == ("debris", law)
 
@@ -563,6 +563,7 @@ def test_numbers_of_the_page():
             surfaces=tb.MaterialPair(STEEL, STEEL),
             roughness=tb.Roughness(sigma=400e-9, R=25e-6),
             particles=from_code("18/16/13", **options),
+            particle_law=tb.particle.Series(deep="off"),
         )
         return float(tb.solve(contact, pressure=1e5).particle_load_share)
 

@@ -125,6 +125,7 @@ def reference_contact():
         particles=tb.Particles(
             material=silica, diameter=tb.Monodisperse(mean=3e-7), areal_density=1e11
         ),
+        particle_law=tb.particle.Series(deep="off"),
     )
 
 

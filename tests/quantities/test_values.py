@@ -78,10 +78,10 @@ def test_defaults():
     )
     assert plain.two_body
     assert plain.asperity_law == tb.asperity.ZMC(k=0.4, rho=54)
-    assert contact().particle_law == tb.particle.Series()
+    assert contact().particle_law == tb.particle.Series(deep="off")
     assert contact() == contact(particle_law=None)
     assert not contact().two_body
-    series = tb.particle.Series()
+    series = tb.particle.Series(deep="off")
     assert series.law == tb.asperity.Hermite()
     assert (series.seat, series.h_0, series.shadow) == ("rough", 0.0, "footprint")
     assert (series.zeta_mean, series.zeta_std) == (0.0, 1.0)
@@ -225,12 +225,15 @@ def test_ordinary_states_do_not_warn(recwarn):
         (lambda: dust(areal_density=-1.0), ["areal_density", ">= 0"]),
         (lambda: dust(material="SiO2"), ["Particles.material"]),
         (lambda: dust(diameter=3e-7), ["Particles.diameter"]),
-        (lambda: tb.particle.Series(seat="floor"), ["seat", "'rough'", "'plane'", "'offset'"]),
-        (lambda: tb.particle.Series(shadow="half"), ["shadow", "'footprint'"]),
-        (lambda: tb.particle.Series(h_0=1e-7), ["h_0", "offset"]),
-        (lambda: tb.particle.Series(seat="plane", zeta_mean=1.0), ["zeta_mean"]),
-        (lambda: tb.particle.Series(zeta_std=0.0), ["zeta_std"]),
-        (lambda: tb.particle.Series(law="hertz"), ["Series.law"]),
+        (
+            lambda: tb.particle.Series(deep="off", seat="floor"),
+            ["seat", "'rough'", "'plane'", "'offset'"],
+        ),
+        (lambda: tb.particle.Series(deep="off", shadow="half"), ["shadow", "'footprint'"]),
+        (lambda: tb.particle.Series(deep="off", h_0=1e-7), ["h_0", "offset"]),
+        (lambda: tb.particle.Series(deep="off", seat="plane", zeta_mean=1.0), ["zeta_mean"]),
+        (lambda: tb.particle.Series(deep="off", zeta_std=0.0), ["zeta_std"]),
+        (lambda: tb.particle.Series(deep="off", law="hertz"), ["Series.law"]),
         (lambda: tb.particle.Horng2022(preset="best"), ["preset", "published", "window"]),
         (lambda: tb.particle.Horng2022(weight="x3"), ["weight", "x2"]),
         (lambda: tb.particle.Horng2022(kappa_C=0), ["kappa_C"]),
@@ -297,7 +300,7 @@ def test_numbers_become_floats():
         STEEL,
         tb.Roughness(sigma=1e-7, R=1e-6),
         dust(),
-        tb.particle.Series(),
+        tb.particle.Series(deep="off"),
         tb.particle.Horng2022(),
         tb.asperity.ZMC(),
         contact(),

@@ -319,7 +319,7 @@ def test_particles_of_one_size_break_in_the_film(fragments):
     """Generation by generation: N_k S_k P_k whole pieces of κ^k x."""
     strength, x, kept = strong(fragments), 20e-6, {"gone": 0.0, "footprint": 0.5, "all": 1.0}
     film = breaking(tb.Monodisperse(mean=x), strength)
-    one = tb.particle.Series(soft="sphere").one(surfaces=film.surfaces, particle=QUARTZ)
+    one = tb.particle.Series(deep="off", soft="sphere").one(surfaces=film.surfaces, particle=QUARTZ)
     met = tension(one, QUARTZ.nu, "sphere")
     number, arrived, y, whole = 0.0, 1.0, x, []
     while y > film.film and arrived > 0:
@@ -343,7 +343,7 @@ def test_particles_of_many_sizes_break_in_the_film():
     strength, sizes = strong("all"), tb.LogNormal(median=4e-6, gsd=1.5)
     film = breaking(sizes, strength)
     dents = film.dents()
-    one = tb.particle.Series(soft="sphere").one(surfaces=film.surfaces, particle=QUARTZ)
+    one = tb.particle.Series(deep="off", soft="sphere").one(surfaces=film.surfaces, particle=QUARTZ)
     met = tension(one, QUARTZ.nu, "sphere")
     rng = np.random.default_rng(3)
     n = 40_000

@@ -58,6 +58,7 @@ def dirty_contact():
             areal_density=1e11,
             diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
         ),
+        particle_law=tb.particle.Series(deep="off"),
     )
 
 

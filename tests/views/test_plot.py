@@ -29,6 +29,7 @@ def make_contact(**changes):
         surfaces=tb.MaterialPair(STEEL, STEEL),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=dust,
+        particle_law=tb.particle.Series(deep="off"),
     )
     return contact.replace(**changes)
 

@@ -13,7 +13,7 @@ from ..laws.particle.series import Series
 from ..populations.materials import softer_hardness
 from ..quantities.say import number
 from ..quantities.value import choice, quantity
-from .single.dent import dent_of, fragments, sink
+from .single.dent import dent_of, fragments, sink, sunk
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -55,9 +55,10 @@ class Dents(AbstractOutput):
     Parameters
     ----------
     debris : {"by_hardness", "hard", "ductile", "brittle"}, optional
-        By hardness a particle dents a surface that is softer than itself, and is flattened by one
-        that is not (`thirdbody.effects.single.dent.sink`); of particles with a strength, what is
-        whole does. Hard ones keep their shape whatever their hardness. Ductile ones flatten to
+        By hardness a particle dents a surface as deep as its law says it sinks. Where the law does
+        not say, it dents one that is softer than itself, and is flattened by one that is not
+        (`thirdbody.effects.single.dent.sink`). Of particles with a strength, what is whole does.
+        Hard ones keep their shape whatever their hardness. Ductile ones flatten to
         discs: the widths are their footprints, as `thirdbody.particle.Series` squashes them where
         they are softer than the surface, and otherwise those of discs as high as the gap; depth
         and volume of these marks are not known, and NaN. Brittle ones larger than ``fragment`` are
@@ -201,6 +202,11 @@ class Dents(AbstractOutput):
             squashed=_squashed(contact, population)[side],
         )
 
+    def _sunk(self, spots: ParticleSpots, side: int) -> Array:
+        population = spots.population
+        assert population is not None
+        return sunk(spots, side=side, particle=population.material, debris=self.debris)
+
     def of(self, state: Solved) -> dict[str, Array]:
         groups = list(state.particles)
         if self.debris == "brittle":
@@ -216,6 +222,7 @@ class Dents(AbstractOutput):
         dents: list[tuple[Any, ...]] = []
         for spots in groups:
             dent = self._left(spots, side, state.contact)
+            deep = self._sunk(spots, side)
             told = np.isfinite(dent.depth)
             depth, volume = np.where(told, dent.depth, 0.0), np.where(told, dent.volume, 0.0)
             there = dent.diameter > 0
@@ -229,7 +236,7 @@ class Dents(AbstractOutput):
                 ("depth", known * depth),
                 ("width", counts * dent.diameter),
                 ("volume", known * volume),
-                ("embedded", (known & (2 * spots.depths[side] > spots.half)).astype(float)),
+                ("embedded", (known & (2 * deep > spots.half)).astype(float)),
             ):
                 sums[name] = sums[name] + spots.total(q)
         return self._columns(sums, dents, side)
@@ -289,9 +296,19 @@ class Dents(AbstractOutput):
         out = []
         pair = (state.contact.surfaces.first, state.contact.surfaces.second)
         for each in state.contact.populations:
+            own = each.material
+            of_each = (spots.knows_sink for spots in state.particles if spots.population == each)
+            known = next(of_each, (False, False))
             flat = [
-                math.isnan(sink(own, hardness=softer_hardness(own, body), debris=self.debris))
-                for own, body in zip((each.material,) * 2, pair, strict=True)
+                math.isnan(
+                    sink(
+                        own,
+                        hardness=softer_hardness(own, body),
+                        debris=self.debris,
+                        computed=computed,
+                    )
+                )
+                for body, computed in zip(pair, known, strict=True)
             ]
             sides = [k for k in (1, 2) if flat[k - 1] and np.any(values[f"n_dents_{k}"] != 0)]
             if not sides:
@@ -310,7 +327,8 @@ class Dents(AbstractOutput):
 
         def half(eps: float, side: int) -> float:
             spots = probe(np.array([eps]))
-            return float((2 * spots.depths[side] - spots.half)[0, 0])
+            deep = spots.depths if self.debris == "hard" else spots.sinks
+            return float((2 * deep[side] - spots.half)[0, 0])
 
         return [
             float(brentq(half, 1e-9, 3.0, args=(side,), xtol=1e-15))
@@ -324,7 +342,12 @@ def _squashed(contact: Contact, population: Particles) -> tuple[bool, ...]:
     law = contact.law_of(population)
     if not isinstance(law, Series):
         return (False, False)
-    return tuple(bool(form) for form in law.forms(contact.surfaces, population.material))
+    pair = (contact.surfaces.first, contact.surfaces.second)
+    forms = law.forms(contact.surfaces, population.material)
+    return tuple(
+        form is not None and (not law.follows_table or population.material.H <= body.H)
+        for form, body in zip(forms, pair, strict=True)
+    )
 
 
 def _exceeded(

@@ -143,8 +143,10 @@ class Friction(AbstractOutput):
         Asperities plough the softer surface when the other is harder by more than this factor;
         otherwise they flatten. 1.2 (from memory: not confirmed in a source).
     soft_particles : {"flatten", "plough"}, optional
-        A particle softer than a surface is deformed itself, and ploughs nothing when it slides
-        there; "plough" treats it like a hard one.
+        Of particles whose law does not say how deep they sink: one softer than a surface is
+        deformed itself, and ploughs nothing when it slides there; "plough" treats it like a hard
+        one. With `thirdbody.particle.Series` at its default, every particle ploughs as deep as it
+        sinks.
     rolling : {"moment", "severity"}, optional
         Cheapest motion as above, or the severity of the contact below a threshold from tests
         with angular abrasive (`thirdbody.effects.single.severity`), the softer surface being the
@@ -339,11 +341,13 @@ class Friction(AbstractOutput):
             depth = radius * part / (1 + np.sqrt(1 - part))
         return coefficient(depth, radius=radius, rear=kappa)
 
-    def _plough_by(self, spots: ParticleSpots, depth: Array, area: Array, yielding: Any) -> Array:
+    def _plough_by(self, spots: ParticleSpots, side: int) -> Array:
         """μ_p of particles on one side."""
-        shape = spots.shape
+        shape, radius = spots.shape, spots.impression_radius(side)
+        depth, area = spots.sinks[side], spots.areas[side]
+        yielding = spots.yields[side] * spots.x
         if shape is None or shape.round:
-            return self._plough(depth, spots.radius, area, yielding)
+            return self._plough(depth, radius, area, yielding)
         return coefficient_of_faces(
             np.sqrt(area / np.pi),
             edge=shape.edge * spots.x,
@@ -381,7 +385,10 @@ class Friction(AbstractOutput):
         if self.soft_particles == "plough" or spots.material is None:
             return True, True
         # the softer body of a contact with a softer particle is the particle
-        one, two = (spots.material.H > H for H in spots.hardness)
+        one, two = (
+            known or spots.material.H > H
+            for known, H in zip(spots.knows_sink, spots.hardness, strict=True)
+        )
         return one, two
 
     def motion(self, spots: ParticleSpots) -> Motion:
@@ -392,13 +399,13 @@ class Friction(AbstractOutput):
 
     def _motion(self, spots: ParticleSpots) -> Motion:
         acting = self.indents(spots)
-        sides = list(zip(spots.depths, spots.areas, spots.yields, spots.hardness, strict=True))
-        deform = [
-            self._plough_by(spots, depth, area, first * spots.x) for depth, area, first, _ in sides
-        ]
+        deform = [self._plough_by(spots, side) for side in (0, 1)]
         one, two = (mu * acts for mu, acts in zip(deform, acting, strict=True))
         resistance = 0.5 * (deform[0] + deform[1])
-        shear = [self.shear_force("sa", area=area, load=spots.load, H=H) for _, area, _, H in sides]
+        shear = [
+            self.shear_force("sa", area=area, load=spots.load, H=H)
+            for area, H in zip(spots.areas, spots.hardness, strict=True)
+        ]
         slide = (one * spots.load + shear[0], two * spots.load + shear[1])
         side = (slide[1] < slide[0] * (1 - TIE)).astype(np.intp)
         gap = spots.x - spots.depths[0] - spots.depths[1]
@@ -494,9 +501,11 @@ class Friction(AbstractOutput):
         def kind(spots: ParticleSpots) -> NDArray[np.intp]:
             motion = self.motion(spots)
             out = np.where(motion.rolls, 2, motion.side)
-            for depth, area, H in zip(spots.depths, spots.areas, spots.hardness, strict=True):
+            for side, (area, H) in enumerate(zip(spots.areas, spots.hardness, strict=True)):
                 grown = self._growth("sa", area, spots.load, H) > 1.0
-                out = 4 * out + 2 * grown + (depth > spots.half)
+                known = spots.knows_sink[side]
+                ends = spots.impression_radius(side) if known else spots.half
+                out = 4 * out + 2 * grown + (spots.sinks[side] > ends)
             return out
 
         return changes(probe, kind)

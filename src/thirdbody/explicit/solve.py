@@ -283,8 +283,9 @@ def _squeezed(inside: Interface, state: Pressed) -> dict[str, Any]:
         if np.any(here):
             x = bodies.diameter[here]
             unit = law.one.at(squeeze[here] / x)
+            sinks = law.one.sinks(unit.depths)
             for side in (0, 1):
-                dents[side, here] = x * unit.depths[side]
+                dents[side, here] = x * sinks[side]
                 areas[side, here] = x**2 * unit.areas[side]
             regime[here] = law.one.regime(0, unit.depths[0])
     return {"dents": dents, "areas": areas, "regime": np.array([*REGIMES, "none"])[regime]}

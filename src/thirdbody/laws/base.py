@@ -321,8 +321,6 @@ class Squeezed(NamedTuple):
     """Indentations δ_1 and δ_2 over x, ε in sum."""
     areas: tuple[Array, Array]
     """Contact areas over x² [1]."""
-    sinks: tuple[Array, Array] | None = None
-    """Depths of the impressions in the surfaces over x, where they are not the indentations."""
 
 
 class OneParticle(ABC):
@@ -347,6 +345,9 @@ class OneParticle(ABC):
         Of the softer body of each side [Pa].
     shape : Angular, optional
         Of particles that are not round.
+    knows_sink : (bool, bool), optional
+        Whether the law says of each side how deep the particle sinks into the surface, and how
+        much of the indentation is its own squash.
     """
 
     kinks: Sequence[float] | Array
@@ -356,6 +357,7 @@ class OneParticle(ABC):
     yields: tuple[float, float]
     hardness: tuple[float, float]
     shape: Angular | None = None
+    knows_sink: tuple[bool, bool] = (False, False)
 
     @abstractmethod
     @takes_units
@@ -366,6 +368,10 @@ class OneParticle(ABC):
     @takes_units
     def regime(self, side: int, depth: Array) -> NDArray[np.intp]:
         """Index into `REGIMES` of side 0 or 1 indented by depth over x (N,)."""
+
+    def sinks(self, depths: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Depths of the impressions in the surfaces, of indentations (N,); all over x."""
+        return depths
 
     @cached_property
     def panels(self) -> Array:
@@ -378,7 +384,7 @@ class OneParticle(ABC):
     def __call__(self, eps: Array) -> Array:
         """The seven `COLUMNS` per x² at ε: (N, 7)."""
         eps = np.asarray(eps, dtype=float)
-        load, depths, (one, two), _ = self.at(eps)
+        load, depths, (one, two) = self.at(eps)
         regime = self.regime(0, depths[0])
         out = np.empty((len(eps), len(COLUMNS)))
         out[:, 0] = load
@@ -399,9 +405,10 @@ class OneParticle(ABC):
         first, second = (
             x**2 * np.where(eps > 0, area, 0.0).reshape(x.shape) for area in found.areas
         )
-        first_sink, second_sink = (
-            x * sink.reshape(x.shape) for sink in found.sinks or found.depths
-        )
+        sinks = (one, two)
+        if any(self.knows_sink):
+            first_sink, second_sink = self.sinks(found.depths)
+            sinks = (x * first_sink.reshape(x.shape), x * second_sink.reshape(x.shape))
         regimes = [self.regime(i, found.depths[i]).reshape(x.shape) for i in (0, 1)]
         return ParticleSpots(
             share=share,
@@ -410,12 +417,13 @@ class OneParticle(ABC):
             x=x,
             radius=self.tip_radius * x,
             depths=(one, two),
-            sinks=(first_sink, second_sink),
+            sinks=sinks,
             areas=(first, second),
             regimes=(regimes[0], regimes[1]),
             yields=self.yields,
             hardness=self.hardness,
             shape=self.shape,
+            knows_sink=self.knows_sink,
         )
 
 

@@ -85,6 +85,8 @@ class ParticleSpots(Spots):
         Of the softer body of each contact [Pa].
     shape : Angular or None
         Of particles that are not round.
+    knows_sink : (bool, bool)
+        Whether the law says how much of each indentation is the particle's own squash.
     material : Material
         Of the particles.
     population : Particles
@@ -103,6 +105,7 @@ class ParticleSpots(Spots):
     yields: tuple[float, float]
     hardness: tuple[float, float]
     shape: Angular | None = None
+    knows_sink: tuple[bool, bool] = (False, False)
     material: Material | None = None
     population: Particles | None = None
     parents: Array | None = None
@@ -116,9 +119,22 @@ class ParticleSpots(Spots):
     @property
     def even(self) -> NDArray[np.bool_]:
         """Particles whose two contacts are alike (M, n): what slides, slides over either."""
-        one, two = self.depths
-        alike = math.isclose(*self.hardness, rel_tol=EVEN)
-        return (np.abs(one - two) <= EVEN * (one + two)) & alike
+        alike = np.full(self.x.shape, math.isclose(*self.hardness, rel_tol=EVEN))
+        for one, two in (self.depths, self.sinks):
+            alike &= np.abs(one - two) <= EVEN * (one + two)
+        return alike
+
+    def impression_radius(self, side: int) -> Array:
+        r"""Radius of the cap that a particle presses into surface 1 (side 0) or 2 (M, n) [m].
+
+        That of its tip; of one that is squashed itself, of a cap as wide as the contact and as
+        deep as the sink d, :math:`(a^2+d^2)/2d` with :math:`\pi a^2` the contact area.
+        """
+        if not self.knows_sink[side]:
+            return self.radius
+        d, a = self.sinks[side], np.sqrt(self.areas[side] / np.pi)
+        cap = np.divide(a**2 + d**2, 2 * d, out=np.zeros_like(d), where=d > 0)
+        return np.maximum(self.radius, np.where(d < a, cap, a))
 
     def thinned(self, factor: Array) -> Self:
         """A part of the spots of each state: factor (N,)."""

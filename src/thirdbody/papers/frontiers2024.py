@@ -38,8 +38,8 @@ MIXED_SPEED, BOUNDARY_SPEED = 0.5, 0.02
 PRESSURES = np.geomspace(1e6, 1e9, 25)
 """Nominal pressures of the dry contact [Pa]."""
 SEATS = {
-    "rough": tb.particle.Series(),
-    "offset": tb.particle.Series(seat="offset", h_0=2.5 * SIGMA),
+    "rough": tb.particle.Series(deep="off"),
+    "offset": tb.particle.Series(deep="off", seat="offset", h_0=2.5 * SIGMA),
 }
 """Where particles rest: anywhere on the rough surface, or on a plane 2.5 σ up, like the paper."""
 

@@ -118,7 +118,7 @@ def contact(diameter: float, seat: str = "rough", h_0: float = 0.0) -> tb.Contac
             diameter=tb.Monodisperse(mean=diameter),
             areal_density=given["areal_density"],
         ),
-        particle_law=tb.particle.Series(seat=seat, h_0=h_0),
+        particle_law=tb.particle.Series(deep="off", seat=seat, h_0=h_0),
     )
 
 

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 import numpy as np
 
 from ..contact.broken_averages import broken_average
-from ..effects.single.dent import Dent, dent_of, dents_after, flattened_diameter, sink
+from ..effects.single.dent import Dent, dent_of, dents_after, flattened_diameter, sink, sunk
 from ..effects.single.ploughing import groove_of
 from ..effects.single.severity import severity, threshold
 from ..errors import InvalidValue, tell_of_range
@@ -28,6 +28,7 @@ from ..laws.asperity.hermite import Hermite
 from ..laws.base import AbstractAsperityLaw
 from ..laws.particle.breakage import Breakage, about_strength
 from ..laws.particle.one_particle import contact_sides, squeezed_particle
+from ..laws.particle.series import Series
 from ..numerics.quadrature import panel_rule, subdivide
 from ..populations.distributions import Distribution
 from ..populations.materials import Material, MaterialPair
@@ -140,7 +141,8 @@ class FilmParticles(Value):
         Entry ratio ε: particles that pass the contact over those in the oil that passes [1].
         Nobody can predict it; inlets turn large particles away and gather them too.
     debris : {"by_hardness", "hard", "ductile", "brittle"}, optional
-        By hardness, particles dent what is softer than they are, and are flattened by what is not
+        By hardness, particles dent a surface as deep as the computed table says they sink; with
+        ``deep="off"`` they dent what is softer than they are, and are flattened by what is not
         (`thirdbody.effects.single.dent.sink`). Hard ones keep their shape whatever their hardness.
         Ductile ones flatten to discs of the height of the film: the footprint is given, its depth
         is not known (NaN), because it follows from friction on the disc. Brittle ones break before
@@ -153,6 +155,11 @@ class FilmParticles(Value):
         Removed fraction of a groove [1]; needed with slip.
     law : AbstractAsperityLaw, optional
         Of each contact of a particle.
+    deep : {"table", "off"}, optional
+        What a particle does beyond small squeezes, as in `thirdbody.particle.Series`; ``off``, a
+        sphere that sinks in whole.
+    friction_factor : float, optional
+        Friction factor of the faces of particles, m_f [1], which the table needs.
     strength : WeibullStrength, optional
         How strong the particles are: what breaks on the way down to the film leaves pieces there,
         which may break again. Dents, footprints and the index are then of what is whole.
@@ -186,6 +193,10 @@ class FilmParticles(Value):
     slip: float = quantity("s", "m", "sliding distance under a passing particle", default=0, ge=0)
     f_ab: float | None = quantity("f_ab", "1", "removed part of a groove", default=None, ge=0, le=1)
     law: AbstractAsperityLaw = field(default_factory=Hermite)
+    deep: str = choice("particles beyond small indentations", "table", "off", default="table")
+    friction_factor: float = quantity(
+        "m_f", "1", "shear factor on the faces of particles", default=0.2, gt=0, le=1
+    )
     strength: WeibullStrength | None = None
 
     def __post_init__(self) -> None:
@@ -324,9 +335,13 @@ class FilmParticles(Value):
 
     # -------------------------------------------------------------------------- dents
     def sinks(self, side: int) -> bool:
-        """Whether the particles dent surface 1 (side 0) or 2 (side 1), and are not flattened."""
-        H = self._particle().sides[side].H
-        return not math.isnan(sink(self.material, hardness=H, debris=self.debris))
+        """Whether it is known how deep the particles sit in surface 1 (side 0) or 2 (side 1)."""
+        one = self._particle()
+        H, known = one.sides[side].H, one.knows_sink[side]
+        return not math.isnan(sink(self.material, hardness=H, debris=self.debris, computed=known))
+
+    def _deep(self, spots: ParticleSpots, side: int) -> Array:
+        return sunk(spots, side=side, particle=self.material, debris=self.debris)
 
     def _dent(self, spots: ParticleSpots, side: int) -> Dent:
         return dent_of(spots, side=side, particle=self.material, debris=self.debris)
@@ -345,7 +360,10 @@ class FilmParticles(Value):
         return self._spots(np.atleast_1d(np.asarray(x, dtype=float))[:, None], np.array(1.0))
 
     def _particle(self) -> Any:
-        return squeezed_particle(self.law, *contact_sides(self.surfaces, self.material), 0.5)
+        law = Series(law=self.law, deep=self.deep, friction_factor=self.friction_factor)
+        sides = contact_sides(self.surfaces, self.material)
+        forms = law.forms(self.surfaces, self.material) if self.deep == "table" else (None, None)
+        return squeezed_particle(self.law, *sides, 0.5, forms)
 
     def _spots(self, x: Array, number: Array) -> ParticleSpots:
         delta = np.maximum(x - self.film, 0.0)
@@ -366,7 +384,9 @@ class FilmParticles(Value):
         particle = self._particle()
 
         def excess(eps: float) -> float:
-            return float(particle.indentations(np.array([eps]))[side][0]) / depth - 1
+            depths = particle.indentations(np.array([eps]))
+            sinks = depths if self.debris == "hard" else particle.sinks(depths)
+            return float(sinks[side][0]) / depth - 1
 
         if excess(particle.kinks[-1]) <= 0:
             return math.inf
@@ -437,7 +457,7 @@ class FilmParticles(Value):
         x, w = self._nodes()
         spots = self._spots(x[None, :], w[None, :])
         dent = self._dent(spots, side - 1)
-        sunk = (dent.depth > 0) & (2 * spots.depths[side - 1] > spots.half)
+        stay = (dent.depth > 0) & (2 * self._deep(spots, side - 1) > spots.half)
         top = self.single(self._size(0.05 * count, lowest))
         deep = self._dent(top, side - 1)
         return FilmDents(
@@ -448,7 +468,7 @@ class FilmParticles(Value):
             volume=float(self.columns_of_oil * spots.total(dent.volume)[0]),
             depth_p95=float(deep.depth[0, 0]),
             diameter_p95=float(deep.diameter[0, 0]),
-            embedded=float(spots.total(sunk.astype(float))[0] / count),
+            embedded=float(spots.total(stay.astype(float))[0] / count),
         )
 
     def _footprints(self) -> FilmDents:
@@ -510,7 +530,7 @@ class FilmParticles(Value):
         spots = self._spots(x[None, :], w[None, :])
         per_area = self.columns_of_oil
         volumes, grooves = [], []
-        one, two = spots.depths
+        one, two = spots.depths if self.debris == "hard" else spots.sinks
         even = np.abs(one - two) <= 1e-9 * (one + two)
         for side, (here, there) in enumerate(((one, two), (two, one))):
             dent = self._dent(spots, side)

@@ -28,6 +28,7 @@ __all__ = [
     "footprint",
     "fragments",
     "sink",
+    "sunk",
 ]
 
 
@@ -195,11 +196,14 @@ class Dent(NamedTuple):
 
 
 @takes_units
-def sink(particle: Material, *, hardness: float, debris: str = "by_hardness") -> float:
-    """The part of its squeeze into a surface that stays a dent: what a particle does, decided here.
+def sink(
+    particle: Material, *, hardness: float, debris: str = "by_hardness", computed: bool = False
+) -> float:
+    """The part of its sink into a surface that stays a dent: what a particle does, decided here.
 
-    A particle harder than the surface sinks into it. One that is not is flattened, and how far it
-    sinks is not known: NaN, never 0.
+    Where its law says how deep it sinks (``computed``), all of that does, at any hardness. Where
+    none does, a particle harder than the surface sinks in whole; one that is not is flattened, and
+    how far it sinks is not known: NaN, never 0.
 
     Parameters
     ----------
@@ -207,7 +211,9 @@ def sink(particle: Material, *, hardness: float, debris: str = "by_hardness") ->
     hardness : float
         H of the softer one of particle and surface [Pa], as `ParticleSpots.hardness` has it.
     debris : {"by_hardness", "hard", "ductile", "brittle"}, optional
-        What the user says: "hard" sinks whatever its hardness, "ductile" is flattened.
+        What the user says: "hard" sinks in whole whatever its hardness, "ductile" is flattened.
+    computed : bool, optional
+        Whether the law says how deep the particle sinks, as `ParticleSpots.knows_sink` has it.
 
     Returns
     -------
@@ -221,9 +227,37 @@ def sink(particle: Material, *, hardness: float, debris: str = "by_hardness") ->
     >>> sink(tb.materials["SiO2"], hardness=steel.H), sink(steel, hardness=steel.H)
     (1.0, nan)
     """
-    if debris == "hard" or (debris != "ductile" and particle.H > hardness):
+    if debris == "hard" or (debris != "ductile" and (computed or particle.H > hardness)):
         return 1.0
     return math.nan
+
+
+@takes_units
+def sunk(
+    spots: ParticleSpots, *, side: int, particle: Material, debris: str = "by_hardness"
+) -> Array:
+    """How deep particles sit in surface 1 (side 0) or 2 (side 1) under load (M, n) [m].
+
+    Parameters
+    ----------
+    spots : ParticleSpots
+    side : {0, 1}
+        Surface 1 or 2.
+    particle : Material
+        Of the particles.
+    debris : str, optional
+        What the user says of it, as in `sink`; a "hard" one takes no part of the squeeze itself.
+
+    Returns
+    -------
+    array
+        NaN where it is not known; never more than the particle is thick.
+    """
+    share = sink(
+        particle, hardness=spots.hardness[side], debris=debris, computed=spots.knows_sink[side]
+    )
+    depths = spots.depths if debris == "hard" else spots.sinks
+    return np.minimum(share * depths[side], spots.x)
 
 
 @takes_units
@@ -260,8 +294,9 @@ def dent_of(
 ) -> Dent:
     """The dents of particles in surface 1 (side 0) or 2 (side 1).
 
-    A particle that is harder than the surface dents it. One that is not is flattened: the width is
-    that of its footprint, depth and volume are not known (`sink`). No dent is deeper than the
+    Depth and width follow the law where it says how deep a particle sinks. Where it does not, a
+    particle that is harder than the surface dents it, and one that is not is flattened: the width
+    is that of its footprint, depth and volume are not known (`sink`). No dent is deeper than the
     particle is thick.
 
     Parameters
@@ -285,8 +320,9 @@ def dent_of(
     Notes
     -----
     Depth left by `thirdbody.effects.single.ploughing.residual_depth`, where the source stands; the
-    width is that under load. Angular particles leave dents as wide as their contact: up to the end
-    of their rounded tip a cap, from there on a cone, V = πa²δ_res/3.
+    width is that under load, of a cap as deep as the sink and as wide as the contact
+    (`ParticleSpots.impression_radius`). Angular particles leave dents as wide as their contact: up
+    to the end of their rounded tip a cap, from there on a cone, V = πa²δ_res/3.
 
     Examples
     --------
@@ -299,20 +335,20 @@ def dent_of(
     >>> f"{depth * 1e6:.2f} µm"
     '0.52 µm'
     """
-    share = sink(particle, hardness=spots.hardness[side], debris=debris)
-    if math.isnan(share):
+    depth = sunk(spots, side=side, particle=particle, debris=debris)
+    if np.any(np.isnan(depth)):
         wide = footprint(spots, side=side, squashed=squashed)
         unknown = np.where(wide > 0, np.nan, 0.0)
         return Dent(unknown, wide, unknown)
-    depth = np.minimum(share * spots.depths[side], spots.x)
+    radius = spots.radius if debris == "hard" else spots.impression_radius(side)
     first = spots.yields[side] * spots.x
     ratio = np.divide(depth, first, out=np.zeros_like(depth), where=first > 0)
     left = residual_depth(depth, depth_over_yield=ratio)
     there = left > 0
-    volume = dent_volume(left, depth=depth, radius=spots.radius)
+    volume = dent_volume(left, depth=depth, radius=radius)
     shape = spots.shape
     if shape is None or shape.round:
-        return Dent(left, there * dent_diameter(depth, radius=spots.radius), there * volume)
+        return Dent(left, there * dent_diameter(depth, radius=radius), there * volume)
     area = spots.areas[side]
     a = np.sqrt(area / np.pi)
     volume = np.where(a < shape.edge * spots.x, volume, area * left / 3)

@@ -212,7 +212,7 @@ def groove_of(spots: ParticleSpots, *, side: int) -> Array:
     """Cross-section of the groove of each particle in surface 1 (side 0) or 2 [m²]: (M, n)."""
     shape = spots.shape
     if shape is None or shape.round:
-        return groove_area(spots.depths[side], radius=spots.radius)
+        return groove_area(spots.sinks[side], radius=spots.impression_radius(side))
     a = np.sqrt(spots.areas[side] / np.pi)
     return groove_area_of_faces(a, edge=shape.edge * spots.x, angle=shape.angle)
 

@@ -61,7 +61,7 @@ def squashed(contact: Contact, arrays: Mapping[str, Array], count: int) -> NDArr
         return out  # it never yields
     if isinstance(contact.particles, Particles) and isinstance(contact.particles.shape, Angular):
         return out
-    if law.deep == "table":
+    if law.follows_table:
         return ~out
     varied = contact.with_arrays({k: v for k, v in arrays.items() if k.startswith(MATERIALS)})
     if isinstance(varied.particles, Particles):

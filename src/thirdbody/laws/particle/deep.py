@@ -33,6 +33,8 @@ TERMS = 10
 """Of series of the roots of its slopes."""
 SOFT, RIGID = 0.4, 10.0
 """Hardness ratios up to which surfaces count as rigid, and from which the particle does."""
+SINK_AT = np.linspace(LAW_ENDS, TABLE_ENDS, 19)
+"""Squeezes ε of the table, at which sinks stand."""
 SOFTEST_KAPPA = 8.0
 """E*/H below which the elastic part of the table is not extrapolated further."""
 
@@ -44,8 +46,8 @@ class SqueezeCurve(NamedTuple):
     """ln F/(πR²H), with the hardness H of the softer body [1]."""
     log_area: Array
     """ln A/(πR²) [1]."""
-    share: Array
-    """Sink of the particle into the surface over its squeeze [1]."""
+    sinks: Array
+    """Sink of the particle into the surface over R, at the squeezes `SINK_AT` [1]."""
 
 
 class _Run(NamedTuple):
@@ -77,11 +79,10 @@ class _Run(NamedTuple):
         root: Array = chebval(own, self.series[name]["root"]) * math.sqrt((step[1] - step[0]) / 2)
         return np.where(eps <= self.high * (1 + 1e-9), root, 0.0)
 
-    def share(self, places: Array) -> Array:
-        """Sink into each surface over the squeeze (N,), beyond the run as at its end."""
-        eps = np.clip(squeeze_at(places), self.low, self.high)
-        share: Array = chebval(place_of(eps, self.low, self.high), self.series["share"])
-        return share
+    @property
+    def share(self) -> Array:
+        """Sink into each surface over the squeeze, at `SINK_AT`."""
+        return np.array(self.series["sink"]) / SINK_AT
 
     @property
     def node(self) -> float:
@@ -89,7 +90,7 @@ class _Run(NamedTuple):
         return math.log(min(max(self.ratio, SOFT), RIGID))
 
 
-COLUMNS = ("own", "area", "share")
+COLUMNS = ("own", "area", "sink")
 """Load without what touching collars carry, contact area, and sink over the squeeze."""
 
 
@@ -132,14 +133,44 @@ def squeeze_at(place: Any) -> Any:
     return 1 / (1 + np.exp(-(first + last + place * (last - first)) / 2))
 
 
-def _between(x: float, nodes: Array, values: Array) -> Array:
-    """Values (N, K) at an x between the nodes (N,): monotone between them, constant outside."""
+def _between(nodes: Any, values: Any) -> Any:
+    """Function of x between the values (N, K) at nodes (N,): monotone, constant outside."""
     from scipy.interpolate import PchipInterpolator
 
     if len(nodes) == 1:
-        return values[0]
-    out: Array = PchipInterpolator(nodes, values, axis=0)(min(max(x, nodes[0]), nodes[-1]))
-    return out
+        return lambda x: values[0]
+    order = np.argsort(nodes)
+    nodes = np.asarray(nodes)[order]
+    curve = PchipInterpolator(nodes, np.asarray(values)[order], axis=0)
+    return lambda x: curve(min(max(x, nodes[0]), nodes[-1]))
+
+
+@lru_cache(maxsize=4)
+def _fans(name: str) -> tuple[Any, list[Any], list[tuple[float, Any]]]:
+    """Rows of a logarithm: welded ones over ln ρ, changes over ln ρ by friction, over H/E* by ρ.
+
+    A row is the first value and the roots of the slope at places of the table.
+    """
+    places = chebyshev_transform(TERMS)[0]
+    welded = _chosen(1.0)
+    rubbing = []
+    for m in _frictions():
+        runs = _chosen(m)
+        changes = [_change(run, name, places) for run in runs]
+        rubbing.append(_between([run.node for run in runs], changes))
+    elastic = []
+    runs = [run for run in _runs() if run.softness > 0]
+    for node in sorted({run.node for run in runs}):
+        here = [run for run in runs if run.node == node]
+        slopes = [_change(run, name, places) / run.softness for run in here]
+        elastic.append((node, _between([run.softness for run in here], slopes)))
+    rows = [_row(run, name, places) for run in welded]
+    return _between([run.node for run in welded], rows), rubbing, elastic
+
+
+def _frictions() -> list[float]:
+    """Friction factors of the rigid-plastic runs."""
+    return sorted({run.friction for run in _runs() if run.softness == 0})
 
 
 @lru_cache(maxsize=512)
@@ -148,7 +179,7 @@ def squeeze_curve(ratio: float, friction: float, kappa: float) -> SqueezeCurve:
 
     Load and area rise with the squeeze: the square roots of the slopes of their logarithms are
     interpolated, in ln ρ and in m by monotone cubics and in 1/κ in straight lines, so that no
-    combination falls.
+    combination falls. Sinks are those of rigid-plastic bodies, in ln ρ in straight lines.
 
     Parameters
     ----------
@@ -159,25 +190,41 @@ def squeeze_curve(ratio: float, friction: float, kappa: float) -> SqueezeCurve:
     kappa : float
         E*/H of the softer body, κ [1]; below 8 as at 8.
     """
-    x = math.log(ratio)
-    welded, nodes = _chosen(1.0), np.array([run.node for run in _chosen(1.0)])
-    places, transform = chebyshev_transform(TERMS)
-    frictions = np.array(sorted({run.friction for run in _runs() if run.softness == 0}))
-    softness = 1 / max(kappa, SOFTEST_KAPPA)
+    x, softness = math.log(ratio), 1 / max(kappa, SOFTEST_KAPPA)
+    transform = chebyshev_transform(TERMS)[1]
 
     def logarithm(name: str) -> Array:
         """First value and roots of the slope, then the series that rises so."""
-        rows = np.array([_row(run, name, places) for run in welded])
-        rubbing = np.array([_friction_change(x, name, m, places) for m in frictions])
-        row = _between(x, nodes, rows) + _between(friction, frictions, rubbing)
-        row += softness * _elastic_slope(x, name, softness, places)
+        welded, rubbing, elastic = _fans(name)
+        row = welded(x) + _between(_frictions(), [fan(x) for fan in rubbing])(friction)
+        nodes, slopes = zip(*((node, fan(softness)) for node, fan in elastic), strict=True)
+        row = row + softness * _between(nodes, slopes)(x)
         root = Chebyshev(transform @ row[1:])
         return ((root * root).integ(lbnd=-1) + row[0]).coef
 
-    share = _between(x, nodes, np.array([run.share(places) for run in welded]))
     log_load = logarithm("own")
     log_load[0] -= math.log(math.pi * FULL)
-    return SqueezeCurve(log_load, logarithm("area"), transform @ share)
+    return SqueezeCurve(log_load, logarithm("area"), _sinks(x, friction))
+
+
+def _sinks(x: float, friction: float) -> Array:
+    """Sinks over R at `SINK_AT`, between the rigid-plastic runs: never falling with the squeeze.
+
+    Nor do they rise faster than it, so that the squash of the particle never falls either.
+    """
+    from scipy.interpolate import make_interp_spline
+
+    shares = []
+    for m in _frictions():
+        runs = _chosen(m)
+        nodes = np.array([run.node for run in runs])
+        # in straight lines: a cubic is half as steep again where a particle begins to embed
+        between = make_interp_spline(nodes, np.array([run.share for run in runs]), k=1)
+        shares.append(between(np.clip(x, nodes[0], nodes[-1])))
+    out = _between(_frictions(), shares)(friction) * SINK_AT
+    for i in range(1, len(out)):
+        out[i] = np.clip(out[i], out[i - 1], out[i - 1] + (SINK_AT[i] - SINK_AT[i - 1]))
+    return out
 
 
 def _row(run: _Run, name: str, places: Array) -> Array:
@@ -190,24 +237,6 @@ def _change(run: _Run, name: str, places: Array) -> Array:
     change = _row(run, name, places) - _row(_welded(run), name, places)
     change[1:][squeeze_at(places) > min(run.high, _welded(run).high) * (1 + 1e-9)] = 0.0
     return change
-
-
-def _friction_change(x: float, name: str, friction: float, places: Array) -> Array:
-    """A row less that of welded faces, at ln ρ = x."""
-    runs = _chosen(friction)
-    changes = np.array([_change(run, name, places) for run in runs])
-    return _between(x, np.array([run.node for run in runs]), changes)
-
-
-def _elastic_slope(x: float, name: str, softness: float, places: Array) -> Array:
-    """A row less that of rigid-plastic bodies, over H/E*, at ln ρ = x."""
-    runs = sorted((run for run in _runs() if run.softness > 0), key=lambda run: run.softness)
-    nodes, slopes = sorted({run.node for run in runs}), []
-    for node in nodes:
-        here = [run for run in runs if run.node == node]
-        rows = np.array([_change(run, name, places) / run.softness for run in here])
-        slopes.append(_between(softness, np.array([run.softness for run in here]), rows))
-    return _between(x, np.array(nodes), np.array(slopes))
 
 
 @dataclass(frozen=True)
@@ -254,6 +283,7 @@ class DeepSide(Side):
     """
 
     spreads = True
+    knows_sink = True
 
     def __init__(
         self,
@@ -271,7 +301,7 @@ class DeepSide(Side):
         self.hill = form.friction / (3 * math.sqrt(3))
         curve = squeeze_curve(form.ratio, form.friction, E_star / H)
         self._table = np.stack([curve.log_load, curve.log_area], axis=-1)
-        self._share = curve.share
+        self._sunk = curve.sinks
         self._at_top = np.exp(chebval(1.0, self._table))
         self.end = self._sinks(max(1 / form.ratio, 1.0))
         turns = [y for y in self.law.breakpoints if y < self._reduced(LAW_ENDS)]
@@ -343,17 +373,19 @@ class DeepSide(Side):
         y = np.asarray(y, dtype=float)
         eps = np.minimum(self._squeeze(y), self.end)
         thin = self._squeeze(1.0)
-        with np.errstate(divide="ignore"):
-            place = np.log(eps)
-        load, area = (thin * self.law.reduced(name, y) for name in ("force", "area"))
-        u = np.clip((place - math.log(LAW_ENDS)) / math.log(TABLE_BEGINS / LAW_ENDS), 0.0, 1.0)
-        w = u * u * (3 - 2 * u)
-        inside = w > 0
+        load, area = np.zeros_like(y), np.zeros_like(y)
+        inside, low = eps > LAW_ENDS, eps < TABLE_BEGINS
         if np.any(inside):
             at = place_of(np.minimum(eps[inside], TABLE_ENDS), LAW_ENDS, TABLE_ENDS)
-            for values, table in zip((load, area), chebval(at, self._table), strict=True):
-                start = np.log(values[inside])
-                values[inside] = np.exp(start + w[inside] * (table - start))
+            load[inside], area[inside] = np.exp(chebval(at, self._table))
+        if np.any(low):
+            span = math.log(TABLE_BEGINS / LAW_ENDS)
+            u = np.log(np.maximum(eps[low], LAW_ENDS) / LAW_ENDS) / span
+            w = u * u * (3 - 2 * u)
+            for values, name in ((load, "force"), (area, "area")):
+                first = thin * self.law.reduced(name, y[low])
+                table = values[low] / np.where(w > 0, first, 1.0)
+                values[low] = first * np.where(w > 0, table, 1.0) ** w
         over = eps > TABLE_ENDS
         if np.any(over):
             load[over], area[over] = self._disc(1 - eps[over])
@@ -366,10 +398,18 @@ class DeepSide(Side):
         return self._columns(y)[1] / self._squeeze(1.0)
 
     def sink(self, delta: Array) -> Array:
-        """How deep the particle sinks into the surface, of an approach δ; both over x."""
-        eps = np.clip(delta / self.R, LAW_ENDS, TABLE_ENDS)
-        share = chebval(place_of(eps, LAW_ENDS, TABLE_ENDS), self._share)
-        return delta * np.clip(share, 0.0, 1.0)
+        """How deep the particle sinks into the surface, of an approach δ; both over x.
+
+        Of rigid-plastic bodies, in straight lines between what was computed, so that neither it
+        nor the squash of the particle ever falls. Beyond the table in the same proportion, and
+        from `end` on, where the particle gives way no further, whole.
+        """
+        eps = np.asarray(delta, dtype=float) / self.R
+        nodes, sinks = np.append(0.0, SINK_AT), np.append(0.0, self._sunk)
+        within = np.interp(eps, nodes, sinks)
+        disc = np.clip(eps, TABLE_ENDS, self.end) - TABLE_ENDS
+        whole = np.maximum(eps - self.end, 0.0)
+        return self.R * (within + disc * (sinks[-1] / TABLE_ENDS) + whole)
 
 
 THINNEST = -30.0

@@ -60,6 +60,8 @@ class Side:
     """
 
     spreads = False
+    knows_sink = False
+    """`sink` is not the whole indentation, but what was computed."""
 
     def __init__(
         self,
@@ -233,6 +235,7 @@ class SqueezedParticle(OneParticle):
         self.hardness = (float(self.sides[0].H), float(self.sides[1].H))
         self.great_circle = self.breadth * math.pi / 4
         self.spreads = any(side.spreads for side in self.sides)
+        self.knows_sink = (self.sides[0].knows_sink, self.sides[1].knows_sink)
         self.equal = first == second and forms[0] == forms[1]
         one, two = self.sides
         kinks = set()
@@ -371,8 +374,11 @@ class SqueezedParticle(OneParticle):
             load=self.force(eps, one),
             depths=depths,
             areas=(first.area(one), second.area(two)),
-            sinks=(first.sink(one), second.sink(two)),
         )
+
+    def sinks(self, depths: tuple[Array, Array]) -> tuple[Array, Array]:
+        one, two = depths
+        return self.sides[0].sink(one), self.sides[1].sink(two)
 
     def __call__(self, eps: Array) -> Array:
         out = OneParticle.__call__(self, eps)

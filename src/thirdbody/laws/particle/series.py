@@ -61,16 +61,17 @@ class Series(SeatedLaw, _OfTips):
     law : AbstractAsperityLaw, optional
         The law of each contact; `Hermite` by default.
     soft : {"squashed", "sphere"}, optional
-        What a particle does on a surface that is harder than itself: ``squashed``, it keeps its
-        volume and ends as a thin disc; ``sphere``, it stays a sphere of constant pressure up to
-        its great circle.
+        What a particle does on a surface that is harder than itself: ``squashed``, it follows
+        ``deep``, without which it keeps its volume and ends as a thin disc; ``sphere``, it stays a
+        sphere of constant pressure up to its great circle.
     friction_factor : float, optional
         Shear stress on the faces of a squashed particle over its shear strength, m_f [1], above 0
         and at most 1; it decides how thin the disc becomes. 0.2 is an assumption.
-    deep : {"off", "table"}, optional
+    deep : {"table", "off"}, optional
         What a round particle does beyond small squeezes. ``table``: what large-deformation
         computations say for any squeeze and hardness ratio, in place of the squashed particle and
         of the sphere that sinks in whole; ``off``: those two, with their step at equal hardness.
+        The other choices of ``soft`` and ``onset`` are laws without the table, and put it aside.
     onset : {"hermite", "jg"}, optional
         What squashing sets in with: ``hermite``, area and pressure of ``law`` (`Hermite` by
         default), or ``jg``, those of Jackson and Green, for E*/H of the particle from 8 to 150.
@@ -145,12 +146,17 @@ class Series(SeatedLaw, _OfTips):
         "m_f", "1", "shear factor on the faces of squashed particles", default=0.2, le=1
     )
     onset: str = choice("how squashed particles set in", "hermite", "jg", default="hermite")
-    deep: str = choice("particles beyond small indentations", "off", "table", default="off")
+    deep: str = choice("particles beyond small indentations", "table", "off", default="table")
 
     @property
     def tip_radius(self) -> float:
         """Radius of the contacting tips over the size x [1]."""
         return 0.5
+
+    @property
+    def follows_table(self) -> bool:
+        """Whether round particles follow the computed table, where ``law`` can yield."""
+        return (self.deep, self.soft, self.onset) == ("table", "squashed", "hermite")
 
     def _problems(self) -> list[str]:
         out = []
@@ -171,11 +177,6 @@ class Series(SeatedLaw, _OfTips):
             out.append(
                 f"{name}.friction_factor and onset need soft = 'squashed', not {self.soft!r}"
             )
-        if self.deep == "table" and (self.soft, self.onset) != ("squashed", "hermite"):
-            out.append(
-                f"{name}.deep = 'table' says what soft particles do: remove soft = {self.soft!r} "
-                f"and onset = {self.onset!r}, or set deep = 'off'"
-            )
         if not self.friction_factor > 0:
             out.append(
                 f"{name}.friction_factor = {self.friction_factor:g} must be > 0: without friction "
@@ -189,7 +190,7 @@ class Series(SeatedLaw, _OfTips):
         """What each side of the particle does that is no sphere's of constant hardness."""
 
         def form(surface: Material) -> SideForm | None:
-            if self.deep == "table":
+            if self.follows_table:
                 return DeepSqueeze(particle.H / surface.H, self.friction_factor)
             if self.soft != "squashed" or not particle.H < surface.H:
                 return None

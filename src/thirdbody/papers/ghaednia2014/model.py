@@ -80,7 +80,7 @@ def contact(
         roughness=tb.Roughness(sigma=SIGMA * roughness, R=RADIUS / sharpness),
         asperity_law=GW(),
         particles=dust,
-        particle_law=Series(law=LAWS[law], soft="sphere", seat="plane", shadow="none"),
+        particle_law=Series(law=LAWS[law], soft="sphere", deep="off", seat="plane", shadow="none"),
     )
 
 

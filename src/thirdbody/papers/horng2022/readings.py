@@ -132,17 +132,17 @@ def _printed(key: str, preset: str, words: str, **rest: Any) -> Reading:
 
 
 def _on_plane(sigma: float, x_a: float) -> AbstractParticleLaw:
-    return Series(seat="plane")
+    return Series(deep="off", seat="plane")
 
 
 def _on_tops(sigma: float, x_a: float) -> AbstractParticleLaw:
     # The imitation measures its offset 3.16 σ + 0.6 x_a from a plane one σ below the mean
     # asperity height, from which the library measures h_0.
-    return Series(seat="offset", h_0=(3.16 - 1) * sigma + 0.6 * x_a)
+    return Series(deep="off", seat="offset", h_0=(3.16 - 1) * sigma + 0.6 * x_a)
 
 
 def _on_rough_seat(sigma: float, x_a: float) -> AbstractParticleLaw:
-    return Series(seat="rough")
+    return Series(deep="off", seat="rough")
 
 
 READINGS: dict[str, Reading] = {
