@@ -109,3 +109,20 @@ def test_the_template_is_open_at_its_smallest_force():
     for resistance, chance in zip(states["rho_c"], closed, strict=True):
         assert (resistance is None) == (chance < -math.expm1(-1.0))
     assert any("A_n = 1×10⁻⁶ m² holds" in text for text in found["warnings"])
+
+
+def test_where_nothing_touches_nothing_is_the_mean_of_few():
+    """No area holds a contact, so none is a mean "over many, most of which hold none"."""
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(BODY, BODY), roughness=ROUGH,
+        outputs=(tb.outputs.Counts(A_n=A_N), ElectricalConductance(A_n=A_N)),
+    )  # fmt: skip
+    state = tb.solve(contact, d=60 * ROUGH.sigma_s)
+    assert state.outputs["n_ss"] == state.outputs["gc_closed"] == 0
+    assert not any("on average" in text or "probability" in text for text in state.warnings)
+    assert any("nothing touches in this state: there" in t for t in state.warnings)
+    assert any("nothing conducts where least does: A_n is open" in t for t in state.warnings)
+    both = tb.solve(contact, d=np.array([OPEN, 60.0]) * ROUGH.sigma_s)
+    told = "\n".join(both.warnings)
+    assert "nothing touches in 1 of 2 states" in told
+    assert "holds 0.3 contacts on average" in told

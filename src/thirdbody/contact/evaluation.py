@@ -96,13 +96,26 @@ def _about_few(state: Solved) -> list[str]:
         return spots.load > 0
 
     count = max(areas) * (state.total(pressed) + state.total_of_particles(pressed))
-    least = float(np.min(count))
-    if not least < 1:
-        return []
-    return [
-        f"A_n = {number(max(areas))} m² holds {number(least)} contacts on average: "
-        f"{', '.join(concerned)} give the mean over many such areas, most of which hold none"
-    ]
+    out = []
+    if not np.all(count):
+        out.append(
+            f"nothing touches in {_how_many(count == 0)}: there the sums over contacts are 0 and "
+            f"the means over them NaN ({', '.join(concerned)})"
+        )
+    least = float(np.min(count, where=count > 0, initial=np.inf))
+    if least < 1:
+        out.append(
+            f"A_n = {number(max(areas))} m² holds {number(least)} contacts on average: "
+            f"{', '.join(concerned)} give the mean over many such areas, most of which hold none"
+        )
+    return out
+
+
+def _how_many(which: NDArray[np.bool_]) -> str:
+    """So many states of all, in words."""
+    if len(which) == 1:
+        return "this state"
+    return f"{np.count_nonzero(which)} of {len(which)} states"
 
 
 def spots_of(

@@ -124,6 +124,9 @@ def _about_open(output: _Conductance, state: Solved, numbers: str) -> list[str]:
     count = output.A_n * least
     if not count < ONE:
         return []
+    if not count:  # the mean over such areas is that of each: 0
+        told = f"{say}nothing conducts where least does: A_n is open there ({numbers} are NaN)"
+        return [told] if output.few == "open" else []
     chance = f"closed with probability {number(-math.expm1(-count))}"
     told = (
         f"{say}A_n = {number(output.A_n)} m² holds {number(count)} contacts that conduct on average"
