@@ -297,9 +297,10 @@ class Dents(AbstractOutput):
             assert population is not None
             widest = _widest(contact, population, side)
             dent = self._left(spots, side, contact)
-            flat = np.isnan(dent.depth) & (dent.diameter > 0)
-            marks = marks + spots.total(flat)
-            held = held + spots.total(flat & (dent.diameter >= widest * spots.x))
+            flat: Any = np.isnan(dent.depth) & (dent.diameter > 0)
+            marks = marks + spots.total(flat.astype(float))
+            wide: Any = flat & (dent.diameter >= widest * spots.x)
+            held = held + spots.total(wide.astype(float))
         return float(np.max(held / np.where(marks > 0, marks, 1.0), initial=0.0))
 
     def _about_few(self, values: Mapping[str, Array]) -> list[str]:
