@@ -40,6 +40,7 @@ from thirdbody.app.tabs.outputs import output_figures
 from thirdbody.app.uploads import harmless
 from thirdbody.equilibrium.words import two_bodies
 from thirdbody.quantities import say
+from thirdbody.quantities.say import number, percent
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted((ROOT / "examples").glob("*.toml"))
@@ -941,3 +942,27 @@ def test_a_force_opens_at_its_mean_pressure_and_reaches_the_largest(tmp_path):
     mean, largest = check(study).values
     assert (state.at, state.answer.loads[-1]) == (mean, largest)
     assert len(state.answer.loads) == 200
+
+
+@pytest.mark.parametrize(("fragments", "part"), [("gone", True), ("all", False)])
+def test_pieces_are_no_part_of_the_particles_that_came(fragments, part):
+    """Particles that break leave more pieces than there were of them; some, never above 100 %."""
+    steel, quartz = tb.materials["100Cr6"], tb.materials["quartz"]
+    dust = tb.Particles(
+        material=quartz, areal_density=1e8, diameter=tb.Monodisperse(mean=5e-6),
+        strength=tb.WeibullStrength.of(quartz, fragments=fragments),
+    )  # fmt: skip
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel), particles=dust, outputs=tb.outputs.Counts(),
+        roughness=tb.Roughness(sigma=50e-9, R=20e-6),
+    )  # fmt: skip
+    point = tb.solve(contact, pressure=5e6)
+    each = point.outputs["n_sa"] / 1e8
+    found = dict(told(point))
+    if part:
+        assert found["particles loaded"] == percent(each)
+        assert each <= 1
+    else:
+        assert each > 1, "nothing broke: the test says nothing"
+        assert "particles loaded" not in found
+        assert found["whole particles and pieces loaded"] == f"{number(each, 3)} for each particle"

@@ -13,6 +13,7 @@ from thirdbody.effects import Dents
 from thirdbody.effects.single import dent as one_dent
 from thirdbody.laws.particle import Series
 from thirdbody.laws.particle import one_particle as co
+from thirdbody.laws.particle.squashed import widest_disc
 from thirdbody.systems import oil_particles
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
@@ -289,3 +290,23 @@ def test_the_deepest_of_few_dents_is_no_shallower_than_the_mean(density):
     few = min(n for n in (found["n_dents_1"], found["n_dents_2"]) if n > 0) * 1e-6
     told = [text for text in state.warnings if "m² on average: " in text]
     assert bool(told) == (few < 14)
+
+
+@pytest.mark.parametrize("debris", ["by_hardness", "ductile"])
+def test_no_mark_is_wider_than_the_surface_bears(debris):
+    """Balls of the surfaces' own steel between touching peaks: the disc sinks in, and is told."""
+    x = 300e-9
+    dust = tb.Particles(material=STEEL, areal_density=1e11, diameter=tb.Monodisperse(mean=x))
+    one = tb.Contact(surfaces=tb.MaterialPair(STEEL, STEEL), particles=dust,
+                     particle_law=Series(deep="off"), outputs=Dents(debris=debris),
+                     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))  # fmt: skip
+    state = tb.solve(one, pressure=5e6)
+    widest = widest_disc(STEEL.H, STEEL.H) * x
+    for side in (1, 2):
+        found = state.outputs[f"dent_width_max_{side}"]
+        assert widest * 0.99 < found <= widest * (1 + 1e-9)
+        assert state.outputs[f"dent_width_{side}"] < found
+    (told,) = [text for text in state.warnings if "its mark is held to" in text]
+    assert "held to 3.17 times the particle's size" in told
+    (why,) = [text for text in state.warnings if "depth and volume are not known" in text]
+    assert ("debris = 'ductile' says" in why) == (debris == "ductile")

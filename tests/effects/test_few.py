@@ -1,6 +1,7 @@
 """Fewer than one contact in the area that is asked about: open, NaN or told, never a bare number."""
 
 import math
+import re
 import warnings
 from importlib import resources
 
@@ -82,6 +83,101 @@ def test_without_an_area_the_area_of_one_contact_is_told():
     )
 
 
+def dusty(eta, x=4e-6, **options):
+    """A contact of 1e-10 m² with insulating balls of one size, so many on average."""
+    dust = tb.Particles(
+        material=tb.materials["quartz"], areal_density=eta, diameter=tb.Monodisperse(mean=x)
+    )
+    return tb.Contact(
+        surfaces=tb.MaterialPair(BODY, BODY), roughness=tb.Roughness(sigma=300e-9, R=10e-6),
+        particles=dust, outputs=ElectricalConductance(**({"A_n": 1e-10} | options)),
+    )  # fmt: skip
+
+
+def closed_with(k, pressure, x):
+    """Probability that 1e-10 m² with k balls under a pressure closes: its own separation."""
+    bare = dusty(k / 1e-10, x).replace(outputs=(tb.outputs.Counts(),))
+    return -math.expm1(-1e-10 * tb.solve(bare, pressure=pressure).outputs["n_ss"])
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.parametrize(("held", "x"), [(0.01, 4e-6), (0.3, 4e-6), (0.6, 3e-6), (2.0, 0.1e-6)])
+def test_contacts_close_by_those_that_hold_no_particle(held, x):
+    """Poisson numbers of balls, each contact solved by itself: the clean ones decide."""
+    p = 1e5
+    found = tb.solve(dusty(held / 1e-10, x), pressure=p).outputs["gc_closed"]
+    chances = [math.exp(-held) * held**k / math.factorial(k) for k in range(6)]
+    want = sum(chance * closed_with(k, p, x) for k, chance in enumerate(chances))
+    clean = closed_with(0, p, x)
+    assert math.exp(-held) * clean * (1 - 1e-9) <= found <= clean
+    assert found == pytest.approx(want, rel=0.03)
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+def test_a_rare_particle_changes_little():
+    """Of none the limit, a sweep says the same, and a contact at a separation is as it was."""
+    eta = np.array([0.0, 1e2, 1e4, 1e8])
+    each = [tb.solve(dusty(n), pressure=1e5).outputs["gc_closed"] for n in eta]
+    assert each[1:3] == pytest.approx([each[0]] * 2, rel=1e-5)
+    assert each[3] == pytest.approx(0.99 * each[0], rel=1e-3)
+    swept = tb.solve_states(dusty(1e8), pressure=1e5, vary={"particles.areal_density": eta})
+    np.testing.assert_allclose(swept["gc_closed"].values, each, rtol=1e-9)
+    state = tb.solve(dusty(1e8), d=900e-9)
+    bare = tb.solve(dusty(0.0), d=900e-9)
+    assert state.outputs["gc_closed"] == pytest.approx(bare.outputs["gc_closed"], rel=2e-3)
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+def test_those_in_the_way_are_counted_by_sampling():
+    """Balls of one size on seats at random: as many as are larger than their gap when clean."""
+    held, x, p = 0.5, 1e-6, 1e5
+    contact = dusty(held / 1e-10, x)
+    h = tb.solve(contact.replace(particles=None, outputs=()), pressure=p).h
+    law = contact.particle_law
+    rng = np.random.default_rng(5)
+    seats = (law.zeta_mean + law.zeta_std * rng.standard_normal(10**6)) * 300e-9
+    in_the_way = held * np.mean(h - seats < x)
+    want = math.exp(-in_the_way) * closed_with(0, p, x)
+    low = tb.solve(contact, pressure=p).outputs["gc_closed"]
+    assert low == pytest.approx(want, rel=5e-3)
+
+
+def test_particles_that_conduct_close_the_contacts_that_hold_one():
+    quartz = tb.materials["quartz"].replace(resistivity=1e-7)
+    dust = tb.Particles(material=quartz, areal_density=1e9, diameter=tb.Monodisperse(mean=4e-6))
+    state = tb.solve(dusty(0.0, particles="conduct").replace(particles=dust), pressure=1e5)
+    clean = closed_with(0, 1e5, 4e-6)
+    want = math.exp(-0.1) * clean - math.expm1(-0.1)
+    assert state.outputs["gc_closed"] == pytest.approx(want, rel=1e-6)
+
+
+def test_which_of_few_particles_bear_is_not_known():
+    """NaN with its bounds, where chance decides which of the particles carry."""
+    dust = tb.Particles(
+        material=tb.materials["quartz"], areal_density=1e10,
+        diameter=tb.LogNormal(median=4e-6, gsd=1.3),
+    )  # fmt: skip
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always")
+        found = tb.solve(dusty(1e10).replace(particles=dust), pressure=1e5)
+    assert math.isnan(found.outputs["gc_closed"])
+    (told,) = [str(w.message) for w in heard if "chance decides which do" in str(w.message)]
+    clean = closed_with(0, 1e5, 1e-6)
+    low, high = (float(text) for text in re.findall(r"0\.\d+", told))
+    assert (low, high) == pytest.approx((math.exp(-1) * clean, clean), rel=1e-3)
+
+
+def test_most_contacts_conduct_where_few_hold_dust():
+    """99 of 100 contacts are clean and closed: their conductance is given, not "open"."""
+    state = tb.solve(dusty(1e6, A_n=1e-8), pressure=1e7)
+    clean = tb.solve(dusty(0.0, A_n=1e-8), pressure=1e7).outputs
+    assert clean["gc_closed"] > 0.99
+    assert 0.99 * clean["gc"] <= state.outputs["gc"] <= clean["gc"]
+    assert any(
+        "has no particle in the way in 99 % of all contacts" in text for text in state.warnings
+    )
+
+
 def test_heat_and_counts_say_it():
     """The hottest of less than ln 2 contacts has no median: NaN and a reason."""
     friction = tb.outputs.Friction(tau_ss=3e8)
@@ -109,3 +205,20 @@ def test_the_template_is_open_at_its_smallest_force():
     for resistance, chance in zip(states["rho_c"], closed, strict=True):
         assert (resistance is None) == (chance < -math.expm1(-1.0))
     assert any("A_n = 1×10⁻⁶ m² holds" in text for text in found["warnings"])
+
+
+def test_where_nothing_touches_nothing_is_the_mean_of_few():
+    """No area holds a contact, so none is a mean "over many, most of which hold none"."""
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(BODY, BODY), roughness=ROUGH,
+        outputs=(tb.outputs.Counts(A_n=A_N), ElectricalConductance(A_n=A_N)),
+    )  # fmt: skip
+    state = tb.solve(contact, d=60 * ROUGH.sigma_s)
+    assert state.outputs["n_ss"] == state.outputs["gc_closed"] == 0
+    assert not any("on average" in text or "probability" in text for text in state.warnings)
+    assert any("nothing touches in this state: there" in t for t in state.warnings)
+    assert any("nothing conducts where least does: A_n is open" in t for t in state.warnings)
+    both = tb.solve(contact, d=np.array([OPEN, 60.0]) * ROUGH.sigma_s)
+    told = "\n".join(both.warnings)
+    assert "nothing touches in 1 of 2 states" in told
+    assert "holds 0.3 contacts on average" in told

@@ -374,3 +374,16 @@ def test_waves_are_left_out_only_where_it_is_said():
     again = pressed(bare, surface=asked, **how)
     assert again.h == smooth.h
     assert not any("cut-off" in each for each in again.warnings)
+
+
+def test_where_nothing_touches_no_few_points_carry():
+    """A flat far above a map: that nothing touches is told, and not that 0 pixels carry."""
+    steel = tb.materials["S45C"]
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel), roughness=tb.Roughness(sigma=100e-9, R=2.8e-6)
+    )
+    heights = 1e-7 * np.random.default_rng(0).standard_normal((16, 16))
+    high = tb.explicit.solve(contact, heights, spacing=1e-7, h=5e-6)
+    assert float(high.A_t) == 0
+    assert any(text.startswith("nothing touches: there load") for text in high.warnings)
+    assert not any("carry the smallest load" in text for text in high.warnings)

@@ -12,7 +12,7 @@ from thirdbody.equilibrium import solve as equilibrium
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.laws.particle import Flakes, Series
 from thirdbody.laws.particle.one_particle import Side
-from thirdbody.laws.particle.squashed import Squash
+from thirdbody.laws.particle.squashed import Squash, widest_disc
 
 STEEL = tb.Material(E=206e9, nu=0.29, H=7.4e9)
 SOFT = tb.Material(E=193e9, nu=0.29, H=1.364e9)
@@ -336,3 +336,21 @@ def test_what_the_compiled_engine_does_not_take_has_a_reason():
     assert set(states["engine"]) == {"numpy: the friction of squashed particles varies"}
     alone = tb.solve(contact("rough", friction_factor=0.5), pressure=5e6)
     assert states["d"][-1] == pytest.approx(alone.d, rel=1e-9)
+
+
+@pytest.mark.parametrize("m_f", [0.1, 0.2, 0.7])
+@pytest.mark.parametrize("ratio", [1.2, 2.0, 5.0])
+def test_the_widest_disc_is_that_of_the_end_of_the_squash(ratio, m_f):
+    """The closed form, and where the series of the squashed half ends."""
+    H = 1e9
+    side = Squash(ratio * H, m_f, "hermite").side(tb.asperity.Hermite(), 1e11, H, 0.3, 0.5)
+    t = 1 - 2 * side.delta_1 * side.end
+    area = float(side.reduced_area(np.array(side.end))) * np.pi * side.R * side.delta_1
+    wide = widest_disc(H, ratio * H, friction_factor=m_f)
+    assert wide == pytest.approx(np.sqrt(2 / (3 * t)), rel=1e-9)
+    assert wide == pytest.approx(2 * np.sqrt(area / np.pi), rel=1e-9)
+
+
+def test_a_disc_that_the_surface_does_not_bear_is_no_wider_than_the_sphere():
+    assert widest_disc(5e9, 1e9) == 1.0
+    assert widest_disc(1e9, 1e9, friction_factor=1.0) < widest_disc(1e9, 1e9)

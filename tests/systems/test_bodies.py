@@ -220,3 +220,43 @@ areal_density = "1e6 / m^2"
     assert found["particles_held"] == pytest.approx(1e6 * area, rel=1e-12)
     assert any("one contact in" in text.lower() for text in summary(found))
     assert run_film(study(more=more.split("[particles]")[0]))["particles_held"] is None
+
+
+DUST = tb.Particles(material=tb.materials["quartz"], areal_density=1e8,
+                    diameter=tb.Monodisperse(mean=2e-6))  # fmt: skip
+
+
+def test_contacts_with_and_without_a_particle_each_carry_the_load():
+    """99 of 100 faces hold no particle: their area and load are those of the clean face."""
+    dusty, face = CLEAN.replace(particles=DUST), Flat(area=1e-10)
+    found = press(dusty, face, 1e-5)
+    clean = press(CLEAN, face, 1e-5)
+    assert found.particles_held == pytest.approx(0.01, rel=1e-12)
+    assert found.without_particles["share"] == pytest.approx(np.exp(-0.01), rel=1e-12)
+    assert found.without_particles["real_area"] == clean.real_area
+    assert found.without_particles["particle_load_share"] == 0
+    assert found.particle_load_share <= 0.01
+    one = press(dusty.replace(particles=DUST.replace(areal_density=1e10)), face, 1e-5)
+    assert found.with_particles["particle_load_share"] == pytest.approx(
+        one.particle_load_share, rel=0.01
+    )
+    assert "asperities carry the whole load" in found.sentence()
+    crowd = press(dusty, Flat(area=1e-6), 0.1)
+    assert crowd.with_particles is None
+    assert crowd.particle_load_share == pytest.approx(
+        tb.solve(dusty, pressure=1e5).particle_load_share, rel=1e-12
+    )
+
+
+def test_particles_are_counted_on_the_area_that_carries():
+    """A light ball rests on many grains far outside Hertz's area: it meets more than one."""
+    bronze = tb.materials["CuSn8"]
+    contact = tb.Contact(surfaces=tb.MaterialPair(bronze, bronze), particles=DUST,
+                         roughness=tb.Roughness(sigma=300e-9, R=10e-6))  # fmt: skip
+    ball = BallOnFlat(diameter=3e-3)
+    light, bare = (press(contact, ball, 1e-3, integrate=whole) for whole in (True, False))
+    assert bare.particles_held == pytest.approx(1e8 * bare.area, rel=1e-12)
+    assert light.particles_held > 100 * bare.particles_held
+    # what the area must be at least, to carry so much at no more than the largest pressure
+    largest = light.with_particles["peak_pressure"]
+    assert light.particles_held >= 0.9 * 1e8 * 1e-3 / largest

@@ -116,6 +116,8 @@ class Answer:
         """Particles that one contact holds on average; any number where its area is not known."""
         study, every = self.study, sum(dust.areal_density for dust in self.contact.populations)
         if study.body is not None and study.forces is not None:
+            if "forces" in self.__dict__:  # counted on the area that carries
+                return self.forces[-1].particles_held or 0.0
             area = study.body.hertz(float(study.forces[-1]), self.contact.E_ss).area
         elif study.film is not None and not study.own_load:  # its Hertz pressure is the load
             area = study.film.conjunction.hertz(study.film.load, E=2 * self.contact.E_ss).area

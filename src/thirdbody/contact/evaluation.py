@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -25,12 +25,21 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["Solved"]
+__all__ = ["Solved", "Solver"]
 
 AT_ONCE = 4096
 """States whose spots are laid out together."""
 NUMBERS = re.compile(r"\d+(\.\d+)?(?= %)|\d+\.\d+(e[+-]\d+)?|\d+e[+-]\d+")
 """In a warning: of several that differ in these alone, that of the smallest d is told."""
+
+
+class Solver(NamedTuple):
+    """How an output has another contact solved: physics of the balance lies above this room."""
+
+    separation: Callable[[Contact, Array], Array]
+    """d [m] under pressures [Pa]: (N,), NaN where no separation carries them."""
+    outputs: Callable[[Contact, Array], Mapping[str, Array]]
+    """The outputs of a contact at separations d [m], NaN where those are."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -58,6 +67,13 @@ class Solved:
     """Real contact area per nominal area [1]: (N,)"""
     asperities: Sequence[AsperitySpots]
     particles: Sequence[ParticleSpots]
+    crowd: Array | None = None
+    """How many particles each state has for one of the contact: (N,), or as the contact has them.
+    """
+    solver: Solver | None = None
+    """Of other contacts under a load; None where separations are given."""
+    kept: dict[Any, Any] = field(init=False, repr=False, default_factory=dict)
+    """What an output found for these states, for its warnings."""
 
     def total(self, of_asperities: Callable[[AsperitySpots], Any]) -> Array:
         """Σ n q over the asperities: (N,)."""
@@ -96,13 +112,26 @@ def _about_few(state: Solved) -> list[str]:
         return spots.load > 0
 
     count = max(areas) * (state.total(pressed) + state.total_of_particles(pressed))
-    least = float(np.min(count))
-    if not least < 1:
-        return []
-    return [
-        f"A_n = {number(max(areas))} m² holds {number(least)} contacts on average: "
-        f"{', '.join(concerned)} give the mean over many such areas, most of which hold none"
-    ]
+    out = []
+    if not np.all(count):
+        out.append(
+            f"nothing touches in {_how_many(count == 0)}: there the sums over contacts are 0 and "
+            f"the means over them NaN ({', '.join(concerned)})"
+        )
+    least = float(np.min(count, where=count > 0, initial=np.inf))
+    if least < 1:
+        out.append(
+            f"A_n = {number(max(areas))} m² holds {number(least)} contacts on average: "
+            f"{', '.join(concerned)} give the mean over many such areas, most of which hold none"
+        )
+    return out
+
+
+def _how_many(which: NDArray[np.bool_]) -> str:
+    """So many states of all, in words."""
+    if len(which) == 1:
+        return "this state"
+    return f"{np.count_nonzero(which)} of {len(which)} states"
 
 
 def spots_of(
@@ -156,6 +185,7 @@ def evaluate(
     columns: Mapping[str, Array],
     crowd: Array | None = None,
     parts: Sequence[dict[str, Array]] = (),
+    solver: Solver | None = None,
 ) -> tuple[dict[str, Array], list[str]]:
     """Every column of the outputs of a contact, NaN for unsolved states, and the warnings.
 
@@ -170,6 +200,8 @@ def evaluate(
         How many particles each state has for one of the contact.
     parts : sequence of dict, optional
         One for each population: filled with the outputs that are given `by_population`.
+    solver : Solver, optional
+        Where loads are given and not separations.
     """
     names = [name for output in contact.outputs for name in output.columns]
     values = {name: np.full(len(columns["d"]), np.nan) for name in names}
@@ -179,7 +211,14 @@ def evaluate(
         asperities, particles = spots_of(contact, bound, here["d"], columns["shadow"][part])
         if crowd is not None:
             particles = [spots.thinned(crowd[part]) for spots in particles]
-        state = Solved(contact=contact, **here, asperities=asperities, particles=particles)
+        state = Solved(
+            contact=contact,
+            **here,
+            asperities=asperities,
+            particles=particles,
+            crowd=None if crowd is None else crowd[part],
+            solver=solver,
+        )
         for output in contact.outputs:
             with np.errstate(all="ignore"):  # a spot without a load has no number of its own
                 found = output.of(state)

@@ -22,6 +22,7 @@ from .single.heat import (
     spot_resistance,
     spreading,
 )
+from .single_contacts import single_contacts
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from ..contact.evaluation import Solved
     from ..contact.spots import AsperitySpots
     from ..laws.spots import ParticleSpots
+    from .single_contacts import SingleContacts
 
     Array = NDArray[np.float64]
     Resistivity = Callable[[Material], float]
@@ -106,17 +108,64 @@ def _conducting(state: Solved, particles: str) -> Array:
     return n
 
 
-def _closing(output: _Conductance, state: Solved) -> tuple[Array, NDArray[np.bool_]]:
-    """Probability that A_n holds a contact (N,), and where the answer is that it is open."""
+def _closing(
+    output: _Conductance, state: Solved, means: dict[str, Array], closed: str
+) -> dict[str, Array]:
+    """Columns that are means over many contacts of A_n (NaN where it is open), and P_c."""
     if output.A_n is None:
-        return np.full_like(state.d, np.nan), np.zeros(state.d.shape, bool)
+        return means | {closed: np.full_like(state.d, np.nan)}
     count = output.A_n * _conducting(state, output.particles)
-    return -np.expm1(-count), (count < ONE) & (output.few == "open")
+    out = means | {closed: -np.expm1(-count)}
+    is_open = count < ONE
+    found = single_contacts(
+        output, state, tuple(means), closed, conduct=output.particles == "conduct"
+    )
+    if found is not None:
+        out = {
+            name: np.where(found.concerned, found.values[name], value)
+            for name, value in out.items()
+        }
+        is_open = np.where(found.concerned, out[closed] < -math.expm1(-ONE), is_open)
+    state.kept[output] = found
+    if output.few == "open":
+        out |= {
+            name: np.where(is_open, np.nan, out[name])
+            for name in means
+            if name.endswith(("_ss", "_sa"))
+        }
+    return out
 
 
-def _about_open(output: _Conductance, state: Solved, numbers: str) -> list[str]:
-    """Where fewer than one contact conducts."""
-    n = _conducting(state, output.particles)
+def _about_single(output: _Conductance, found: SingleContacts, closed: str) -> list[str]:
+    """Where the area holds so few particles that contacts with and without them differ."""
+    say = f"outputs.{output.name}: A_n = {number(output.A_n)} m²"
+    out = []
+    unknown = found.concerned & np.isnan(found.values[closed])
+    if np.any(known := found.concerned & ~unknown):
+        i = int(np.flatnonzero(known)[np.argmax(found.without[known])])
+        out.append(
+            f"{say} has no particle in the way in {percent(float(found.without[i]))} of all "
+            f"contacts, closed there with probability {number(float(found.clean[i]))}: {closed} "
+            "and the conductances are means over contacts with and without, each under the whole "
+            "load; mode and shares of the state are of a surface that spreads it over all particles"
+        )
+    for i in np.flatnonzero(unknown)[:1]:
+        low, high = float(found.low[i]), float(found.high[i])
+        why = (
+            f"holds so few particles that bear that chance decides which do: {closed} is "
+            f"between {number(low)} and {number(high)}"
+        )
+        if math.isnan(high):
+            why = f"does not carry the load without particles: {closed} is not known"
+        out.append(f"{say} {why} (NaN); a larger A_n holds more")
+    return out
+
+
+def _about_open(
+    output: _Conductance, state: Solved, numbers: str, which: Any = slice(None)
+) -> list[str]:
+    """Where fewer than one contact conducts, in the states that are asked about."""
+    n = _conducting(state, output.particles)[which]
     if not len(n):
         return []
     least = float(np.min(n))
@@ -131,6 +180,9 @@ def _about_open(output: _Conductance, state: Solved, numbers: str) -> list[str]:
     count = output.A_n * least
     if not count < ONE:
         return []
+    if not count:  # the mean over such areas is that of each: 0
+        told = f"{say}nothing conducts where least does: A_n is open there ({numbers} are NaN)"
+        return [told] if output.few == "open" else []
     chance = f"closed with probability {number(-math.expm1(-count))}"
     told = (
         f"{say}A_n = {number(output.A_n)} m² holds {number(count)} contacts that conduct on average"
@@ -149,8 +201,15 @@ def _wide(state: Solved) -> float:
     return float(np.max(wide / np.where(load > 0, load, 1.0), initial=0.0))
 
 
-def _warnings(output: _Conductance, state: Solved, particles: str, numbers: str) -> list[str]:
-    out = _about_open(output, state, numbers)
+def _warnings(
+    output: _Conductance, state: Solved, particles: str, numbers: str, closed: str
+) -> list[str]:
+    found = state.kept.get(output)
+    if found is None:
+        out = _about_open(output, state, numbers)
+    else:
+        out = _about_open(output, state, numbers, ~found.concerned)
+        out += _about_single(output, found, closed)
     if particles == "conduct" and (share := _wide(state)) > 0.01:
         out.append(
             f"outputs.{output.name}: particles with {percent(share, digits=2)} of the particle "
@@ -187,6 +246,8 @@ class ThermalConductance(AbstractOutput):
     A_n : float, optional
         Nominal area of the contact [m²]. Where fewer than one contact conducts in it on average,
         it is open, closed with the probability :math:`P_c = 1-e^{-A_n n}`: contacts lie at random.
+        Where it holds few particles, contacts with and without them each carry the load, and the
+        columns are means over both (`thirdbody.effects.single_contacts`).
     few : {"open", "mean"}, optional
         What is given there: NaN, or the mean over many such areas, most of them open.
 
@@ -265,18 +326,15 @@ class ThermalConductance(AbstractOutput):
         particles = np.zeros_like(state.d)
         if self.particles == "conduct":
             particles = _through_particles(state, _thermal, film=self.film)
-        closed, open_ = _closing(self, state)
-        asperities, particles = (np.where(open_, np.nan, each) for each in (asperities, particles))
         gap = np.zeros_like(state.d)
         if self.k_gap:
             with np.errstate(divide="ignore"):
                 gap = self.k_gap / (np.maximum(state.h, 0.0) + self.M)
+        means = {"hc_ss": asperities, "hc_sa": particles, "hc_gap": gap}
+        out = _closing(self, state, means, "hc_closed")
         return {
-            "hc": asperities + particles + gap,
-            "hc_ss": asperities,
-            "hc_sa": particles,
-            "hc_gap": gap,
-            "hc_closed": closed,
+            "hc": out["hc_ss"] + out["hc_sa"] + out["hc_gap"],
+            **out,
             "hc_cmy": self._clean(state),
         }
 
@@ -289,7 +347,7 @@ class ThermalConductance(AbstractOutput):
         return cooper_mikic_yovanovich(part, H=pair.H, k=k, m=float(m), sigma=rough.sigma)
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        return _warnings(self, state, self.particles, "hc, hc_ss and hc_sa")
+        return _warnings(self, state, self.particles, "hc, hc_ss and hc_sa", "hc_closed")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -316,6 +374,8 @@ class ElectricalConductance(AbstractOutput):
     A_n : float, optional
         Nominal area of the contact [m²]. Where fewer than one contact conducts in it on average,
         it is open, closed with the probability :math:`P_c = 1-e^{-A_n n}`: contacts lie at random.
+        Where it holds few particles, contacts with and without them each carry the load, and the
+        columns are means over both (`thirdbody.effects.single_contacts`).
     few : {"open", "mean"}, optional
         What is given there: NaN, or the mean over many such areas, most of them open.
 
@@ -388,19 +448,13 @@ class ElectricalConductance(AbstractOutput):
         particles = np.zeros_like(state.d)
         if self.particles == "conduct":
             particles = _through_particles(state, _electrical, **small)
-        closed, open_ = _closing(self, state)
-        asperities, particles = (np.where(open_, np.nan, each) for each in (asperities, particles))
+        out = _closing(self, state, {"gc_ss": asperities, "gc_sa": particles}, "gc_closed")
+        total = out["gc_ss"] + out["gc_sa"]
         with np.errstate(divide="ignore"):
-            return {
-                "gc": asperities + particles,
-                "gc_ss": asperities,
-                "gc_sa": particles,
-                "rho_c": 1 / (asperities + particles),
-                "gc_closed": closed,
-            }
+            return {"gc": total, **out, "rho_c": 1 / total}
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        return _warnings(self, state, self.particles, "gc, gc_ss, gc_sa and rho_c")
+        return _warnings(self, state, self.particles, "gc, gc_ss, gc_sa and rho_c", "gc_closed")
 
 
 def _asked(contact: Contact, particles: str) -> dict[str, Material]:

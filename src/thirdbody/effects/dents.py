@@ -10,8 +10,9 @@ import numpy as np
 
 from ..contact.output import AbstractOutput, Column
 from ..laws.particle.series import Series
+from ..laws.particle.squashed import widest_disc
 from ..populations.materials import softer_hardness
-from ..quantities.say import number
+from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
 from .single.dent import dent_of, fragments, sink, sunk
 
@@ -60,8 +61,9 @@ class Dents(AbstractOutput):
         (`thirdbody.effects.single.dent.sink`). Of particles with a strength, what is whole does.
         Hard ones keep their shape whatever their hardness. Ductile ones flatten to
         discs: the widths are their footprints, as `thirdbody.particle.Series` squashes them where
-        they are softer than the surface, and otherwise those of discs as high as the gap; depth
-        and volume of these marks are not known, and NaN. Brittle ones larger than ``fragment`` are
+        they are softer than the surface, and otherwise those of discs as high as the gap, up to
+        the width at which the disc sinks in (`widest_disc` of the squashed particle); depth and
+        volume of these marks are not known, and NaN. Brittle ones larger than ``fragment`` are
         replaced by fragments of the same volume in the same gap.
     fragment : float, optional
         Size of the fragments [m]; needed for brittle particles.
@@ -194,13 +196,21 @@ class Dents(AbstractOutput):
     def _left(self, spots: ParticleSpots, side: int, contact: Contact) -> Dent:
         population = spots.population
         assert population is not None
-        return dent_of(
+        dent = dent_of(
             spots,
             side=side,
             particle=population.material,
             debris=self.debris,
             squashed=_squashed(contact, population)[side],
         )
+        widest = np.where(np.isnan(dent.depth), _widest(contact, population, side), math.inf)
+        return dent._replace(diameter=np.minimum(dent.diameter, widest * spots.x))
+
+    def _groups(self, state: Solved) -> list[ParticleSpots]:
+        """The particles that leave dents, or what they break into."""
+        if self.debris != "brittle":
+            return list(state.particles)
+        return [self._broken(spots, state.contact) for spots in state.particles]
 
     def _sunk(self, spots: ParticleSpots, side: int) -> Array:
         population = spots.population
@@ -208,9 +218,7 @@ class Dents(AbstractOutput):
         return sunk(spots, side=side, particle=population.material, debris=self.debris)
 
     def of(self, state: Solved) -> dict[str, Array]:
-        groups = list(state.particles)
-        if self.debris == "brittle":
-            groups = [self._broken(spots, state.contact) for spots in groups]
+        groups = self._groups(state)
         out: dict[str, Array] = {}
         for side in (0, 1):
             out |= self._side(state, groups, side)
@@ -268,7 +276,42 @@ class Dents(AbstractOutput):
         }
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        return [*self._about_few(values), *self._about_unknown(state, values)]
+        return [
+            *self._about_few(values),
+            *self._about_unknown(state, values),
+            *self._about_wide(state),
+        ]
+
+    def _about_wide(self, state: Solved) -> list[str]:
+        """Flattened particles whose marks are held to the widest disc that a surface bears."""
+        out = []
+        for each in state.contact.populations:
+            mine = [spots for spots in self._groups(state) if spots.population is each]
+            shares = [self._held(mine, side, state.contact) for side in (0, 1)]
+            share, side = max((share, side) for side, share in enumerate(shares))
+            if share > 0:
+                out.append(
+                    f"outputs.dents: {percent(share, digits=2)} of the marks of "
+                    f"{each.name or each.material.name or 'particles'} are of discs that would "
+                    "press harder than the surface is: such a disc sinks in, and its mark is held "
+                    f"to {number(_widest(state.contact, each, side), 3)} times the particle's size"
+                )
+        return out
+
+    def _held(self, groups: Sequence[ParticleSpots], side: int, contact: Contact) -> float:
+        """The largest share of flattened particles in any state whose width is the widest."""
+        marks: Any = 0.0
+        held: Any = 0.0
+        for spots in groups:
+            population = spots.population
+            assert population is not None
+            widest = _widest(contact, population, side)
+            dent = self._left(spots, side, contact)
+            flat: Any = np.isnan(dent.depth) & (dent.diameter > 0)
+            marks = marks + spots.total(flat.astype(float))
+            wide: Any = flat & (dent.diameter >= widest * spots.x)
+            held = held + spots.total(wide.astype(float))
+        return float(np.max(held / np.where(marks > 0, marks, 1.0), initial=0.0))
 
     def _about_few(self, values: Mapping[str, Array]) -> list[str]:
         """Where few dents, or less than one, lie in A_n."""
@@ -291,8 +334,6 @@ class Dents(AbstractOutput):
 
     def _about_unknown(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         """Particles that are flattened, whose depth is not known."""
-        if self.debris == "ductile":
-            return []
         out = []
         pair = (state.contact.surfaces.first, state.contact.surfaces.second)
         for each in state.contact.populations:
@@ -314,9 +355,12 @@ class Dents(AbstractOutput):
             if not sides:
                 continue
             where = "either surface" if len(sides) == 2 else f"surface {sides[0]}"
+            told = f"are not harder than {where} and are flattened there"
+            if self.debris == "ductile":
+                told = "flatten, as debris = 'ductile' says"
             out.append(
-                f"outputs.dents: {each.name or each.material.name or 'particles'} are not harder "
-                f"than {where} and are flattened there: their marks are counted, with the widths "
+                f"outputs.dents: {each.name or each.material.name or 'particles'} {told}: "
+                "their marks are counted, with the widths "
                 "of their footprints; depth and volume are not known (NaN)"
             )
         return out
@@ -348,6 +392,17 @@ def _squashed(contact: Contact, population: Particles) -> tuple[bool, ...]:
         form is not None and (not law.follows_table or population.material.H <= body.H)
         for form, body in zip(forms, pair, strict=True)
     )
+
+
+def _widest(contact: Contact, population: Particles, side: int) -> float:
+    """Largest mark of a flattened particle over its size; infinite where its law bounds it."""
+    if _squashed(contact, population)[side]:
+        return math.inf
+    law = contact.law_of(population)
+    friction = (law if isinstance(law, Series) else Series()).friction_factor
+    H = (contact.surfaces.first, contact.surfaces.second)[side].H
+    # one that is flattened is not harder, whatever its material says
+    return widest_disc(min(population.material.H, H), H, friction_factor=friction)
 
 
 def _exceeded(

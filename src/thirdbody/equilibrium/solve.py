@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..contact.asperity_sums import ReducedSum
 from ..contact.contact import Contact
-from ..contact.evaluation import evaluate
+from ..contact.evaluation import Solver, evaluate
 from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
@@ -170,6 +170,24 @@ def solve_untold(contact: Contact, load: str, loads: Array) -> Equilibrium:
     )
     given = np.asarray(loads, dtype=float) if name == "F_star" else None
     return _result(contact, name, values, False, given, "loading", told=False)
+
+
+def _separation(contact: Contact, pressure: Array) -> Array:
+    """d under pressures (N,) [m]; NaN where no separation carries them."""
+    return np.atleast_1d(solve_untold(contact.replace(outputs=()), "pressure", pressure).d)
+
+
+def _outputs_at(contact: Contact, d: Array) -> dict[str, Array]:
+    """Outputs of a contact at separations (N,) [m], NaN where those are."""
+    known = np.isfinite(d)
+    out = {name: np.full(len(d), np.nan) for each in contact.outputs for name in each.columns}
+    if known.any():
+        for name, values in solve_untold(contact, "d", d[known]).outputs.items():
+            out[name][known] = values
+    return out
+
+
+SOLVER = Solver(_separation, _outputs_at)
 
 
 def _result(
@@ -404,7 +422,13 @@ def _state(
     parts: list[dict[str, Array]] = [{} for _ in contact.populations]
     outputs, more = ({}, [])  # type: tuple[dict[str, Any], list[str]]
     if contact.outputs:
-        outputs, more = evaluate(contact, bound, columns, parts=parts if len(parts) > 1 else ())
+        outputs, more = evaluate(
+            contact,
+            bound,
+            columns,
+            parts=parts if len(parts) > 1 else (),
+            solver=None if target is None else SOLVER,
+        )
     shares = _population_shares(contact, bound, d, columns, scalar, parts)
     if scalar:
         columns = {name: values[0].item() for name, values in columns.items()}

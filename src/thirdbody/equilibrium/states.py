@@ -22,7 +22,7 @@ from ..quantities.value import warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
 from .crowding import crowded
-from .solve import given_load, solve_untold
+from .solve import SOLVER, given_load, solve_untold
 from .status import SENTENCES, Status
 
 if TYPE_CHECKING:
@@ -246,7 +246,13 @@ def _with_outputs(
     for which in _alike(alike, len(loads)):
         own = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
         crowd = count[which] / (count[which[0]] or 1.0)
-        values, _ = evaluate(own, interface(own), _taken(out, which), crowd)
+        values, _ = evaluate(
+            own,
+            interface(own),
+            _taken(out, which),
+            crowd,
+            solver=None if load == "d" else SOLVER,
+        )
         for name, column in values.items():
             out.setdefault(name, np.full(len(loads), np.nan))[which] = column
         solved(0.5 * len(which), "each has spots of its own")

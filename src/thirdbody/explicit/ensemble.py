@@ -486,6 +486,8 @@ def _few(records: list[dict[str, Any]], pool: Pool, grid: Array, h: float) -> li
     carry = np.interp(h, grid[::-1], np.sum(np.array(each) * pool.good, axis=0)[::-1])
     if not carry < FEW:
         return []
+    if carry < 0.5:
+        return ["at the smallest load hardly any surface touches; more surfaces, or a larger load"]
     return [
         f"{plural(round(float(carry)), 'pixel')} and particles of all surfaces carry the smallest "
         "load: the answer is that of a few points; more surfaces"

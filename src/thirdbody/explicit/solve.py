@@ -347,7 +347,11 @@ def _doubts(columns: list[dict[str, Any]], found: list[Pressed], tol: float) -> 
             f"{plural(len(unsure), 'state')} of {len(found)} did not converge: certificate "
             f"{worst:.1e}, asked for {tol:g}; pressures are known {known} (raise max_iterations)"
         )
-    few = min(each["carrying_pixels"] + each["carrying_particles"] for each in columns)
+    carriers = [each["carrying_pixels"] + each["carrying_particles"] for each in columns]
+    if nothing := carriers.count(0):
+        which = "" if len(columns) == 1 else f" in {nothing} of {len(columns)} states"
+        out.append(f"nothing touches{which}: there load and real contact area are 0")
+    few = min((each for each in carriers if each), default=FEW)
     if few < FEW:
         out.append(
             f"{plural(few, 'pixel')} and particles carry the smallest load: the answer is that of "

@@ -309,7 +309,14 @@ class Pressed:
     note : str
         Why it was not integrated, or not with the rough body; or that places of it are crowded.
     particles_held : float or None
-        Particles that lie on the area of one contact, on average [1]; None without particles.
+        Particles that lie on the area that carries, on average [1]; None without particles. That
+        area is Hertz's, or as much larger as roughness and particles make the largest pressure
+        smaller.
+    with_particles, without_particles : dict or None
+        Where a contact holds less than one particle on average: ``share`` of the contacts,
+        ``real_area``, ``particle_load_share`` and ``peak_pressure`` of those that hold some, and of
+        those that hold none. Real area and load share above are means over both, and the largest
+        pressure is that of the greater part.
     """
 
     kind: str
@@ -325,6 +332,8 @@ class Pressed:
     peak_pressure: float | None = None
     note: str = ""
     particles_held: float | None = None
+    with_particles: dict[str, float | None] | None = None
+    without_particles: dict[str, float | None] | None = None
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -364,9 +373,11 @@ class Pressed:
         )
         if self.particle_load_share is not None:
             out += f", and particles carry {percent(self.particle_load_share)} of the load"
+            out += ", on average over many contacts" * bool(rare)
         if self.method == "rough body" and self.peak_pressure is not None:
             largest = value_of(self.peak_pressure, "Pa")
-            out += f"; roughness changes the largest pressure to {largest}"
+            most = " in most contacts" * bool(rare)
+            out += f"; roughness changes the largest pressure{most} to {largest}"
         return f"{out}.{rare}"
 
     def _rare(self) -> str:
@@ -374,7 +385,16 @@ class Pressed:
         rare = meets(self.particles_held or 0.0)
         if not rare:
             return ""
-        return f" {rare[0].upper()}{rare[1:]}: what particles do is the mean over many contacts."
+        told = f" {rare[0].upper()}{rare[1:]}, and the others are as without particles"
+        some, none = self.with_particles, self.without_particles
+        if some is None or none is None:
+            return f"{told}."
+        load = some["particle_load_share"]
+        areas = [f"{number((each['real_area'] or math.nan) * 1e6)} mm²" for each in (some, none)]
+        return (
+            f"{told}. Where one is, particles carry {percent(load)} of the load and the real area "
+            f"is {areas[0]}; where none is, asperities carry the whole load on {areas[1]}."
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, ready for JSON."""
@@ -423,7 +443,51 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
         "yields": YIELD * H / (1.6 if kind == "flat" else 1.0),
         "particles_held": None if contact.two_body else float(every * hertz.area),
     }
-    return Pressed(**given, **(_integrated(contact, body, force, hertz) if integrate else {}))
+    if not integrate:
+        return Pressed(**given)
+    found = _integrated(contact, body, force, hertz)
+    if not contact.two_body and found.get("method") == "rough body":
+        given["particles_held"] *= max(float(hertz.maximum) / found["peak_pressure"], 1.0)
+    if 0 < (given["particles_held"] or 0.0) < 1 and "method" in found:
+        found |= _with_and_without(contact, body, force, hertz, given["particles_held"], found)
+    return Pressed(**given, **found)
+
+
+def _with_and_without(
+    contact: Contact, body: Body, force: float, hertz: Hertz, held: float, shared: dict[str, Any]
+) -> dict[str, Any]:
+    """Contacts that hold a particle and contacts that hold none, each under its whole load.
+
+    Of those that hold some, the mean number of particles is 1/(1 − exp(−N)) times that of all.
+    """
+    without = math.exp(-held)
+    clean = _integrated(contact.replace(particles=None), body, force, hertz)
+    try:
+        dusty = contact.replace(
+            particles=tuple(
+                each.replace(areal_density=each.areal_density / -math.expm1(-held))
+                for each in contact.populations
+            )
+        )
+        some = _integrated(dusty, body, force, hertz)
+    except InvalidValue:  # so many do not find room
+        some = shared
+    if "method" not in clean or "method" not in some:
+        return {}
+    area = without * clean["real_area"] + (1 - without) * some["real_area"]
+    usual = clean if without > 0.5 else some
+    return {
+        "real_area": area,
+        "particle_load_share": (1 - without) * some["particle_load_share"],
+        "peak_pressure": usual["peak_pressure"],
+        "with_particles": _part(1 - without, some),
+        "without_particles": _part(without, clean | {"particle_load_share": 0.0}),
+    }
+
+
+def _part(share: float, found: dict[str, Any]) -> dict[str, float | None]:
+    names = ("real_area", "particle_load_share", "peak_pressure")
+    return {"share": share} | {name: found[name] for name in names}
 
 
 def _integrated(contact: Contact, body: Body, force: float, hertz: Hertz) -> dict[str, Any]:

@@ -29,12 +29,13 @@ from ..laws.base import AbstractAsperityLaw
 from ..laws.particle.breakage import Breakage, about_strength
 from ..laws.particle.one_particle import contact_sides, squeezed_particle
 from ..laws.particle.series import Series
+from ..laws.particle.squashed import widest_disc
 from ..numerics.quadrature import panel_rule, subdivide
 from ..populations.distributions import Distribution
 from ..populations.materials import Material, MaterialPair
 from ..populations.measured.cleanliness import suspension_of_iso4406
 from ..populations.strength import WeibullStrength
-from ..quantities.say import value_of
+from ..quantities.say import number, percent, value_of
 from ..quantities.units import to_si
 from ..quantities.value import Value, choice, quantity
 
@@ -144,8 +145,9 @@ class FilmParticles(Value):
         By hardness, particles dent a surface as deep as the computed table says they sink; with
         ``deep="off"`` they dent what is softer than they are, and are flattened by what is not
         (`thirdbody.effects.single.dent.sink`). Hard ones keep their shape whatever their hardness.
-        Ductile ones flatten to discs of the height of the film: the footprint is given, its depth
-        is not known (NaN), because it follows from friction on the disc. Brittle ones break before
+        Ductile ones flatten to discs of the height of the film, as wide at most as the surface
+        bears (`widest_disc` of the squashed particle): the footprint is given, its depth is not
+        known (NaN), because it follows from friction on the disc. Brittle ones break before
         they dent.
     fragment : float, optional
         Size of the fragments [m]; needed for brittle particles.
@@ -344,7 +346,18 @@ class FilmParticles(Value):
         return sunk(spots, side=side, particle=self.material, debris=self.debris)
 
     def _dent(self, spots: ParticleSpots, side: int) -> Dent:
-        return dent_of(spots, side=side, particle=self.material, debris=self.debris)
+        dent = dent_of(spots, side=side, particle=self.material, debris=self.debris)
+        widest = np.where(np.isnan(dent.depth), self._widest(side), math.inf)
+        return dent._replace(diameter=np.minimum(dent.diameter, widest * spots.x))
+
+    def _widest(self, side: int) -> float:
+        """Largest mark of a flattened particle in surface 1 (side 0) or 2, over its size."""
+        H = (self.surfaces.first, self.surfaces.second)[side].H
+        return widest_disc(min(self.material.H, H), H)  # flattened, and so not harder
+
+    def _marks(self, x: ArrayLike, side: int) -> Array:
+        """Widths of the marks of particles that are flattened [m]."""
+        return np.minimum(flattened_diameter(x, gap=self.film), self._widest(side) * np.asarray(x))
 
     def _flattened(self, side: int) -> str:
         body = (self.surfaces.first, self.surfaces.second)[side - 1]
@@ -449,7 +462,7 @@ class FilmParticles(Value):
         if not self.sinks(side - 1):
             if self.debris != "ductile":
                 tell_of_range(self._flattened(side))
-            return self._footprints()
+            return self._footprints(side - 1)
         lowest = self._first(side - 1)
         count = self._pressed(lowest) if math.isfinite(lowest) else 0.0
         if count == 0:
@@ -471,12 +484,19 @@ class FilmParticles(Value):
             embedded=float(spots.total(stay.astype(float))[0] / count),
         )
 
-    def _footprints(self) -> FilmDents:
+    def _footprints(self, side: int) -> FilmDents:
         x, w = self._nodes()
         count = float(w.sum())
         if count == 0:
             return FilmDents(0.0, *4 * (math.nan,), *2 * (math.nan,), math.nan)._replace(volume=0.0)
-        wide = flattened_diameter(x, gap=self.film)
+        wide = self._marks(x, side)
+        held = float(w @ (wide < flattened_diameter(x, gap=self.film)) / count)
+        if held > 0:
+            tell_of_range(
+                f"{percent(held, digits=2)} of the flattened particles would press harder than "
+                f"surface {side + 1} is: such a disc sinks in, and its mark is held to "
+                f"{number(self._widest(side), 3)} times the particle's size"
+            )
         top = self._size(0.05 * count, self.film)
         return FilmDents(
             number=self.columns_of_oil * count,
@@ -485,7 +505,7 @@ class FilmParticles(Value):
             area=float(np.pi / 4 * (w @ wide**2) / count),
             volume=math.nan,
             depth_p95=math.nan,
-            diameter_p95=float(flattened_diameter(top, gap=self.film)),
+            diameter_p95=float(self._marks(top, side)),
             embedded=0.0,
         )
 

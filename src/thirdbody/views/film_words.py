@@ -64,9 +64,7 @@ def summary(result: dict[str, Any]) -> list[str]:
         ]
         out.append(f"{part['name']}: {'; '.join(at)}.")
     if rare := meets(result["particles_held"] or 0.0):
-        out.append(
-            f"{rare[0].upper()}{rare[1:]}: what particles do is the mean over many contacts."
-        )
+        out.append(f"{rare[0].upper()}{rare[1:]}, and the others are as without particles.")
     if lacking := _lacking(result):
         out.append(f"There is no friction coefficient without {', '.join(lacking)}.")
     return out

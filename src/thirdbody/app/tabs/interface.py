@@ -70,11 +70,21 @@ def told(point: tb.Equilibrium) -> list[tuple[str, str]]:
         if "n_sa" not in counted:
             contact = point.contact.replace(outputs=(tb.outputs.Counts(),))
             counted = tb.solve(contact, d=_one(point.d)).outputs
-        every = sum(dust.areal_density for dust in point.contact.populations)
-        at.append(("particles loaded", percent(_one(counted["n_sa"]) / every)))
+        at.append(_loaded(point.contact, _one(counted["n_sa"])))
     for part in point.populations:
         at.append((f"{part.name} carries", percent(_one(part.load_share))))
     return at
+
+
+def _loaded(contact: tb.Contact, n: float) -> tuple[str, str]:
+    """How many of the particles bear load; of those that break, pieces for each that came.
+
+    Pieces bear beside whole particles, and so they are no part of those that came.
+    """
+    each = n / sum(dust.areal_density for dust in contact.populations)
+    if any(dust.strength and dust.strength.fragments != "gone" for dust in contact.populations):
+        return ("whole particles and pieces loaded", f"{number(each, 3)} for each particle")
+    return ("particles loaded", percent(each))
 
 
 def abouts() -> dict[str, str]:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..base import AbstractAsperityLaw
     from .one_particle import Array
 
-__all__ = ["Squash"]
+__all__ = ["Squash", "widest_disc"]
 
 FULL, COLUMN = 2.84, 1.0
 """Hardness over yield strength of a small contact, and of a column as wide as the sphere."""
@@ -29,6 +29,41 @@ SOLID = (1e-6, 1e9)
 """E*/H of what counts as a solid, and how many times as hard the surfaces may be."""
 THINNEST = 1e-12
 """Height left over the size, below which no disc is followed: digits of the squash end there."""
+
+
+def widest_disc(H_particle: float, H_surface: float, *, friction_factor: float = 0.2) -> float:
+    r"""Diameter over that of the sphere at which a flattened particle sinks into the surface [1].
+
+    .. math:: \frac{p}{H_p} = \frac{1}{2.84}\left[1+\frac{2m_f}{3\sqrt3}\,\frac{a}{x\,t}\right]
+              = \frac{H_s}{H_p}, \qquad \frac ax = \frac{1}{\sqrt{6t}}, \qquad
+              \frac Dx = \sqrt{\frac{2}{3t}} \ge 1
+
+    A disc of the sphere's volume, as high as t x: the yield strength of a column, and the rise of
+    the mean pressure by friction on its faces, as in `thirdbody.particle.Series`, up to the
+    hardness of the surface. From there on the disc sinks in and grows no wider.
+
+    Parameters
+    ----------
+    H_particle, H_surface : float
+        Hardness of the particle and of the surface [Pa].
+    friction_factor : float, optional
+        Shear stress on the faces over the shear strength, m_f [1].
+
+    Returns
+    -------
+    float
+        D/x [1]; 1 where the pressure on a column is above the hardness of the surface.
+
+    Examples
+    --------
+    >>> round(widest_disc(2e9, 2e9), 2), widest_disc(10e9, 2e9)
+    (3.17, 1.0)
+    """
+    rise = FULL * H_surface / H_particle - COLUMN
+    if not rise > 0:
+        return 1.0
+    t = (2 * friction_factor / (3 * math.sqrt(3) * math.sqrt(6) * rise)) ** (2 / 3)
+    return max(math.sqrt(2 / (3 * t)), 1.0)
 
 
 @dataclass(frozen=True)
