@@ -119,7 +119,6 @@ def test_squashed_particles_are_told_of_from_a_fifth_of_their_radius_on():
         assert not told(9.2e-6)[1]
 
 
-<<<<<<< HEAD
 @pytest.mark.filterwarnings("error::RuntimeWarning")
 def test_sizes_down_to_zero_are_weighed():
     wide = tb.TruncatedGaussian(mean=300e-9, std=3e-6)
@@ -130,7 +129,8 @@ def test_sizes_down_to_zero_are_weighed():
         particle_law=tb.particle.Series(),
     )
     assert brittle(case, 100e-9)
-=======
+
+
 def test_particles_of_the_table_say_what_holds_them():
     """From the first side at 0.15 of its radius on, and where collars may touch."""
     law = tb.particle.Series(seat="plane")
@@ -163,4 +163,3 @@ def test_angular_grains_still_end_with_the_law_of_one_contact():
     state = tb.solve(case.replace(particles=grains, surfaces=soft), d=0.1e-6)
     assert any("laws of one contact end" in text for text in state.warnings)
     assert not any("held to a computation" in text for text in state.warnings)
->>>>>>> deep

@@ -16,7 +16,6 @@ import numpy as np
 from ..laws.asperity.field import TIP, Field
 from ..laws.field.formulas import area, hardness_ratio, load, stiffness
 from ..laws.field.own import own_field
-from ..laws.field.table import field_of
 from ..populations.materials import MaterialPair
 from ..populations.roughness import Roughness
 from .asperity_sums import AsperitySum, asperity_sum_of
@@ -47,8 +46,7 @@ class FieldSum:
         self.datum = datum
         self.gradient = rough.slope
         chi = hardness_ratio(rough, E_star=surfaces.E_star, H=surfaces.H)
-        own = law.spectrum
-        self.surface = field_of(chi, rough.alpha) if own is None else own_field(own, chi)
+        self.surface = own_field(law.spectrum, chi, rough.alpha)
         self.unit = surfaces.E_star * self.gradient
         self.highest = (HIGHEST * self.sigma - rough.y_s) / self.sigma_s
         self._ends(self.surface.lowest)

@@ -261,8 +261,8 @@ class ThermalConductance(AbstractOutput):
 
     The law `thirdbody.asperity.Field` has no spots: its patches conduct as they are stiff (Barber),
     :math:`2K/[E^*(1/k_1+1/k_2)]` with the stiffness K of the patches at rest, crowded or not, and
-    ``form`` has no effect. It is 3 % off up to a real area of 0.1, 11 % low at 0.3 where the
-    surface is plastic; a film lies in series to that, by spots scaled to its area.
+    ``form`` has no effect. It is 3 % off up to a real area of 0.1, 11 % low at 0.3 where it is
+    plastic; a film lies in series to that, by spots scaled to its area.
 
     Particles do not take part in ψ: most of their resistance is their own. Grains below 0.1 µm
     conduct worse than the bulk of their crystal: give them their own conductivity. Flakes conduct
@@ -385,8 +385,8 @@ class ElectricalConductance(AbstractOutput):
 
     The law `thirdbody.asperity.Field` has no spots: its patches conduct as they are stiff (Barber),
     :math:`2K/[E^*(\rho_1+\rho_2)]` with the stiffness K of the patches at rest, crowded or not, and
-    ``form`` has no effect. It is 3 % off up to a real area of 0.1, 11 % low at 0.3 where the
-    surface is plastic; film and free path lie in series to that, by spots scaled to its area.
+    ``form`` has no effect. It is 3 % off up to a real area of 0.1, 11 % low at 0.3 where it is
+    plastic; film and free path lie in series to that, by spots scaled to its area.
 
     Without films and with the electrons as the only carriers of heat, the thermal conductance is
     :math:`L\,T` times this one (Wiedemann and Franz; `thirdbody.effects.single.heat.LORENZ`).

@@ -40,6 +40,8 @@ def filled_in(kind: Any) -> frozenset[str]:
         return frozenset()
     found = set()
     for item in dataclasses.fields(kind):
+        if "table" in item.metadata:
+            continue
         if item.default is None and "quantity" not in item.metadata:
             found.add(item.name)
         elif item.default is None:

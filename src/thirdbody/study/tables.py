@@ -21,6 +21,7 @@ from .particles import TABLE as PARTICLES
 from .reader import FieldReader, Reader, Table, plain
 from .roughness import TABLE as ROUGHNESS
 from .sizes import parts
+from .spectrum import spectrum
 from .surfaces import OWN_MATERIALS, material
 from .surfaces import TABLE as SURFACES
 from .sweep import TABLE as SWEEP
@@ -56,6 +57,7 @@ FIELDS: dict[str, tuple[FieldReader, str]] = {
     "Heights": (heights, "distribution of asperity heights"),
     "Ellipticity | None": (ellipticity, "shapes of elliptic asperities"),
     "AbstractAsperityLaw": (asperity_law, ""),
+    "OwnSpectrum | RollOff | None": (spectrum, "waves of the roughness"),
     "tuple[Distribution, ...]": (parts, "a list of size distributions"),
 }
 """Fields of value classes that are tables themselves, by their declared type."""

@@ -88,6 +88,8 @@ def _about_option(item: dataclasses.Field, default: Any) -> dict[str, Any]:
         meaning = f"{about['meaning']} {about['symbol']}"
     elif about := item.metadata.get("choice"):
         allowed, meaning = ", ".join(map(say, about["options"])), about["meaning"]
+    elif about := item.metadata.get("table"):
+        allowed, meaning = about["allowed"], about["meaning"]
     elif isinstance(default, bool):
         allowed = "true, false"
     elif isinstance(default, str):

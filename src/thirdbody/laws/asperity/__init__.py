@@ -2,7 +2,7 @@
 
 from ...reference import elliptic_hertz
 from ..base import AbstractAsperityLaw, Branch, Jump
-from ..field.own import OwnSpectrum
+from ..field.own import OwnSpectrum, RollOff
 from .adhesive import DMT, JKR
 from .ceb import CEB
 from .coated import Coated
@@ -35,5 +35,6 @@ __all__ = [
     "Hermite",
     "Jump",
     "OwnSpectrum",
+    "RollOff",
     "elliptic_hertz",
 ]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ...populations.heights import GaussianHeights
 from ..base import AbstractAsperityLaw, AbstractParticleLaw, Branch, Jump, SeatedLaw
-from ..field.own import OwnSpectrum
+from ..field.own import OwnSpectrum, RollOff
 from ..field.table import ALPHAS
 from .zmc import ZMC
 
@@ -16,6 +16,12 @@ if TYPE_CHECKING:
     from ...populations.roughness import Roughness
 
 __all__ = ["Field"]
+
+
+SPECTRUM = {
+    "allowed": '"measured", or a table, e.g. { hurst = 0.7, corner = "sharp" }',
+    "meaning": "waves of the roughness",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,9 +46,10 @@ class Field(AbstractAsperityLaw):
     ----------
     remainder : bool, optional
         Count ε; False leaves the theory with nothing fitted.
-    spectrum : OwnSpectrum, optional
-        Waves of a measured map; those of the library's spectrum of equal α by default. The
-        roughness of the contact should be that of the same map at the same cut-off.
+    spectrum : OwnSpectrum or RollOff, optional
+        Waves of a measured map, or another roll-off; those of the library's spectrum of equal α by
+        default. With a map the roughness of the contact should be that of the same map at the same
+        cut-off.
 
     Notes
     -----
@@ -83,12 +90,12 @@ class Field(AbstractAsperityLaw):
     of_surface = True
 
     remainder: bool = True
-    spectrum: OwnSpectrum | None = None
+    spectrum: OwnSpectrum | RollOff | None = field(default=None, metadata={"table": SPECTRUM})
 
     def _problems(self) -> list[str]:
-        if not isinstance(self.spectrum, OwnSpectrum | None):
+        if not isinstance(self.spectrum, OwnSpectrum | RollOff | None):
             return [
-                f"Field.spectrum = {self.spectrum!r} must be an OwnSpectrum or None, e.g. "
+                f"Field.spectrum = {self.spectrum!r} must be an OwnSpectrum, a RollOff or None: "
                 "OwnSpectrum.of(from_topography(...))"
             ]
         if not isinstance(self.remainder, bool):

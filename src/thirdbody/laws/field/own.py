@@ -15,9 +15,11 @@ import numpy as np
 from scipy.special import ndtr, ndtri
 
 from ...errors import InvalidValue
-from ...quantities.value import Value
+from ...populations.measured.spectra import filled
+from ...quantities.say import percent
+from ...quantities.value import Value, choice, quantity
 from .programme import TERMS, Edges, pressed
-from .spectrum import FARTHEST, Spectrum
+from .spectrum import FARTHEST, HURST, Spectrum, rolled_off
 from .table import (
     EDGE,
     HARD,
@@ -36,12 +38,14 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["OwnSpectrum", "own_field"]
+__all__ = ["OwnSpectrum", "RollOff", "own_field"]
 
 RINGS, BINS = 40, 260
 """Rings of the longest waves that are kept apart, and bins of the others."""
 LOW = np.array([-1.0, -0.7, -0.4, -0.1])
 HIGH = np.array([0.2, 0.4, 0.65, 0.95, 1.3, 1.65, 2.0, 2.4, 2.8, 3.3, 3.8, 4.4, 5.0])
+MISSING = 0.01
+"""Part of the points of a map that may be missing."""
 SKEWED, PEAKED = 0.3, 0.8
 """|skewness| and |excess kurtosis| from which heights are not taken for Gaussian."""
 
@@ -105,15 +109,19 @@ class OwnSpectrum(Value):
         Raises
         ------
         InvalidValue
-            A profile, missing points, or heights that are not Gaussian.
+            A profile, more than 1 % of missing points (fewer are filled harmonically), or heights
+            that are not Gaussian.
         """
         if surface.dim != 2:
             raise InvalidValue("a profile does not tell the waves of a surface: measure a map")
         z = np.array(surface.filtered(cutoff), dtype=float)
-        if not np.all(np.isfinite(z)):
+        missing = float(np.mean(~np.isfinite(z)))
+        if missing > MISSING:
             raise InvalidValue(
-                "the map has missing points, and its waves are not known; crop it, or fill them"
+                f"{percent(missing, digits=2)} of the points of the map are missing (up to "
+                f"{percent(MISSING, digits=1)}), so that its waves are not known; crop it"
             )
+        z = filled(z)
         t = (z - z.mean()) / z.std()
         skewness, excess = float(np.mean(t**3)), float(np.mean(t**4) - 3)
         if abs(skewness) > SKEWED or abs(excess) > PEAKED:
@@ -135,10 +143,59 @@ class OwnSpectrum(Value):
         side = min(n * d for n, d in zip(t.shape, surface.spacing, strict=True))
         return cls(q=tuple(q.tolist()), weight=tuple(weight.tolist()), box=side if box else 0.0)
 
+    @classmethod
+    def of_both(cls, first: Topography, second: Topography) -> OwnSpectrum:
+        """The waves of two faces together, whose heights have nothing to do with each other."""
+        faces = [
+            (cls.of(face), float(np.nanstd(np.array(face.filtered(None), dtype=float))))
+            for face in (first, second)
+        ]
+        waves = sorted(
+            (q, weight * sigma**2) for own, sigma in faces for q, weight in zip(
+                own.q, own.weight, strict=True)
+        )  # fmt: skip
+        merged: dict[float, float] = {}
+        for q, weight in waves:
+            merged[q] = merged.get(q, 0.0) + weight
+        total = sum(merged.values())
+        return cls(q=tuple(merged), weight=tuple(w / total for w in merged.values()))
+
     @property
     def spectrum(self) -> Spectrum:
         """In the units of the theory: ⟨q²⟩ = 2."""
         return _spectrum(self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RollOff(Value):
+    r"""A spectrum that is flat for long waves and falls from a corner, to the α of the roughness.
+
+    .. math:: C(q) \propto \left[1 + (q/q_r)^2\right]^{-1-H}, \qquad q \le q_s
+
+    Parameters
+    ----------
+    hurst : float, optional
+        Hurst exponent H [1]; surfaces that the library draws have 0.8.
+    corner : {"smooth", "sharp"}, optional
+        As above; or flat up to q_r and a power law from there.
+
+    Notes
+    -----
+    What an unknown spectrum is worth, against 0.8 and "smooth" at σ, R, α: see the book's page
+    "Choose a law".
+
+    Examples
+    --------
+    >>> RollOff(hurst=0.5).spectrum_of(5.0).alpha.__round__(6)
+    5.0
+    """
+
+    hurst: float = quantity("H", "1", "Hurst exponent", default=HURST, gt=0, le=1)
+    corner: str = choice("corner of the spectrum", "smooth", "sharp", default="smooth")
+
+    def spectrum_of(self, alpha: float) -> Spectrum:
+        """In the units of the theory: ⟨q²⟩ = 2."""
+        return rolled_off(alpha, self.hurst, self.corner)
 
 
 def _rings(q: Array, power: Array) -> tuple[Array, Array]:
@@ -163,15 +220,17 @@ def _spectrum(own: OwnSpectrum) -> Spectrum:
 
 
 @lru_cache(maxsize=64)
-def own_field(own: OwnSpectrum, chi: float) -> FieldSurface:
-    """The surface of these waves at χ, solved.
+def own_field(own: OwnSpectrum | RollOff | None, chi: float, alpha: float) -> FieldSurface:
+    """The surface of these waves at χ, solved; of a roll-off by α, that of None from the table.
 
     Raises
     ------
     InvalidValue
         α outside that of the table, from which the solution starts.
     """
-    spectrum = own.spectrum
+    if own is None or own == RollOff():
+        return field_of(chi, alpha)
+    spectrum = own.spectrum_of(alpha) if isinstance(own, RollOff) else own.spectrum
     alpha = spectrum.alpha
     start = field_of(chi, alpha)
     h = np.concatenate([LOW, HIGH]) if chi <= SOFT else HIGH

@@ -183,7 +183,7 @@ class FilteredSeries:
 
 
 @lru_cache(maxsize=64)
-def rolled_off(alpha: float, hurst: float = HURST) -> Spectrum:
+def rolled_off(alpha: float, hurst: float = HURST, corner: str = "smooth") -> Spectrum:
     r"""The spectrum that the library draws surfaces with, of the bandwidth α.
 
     .. math:: C(q) \propto \left[1 + (q/q_r)^2\right]^{-1-H}, \qquad q \le q_s
@@ -194,6 +194,8 @@ def rolled_off(alpha: float, hurst: float = HURST) -> Spectrum:
         Nayak's bandwidth α [1], above 2.
     hurst : float, optional
         Hurst exponent H [1].
+    corner : {"smooth", "sharp"}, optional
+        As above, or C = 1 up to q_r and (q/q_r)^(−2 − 2H) from there.
 
     Returns
     -------
@@ -213,7 +215,9 @@ def rolled_off(alpha: float, hurst: float = HURST) -> Spectrum:
     q, weight = 0.5 * (1 + x), 0.5 * weight
 
     def shares(log_ratio: float) -> Array:
-        density = weight * q * (1 + (q / math.exp(log_ratio)) ** 2) ** (-1 - hurst)
+        over = (q / math.exp(log_ratio)) ** 2
+        decay = 1 + over if corner == "smooth" else np.maximum(over, 1.0)
+        density = weight * q * decay ** (-1 - hurst)
         return density / density.sum()
 
     def miss(log_ratio: Array) -> Array:

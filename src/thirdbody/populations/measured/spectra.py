@@ -451,7 +451,7 @@ class Spectrum:
 
 def spectrum(h: Array, spacing: tuple[float, ...], periodic: bool) -> Spectrum:
     """The periodogram; heights that do not repeat are put under a Hann window."""
-    h = _filled(h)
+    h = filled(h)
     if periodic:
         h = h - h.mean()
     else:
@@ -482,7 +482,7 @@ def spectrum(h: Array, spacing: tuple[float, ...], periodic: bool) -> Spectrum:
     )
 
 
-def _filled(h: Array) -> Array:
+def filled(h: Array) -> Array:
     """Missing data replaced by the harmonic function that fits their edge."""
     missing = np.isnan(h)
     if not missing.any():
