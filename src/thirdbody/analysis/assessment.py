@@ -248,14 +248,14 @@ class Assessment:
             rows.append((about_result(name)["meaning"], *(_amount(x, name) for x in each), error))
         head = ("result", "nominal", "5 %", "50 %", "95 %", "error of the bands")
         lost = 1 - found.solved
-        told = (f"{percent(lost)} of the samples have no equilibrium.",) if lost else ()
+        told = [f"{percent(lost)} of the samples have no equilibrium."] if lost else []
         close = crowded_samples([found.crowded]) if found.inputs else []
         if found.crowded and not found.inputs:
             close = [Status.CROWDED.sentence]
-        told += tuple(f"{each[0].upper()}{each[1:]}." for each in close)
+        told += [f"{each[0].upper()}{each[1:]}." for each in close]
         if not found.inputs:
-            return Section("State", ("result", "value"), tuple(rows), told)
-        return Section("State", head, tuple(rows), told, ("error of the bands", "50 %"))
+            return Section("State", ("result", "value"), tuple(rows), tuple(told))
+        return Section("State", head, tuple(rows), tuple(told), ("error of the bands", "50 %"))
 
     def _inputs(self) -> Section:
         found = self.propagation
