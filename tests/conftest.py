@@ -1,5 +1,6 @@
 """What all tests share."""
 
+import gc
 import json
 import os
 import signal
@@ -17,6 +18,11 @@ sys.path.insert(0, str(HERE))
 # tests interrupt commands, and a shell makes those deaf to it that it starts with &
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+# modules and tests stay to the end: while they are read there is no garbage to look for among them
+gc.disable()
+# a test loses no power: it need not wait for the disk
+os.fsync = lambda file: os.fstat(file) and None
 
 # what commands print heeds COLUMNS, which workers of the tests set to a width of their own
 os.environ.pop("COLUMNS", None)
@@ -42,6 +48,8 @@ def pytest_sessionstart(session):
     """Compile the engine once, before the workers start."""
     if hasattr(session.config, "workerinput"):
         return
+    if session.config.getoption("numprocesses", None):
+        gc.enable()  # only workers read the tests
     import thirdbody as tb
 
     bodies = tb.MaterialPair(tb.materials["S45C"], tb.materials["100Cr6"])
@@ -68,6 +76,11 @@ def _told(seed=None):
 
 
 np.random.default_rng = _told
+
+
+def pytest_collection_finish():
+    gc.freeze()
+    gc.enable()
 
 
 def pytest_runtest_setup():

@@ -234,8 +234,10 @@ def exponential_ceb(
 
     Parameters
     ----------
-    h, eta, sigma_s, R, E_star
-        As in `exponential_gw`.
+    h : float or array
+        As in `exponential_gw` [1].
+    eta, sigma_s, R, E_star : float
+        As there: [1/m²], [m], [m], [Pa].
     H, K : float
         Hardness H [Pa]; peak pressure at yield over H, K [1].
 
@@ -271,8 +273,10 @@ def exponential_plastic(
 
     Parameters
     ----------
-    h, eta, sigma_s, R
-        As in `exponential_gw`.
+    h : float or array
+        As in `exponential_gw` [1].
+    eta, sigma_s, R : float
+        As there: [1/m²], [m], [m].
     H : float
         Hardness H [Pa].
 
@@ -309,8 +313,10 @@ def exponential_ke(
 
     Parameters
     ----------
-    h, eta, sigma_s, R, E_star
-        As in `exponential_gw`.
+    h : float or array
+        As in `exponential_gw` [1].
+    eta, sigma_s, R, E_star : float
+        As there: [1/m²], [m], [m], [Pa].
     H, K : float
         Hardness H [Pa]; peak pressure at yield over H, K = 0.454 + 0.41ν [1].
 

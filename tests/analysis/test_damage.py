@@ -7,6 +7,7 @@ import warnings
 
 import numpy as np
 import pytest
+from damage import empty, flipped, missing, truncated
 from numpy.testing import assert_array_equal
 from steel_and_dust import DUSTY
 from typer.testing import CliRunner
@@ -142,24 +143,6 @@ def test_what_a_killed_run_left_is_removed(copy, made):
 
 
 # ---------------------------------------------------------------- damage
-def missing(file):
-    file.unlink()
-
-
-def empty(file):
-    file.write_bytes(b"")
-
-
-def truncated(file):
-    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
-
-
-def flipped(file):
-    held = bytearray(file.read_bytes())
-    held[len(held) // 2] ^= 4
-    file.write_bytes(held)
-
-
 DAMAGES = [
     missing,
     flipped,

@@ -1,6 +1,9 @@
 """Designs: against brute force, and what no design may break."""
 
+import itertools
 import json
+import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +15,7 @@ from thirdbody.analysis.design.front import front, hypervolume
 from thirdbody.analysis.design.problem import Limit, Objective, Suspension
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.numerics.sampling import Span
+from thirdbody.quantities import progress
 from thirdbody.views.plot.design import tried
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
@@ -395,3 +399,23 @@ def test_points_tell_units_and_the_figure_words():
     assert "(worst) [nm]" in " ".join(ax.get_ylabel().split())
     (line,) = (line for line in ax.lines if line.get_label() == "front")
     assert len(line.get_xdata()) == made["two"].points["front"].values.sum()
+
+
+def test_a_function_hears_of_more_points_every_time(monkeypatch):
+    """Also where the states of a point are solved one by one, each told as it is."""
+    clock = itertools.count()
+    monkeypatch.setattr(progress, "time", SimpleNamespace(monotonic=lambda: float(next(clock))))
+    heard = []
+    case = contact(particle_law=tb.particle.Series(seat="plane"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        design(
+            case,
+            vary={SIZE: (200e-9, 300e-9)},
+            objective=Objective(of="particle_load_share", aim="largest"),
+            F_star=[1e-6, 1e-5, 1e-4],
+            points=4,
+            progress=heard.append,
+        )
+    assert len(heard) > 4
+    assert heard == sorted(set(heard))

@@ -430,6 +430,7 @@ import thirdbody as tb
 from thirdbody.analysis.sweep import streaming
 from thirdbody.study import load_study
 
+os.fsync = lambda file: None  # a kill, no power cut: what is written is there
 plan = load_study({file!r}, {settings!r}).sweep
 streaming.in_memory(plan, workers=1, client=None, progress=False)
 
@@ -482,8 +483,6 @@ def sampled(tmp_path):
 @pytest.mark.parametrize(
     ("format", "step"),
     [
-        ("zarr", 37),
-        ("netcdf", 17),
         pytest.param("zarr", 1, marks=pytest.mark.slow),
         pytest.param("netcdf", 1, marks=pytest.mark.slow),
     ],

@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -442,3 +443,25 @@ def test_every_mistake_of_a_file_is_told_at_once():
     text = "\n".join(caught.value.problems)
     for word in ("roughness.sigma", "roughness.R", "samples = 3", "sede"):
         assert word in text
+
+
+def test_crowded_samples_are_counted_and_told():
+    """Their share is that of the definition: 0.5 of the nominal area."""
+    soft = tb.Material(E=200e9, nu=0.3, H=1e9)
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(soft, soft), roughness=tb.Roughness(sigma=1e-7, R=2.8e-6)
+    )
+    hardness = "surfaces.first.H+surfaces.second.H"
+    asked = dict(vary={hardness: (0.9e9, 1.1e9)}, samples=64, outputs=["A_t"])
+    # where all is plastic the area is p/H
+    with pytest.warns(tb.RangeWarning, match=r"% of the samples at one of 2 loads are crowded"):
+        found = tb.propagate(contact, pressure=[50e6, 520e6], **asked)
+    low, high = found.bands["A_t"][1][[0, -1]]
+    assert low < 0.5 < high
+    share = 1 - np.interp(0.5, found.bands["A_t"][1], found.probabilities)
+    assert found.crowded == pytest.approx([0.0, share], abs=0.1)
+    assert found.at_load(1).crowded == found.crowded[1]
+    assert found.to_dict()["crowded"] == found.crowded.tolist()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", tb.RangeWarning)
+        assert tb.propagate(contact, pressure=50e6, **asked).crowded == 0

@@ -168,6 +168,7 @@ def _slow(seconds):
     return "done"
 
 
+@pytest.mark.check
 def test_processes_that_are_killed_are_replaced():
     solver = Solver()
 
@@ -192,6 +193,7 @@ def _end_now():
     os.kill(os.getpid(), signal.SIGKILL)
 
 
+@pytest.mark.check
 def test_a_call_under_which_every_process_ends_is_no_mistake_of_the_study():
     solver = Solver()
 

@@ -402,7 +402,7 @@ def test_the_ranges_of_the_library_are_those_that_count(tmp_path):
     steel = example() | {"surfaces": {"first": "100Cr6", "second": "100Cr6"}}
     offered = _ranges(State(steel, tmp_path))
     assert offered["surfaces.first.E+surfaces.second.E"] == {"low": 190e9, "high": 210e9}
-    asked = dict(load="F_star", loads=[1e-5], at=1e-5, of="A_t", samples=128)
+    asked = dict(load="F_star", loads=[1e-5], at=1e-5, of="A_t", samples=64)
     result, _ = run("error bars", study=steel, folder=str(tmp_path), **asked)
     taken = steel | {"uncertainty": {"inputs": offered}}
     assert not State(taken, tmp_path).problems

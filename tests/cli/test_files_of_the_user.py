@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from damage import empty, flipped, missing, truncated
 
 from thirdbody.quantities.files import refuse_clashes, whole, write_text
 
@@ -200,24 +201,6 @@ def test_a_draft_that_is_being_written_stays(tmp_path):
 
 
 # ---------------------------------------------------------------- damage
-def missing(file):
-    file.unlink()
-
-
-def empty(file):
-    file.write_bytes(b"")
-
-
-def truncated(file):
-    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
-
-
-def flipped(file):
-    held = bytearray(file.read_bytes())
-    held[len(held) // 2] ^= 4
-    file.write_bytes(held)
-
-
 DAMAGES = pytest.mark.parametrize(
     "damage",
     [

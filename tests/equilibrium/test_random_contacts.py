@@ -23,7 +23,9 @@ def hold(seed: int, index: int) -> None:
     assert not result["failed"], random_contacts.told(result)
 
 
-@pytest.mark.parametrize("index", range(24))
+@pytest.mark.parametrize(
+    "index", [*range(11), *(pytest.param(i, marks=pytest.mark.slow) for i in range(11, 24))]
+)
 def test_contact(index):
     hold(SEED, index)
 

@@ -5,6 +5,7 @@ import shutil
 import sys
 
 import pytest
+from damage import another_number, empty, missing, truncated
 from typer.testing import CliRunner
 
 from thirdbody import cli
@@ -18,27 +19,7 @@ ASKED = dict(surfaces=2, F_star=[1e-3], size=64, spacing=3e-7)
 WORDS = ("--surfaces", "2", "--size", "64", "--spacing", "300 nm")
 
 
-def missing(file):
-    file.unlink()
-
-
-def empty(file):
-    file.write_bytes(b"")
-
-
-def truncated(file):
-    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
-
-
-def flipped(file):
-    """In the middle of a number: still JSON, and another answer."""
-    held = bytearray(file.read_bytes())
-    digits = [i for i, byte in enumerate(held) if chr(byte).isdecimal()]
-    held[digits[len(digits) // 2]] ^= 1
-    file.write_bytes(held)
-
-
-DAMAGES = pytest.mark.parametrize("damage", [missing, empty, truncated, flipped])
+DAMAGES = pytest.mark.parametrize("damage", [missing, empty, truncated, another_number])
 
 
 def contents(folder):

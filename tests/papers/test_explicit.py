@@ -127,6 +127,13 @@ def test_where_too_little_was_drawn_the_bounds_are_shown():
 
 
 # ---------------------------------------------------------------- a bump
+def test_no_law_is_made_of_a_load_that_is_not_solved(monkeypatch):
+    whole = bump.press
+    monkeypatch.setattr(bump, "press", lambda *of, **how: whole(*of, **how | {"max_iterations": 2}))
+    with pytest.raises(tb.NoEquilibrium, match=r"on one bump at E\*/H = 77 is not solved"):
+        bump.table.__wrapped__(77.0)
+
+
 def test_a_bump_begins_as_hertz_says():
     """Radius x/4 on the composite half-space; the load of a map holds it to its grid."""
     eps, load, _ = bump.table(112 / 5)

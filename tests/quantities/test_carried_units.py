@@ -188,6 +188,52 @@ def test_most_doors_convert():
     assert refused == []
 
 
+COUNTED = re.compile(r"int\b")
+HOOK = "called by the library alone"
+EITHER = "one of several units, which the number alone does not say"
+REFUSED = {
+    r"Uncertain\..*": "the unit is that of the input it will stand for",
+    r"(Objective\.cost|Limit\.excess)\(metric\)": HOOK,
+    r"outputs\.AbstractOutput\.\w+\((state|contact)\)": "no number",
+    r"explicit\.ensemble\((seats|cap)\)": "words as well",
+    r"explicit\.\w+\.draw\(.*": HOOK,
+    r"asperity\.(\w+\.pressure|\w+\.reduced)\([uy]\)": HOOK,
+    r"particle\.OneParticle\.\w+\((depth|delta|number)\)": HOOK,
+    r"films\.\w+\.(limits_of|joined|warnings)\(.*": HOOK,
+    r"films\.\w+\.(central|minimum|asymptotes)\((load|eta|alpha)\)": EITHER,
+    r".*\(concentration\)|dust\.concentration\(value\)": EITHER,
+    r"quantities\.hardness\.\w+\(value\)": EITHER,
+    r"surfaces\.from_topography\(source\)": "a file as well",
+    r"effects\.single\.heat\.\w+\((k|m|T_1|T_2|film)\)": EITHER,
+    r"effects\.single\.ploughing\.coefficient_of_faces\(.*": "lengths in any one unit",
+    r"fractal\.MajumdarBhushan\.largest_spot\(load\)": EITHER,
+    r"fractal\.Stack\.self_affine\(frequency\)": EITHER,
+    r"rough_body\.curve\(loads\)": EITHER,
+    r"plot\.bands\(mark\)": "the unit is that of the load",
+}
+"""Numbers of which a unit is refused, and why; counts, seeds and places have none."""
+
+
+def refused_numbers():
+    """Doors, but those of whole numbers, that refuse every unit."""
+    return [
+        f"{name}({parameter.name})"
+        for name, function, parameter in DOORS
+        if not COUNTED.match(str(parameter.annotation))
+        and units_of(function, owner_of(name)).get(parameter.name) is None
+    ]
+
+
+def test_a_number_takes_its_unit_or_it_is_said_why_not():
+    wrong = [door for door in refused_numbers() if not any(re.fullmatch(e, door) for e in REFUSED)]
+    assert wrong == []
+
+
+@pytest.mark.parametrize("one", REFUSED)
+def test_every_refusal_is_needed(one):
+    assert any(re.fullmatch(one, door) for door in refused_numbers())
+
+
 # ---------------------------------------------------------------------------- values
 def values_in(value):
     """A value and every value in it."""

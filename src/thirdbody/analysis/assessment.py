@@ -11,6 +11,7 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.critical_loads import CRITICAL
+from ..equilibrium.status import Status
 from ..equilibrium.words import (
     critical_load,
     critical_name,
@@ -26,6 +27,7 @@ from ..quantities.tables import WIDER, Table
 from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
 from .uncertainty.propagation import OUTPUTS, Propagation, about_result, plain
+from .uncertainty.samples import crowded_samples
 
 __all__ = ["WORDS", "Assessment", "Change", "Section", "printed"]
 
@@ -246,10 +248,14 @@ class Assessment:
             rows.append((about_result(name)["meaning"], *(_amount(x, name) for x in each), error))
         head = ("result", "nominal", "5 %", "50 %", "95 %", "error of the bands")
         lost = 1 - found.solved
-        told = (f"{percent(lost)} of the samples have no equilibrium.",) if lost else ()
+        told = [f"{percent(lost)} of the samples have no equilibrium."] if lost else []
+        close = crowded_samples([found.crowded]) if found.inputs else []
+        if found.crowded and not found.inputs:
+            close = [Status.CROWDED.sentence]
+        told += [f"{each[0].upper()}{each[1:]}." for each in close]
         if not found.inputs:
-            return Section("State", ("result", "value"), tuple(rows), told)
-        return Section("State", head, tuple(rows), told, ("error of the bands", "50 %"))
+            return Section("State", ("result", "value"), tuple(rows), tuple(told))
+        return Section("State", head, tuple(rows), tuple(told), ("error of the bands", "50 %"))
 
     def _inputs(self) -> Section:
         found = self.propagation

@@ -79,14 +79,26 @@ class Heights(Value):
 
     @abstractmethod
     def pdf(self, z: ArrayLike) -> Array:
-        """Density φ(z) [1], zero outside the support."""
+        """Density φ(z) [1], zero outside the support.
+
+        Parameters
+        ----------
+        z : float or array
+            Heights over σ_s [1].
+        """
 
     @abstractmethod
     def ppf(self, q: ArrayLike) -> Array:
         """Height below which a fraction q of the asperities lies."""
 
     def sf(self, z: ArrayLike) -> Array:
-        """Fraction of the asperities above a height."""
+        """Fraction of the asperities above a height.
+
+        Parameters
+        ----------
+        z : float or array
+            Heights over σ_s [1].
+        """
         z = np.asarray(z, dtype=float)
         edges = np.clip(np.array(self.pieces), z[..., None], None)
         nodes, weights = panel_rule(edges, 24)

@@ -61,6 +61,11 @@ class Distribution(Value):
         """Density [1/m] at ``depth`` [m] below the largest diameter.
 
         Where sizes lie close together a diameter says too few digits of its place among them.
+
+        Parameters
+        ----------
+        depth : array
+            Below the upper end of the support [m].
         """
         return self.pdf(self.support[1] - depth)
 
@@ -70,7 +75,15 @@ class Distribution(Value):
 
     @abstractmethod
     def partial_moment(self, n: int, a: ArrayLike, b: ArrayLike) -> Array:
-        """m_n(a, b) [m^n] over the part of (a, b] inside the support; zero when b <= a."""
+        """m_n(a, b) [m^n] over the part of (a, b] inside the support; zero when b <= a.
+
+        Parameters
+        ----------
+        n : int
+            Order.
+        a, b : float or array
+            Ends of the sizes x_a [m].
+        """
 
     @abstractmethod
     def scaled(self, factor: float) -> Distribution:

@@ -142,7 +142,7 @@ class WeibullStrength(Value):
         Parameters
         ----------
         K_c : float
-            Fracture toughness [Pa √m].
+            Fracture toughness [Pa m^0.5].
         **options
             Other arguments of the class.
 

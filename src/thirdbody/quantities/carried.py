@@ -43,6 +43,16 @@ USUAL = {
     "H": "Pa",
     "omega": "m",
     "sigma": "m",
+    **dict.fromkeys(("sigma_s", "R", "radius", "x", "gap", "amplitude", "cutoff"), "m"),
+    **dict.fromkeys(("smallest", "largest"), "m"),
+    "E": "Pa",
+    "speed": "m/s",
+    "oil_density": "kg/m^3",
+    **dict.fromkeys(
+        ("nu", "g", "hurst", "ratio", "q", "factor", "share", "weights", "counts"), "1"
+    ),
+    **dict.fromkeys(("eps", "eps_1", "eps_2", "tol", "tolerance", "few", "most"), "1"),
+    **dict.fromkeys(("roundness", "flatness", "coverage", "overrollings"), "1"),
 }
 """Units of arguments that are the same in every function, where its docstring leaves them out."""
 

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
+from ..contact.contact import Contact
 from ..effects import REGISTRY
-from ..systems.bodies import Flat
+from ..systems.bodies import Body, Flat
 from .reader import Key, Reader, Table, get
 
 __all__ = ["TABLE", "on_area"]
@@ -20,13 +23,23 @@ def outputs(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, keys, lambda values: tuple(values.values()))
 
 
-def on_area(given: tuple[Any, ...], body: Any) -> tuple[Any, ...]:
-    """Outputs that ask for a nominal area and have none, with that of a flat body."""
-    if not isinstance(body, Flat):
-        return given
-    return tuple(
-        each.replace(A_n=body.area) if getattr(each, "A_n", 0.0) is None else each for each in given
+def on_area(contact: Contact, body: Body | None, forces: Any) -> Contact:
+    """The contact whose outputs that ask for a nominal area and have none get that of the body.
+
+    It is one of a flat body, and of others under a single force: the Hertz contact. Under several
+    forces there are several, and none is taken.
+    """
+    if isinstance(body, Flat):
+        area = body.area
+    elif body is not None and forces is not None and np.size(forces) == 1:
+        area = float(body.hertz(np.ravel(forces)[0], contact.E_ss).area)
+    else:
+        return contact
+    filled = tuple(
+        each.replace(A_n=area) if getattr(each, "A_n", 0.0) is None else each
+        for each in contact.outputs
     )
+    return contact if filled == contact.outputs else contact.replace(outputs=filled)
 
 
 TABLE = Table(name="outputs", read=outputs)

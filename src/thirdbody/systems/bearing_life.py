@@ -155,7 +155,7 @@ def viscosity_ratio(viscosity: float, *, turns: float, D: float) -> float:
     viscosity : float
         Kinematic viscosity ν at the working temperature [m²/s].
     turns, D : float
-        As in `reference_viscosity`, which gives ν_1.
+        As in `reference_viscosity`, which gives ν_1 [1/s], [m].
 
     Returns
     -------

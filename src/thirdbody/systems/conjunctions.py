@@ -80,7 +80,15 @@ class Point(Value):
         return 1.0 if self.R_y is None else self.R / self.R_y
 
     def hertz(self, load: Any, *, E: Any) -> Hertz:
-        """Area and pressures of the dry contact under a load [N], E = E' [Pa]."""
+        """Area and pressures of the dry contact under a load [N], E = E' [Pa].
+
+        Parameters
+        ----------
+        load : float or array
+            w [N].
+        E : float or array
+            E' = 2E* [Pa].
+        """
         from ..reference import elliptic_hertz
 
         shape = elliptic_hertz(max(self.ratio, 1 / self.ratio))
@@ -90,7 +98,13 @@ class Point(Value):
         return Hertz(area, load / area, 1.5 * load / area)
 
     def intensity(self, load: Any) -> Any:
-        """The load that film formulas take [N]."""
+        """The load that film formulas take [N].
+
+        Parameters
+        ----------
+        load : float or array
+            w [N].
+        """
         return load
 
 
@@ -123,13 +137,27 @@ class Line(Value):
         return 0.0
 
     def hertz(self, load: Any, *, E: Any) -> Hertz:
-        """Area and pressures of the dry contact under a load [N], E = E' [Pa]."""
+        """Area and pressures of the dry contact under a load [N], E = E' [Pa].
+
+        Parameters
+        ----------
+        load : float or array
+            w [N].
+        E : float or array
+            E' = 2E* [Pa].
+        """
         b = np.sqrt(8 * self.intensity(load) * self.R / (math.pi * E))
         area = 2 * b * self.length
         return Hertz(area, load / area, 4 / math.pi * load / area)
 
     def intensity(self, load: Any) -> Any:
-        """The load that film formulas take, per length [N/m]."""
+        """The load that film formulas take, per length [N/m].
+
+        Parameters
+        ----------
+        load : float or array
+            w [N].
+        """
         return load / self.length
 
 

@@ -137,18 +137,38 @@ class MajumdarBhushan(Value):
         return math.exp(self._log_critical) if self._log_critical < 709 else math.inf
 
     def curvature_radius(self, a: ArrayLike) -> Array:
-        """R of a spot of area a [m]."""
+        """R of a spot of area a [m].
+
+        Parameters
+        ----------
+        a : float or array
+            Area of a spot [m²].
+        """
         a = np.asarray(a, dtype=float)
         return a ** (self.D / 2) / (math.pi**2 * self.G ** (self.D - 1))
 
     def spot_force(self, a: ArrayLike) -> Array:
-        """Load on one spot of area a [m²] in N."""
+        """Load on one spot of area a [m²] in N.
+
+        Parameters
+        ----------
+        a : float or array
+            Area of a spot [m²].
+        """
         a = np.asarray(a, dtype=float)
         elastic = self._elastic_unit * a ** ((3 - self.D) / 2)
         return np.where(a < self.critical_area, self.H * a, elastic)
 
     def spot_density(self, a: ArrayLike, *, a_L: float) -> Array:
-        """n(a) [1/m²]: number of spots per spot area, up to the largest a_L [m²]."""
+        """n(a) [1/m²]: number of spots per spot area, up to the largest a_L [m²].
+
+        Parameters
+        ----------
+        a : float or array
+            Area of a spot [m²].
+        a_L : float
+            Area of the largest spot [m²].
+        """
         a = np.asarray(a, dtype=float)
         return np.where(a <= a_L, self.D / 2 * a_L ** (self.D / 2) * a ** (-self.D / 2 - 1), 0.0)
 
@@ -157,11 +177,23 @@ class MajumdarBhushan(Value):
         return 4 * math.sqrt(math.pi) / 3 * self.E_star * self.G ** (self.D - 1)
 
     def area(self, a_L: ArrayLike) -> Array:
-        """Real area A [m²] of all spots up to the largest a_L [m²]."""
+        """Real area A [m²] of all spots up to the largest a_L [m²].
+
+        Parameters
+        ----------
+        a_L : float or array
+            Area of the largest spot [m²].
+        """
         return self.D / (2 - self.D) * np.asarray(a_L, dtype=float)
 
     def load(self, a_L: ArrayLike) -> FractalLoad:
-        """Load [N] on all spots up to the largest a_L [m²], elastic and plastic."""
+        """Load [N] on all spots up to the largest a_L [m²], elastic and plastic.
+
+        Parameters
+        ----------
+        a_L : float or array
+            Area of the largest spot [m²].
+        """
         D, a_L = self.D, np.asarray(a_L, dtype=float)
         e = 1.5 - D
         log_ratio = np.maximum(np.log(a_L) - self._log_critical, 0.0)  # ln(a_L/a_c)

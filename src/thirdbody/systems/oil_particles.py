@@ -514,6 +514,15 @@ class FilmParticles(Value):
 
         Exceeded in half of all cases, A N η_a(>x) = ln 2; NaN where even one is unlikely. Of
         particles that are flattened the footprint alone is known.
+
+        Parameters
+        ----------
+        area : float
+            Of the surface A [m²].
+        overrollings : float, optional
+            N [1].
+        side : int, optional
+            1 or 2.
         """
         passed = self.columns_of_oil * area * overrollings
         wanted = math.log(2) / passed if passed else math.inf

@@ -265,8 +265,10 @@ def rough_cylinder(
 
     Parameters
     ----------
-    contact, radius, E_star, guess, quick
+    contact, radius, E_star, quick
         As in `rough_sphere`.
+    guess : float, optional
+        As there [m].
     d : float, optional
         Separation at the axis [m], without the displacement relative to the point x_0.
     load : float, optional

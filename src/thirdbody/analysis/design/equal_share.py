@@ -39,7 +39,7 @@ def equal_share_size(
     pressure, F_star : float
         The load, as in `solve`.
     low, high : float, optional
-        Range of x_a/σ searched.
+        Range of x_a/σ searched [1].
     share : float, optional
         Load share of the particles.
 

@@ -117,6 +117,7 @@ class Task:
     suspension: Suspension | None
     seed: int
     report: Callable[[int], None] = lambda _: None
+    reported: int = 0
     tried: list[Point] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -261,14 +262,20 @@ class Task:
         for start in range(0, len(numbers), fit):
             some, before = numbers[start : start + fit], len(self.tried) + len(rows)
 
-            def told(states: int, before: int = before) -> None:
-                self.report(before + states // each)
+            def count(states: int, before: int = before) -> None:
+                self._report_more(before + states // each)
 
-            with solving(Cost(each * len(some), told)):
+            with solving(Cost(each * len(some), count)):
                 rows += self.judged(some, materials)
-            self.report(len(self.tried) + len(rows))
+            self._report_more(len(self.tried) + len(rows))
         self.tried += rows
         return rows
+
+    def _report_more(self, points: int) -> None:
+        """Report a number of points that is higher than every one before."""
+        if points > self.reported:
+            self.reported = points
+            self.report(points)
 
     def judged(self, numbers: Sequence[Numbers], materials: Materials) -> list[Point]:
         """What points cost, and which limits they break."""

@@ -24,9 +24,10 @@ from ...contact.broken_averages import roughly
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.critical_loads import CRITICAL, critical_loads
+from ...equilibrium.crowding import crowded
 from ...equilibrium.solve import given_load
 from ...equilibrium.states import FEWEST, tables_each
-from ...errors import InvalidValue
+from ...errors import InvalidValue, tell_of_range
 from ...quantities import notebook
 from ...quantities.carried import takes_units
 from ...quantities.progress import watched
@@ -45,6 +46,7 @@ from .samples import (
     check_counts,
     columns_at,
     critical_of,
+    crowded_samples,
     evaluated,
     output_of,
     outputs_of,
@@ -89,6 +91,8 @@ class Propagation:
         Share of the samples with each status of every critical load.
     solved : float or array (L,)
         Share of samples with an equilibrium; the others count for no band.
+    crowded : float or array (L,)
+        Share of samples that are crowded, as the `status` of an `Equilibrium` says; they count.
     """
 
     contact: Contact = field(repr=False)
@@ -106,6 +110,7 @@ class Propagation:
     mode_error: dict[str, Any]
     critical_status: dict[str, dict[str, float]]
     solved: Any
+    crowded: Any = 0.0
     _critical_at_ends: dict[tuple[float, float], Arrays] = field(default_factory=dict, repr=False)
     """Critical loads at the ends of each input, by the probabilities of the ends."""
 
@@ -185,6 +190,7 @@ class Propagation:
             mode_probability={n: float(v) for n, v in own(self.mode_probability, 0).items()},
             mode_error={n: float(v) for n, v in own(self.mode_error, 0).items()},
             solved=float(self.solved[at]),
+            crowded=float(self.crowded[at]),
         )
 
     # ------------------------------------------------------------------ one input at a time
@@ -416,6 +422,11 @@ def propagate(
     InvalidValue
         An unknown name, a range that the input does not take, or no load.
 
+    Warns
+    -----
+    RangeWarning
+        Samples that are crowded: their share.
+
     Notes
     -----
     Inputs are independent; correlated ones are not offered. What moves together stands joined by
@@ -459,7 +470,8 @@ def propagate(
     sought = {MARGINS.get(name, name) for name in names} & set(CRITICAL)
     some = {n: v[first_few.ravel()] for n, v in drawn_values.items() if n != load}
     with watched("propagate", len(u), progress):
-        found = _Bands(names, probabilities, first_few, _sought(contact, sought, some, first_few))
+        critical = _sought(contact, sought, some, first_few)
+        found = _Bands(names, probabilities, first_few, critical, contact)
         of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
         with roughly():
             told = _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
@@ -469,6 +481,8 @@ def propagate(
             state |= {name: told[name][i] for name in names if name in of_outputs}
             found.add(state, columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs)))
 
+    for sentence in crowded_samples(found.crowded):
+        tell_of_range(sentence)
     fixed = {name for name in names if name in CRITICAL}
 
     def shaped(table: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
@@ -491,6 +505,7 @@ def propagate(
         mode_error=shaped(found.mode_errors),
         critical_status=found.critical.statuses,
         solved=found.solved[0] if one else np.array(found.solved),
+        crowded=found.crowded[0] if one else np.array(found.crowded),
     )
 
 
@@ -539,7 +554,9 @@ class _Bands:
         probabilities: Sequence[float],
         first_few: NDArray[np.intp],
         critical: _Critical,
+        contact: Contact,
     ):
+        self.contact = contact
         self.probabilities, self.first_few, self.critical = probabilities, first_few, critical
         self.bands: dict[str, list[Array]] = {name: [] for name in names}
         self.errors: dict[str, list[Array]] = {name: [] for name in names}
@@ -547,6 +564,7 @@ class _Bands:
         self.modes: dict[str, list[float]] = {mode: [] for mode in MODES}
         self.mode_errors: dict[str, list[float]] = {mode: [] for mode in MODES}
         self.solved: list[float] = []
+        self.crowded: list[float] = []
 
     def add(self, state: Arrays, middle: Arrays) -> None:
         """One more load: states of the samples, and the nominal one."""
@@ -566,6 +584,7 @@ class _Bands:
             self.modes[mode].append(float(share.mean()))
             self.mode_errors[mode].append(float(share.std(ddof=1) / math.sqrt(REPLICATES)))
         self.solved.append(float(np.mean(np.isfinite(state["d"]))))
+        self.crowded.append(float(np.mean(crowded(self.contact, state["A_t"]))))
 
 
 def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propagation]:
@@ -600,6 +619,7 @@ def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propaga
                 mode_error=dict.fromkeys(MODES, 0.0),
                 critical_status=statuses,
                 solved=1.0,
+                crowded=float(crowded(contact, state["A_t"])[0]),
             )
         )
     return out

@@ -12,8 +12,10 @@ from ...contact.contact import Contact
 from ...equilibrium.columns import COLUMNS, about
 from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, load_falls
 from ...equilibrium.states import carries, state_columns, tables_each
+from ...equilibrium.status import MOST_AREA
 from ...errors import InvalidValue
 from ...numerics.sampling import sobol
+from ...quantities.say import percent
 from ..inputs import NUMBERS
 
 if TYPE_CHECKING:
@@ -119,6 +121,23 @@ def points_of(each: int, width: int, seed: int, replicates: int) -> Array:
     rows: Iterator[int] = iter(range(replicates)) if replicates else iter([REPLICATES])
     seeds = [int(np.random.SeedSequence([seed, r]).generate_state(1)[0]) for r in rows]
     return np.concatenate([sobol(each, width, one, 0, each) for one in seeds])
+
+
+def crowded_samples(shares: Sequence[float]) -> list[str]:
+    """What is said of the shares of samples, one a load, that are crowded.
+
+    >>> crowded_samples([0.0, 0.0])
+    []
+    """
+    if not (most := max(shares)):
+        return []
+    where = f" at one of {len(shares)} loads" if len(shares) > 1 else ""
+    return [
+        f"{percent(most)} of the samples{where} are crowded: more than {MOST_AREA:g} of the "
+        "nominal area would be in contact, where contacts that this model counts one by one have "
+        "grown together; they count in the bands, whose ends on that side are no answer: lower the "
+        "load, or narrow the inputs"
+    ]
 
 
 def columns_at(

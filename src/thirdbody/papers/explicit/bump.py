@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...errors import NoEquilibrium
 from ...explicit.half_space import lattice_constant
 from ...explicit.press import press, touched
 from ...laws.base import OneParticle, Squeezed
@@ -43,6 +44,11 @@ def table(E_over_H: float) -> tuple[Array, Array, Array]:
     ----------
     E_over_H : float
         Contact modulus of the two bodies over the hardness [1].
+
+    Raises
+    ------
+    NoEquilibrium
+        A load that is not solved: no law is made of it.
     """
     loads = np.concatenate([np.geomspace(LEAST, 0.5, LOADS), [0.6, 0.68, 0.74]])
     eps, areas = np.empty(len(loads)), np.empty(len(loads))
@@ -58,6 +64,11 @@ def table(E_over_H: float) -> tuple[Array, Array, Array]:
             z - mean, spacing, E_over_H, c=hardness, load=load, tol=1e-7,
             max_iterations=1000,
         )  # fmt: skip
+        if not found.converged:
+            raise NoEquilibrium(
+                f"the load {load:.3g} H x² on one bump at E*/H = {E_over_H:.3g} is not solved: its "
+                f"certificate is {found.certificate:.1g} after {found.iterations} iterations"
+            )
         side = POINTS * spacing
         images = lattice_constant((side, side)) * load / (math.pi * E_over_H)
         eps[i] = 1 - (found.h + mean) + images
