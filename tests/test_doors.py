@@ -165,6 +165,17 @@ def test_warnings_name_the_line_of_their_user():
     assert {each.lineno - line for each in heard} >= {3, 4, 5, 6}
 
 
+def test_no_place_of_a_warning_is_counted_by_hand():
+    """A count of frames is wrong as soon as a function is wrapped."""
+    package = Path(tb.__file__).parent
+    by_hand = [
+        file.relative_to(package).as_posix()
+        for file in sorted(package.rglob("*.py"))
+        if "stacklevel=" in file.read_text("utf-8")
+    ]
+    assert by_hand == ["errors.py"]
+
+
 # ---------------------------------------------------------------------------- disks
 class Full(OSError):
     """What a full disk raises, with no file in it."""

@@ -64,7 +64,7 @@ _DATACLASSES = os.sep + "dataclasses.py"
 
 
 def tell_of_range(message: str | Warning, kind: type[Warning] = RangeWarning) -> None:
-    """Warn at the line outside this library from which it was called."""
+    """Warn, of a range or whatever `kind` says, at the line of the user that called the library."""
     frame, level = sys._getframe(1), 2
     while frame.f_back is not None and _is_inside(frame):
         frame, level = frame.f_back, level + 1

@@ -236,6 +236,40 @@ def test_a_file_where_there_was_none_is_told(tmp_path):
         assert_array_equal(data.A_t, np.nan)
 
 
+# ---------------------------------------------------------------- what is not finished
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_new_folder_is_not_damaged(kind, tmp_path):
+    """Nor is one that a run left half-way: its other blocks were never there."""
+    with quiet(), pytest.raises(KeyboardInterrupt):
+        carry_out(kind, tmp_path / "o", progress=stop_after(4))
+    with quiet():
+        assert "not finished: its command goes on" in check_folder(tmp_path / "o")
+        carry_out(kind, tmp_path / "o")
+        carry_out(kind, tmp_path / "o")
+
+
+def test_a_folder_without_one_block_is_not_finished(tmp_path, monkeypatch):
+    def stop(*_, **__):
+        raise KeyboardInterrupt
+
+    asked = dict(F_star=[1e-6, 1e-5], columns=["A_t"], out=tmp_path / "o")
+    with monkeypatch.context() as patch:
+        patch.setattr("thirdbody.analysis.sweep.streaming._results", stop)
+        with pytest.raises(KeyboardInterrupt):
+            tb.sweep(DUSTY, **asked)
+    assert "0 of 1 block done" in check_folder(tmp_path / "o")
+    with quiet():
+        tb.sweep(DUSTY, **asked).close()
+
+
+def test_damage_is_told_at_the_line_that_asked(copy):
+    folder = copy("zarr")
+    missing(folder / "done" / "1.json")
+    with pytest.warns(UserWarning, match="is damaged") as heard:
+        carry_out("zarr", folder)
+    assert {each.filename for each in heard} == {__file__}
+
+
 # ---------------------------------------------------------------- earlier versions
 def as_of_earlier_version(folder):
     """Without digests."""

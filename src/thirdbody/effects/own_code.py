@@ -11,13 +11,12 @@ import inspect
 import os
 import sys
 import traceback
-import warnings
 from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, tell_of_range
 from ..laws import asperity, particle
 from ..laws.base import Law
 from ..quantities.installed import offers
@@ -94,7 +93,7 @@ def _load_entry_points() -> None:
         try:
             _looked_over(where, entry.load, None)
         except InvalidValue as error:
-            warnings.warn(f"{error}; it is left out", UserWarning, stacklevel=3)
+            tell_of_range(f"{error}; it is left out", UserWarning)
 
 
 def _registries() -> Iterator[tuple[str, dict[str, type[Law]]]]:

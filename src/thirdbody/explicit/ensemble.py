@@ -14,7 +14,6 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, field
@@ -26,7 +25,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import solve as statistical
-from ..errors import InvalidValue
+from ..errors import InvalidValue, tell_of_range
 from ..laws.base import SeatedLaw
 from ..populations.measured.spectra import SpectralMoments
 from ..populations.measured.synthetic import from_moments
@@ -324,7 +323,7 @@ def _finished(kept: Path, total: int, key: str) -> dict[int, dict[str, Any]]:
 
 def _tell(sentence: str) -> None:
     """What happened to a folder, to whoever called `ensemble`."""
-    warnings.warn(sentence, UserWarning, stacklevel=4)
+    tell_of_range(sentence, UserWarning)
 
 
 def _counted(

@@ -5,13 +5,12 @@ from __future__ import annotations
 import sys
 import threading
 import time
-import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any
 
-from ..errors import SlowWarning
+from ..errors import SlowWarning, tell_of_range
 
 __all__ = [
     "Cost",
@@ -413,23 +412,11 @@ class Cost:
     def _warn(self, whole: float, why: str) -> None:
         rate = self.total / whole
         reason = f" ({why})" if why else ""
-        warnings.warn(
+        tell_of_range(
             f"{self.total:,} {self.what} take some {duration(whole)}: {rate:.2g} a second, as they "
             f"are solved one by one{reason}; progress=True shows how far they are",
             SlowWarning,
-            stacklevel=_outside(),
         )
-
-
-def _outside() -> int:
-    """How many frames up the caller of the library is."""
-    level, frame = 1, sys._getframe(1)
-    while frame.f_back is not None and frame.f_globals.get("__package__", "").startswith(PACKAGE):
-        level, frame = level + 1, frame.f_back
-    return level
-
-
-PACKAGE = "thirdbody"
 
 
 SURE = 1.0

@@ -17,7 +17,7 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.solve import solve as statistical
-from ..errors import InvalidValue, RangeWarning
+from ..errors import InvalidValue, RangeWarning, tell_of_range
 from ..explicit.ensemble import (
     COMPARED,
     Ensemble,
@@ -134,7 +134,7 @@ def run_explicit(
     about = [each for each in heard if issubclass(each.category, RangeWarning)]
     for each in heard:
         if each not in about:  # about the folder, not the answer
-            warnings.warn(each.message, each.category, stacklevel=2)
+            tell_of_range(each.message, each.category)
     sentences = [*notes, *made.data.pop("warnings"), *(str(each.message) for each in about)]
     data = {
         "title": study.title,

@@ -97,6 +97,8 @@ class Found:
     """Whether the files that belong to no block have digests."""
     checked: int = 0
     """Files that were compared."""
+    wanted: int | None = None
+    """Blocks of the whole sweep, where ``files.json`` says so."""
 
     @property
     def problems(self) -> list[str]:
@@ -268,6 +270,7 @@ class Folder:
         shared, markers = self.shared_files(study), self.markers(study)
         out.recorded = shared is not None
         files, blocks = shared or ({}, 0)
+        out.wanted = blocks or None
         finished = self.finished is not None
         for name, told in files.items():
             problems = self._misfit(name, told)
@@ -278,7 +281,8 @@ class Folder:
         out.checked = len(files)
         if shared is None and self._lacks_record(markers, finished=finished):
             out.shared.append(f"{self.path / 'files.json'} is missing or damaged")
-        finished |= out.recorded and not out.shared
+        # a store that blocks are written to in place has its files.json from the start
+        finished |= out.recorded and not out.shared and self._put_together(markers)
         wanted = wanted and _much(markers)
         title = f"{self.path}: checking"
         with reporting(title, len(markers), 0, wanted, "blocks") as report:
@@ -318,6 +322,11 @@ class Folder:
             return True
         prints = [each["files"] for each in markers.values() if each and "files" in each]
         return any(finished or not self._parts_only(each) for each in prints)
+
+    def _put_together(self, markers: Mapping[int, dict[str, Any] | None]) -> bool:
+        """Whether blocks lie in parts, so that data that are there hold all of them."""
+        prints = [each["files"] for each in markers.values() if each and "files" in each]
+        return any(each and self._parts_only(each) for each in prints)
 
     def _misfit(self, name: str, wanted: Fingerprint) -> list[str]:
         why = misfit(self.path / name, wanted)
@@ -511,11 +520,17 @@ def check_folder(path: str | os.PathLike[str], *, progress: bool = False) -> str
             *more,
             f"{place} is damaged: thirdbody sweep with its study makes that again",
         )
-    state = "finished" if finished else "not finished: its command goes on"
-    told = (
-        f"{place}: {plural(found.checked, 'file')} of {plural(len(found.blocks), 'block')} "
-        f"as they were written; the sweep is {state}"
-    )
+    blocks = plural(len(found.blocks), "block")
+    if finished:
+        told = f"{place}: {plural(found.checked, 'file')} of {blocks} as they were written; "
+        told += "the sweep is finished"
+    else:
+        if found.wanted is not None:
+            blocks = f"{len(found.blocks)} of {plural(found.wanted, 'block')}"
+        told = (
+            f"{place}: {blocks} done, {plural(found.checked, 'file')} as they were written; "
+            "the sweep is not finished: its command goes on"
+        )
     missing = unchecked_words(place, found)
     return f"{told}\n{missing}" if missing else told
 

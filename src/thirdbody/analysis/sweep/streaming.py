@@ -6,7 +6,6 @@ import importlib
 import math
 import os
 import sys
-import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
@@ -15,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, tell_of_range
 from ...quantities.files import make_folder, remove_files, whole, write_text
 from ...quantities.progress import Cost, Report, reporting, solving
 from ...quantities.records import sealed
@@ -219,10 +218,10 @@ def run(
     return folder
 
 
-def _warn(sentence: str, *, inside: bool = False) -> None:
+def _warn(sentence: str) -> None:
     """What happened to a folder, to whoever called `sweep`."""
     if sentence:
-        warnings.warn(sentence, UserWarning, stacklevel=5 if inside else 4)
+        tell_of_range(sentence, UserWarning)
 
 
 def _needed(format: str) -> None:
@@ -269,8 +268,8 @@ def _carry_out(
     elif not (intact and len(done) == plan.count):
         (path / "parts").mkdir(exist_ok=True)
         done = {n: one for n, one in done.items() if folder.part(n).exists()}
-    _warn(damage_words(path, found), inside=True)
-    _warn(unchecked_words(path, found), inside=True)
+    _warn(damage_words(path, found))
+    _warn(unchecked_words(path, found))
     states = _summary(done.values())["states"]
     more = len(done) < plan.count
     left = (number for number in range(plan.count) if number not in done)
