@@ -138,8 +138,8 @@ ROW = Row(
     ),
     "A soft particle is given some 35 to 55 % too much load up to a/R of 0.3 and some 30 % at 0.4. "
     "Missing is the physics of the start: up to a squeeze of 0.05, which is a/R = 0.3, the default "
-    "has the law of one contact, whose plastic pressure is that of an indentation; a sphere that is "
-    "flattened loses constraint sooner. The computation behind the default has 0.85 to 1.0 HV "
+    "has the law of one contact, whose plastic pressure is that of an indentation; a flattened "
+    "sphere loses constraint sooner. The computation behind the default has 0.85 to 1.0 HV "
     "there, above the measured 0.7 to 0.8 too: hardening, or how smooth the platens were, is open.",
     (_panel,),
 )
