@@ -98,7 +98,7 @@ def test_reads_the_documented_file(write):
             diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9, n=3),
             areal_density=1e11,
         ),
-        particle_law=tb.particle.Series(deep="off", seat="rough"),
+        particle_law=tb.particle.Series(seat="rough"),
     )
 
 
@@ -269,7 +269,7 @@ def test_options_of_laws(write):
     law += 'law = { name = "zmc", k = 0.5 }'
     study = load_study(write(('name = "series"\nseat = "rough"', law)))
     assert study.contact.particle_law == tb.particle.Series(
-        deep="off", law=tb.asperity.ZMC(k=0.5), seat="offset", h_0=250e-9, shadow="none"
+        law=tb.asperity.ZMC(k=0.5), seat="offset", h_0=250e-9, shadow="none"
     )
     law = 'name = "horng2022"\npreset = "window"\nplastic = true\nchi = 0.5'
     study = load_study(write(('name = "series"\nseat = "rough"', law)))
@@ -634,7 +634,7 @@ def test_several_populations_are_those_of_python(write):
         diameter=tb.LogNormal(median=200e-9, gsd=1.5),
         areal_density=2e10,
         name="debris",
-        law=tb.particle.Series(deep="off", zeta_mean=-0.5),
+        law=tb.particle.Series(zeta_mean=-0.5),
     )
     assert study.notes == ()
     both = (one.particles.replace(name="dust"), debris)
@@ -656,7 +656,7 @@ def test_populations_may_be_counted(write):
     body = tb.Material(E=205e9, nu=0.29, H=8e9)
     counted = tb.Particles.from_iso4406("18/16/13", gap="1 um", material=body)
     assert (made.diameter, made.areal_density) == (counted.diameter, counted.areal_density)
-    assert (made.name, made.law) == ("debris", tb.particle.Series(deep="off", zeta_mean=-0.5))
+    assert (made.name, made.law) == ("debris", tb.particle.Series(zeta_mean=-0.5))
 
 
 @pytest.mark.parametrize(
