@@ -2,15 +2,21 @@
 
 import json
 
+import numpy as np
 import pytest
 
+import thirdbody as tb
 from thirdbody.papers import measurements
 from thirdbody.papers.measurements.row import CHOSEN, STANDINGS, WORDS, Band, statement, word_of
 
+STEEL = tb.materials["S45C"]
 VERDICTS = {
     "explicit_particles": "met",
     "williamson1956": "undecided",
     "chaudhri1984": "lost",
+    "flattened_area": "undecided",
+    "bishop1945": "undecided",
+    "pintaude2010": "undecided",
     "jamari2006": "lost",
     "elastic_area": "lost",
     "bennett2017": "undecided",
@@ -18,7 +24,7 @@ VERDICTS = {
     "ocallaghan1970": "lost",
     "thomas1972": "lost",
     "doumouro2020": "undecided",
-    "backside_particles": "met",
+    "backside_particles": "undecided",
     "trezona1999": "undecided",
     "kong2022": "undecided",
     "alavi2025": "lost",
@@ -70,8 +76,9 @@ def test_no_number_without_its_standing():
         ("elastic_area", "area-0.01", 0.70, 0.71),
         ("elastic_area", "area-0.1", 0.61, 0.63),
         ("williamson1956", "manner", 1.0, 1.0),
-        # where particles carry all, one particle's load decides
-        ("trezona1999", "line", 0.99, 1.01),
+        # where particles carry all, one particle's load decides: 1; at the lower of both loads
+        # asperities carry up to a tenth where most roll
+        ("trezona1999", "line", 0.9, 1.01),
     ],
 )
 def test_predictions(done, row, claim, low, high):
@@ -81,7 +88,12 @@ def test_predictions(done, row, claim, low, high):
 
 
 def test_the_sharpest_change_of_one_size_is_at_its_cross_section(done):
-    assert done.ledger["williamson1956"]["threshold"].band.low == pytest.approx(1.0, abs=0.03)
+    """At the load of one that is closed in, over the hardness of the steel."""
+    surfaces, dust = tb.MaterialPair(STEEL, STEEL), tb.materials["Al2O3"]
+    one = tb.particle.Series().single(1.0, 0.0, surfaces=surfaces, particle=dust)
+    sharpest = float(one["force"]) / (STEEL.H * np.pi / 4)
+    found = done.ledger["williamson1956"]["threshold"].band.low
+    assert found == pytest.approx(sharpest, abs=0.03)
 
 
 def test_a_band_is_met_lost_or_undecided():
@@ -117,7 +129,7 @@ def test_the_ledger_is_whole(done):
 
 def test_the_summary_counts(done):
     text = "\n".join(done.lines())
-    assert "14 measurements: 7 lost, 5 undecided, 2 met" in text
+    assert "17 measurements: 7 lost, 9 undecided, 1 met" in text
 
 
 def test_a_preset_is_refused(tmp_path):

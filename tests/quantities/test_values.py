@@ -78,10 +78,11 @@ def test_defaults():
     )
     assert plain.two_body
     assert plain.asperity_law == tb.asperity.ZMC(k=0.4, rho=54)
-    assert contact().particle_law == tb.particle.Series(deep="off")
+    assert contact().particle_law == tb.particle.Series()
     assert contact() == contact(particle_law=None)
     assert not contact().two_body
-    series = tb.particle.Series(deep="off")
+    series = tb.particle.Series()
+    assert series.deep == "table"
     assert series.law == tb.asperity.Hermite()
     assert (series.seat, series.h_0, series.shadow) == ("rough", 0.0, "footprint")
     assert (series.zeta_mean, series.zeta_std) == (0.0, 1.0)

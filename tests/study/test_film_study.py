@@ -60,7 +60,6 @@ def by_hand():
         surfaces=tb.MaterialPair(steel, steel),
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=debris,
-        particle_law=tb.particle.Series(deep="off"),
         outputs=tb.outputs.Friction(tau_ss=400e6, tau_sa=400e6),
     )
     given = {

@@ -98,7 +98,7 @@ def test_reads_the_documented_file(write):
             diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9, n=3),
             areal_density=1e11,
         ),
-        particle_law=tb.particle.Series(deep="off", seat="rough"),
+        particle_law=tb.particle.Series(seat="rough"),
     )
 
 
@@ -269,7 +269,7 @@ def test_options_of_laws(write):
     law += 'law = { name = "zmc", k = 0.5 }'
     study = load_study(write(('name = "series"\nseat = "rough"', law)))
     assert study.contact.particle_law == tb.particle.Series(
-        deep="off", law=tb.asperity.ZMC(k=0.5), seat="offset", h_0=250e-9, shadow="none"
+        law=tb.asperity.ZMC(k=0.5), seat="offset", h_0=250e-9, shadow="none"
     )
     law = 'name = "horng2022"\npreset = "window"\nplastic = true\nchi = 0.5'
     study = load_study(write(('name = "series"\nseat = "rough"', law)))
@@ -634,7 +634,7 @@ def test_several_populations_are_those_of_python(write):
         diameter=tb.LogNormal(median=200e-9, gsd=1.5),
         areal_density=2e10,
         name="debris",
-        law=tb.particle.Series(deep="off", zeta_mean=-0.5),
+        law=tb.particle.Series(zeta_mean=-0.5),
     )
     assert study.notes == ()
     both = (one.particles.replace(name="dust"), debris)
@@ -656,7 +656,7 @@ def test_populations_may_be_counted(write):
     body = tb.Material(E=205e9, nu=0.29, H=8e9)
     counted = tb.Particles.from_iso4406("18/16/13", gap="1 um", material=body)
     assert (made.diameter, made.areal_density) == (counted.diameter, counted.areal_density)
-    assert (made.name, made.law) == ("debris", tb.particle.Series(deep="off", zeta_mean=-0.5))
+    assert (made.name, made.law) == ("debris", tb.particle.Series(zeta_mean=-0.5))
 
 
 @pytest.mark.parametrize(
@@ -1097,7 +1097,7 @@ def test_examples_are_sensible(path):
     known = (
         "sit deeper than their radius",
         "strengths are extrapolated by a factor",
-        "soft particles squashed to contacts",
+        "held to a computation",
         "at chi = H/(E* g)",
     )
     assert [text for text in result["warnings"] if not any(each in text for each in known)] == []
@@ -1138,8 +1138,8 @@ def test_what_the_example_of_debris_in_a_film_says():
         for settings in ([], soft)
     )
     ratio = np.array(squashed["pressure"]) / sphere["pressure"]
-    assert ratio[[0, 3, 4]] == pytest.approx([0.57, 4.83, 11.9], abs=0.05)
-    assert squashed["dent_width_1"][3] == pytest.approx(13e-6, abs=0.5e-6)
+    assert ratio[[0, 3, 4]] == pytest.approx([0.49, 3.89, 9.94], abs=0.05)
+    assert squashed["dent_width_1"][3] == pytest.approx(12e-6, abs=0.5e-6)
     assert sphere["pressure"][-1] == pytest.approx(sphere["pressure"][2], rel=1e-3)
 
 
@@ -1151,21 +1151,21 @@ def test_what_the_examples_say():
         run_study(load_study(example("soft_ptfe_particles"), settings))["states"]
         for settings in ([loads], [loads, "particles.material=SiO2"], sphere)
     )
-    assert soft["particle_load_share"][1] == pytest.approx(0.94, abs=0.005)
+    assert soft["particle_load_share"][1] == pytest.approx(0.92, abs=0.005)
     assert hard["particle_load_share"][1] > 0.98
-    assert 4 < soft["A_t"][1] / hard["A_t"][1] < 5
+    assert soft["A_t"][1] / hard["A_t"][1] == pytest.approx(2.6, abs=0.1)
     assert soft["d"][1] < hard["d"][1]
     assert sphere["particle_load_share"][0] < 0.5
     small = run_study(load_study(example("nanoparticle_additive")))["states"]
-    assert 0.06 < small["particle_load_share"][0] < 0.08
-    assert 0.025 < small["particle_load_share"][-1] < 0.035
+    assert small["particle_load_share"][0] == pytest.approx(0.09, abs=0.005)
+    assert small["particle_load_share"][-1] == pytest.approx(0.06, abs=0.005)
     debris = run_study(load_study(example("bearing_wear_debris")))["states"]
     assert debris["particle_load_share"][0] > 0.999
-    both = run_study(load_study(example("dust_and_debris"), ["load.pressure=[80e3, 5e5, 6e5]"]))
+    both = run_study(load_study(example("dust_and_debris"), ["load.pressure=[80e3, 3.5e5, 6e5]"]))
     dust, wear = (part["load_share"] for part in both["populations"])
-    assert wear[0] == pytest.approx(0.9, abs=0.02)
+    assert wear[0] == pytest.approx(0.85, abs=0.01)
     assert dust[2] > wear[2]
-    assert dust[1] / wear[1] == pytest.approx(1, abs=0.2)
+    assert dust[1] / wear[1] == pytest.approx(1, abs=0.1)
     clean = run_study(load_study(example("two_body_reference")))["states"]
     for area, elastoplastic in zip(clean["A_t"], clean["A_ep"], strict=True):
         assert elastoplastic > 0.5 * area

@@ -15,7 +15,7 @@ PAIR = tb.MaterialPair(STEEL, STEEL)
 def closing(number, sizes=None, *, law=None, material="SiO2"):
     sizes = sizes or tb.Monodisperse(mean=10e-6)
     radius = 4e-3
-    given = {} if law is None else {"law": law}
+    law = law or tb.particle.Series(deep="off")
     return ContactProbability(
         radius=radius,
         surfaces=PAIR,
@@ -24,7 +24,7 @@ def closing(number, sizes=None, *, law=None, material="SiO2"):
             diameter=sizes,
             areal_density=number / (2 * math.pi * radius * sizes.moment(1)),
         ),
-        **given,
+        law=law,
     )
 
 
@@ -199,6 +199,7 @@ def test_angular_particles_sink_in_more_easily():
         radius=round_ones.radius,
         surfaces=PAIR,
         particles=round_ones.particles.replace(shape=grit),
+        law=round_ones.law,
     )
     load = 0.3 * round_ones.threshold
     assert faced.probability(load) > round_ones.probability(load) + 0.01

@@ -21,7 +21,7 @@ SHARED = Path(__file__).parents[2].parent / "shared" / "reference" / "outputs.js
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 SOFT = STEEL.replace(H=2.5e9)
 PAIR = tb.MaterialPair(STEEL, STEEL)
-ONE = dict(surfaces=PAIR, material=SILICA, film=0.5e-6, entry=1.0)
+ONE = dict(surfaces=PAIR, material=SILICA, film=0.5e-6, entry=1.0, deep="off")
 TWO = dict(ONE, surfaces=tb.MaterialPair(STEEL, SOFT))
 
 
@@ -301,7 +301,9 @@ def test_the_embedded_share_is_that_of_the_sizes():
 # ------------------------------------------------------------------ particles that break
 QUARTZ = tb.materials["quartz"]
 BEARING = tb.Material(E=206e9, nu=0.29, H=7.37e9)
-HARD = dict(surfaces=tb.MaterialPair(BEARING, BEARING), material=QUARTZ, film=1e-6, entry=1.0)
+HARD = dict(
+    surfaces=tb.MaterialPair(BEARING, BEARING), material=QUARTZ, film=1e-6, entry=1.0, deep="off"
+)
 
 
 def strong(fragments="footprint", **changes):

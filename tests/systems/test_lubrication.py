@@ -25,6 +25,7 @@ def case(size=0.0, density=1e10, sigma=100e-9, **others):
         dust = tb.Particles(material=SILICA, areal_density=density, diameter=sizes)
     rough = tb.Roughness(sigma=sigma, R=28 * sigma)
     pair = tb.MaterialPair(STEEL, STEEL)
+    others.setdefault("particle_law", tb.particle.Series(deep="off"))
     return tb.Contact(surfaces=pair, roughness=rough, particles=dust, **others)
 
 

@@ -13,6 +13,7 @@ SILICON = tb.Material(E=160e9, nu=0.22, H=12e9)
 
 def chuck(**changed):
     given = dict(plate=SILICON, flat=tb.materials["S45C"], thickness=725e-6, pressure=1e5)
+    given["law"] = tb.particle.Series(deep="off")
     return PlateOverParticle(**(given | changed))
 
 

@@ -146,7 +146,8 @@ def test_the_answer_is_that_of_the_solver(dusty):
         assert f"real contact area is {percent(state.A_t)}" in sentence
     critical = tb.transitions(found.contact)
     assert f"F_cr1 = {number(critical.F_cr1.value)}" in third
-    assert f"F_cr2 = {number(critical.F_cr2.value)}" in third
+    if critical.F_cr2.value is not None:
+        assert f"F_cr2 = {number(critical.F_cr2.value)}" in third
 
 
 def test_under_one_load_the_answer_says_how_far_the_mode_is_from_changing(tmp_path, no_figures):

@@ -1,0 +1,67 @@
+"""How much harder than a surface a grain must be to leave a mark."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...laws.particle.deep import SINK_AT, squeeze_curve
+from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+
+__all__ = ["ROW", "embeds_from"]
+
+FRICTIONS = (0.05, 0.2, 1.0)
+"""Friction factor of the faces [1]."""
+SQUEEZES = (0.2, 0.3, 0.4)
+RATIOS = np.geomspace(0.9, 4.0, 600)
+
+
+def embeds_from(squeeze: float, friction: float) -> float:
+    """Hardness ratio from which a round grain sinks by more than half of its squeeze.
+
+    Parameters
+    ----------
+    squeeze : float
+        Of a side over its radius ε [1].
+    friction : float
+        Friction factor of its faces m [1].
+
+    Examples
+    --------
+    >>> round(embeds_from(0.3, 0.2), 1)
+    1.6
+    """
+    for ratio in RATIOS:
+        sinks = squeeze_curve(float(ratio), friction, 1e9).sinks
+        if np.interp(squeeze, SINK_AT, sinks) > 0.5 * squeeze:
+            return float(ratio)
+    return float("nan")
+
+
+def _band() -> Band:
+    found = [embeds_from(squeeze, m) for squeeze in SQUEEZES for m in FRICTIONS]
+    return Band.of(found, 'deep = "off": 1')
+
+
+ROW = Row(
+    "pintaude2010",
+    "The hardness that scratches",
+    "Pintaude 2010, a review of abrasion (abstract)",
+    "What scratches must be harder than what is scratched.",
+    (
+        Input("squeeze of a side", "0.2 to 0.4 of the radius", CHOSEN),
+        Input("friction factor of the faces", "0.05 to 1", CHOSEN),
+    ),
+    (
+        statement(
+            "ratio",
+            "An indenter must be at least 1.2 times as hard as the surface to scratch it",
+            ABSTRACT,
+            "hardness ratio from which a grain sinks by half of its squeeze",
+            {"kind": "above", "value": 1.2},
+            _band,
+            undecided="it was said of pointed indenters; a sphere loses its constraint sooner",
+        ),
+    ),
+    "A round grain hardly dents a surface of its own hardness: it embeds from a ratio of 1.4 to 2 "
+    "on, more the rougher its faces.",
+)
