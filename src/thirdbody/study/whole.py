@@ -197,12 +197,12 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         reader.notes.append("[particle_law] has no effect: all particles have laws of their own")
     asked: Any = own.get("sweep")
     film: Any = own.get("film")
-    if "outputs" in parts:
-        parts["outputs"] = on_area(parts["outputs"], own.get("body"))
     contact = reader.make(Contact, "", parts)
     loaded = own.get("load") or ends(asked or {})
     bodies: Any = own.get("body")
     given_forces = loaded[1] if loaded and loaded[0] == "force" else None
+    contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
+    reader.notes += notes
     film = on_body(reader, film, bodies, given_forces)
     load, loads = loaded or _pressed(film, contact)
     forces = None
