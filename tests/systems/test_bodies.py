@@ -10,6 +10,7 @@ from steel_and_dust import TWO_BODY as CLEAN
 
 import thirdbody as tb
 from thirdbody.errors import InvalidValue
+from thirdbody.quantities.say import percent
 from thirdbody.reference import elliptic_hertz
 from thirdbody.study import check, run_film, run_study
 from thirdbody.study.analyses import assess_study
@@ -295,3 +296,19 @@ def test_a_probability_without_an_area_has_a_reason():
     assert run_study(found)["warnings"].count(told) == 1
     given = study(*bronze, more=more + 'A_n = "1e-4 mm^2"\n')
     assert not any("without A_n" in note for note in given.notes)
+
+
+def test_what_is_said_last_is_of_the_bodies():
+    """States at Hertz's pressures are not the answer where the integral says another thing."""
+    from thirdbody.cli.commands.solve import summary as of_solve
+    from thirdbody.study.body import of_bodies
+
+    light = study("load.force=1 mN", "body.diameter=3 mm", "roughness.sigma=300 nm", more=OUTPUTS)
+    result = run_study(light)
+    (force,) = result["body"]["forces"]
+    told = of_bodies(result)
+    assert f"{percent(force['particle_load_share'])} under 0.001 N" in told
+    assert of_solve(result).endswith(told)
+    assert "The mode is" not in of_solve(result)
+    even = study("load.pressure=5 MPa", more=OUTPUTS)
+    assert of_bodies(run_study(even)) == ""
