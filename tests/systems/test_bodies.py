@@ -10,6 +10,7 @@ from steel_and_dust import TWO_BODY as CLEAN
 
 import thirdbody as tb
 from thirdbody.errors import InvalidValue
+from thirdbody.quantities.say import percent
 from thirdbody.reference import elliptic_hertz
 from thirdbody.study import check, run_film, run_study
 from thirdbody.study.analyses import assess_study
@@ -260,3 +261,54 @@ def test_particles_are_counted_on_the_area_that_carries():
     # what the area must be at least, to carry so much at no more than the largest pressure
     largest = light.with_particles["peak_pressure"]
     assert light.particles_held >= 0.9 * 1e8 * 1e-3 / largest
+
+
+OUTPUTS = """
+[particles]
+material = "SiO2"
+mean = "1 um"
+areal_density = "1e8 / m^2"
+distribution = "monodisperse"
+[outputs.dents]
+"""
+
+
+def test_the_largest_dent_is_of_the_area_that_is_printed():
+    """Hertz's of one force, the face of a flat body, what the file says; else a reason."""
+    area = BallOnFlat(diameter=6e-3).hertz(10.0, E).area
+    assert study(more=OUTPUTS).contact.outputs[0].A_n == pytest.approx(area, rel=1e-12)
+    said = study(more=OUTPUTS + 'A_n = "3 mm^2"')
+    assert said.contact.outputs[0].A_n == pytest.approx(3e-6)
+    several = study("load.force=[1, 10]", more=OUTPUTS)
+    assert several.contact.outputs[0].A_n == 1e-6
+    (told,) = [note for note in several.notes if "outputs.dents" in note]
+    assert "differs among the forces" in told
+    assert study("load.pressure=5 MPa", more=OUTPUTS).contact.outputs[0].A_n == 1e-6
+
+
+def test_a_probability_without_an_area_has_a_reason():
+    more = "\n[outputs.electrical_conductance]\n"
+    bronze = ("surfaces.first=CuSn8", "surfaces.second=CuSn8")
+    found = study(*bronze, more=more)
+    assert found.contact.outputs[0].A_n is None
+    (told,) = [note for note in found.notes if "gc_closed is not known without A_n" in note]
+    assert "not Hertz's" in told
+    assert run_study(found)["warnings"].count(told) == 1
+    given = study(*bronze, more=more + 'A_n = "1e-4 mm^2"\n')
+    assert not any("without A_n" in note for note in given.notes)
+
+
+def test_what_is_said_last_is_of_the_bodies():
+    """States at Hertz's pressures are not the answer where the integral says another thing."""
+    from thirdbody.cli.commands.solve import summary as of_solve
+    from thirdbody.study.body import of_bodies
+
+    light = study("load.force=1 mN", "body.diameter=3 mm", "roughness.sigma=300 nm", more=OUTPUTS)
+    result = run_study(light)
+    (force,) = result["body"]["forces"]
+    told = of_bodies(result)
+    assert f"{percent(force['particle_load_share'])} under 0.001 N" in told
+    assert of_solve(result).endswith(told)
+    assert "The mode is" not in of_solve(result)
+    even = study("load.pressure=5 MPa", more=OUTPUTS)
+    assert of_bodies(run_study(even)) == ""

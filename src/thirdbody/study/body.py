@@ -8,11 +8,12 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..errors import InvalidValue
+from ..quantities.say import percent, value_of
 from ..quantities.value import quantity
 from ..systems.bodies import BODIES, Body, Pressed, press
 from .reader import Reader, Table
 
-__all__ = ["FORCE", "TABLE", "loads_of", "pressed", "told", "told_forces"]
+__all__ = ["FORCE", "TABLE", "loads_of", "of_bodies", "pressed", "told", "told_forces"]
 
 FORCE = quantity(
     "F", "N", "force on the bodies of [body]", gt=0, hint="kN are 5e3 or '5 kN'"
@@ -61,6 +62,30 @@ def told(found: list[Pressed]) -> list[str]:
     """Sentences of the forces; of many, those of the ends."""
     some = found if len(found) <= MOST_INTEGRATED else [found[0], found[-1]]
     return [each.sentence() for each in some]
+
+
+def of_bodies(result: dict[str, Any]) -> str:
+    """What holds of the bodies themselves, where it is not what the states say; else empty.
+
+    States are of a surface under one pressure, which shares its load among all its particles.
+    """
+    told = result.get("body", {}).get("forces", ())
+    each = [force for force in told if force["particle_load_share"] is not None]
+    if not each:
+        return ""
+    rare = any(0 < force["particles_held"] < 1 for force in each)
+    if not (rare or any(force["method"] == "rough body" for force in each)):
+        return ""
+    loads = ", ".join(
+        f"{percent(force['particle_load_share'])} under {value_of(force['force'], 'N')}"
+        for force in each
+    )
+    pressures = "" if each[0]["kind"] == "flat" else "under the pressures of smooth bodies, "
+    means = ", on average over contacts with and without one," if rare else ""
+    return (
+        f"That is of a wide surface {pressures}whose particles all share the load; of the load "
+        f"of the bodies themselves particles carry{means} {loads}."
+    )
 
 
 TABLE = Table(

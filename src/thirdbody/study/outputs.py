@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from ..contact.contact import Contact
 from ..effects import REGISTRY
-from ..systems.bodies import Body, Flat
+from ..quantities.say import value_of
+from ..systems.bodies import Flat
 from .reader import Key, Reader, Table, get
+
+if TYPE_CHECKING:
+    from ..contact.contact import Contact
 
 __all__ = ["TABLE", "on_area"]
 
@@ -23,23 +24,44 @@ def outputs(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, keys, lambda values: tuple(values.values()))
 
 
-def on_area(contact: Contact, body: Body | None, forces: Any) -> Contact:
-    """The contact whose outputs that ask for a nominal area and have none get that of the body.
+def on_area(contact: Contact, body: Any, forces: Any, data: Any) -> tuple[Contact, list[str]]:
+    """The contact whose outputs are of the area of the body where the file gives none, and notes.
 
-    It is one of a flat body, and of others under a single force: the Hertz contact. Under several
-    forces there are several, and none is taken.
+    A flat body has one area; curved ones have Hertz's, which is one where there is one force. The
+    probability of closing is asked of the area that carries, which Hertz's is not on rough bodies.
     """
+    area: float | None = None
     if isinstance(body, Flat):
         area = body.area
-    elif body is not None and forces is not None and np.size(forces) == 1:
-        area = float(body.hertz(np.ravel(forces)[0], contact.E_ss).area)
-    else:
-        return contact
-    filled = tuple(
-        each.replace(A_n=area) if getattr(each, "A_n", 0.0) is None else each
-        for each in contact.outputs
-    )
-    return contact if filled == contact.outputs else contact.replace(outputs=filled)
+    elif body is not None and forces is not None and len(forces) == 1:
+        area = float(body.hertz(forces[0], contact.E_ss).area)
+    out, notes = [], []
+    each: Any
+    for each in contact.outputs:
+        unsaid = "A_n" in each.__dataclass_fields__ and get(get(data, each.name), "A_n") is None
+        closes = unsaid and each.A_n is None
+        if unsaid and area is not None and not (closes and not isinstance(body, Flat)):
+            each = each.replace(A_n=area)
+        elif closes and (name := _closed(each)):
+            of_body = "" if body is None else ", which is not Hertz's where bodies are rough"
+            notes.append(
+                f"outputs.{each.name}: {name} is not known without A_n, the area of one contact"
+                f"{of_body}; give outputs.{each.name}.A_n"
+            )
+        elif unsaid and not closes and body is not None and forces is not None:
+            notes.append(
+                f"outputs.{each.name}: the largest is of A_n = {value_of(each.A_n, 'm^2')}, not of "
+                "the contact of the bodies, which differs among the forces; give "
+                f"outputs.{each.name}.A_n"
+            )
+        out.append(each)
+    same = tuple(out) == contact.outputs
+    return (contact if same else contact.replace(outputs=tuple(out))), notes
+
+
+def _closed(output: Any) -> str:
+    """The column that is the probability of closing; empty where there is none."""
+    return next((name for name in output.columns if name.endswith("_closed")), "")
 
 
 TABLE = Table(name="outputs", read=outputs)

@@ -201,7 +201,8 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     loaded = own.get("load") or ends(asked or {})
     bodies: Any = own.get("body")
     given_forces = loaded[1] if loaded and loaded[0] == "force" else None
-    contact = on_area(contact, bodies, given_forces)
+    contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
+    reader.notes += notes
     film = on_body(reader, film, bodies, given_forces)
     load, loads = loaded or _pressed(film, contact)
     forces = None

@@ -24,6 +24,7 @@ from ...errors import NoEquilibrium
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, unit_of, value_of
 from ...quantities.tables import Table
+from ...study.body import of_bodies
 from ..options import AsJson, ParquetFile, Settings, StudyFile, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import TableFiles, warn
@@ -240,33 +241,9 @@ def summary(result: dict[str, Any]) -> str:
 
     known.sort(key=lambda i: states["pressure"][i])
     first, last = known[0], known[-1]
-    whole = _of_bodies(result) if three_body else ""
+    whole = f" {told}" if (told := of_bodies(result)) else ""
     if first == last:
         return at(first) + whole
     if not three_body or whole:
         return f"{at(first)} {at(last)}{whole}"
     return f"{at(first)} {at(last)} {mode_path(states['mode'][i] for i in known)}."
-
-
-def _of_bodies(result: dict[str, Any]) -> str:
-    """What holds of the bodies themselves, where it is not what the states say; else empty.
-
-    States are of a surface under one pressure, which shares its load among all its particles.
-    """
-    told = result.get("body", {}).get("forces", ())
-    each = [force for force in told if force["particle_load_share"] is not None]
-    if not each:
-        return ""
-    rare = any(0 < force["particles_held"] < 1 for force in each)
-    if not (rare or any(force["method"] == "rough body" for force in each)):
-        return ""
-    loads = ", ".join(
-        f"{percent(force['particle_load_share'])} under {value_of(force['force'], 'N')}"
-        for force in each
-    )
-    pressures = "" if each[0]["kind"] == "flat" else "under the pressures of smooth bodies, "
-    means = ", on average over contacts with and without one," if rare else ""
-    return (
-        f" That is of a wide surface {pressures}whose particles all share the load; of the load "
-        f"of the bodies themselves particles carry{means} {loads}."
-    )

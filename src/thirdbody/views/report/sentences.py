@@ -10,6 +10,7 @@ from ...analysis.sensitivity import Sensitivity
 from ...equilibrium.columns import about
 from ...equilibrium.words import carried, happens, mode_of, mode_path, not_met, two_bodies
 from ...quantities.say import listed, number, percent, signed, times, value_of
+from ...study.body import of_bodies
 from .found import Found
 
 MATTER = 3
@@ -30,7 +31,8 @@ class Sentences(Found):
 
         Where the study has a film, first what it says with the oil.
         """
-        return (*self._with_oil(), *self._without_oil())
+        whole = of_bodies(self.result)
+        return (*self._with_oil(), *self._without_oil(), *([whole] if whole else []))
 
     def _without_oil(self) -> tuple[str, str, str]:
         states = self.result["states"]
