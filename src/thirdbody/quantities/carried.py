@@ -283,7 +283,8 @@ def _refuse_no_numbers(
 ) -> None:
     """Refuse masked values, and truth values where a number with a unit is needed."""
     given = inspect.signature(function).bind_partial(*args, **named).arguments
-    units = units_of(function, type(args[0]) if args else object)
+    owner: type = type(args[0]) if args else object
+    units = units_of(function, owner)
     problems: list[str] = []
     for name, value in given.items():
         for key, each in value.items() if isinstance(value, dict) else [(name, value)]:
