@@ -138,6 +138,8 @@ def test_units_of_this_trade_are_taken(text, unit, want):
         ("0,4 µm", "0.4 um", "0.4 um"),
         ("-1,5e-3 mm", "-1.5e-3 mm", "-1.5e-3 mm"),
         ("0,29", 0.29, [0, 29]),
+        ("1,100 N", "1,100 N", "1,100 N"),
+        ("0,100 N", "0.100 N", "0.100 N"),
         ("1,2,3", [1, 2, 3], [1, 2, 3]),
         ("1 MPa, 2 MPa", ["1 MPa", "2 MPa"], ["1 MPa", "2 MPa"]),
         ("1 MPa,2 MPa", ["1 MPa", "2 MPa"], ["1 MPa", "2 MPa"]),
@@ -148,6 +150,44 @@ def test_units_of_this_trade_are_taken(text, unit, want):
 def test_a_decimal_comma_is_understood(text, one, several):
     assert value_from(text, one=True) == one
     assert value_from(text) == several
+
+
+# ---------------------------------------------------------------------------- no numbers
+MASKED = np.ma.masked_array([5e6, 6e6], [False, True])
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda: tb.solve(CONTACT, pressure=MASKED),
+        lambda: tb.solve(CONTACT, pressure=[5e6, np.ma.masked]),
+        lambda: tb.solve_states(CONTACT, pressure=MASKED),
+        lambda: tb.solve_states(CONTACT, pressure=5e6, vary={"roughness.sigma": MASKED * 1e-14}),
+        lambda: tb.sweep(CONTACT, pressure=MASKED),
+        lambda: tb.sweep(CONTACT, pressure=[5e6], vary={"roughness.sigma": MASKED * 1e-14}),
+        lambda: tb.roots(CONTACT, pressure=MASKED),
+        lambda: tb.compare(CONTACT, pressure=MASKED),
+        lambda: tb.HistogramHeights(edges=(0.0, 1.0, 2.0), counts=MASKED),
+    ],
+)
+def test_a_masked_value_is_refused(ask):
+    """It is no number, and numpy would hand out what lies under the mask."""
+    with pytest.raises(tb.InvalidValue, match=r"1 masked value of [12]; .* leave it out"):
+        ask()
+
+
+def test_an_array_of_which_nothing_is_masked_is_an_array():
+    whole = np.ma.masked_array([5e6, 6e6], [False, False])
+    assert list(tb.solve(CONTACT, pressure=whole).d) == list(
+        tb.solve(CONTACT, pressure=whole.data).d
+    )
+
+
+@pytest.mark.parametrize("truth", [True, np.True_, [True, 5e6], np.array([True])])
+def test_a_truth_value_is_no_load(truth):
+    for ask in (tb.solve, tb.solve_states, tb.sweep, tb.compare):
+        with pytest.raises(tb.InvalidValue, match=r"pressure = .*True.* must be a number"):
+            ask(CONTACT, pressure=truth)
 
 
 # ---------------------------------------------------------------------------- warnings

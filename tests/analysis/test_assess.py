@@ -549,3 +549,37 @@ def test_few_samples_where_each_has_tables_of_its_own():
     assert [enough(case, None, materials) for case in (soft, hard, mixed)] == [64, 2**12, 64]
     assert [enough(case, None, roughness) for case in (soft, hard, mixed)] == [2**12] * 3
     assert enough(soft, 512, materials) == 512
+
+
+# ---------------------------------------------------------------- contacts that no model takes
+def test_a_contact_tried_on_the_way_and_refused_ends_the_way_not_the_page(monkeypatch):
+    """As a surface is that is too smooth for the seats of its particles."""
+    smooth = 9.5e-8
+
+    def refuses(contact, load, value, vary, count, **more):
+        if np.any(vary["roughness.sigma"] < smooth):
+            raise tb.InvalidValue("smooth for such particles")
+        return samples.columns_at(contact, load, value, vary, count, **more)
+
+    monkeypatch.setattr("thirdbody.analysis.assess.columns_at", refuses)
+    page = assess(DUSTY, pressure=5e6, vary={"roughness.sigma": (90e-9, 110e-9)}, samples=64)
+    assert all(change.value > 1e-7 for change in page.changes)  # nothing is refused there
+    (stop,) = page.stops
+    assert (stop.input, stop.value) == ("roughness.sigma", pytest.approx(1e-7))
+    said = " ".join(text for part in page.sections() for text in part.sentences)
+    assert "no change of mode; what lies beyond is not known" in said
+    assert "(smooth for such particles)" in said
+    assert "no change of mode within a factor" not in said
+    assert strict(json.dumps(page.to_dict()))["stops"] == [stop.to_dict()]
+
+
+def test_what_pieces_bear_is_not_known_where_a_model_refuses_them(monkeypatch):
+    def refuses(contact, **load):
+        if contact.populations[0].strength.fragments == "all":
+            raise tb.InvalidValue("too many pieces")
+        return tb.solve(contact, **load)
+
+    monkeypatch.setattr("thirdbody.analysis.assess.solve", refuses)
+    weak = DUSTY.replace(**{"particles.strength": tb.WeibullStrength(sigma_0=1e8, x_0=3e-7, m=3.0)})
+    (said,) = about_fragments(weak, {"pressure": 5e6})
+    assert "all of them, in one layer: not known (too many pieces)" in said

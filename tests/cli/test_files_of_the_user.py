@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +10,8 @@ from pathlib import Path
 import pytest
 from damage import empty, flipped, missing, truncated
 
-from thirdbody.quantities.files import refuse_clashes, whole, write_text
+import thirdbody as tb
+from thirdbody.quantities.files import need_folders, refuse_clashes, whole, write_text
 
 from .test_cli import EXAMPLES, run
 
@@ -264,3 +266,22 @@ def test_damaged_files_of_a_folder_are_written_anew_or_left(tmp_path, words, nam
     else:
         assert done.exit_code == 0
         assert contents(tmp_path) == wanted
+
+
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        ("/proc/thirdbody.csv", "/proc takes no files; give another folder"),
+        (".", "it is a folder; give the name of a file"),
+        ("nowhere/a.csv", "there is no folder"),
+    ],
+)
+def test_a_file_that_cannot_be_made_is_refused_before_the_work(place, said, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    if place.startswith("/proc") and not Path("/proc/self").exists():
+        pytest.skip("this system has no folder that takes no files")
+    with pytest.raises(tb.InvalidValue, match=re.escape(said)):
+        need_folders(place)
+    assert list(tmp_path.iterdir()) == []
+    need_folders(tmp_path / "a.csv")
+    assert list(tmp_path.iterdir()) == []

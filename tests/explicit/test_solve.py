@@ -387,3 +387,23 @@ def test_where_nothing_touches_no_few_points_carry():
     assert float(high.A_t) == 0
     assert any(text.startswith("nothing touches: there load") for text in high.warnings)
     assert not any("carry the smallest load" in text for text in high.warnings)
+
+
+# ---------------------------------------------------------------- a map in nanometres
+def test_a_map_in_nanometres_is_asked_for_its_unit():
+    """So large a map would hold 1e17 particles, which no generator draws."""
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(tb.materials["S45C"], tb.materials["S45C"]),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=tb.Particles(
+            material=tb.materials["SiO2"], areal_density=1e11, diameter=tb.Monodisperse(mean=3e-7)
+        ),
+    )
+    heights = 100.0 * np.random.default_rng(3).normal(size=(32, 32))
+    with (
+        pytest.warns(tb.RangeWarning, match="was 100 nm meant") as heard,
+        pytest.raises(tb.InvalidValue, match=r"heights and spacing, 100, in metres\?"),
+    ):
+        tb.explicit.solve(contact, heights, spacing=100, F_star=1e-3)
+    assert {str(each.message).split(" =")[0] for each in heard} == {"spacing", "heights (rms)"}
+    assert {each.filename for each in heard} == {__file__}

@@ -178,6 +178,15 @@ def test_a_film_between_the_bodies():
         ('body={kind="roller"}', ["body.diameter is missing", "body.length is missing"]),
         ("load.force=3 MPa", ["a force [N] is needed"]),
         ("load.force=-3", ["must be > 0 [N]"]),
+        ("body.diameter=7.938", ["body.diameter = 7.938 has no unit", '"7.938 mm" meant']),
+        (
+            'body={kind="ball-in-groove", diameter=7.938, pitch_diameter="38.5 mm"}',
+            ["body.diameter = 7.938 has no unit", '"7.938 mm" meant'],
+        ),
+        (
+            'body={kind="roller", diameter=4, length=6}',
+            ['"4 mm" meant', "body.length = 6 has no unit"],
+        ),
         ('body.length="3 mm"', ['goes with kind = "roller"']),
         ('load={force="3 N", pressure="3 MPa"}', ["only one of these"]),
     ],

@@ -32,9 +32,11 @@ from .assessment import (
     UNMOVED,
     Assessment,
     Change,
+    Stop,
     _nominal,
     unit_of,
 )
+from .attempts import columns_tried
 from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
 from .sensitivity import sensitivity
@@ -183,11 +185,14 @@ def assess_each(
         ]
     progress(PARTS[2])
     with work.part(work.ways), roughly():
-        changes = iter(_changes([page for page in out if isinstance(page, Assessment)]))
-    return [
-        replace(page, changes=next(changes)) if isinstance(page, Assessment) else page
-        for page in out
-    ]
+        found_ways = iter(_changes([page for page in out if isinstance(page, Assessment)]))
+    pages: list[Assessment | NoEquilibrium] = []
+    for page in out:
+        if isinstance(page, Assessment):
+            changes, stops = next(found_ways)
+            page = replace(page, changes=changes, stops=stops)
+        pages.append(page)
+    return pages
 
 
 class _Work:
@@ -330,6 +335,9 @@ def about_fragments(contact: Contact, load: dict[str, Any]) -> list[str]:
             except NoEquilibrium:
                 said.append(f"{words}: no equilibrium")
                 continue
+            except InvalidValue as error:
+                said.append(f"{words}: not known ({'; '.join(error.problems)})")
+                continue
         said.append(
             f"{words}: particles carry {percent(float(state.particle_load_share))} "
             f"at d = {value_of(float(state.d), 'm', 3)}"
@@ -399,10 +407,13 @@ def _elasticities(found: Propagation, decisive: str) -> dict[str, float]:
     return out
 
 
-def _changes(pages: Sequence[Assessment]) -> list[tuple[Change, ...]]:
-    """For each load where along each input, on either side, the mode ceases to be what it is."""
+def _changes(pages: Sequence[Assessment]) -> list[tuple[tuple[Change, ...], tuple[Stop, ...]]]:
+    """For each load where along each input, on either side, the mode ceases to be what it is.
+
+    And where the way there ends, as the contact beyond is refused.
+    """
     if not pages or pages[0].propagation.contact.two_body:
-        return [()] * len(pages)
+        return [((), ())] * len(pages)
     one = pages[0].propagation
     ways: dict[tuple[str, int], tuple[Drawn, Array]] = {}
     inputs = one.inputs or _usual(one.contact)
@@ -413,7 +424,7 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[Change, ...]]:
             for side in (-1, 1):
                 ways[label, side] = drawn, _path(one.contact, drawn, known, side, each)
     every = {(i, *way): where for i in range(len(pages)) for way, where in ways.items()}
-    steps = _departures(pages, every)
+    steps, stops = _departures(pages, every)
 
     def alone(way: Way) -> bool:
         start = {name: float(v) for name, v in every[way][0].at([steps[way][0]]).items()}
@@ -426,7 +437,7 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[Change, ...]]:
     ):
         for count in counts:
             within = {way: np.linspace(*steps[way][:2], count) for way in some}
-            steps |= _departures(pages, {way: (every[way][0], v) for way, v in within.items()})
+            steps |= _departures(pages, {way: (every[way][0], v) for way, v in within.items()})[0]
     out: list[list[Change]] = [[] for _ in pages]
     for (i, label, side), (low, high, other) in steps.items():
         value, beyond = 0.5 * (low + high), math.nan
@@ -440,7 +451,13 @@ def _changes(pages: Sequence[Assessment]) -> list[tuple[Change, ...]]:
         near = abs(math.log(change.value / start)) if change.value * start > 0 else math.inf
         return -float(np.nan_to_num(change.beyond)), near
 
-    return [tuple(sorted(changes, key=likely)) for changes in out]
+    return [
+        (
+            tuple(sorted(changes, key=likely)),
+            tuple(stop for (j, *_), stop in stops.items() if j == i),
+        )
+        for i, changes in enumerate(out)
+    ]
 
 
 def _usual(contact: Contact) -> dict[str, Uncertain]:
@@ -492,10 +509,13 @@ Way = tuple[int, str, int]
 
 def _departures(
     pages: Sequence[Assessment], ways: Mapping[Way, tuple[Drawn, Array]]
-) -> dict[Way, tuple[float, float, str]]:
-    """The step at which the first other mode comes, and that mode, on each way that has one."""
+) -> tuple[dict[Way, tuple[float, float, str]], dict[Way, Stop]]:
+    """The step at which the first other mode comes, and that mode, on each way that has one.
+
+    Then, on each way that ends before, the last value that is not refused.
+    """
     if not ways:
-        return {}
+        return {}, {}
     one = pages[0].propagation
     own = all_inputs(one.contact)
     counts = [len(values) for _, values in ways.values()]
@@ -506,11 +526,18 @@ def _departures(
         for name, moved in drawn.at([values]).items():
             vary.setdefault(name, np.full(ends[-1], own[name]))[piece] = moved
     loads = np.repeat([float(pages[i].propagation.loads) for i, _, _ in ways], counts)
-    states = columns_at(one.contact, one.load, loads, vary, int(ends[-1]))
-    out = {}
+
+    def solved(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
+        some = {name: values[which] for name, values in vary.items()}
+        return columns_at(one.contact, one.load, loads[which], some, len(which))
+
+    states, refused = columns_tried(solved, int(ends[-1]))
+    out, stops = {}, {}
     for (way, (_, values)), piece in zip(ways.items(), pieces, strict=True):
         modes = [str(word) for word in states["mode"][piece]]
         step = next((k for k, other in enumerate(modes) if other != pages[way[0]].mode), 0)
         if step > 0 and modes[step] != "":
             out[way] = float(values[step - 1]), float(values[step]), modes[step]
-    return out
+        elif step > 0 and piece.start + step in refused:
+            stops[way] = Stop(way[1], float(values[step - 1]), refused[piece.start + step])
+    return out, stops

@@ -29,7 +29,7 @@ from .inputs import inputs as all_inputs
 from .uncertainty.propagation import OUTPUTS, Propagation, about_result, plain
 from .uncertainty.samples import crowded_samples
 
-__all__ = ["WORDS", "Assessment", "Change", "Section", "printed"]
+__all__ = ["WORDS", "Assessment", "Change", "Section", "Stop", "printed"]
 
 SHOWN = ("particle_load_share", "particle_area_share", "plastic_share", "A_t", "d", "h")
 """What the page tells of the state."""
@@ -63,6 +63,18 @@ class Change(NamedTuple):
             "probability": self.beyond,
             "within_range": self.beyond >= RARE,
         }
+
+
+class Stop(NamedTuple):
+    """Where the search along one input ends, as the contact beyond is refused."""
+
+    input: str
+    value: float
+    """The last value that was tried and is not refused."""
+    why: str
+
+    def to_dict(self) -> dict[str, Any]:
+        return self._asdict()
 
 
 class Section(NamedTuple):
@@ -103,6 +115,8 @@ class Assessment:
         Inputs without a range, taken as exactly known.
     notes : tuple of str
         What else is to be said.
+    stops : tuple of Stop
+        Where the search for another mode ends before a factor of 10, and why.
     """
 
     title: str
@@ -115,6 +129,7 @@ class Assessment:
     changes: tuple[Change, ...]
     exact: tuple[str, ...]
     notes: tuple[str, ...]
+    stops: tuple[Stop, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """The whole page as plain data ready for JSON."""
@@ -134,6 +149,7 @@ class Assessment:
                     "tornado": self.tornado,
                     "elasticity": self.elasticity,
                     "changes": [change.to_dict() for change in self.changes],
+                    "stops": [stop.to_dict() for stop in self.stops],
                 }
             ),
             "exact": list(self.exact),
@@ -336,7 +352,8 @@ class Assessment:
                 f"{span(value, change.value, unit)} makes it {change.mode}"
                 f"{where if found.inputs else ''}."
             )
-        changed = {change.input for change in self.changes}
+        out += self.stops_words()
+        changed = {each.input for each in self.changes} | {each.input for each in self.stops}
         still = [label for label in found.inputs if label not in changed and label != found.load]
         if still:
             named = _upper("; ".join(map(self._words, still)))
@@ -345,6 +362,22 @@ class Assessment:
                 "inputs as they are."
             )
         return tuple(out)
+
+    def stops_words(self) -> list[str]:
+        """Where the search for another mode ends before a factor of 10, in sentences."""
+        out = []
+        for stop in self.stops:
+            unit, value = (
+                unit_of(self.propagation.contact, stop.input),
+                _nominal(self.propagation, stop.input),
+            )
+            word = "falling" if stop.value < value else "rising"
+            at = f" from {span(value, stop.value, unit)}" if stop.value != value else ""
+            out.append(
+                f"{_upper(self._words(stop.input))} {word}{at}: no change of mode; what lies "
+                f"beyond is not known, as that contact is refused ({stop.why})."
+            )
+        return out
 
     def basis(self) -> tuple[str, ...]:
         """What the page rests on, in sentences."""

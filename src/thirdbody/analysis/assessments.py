@@ -150,6 +150,7 @@ class Assessments:
                 share = percent(change.beyond, least=RARE) if self._uncertain else None
                 words = words_of(found.contact, change.input)
                 rows.append(_row(load, words, *cells, change.mode, share))
+            said += [text for text in page.stops_words() if text not in said]
             if not (ways or page.changes):
                 loads = load_of(found.nominal["pressure"], found.nominal["F_star"])
                 said.append(f"At {loads} nothing was found that alone changes the mode.")

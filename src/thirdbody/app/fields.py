@@ -14,7 +14,7 @@ import thirdbody as tb
 from ..errors import InvalidValue
 from ..populations.measured import cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS
-from ..quantities.units import quantity_to_si
+from ..quantities.units import comma_may_part_thousands, quantity_to_si
 from ..quantities.value import allowed_range
 from ..study import DISTRIBUTIONS, HEIGHTS, LOADS, filled_in
 from ..study.concentration import AMOUNT
@@ -223,10 +223,13 @@ def value_from(text: str, *, one: bool = False) -> Any:
     """What a user wrote: numbers as numbers, tables and lists as in TOML, text as text.
 
     A comma inside a number is a decimal one where ``one`` value is asked for, and where a unit
-    stands behind: "0,4 um" are no two values of which the first has no unit.
+    stands behind: "0,4 um" are no two values of which the first has no unit. In "1,100 N" it may
+    stand between thousands as well: this is left as it is, to be refused.
     """
     text = in_ascii(text.strip())
     if (comma := DECIMAL_COMMA.fullmatch(text)) and (one or comma[2][-1].isalpha()):
+        if comma_may_part_thousands(text):
+            return text  # which is refused where it is read, with both that it may stand for
         text = f"{comma[1]}.{comma[2]}"
     if not text:
         return None

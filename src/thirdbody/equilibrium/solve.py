@@ -55,7 +55,9 @@ def given_load(
     """Which quantity is given, its values (F in Pa or d in m), and whether it was one number."""
     name, value = only_one(pressure=pressure, F_star=F_star, d=d)
     try:
-        if np.asarray(value).dtype.kind in "USO":
+        if (kind := np.asarray(value).dtype.kind) not in "fiu":
+            if kind == "b":
+                raise InvalidValue(f"{name} = {value!r} must be a number, not a truth value")
             raise TypeError
         values = np.asarray(value, dtype=float)
     except (TypeError, ValueError, OverflowError):

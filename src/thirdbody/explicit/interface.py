@@ -17,6 +17,7 @@ from ..laws.base import AbstractParticleLaw
 from ..populations.materials import Material, MaterialPair
 from ..populations.measured.topography import Topography
 from ..quantities.say import number, percent, plural, value_of
+from ..quantities.value import warn_of_slip
 from .bodies import NONE, Bodies, LawTable, covered
 from .press import HARDEST
 from .seats import (
@@ -145,6 +146,8 @@ def map_of(surface: object, spacing: float | None) -> Map:
     if problems:
         raise InvalidValue(*problems)
     assert spacing is not None
+    for name, size in (("spacing", float(spacing)), ("heights (rms)", float(np.std(z)))):
+        warn_of_slip(name, {"unit": "m"}, size)
     return Map(z=z - z.mean(), spacing=float(spacing), periodic=True, source="the heights")
 
 
@@ -273,6 +276,7 @@ def _drawn(
         shares = densities / densities.sum()
         kind = rng.choice(len(populations), size=len(seats.positions), p=shares)
     else:
+        _refuse_countless(float(densities.sum()), surface)
         counts = rng.poisson(densities * surface.area)
         kind = np.repeat(np.arange(len(populations)), counts)
         rng.shuffle(kind)
@@ -282,6 +286,22 @@ def _drawn(
         size[here] = each.diameter.sample(rng, int(np.sum(here)))
     places, overlaps = placed_apart(seats, surface.z, surface.spacing, size, rng)
     return _bodies(contact, places, size, kind), overlaps
+
+
+MOST_PARTICLES = 10_000_000
+"""Particles on a map; each takes some hundred bytes."""
+
+
+def _refuse_countless(density: float, surface: Map) -> None:
+    """Refuse a map on which there would be more particles than anybody can press."""
+    if (count := density * surface.area) <= MOST_PARTICLES:
+        return
+    rows, columns = (points * surface.spacing for points in surface.z.shape)
+    raise InvalidValue(
+        f"a map of {number(rows, 3)} m by {number(columns, 3)} m holds {number(count, 3)} "
+        f"particles, more than {MOST_PARTICLES:,}: are heights and spacing, "
+        f"{number(surface.spacing, 3)}, in metres? (a map in nm: heights * 1e-9, spacing * 1e-9)"
+    )
 
 
 def _told(

@@ -247,10 +247,69 @@ def takes_units(function: F) -> F:
             _need_contact(args[place] if len(args) > place else named["contact"])
         if any(map(carries_unit, args)) or (named and any(map(carries_unit, named.values()))):
             args, named = _all_in_si(function, args, named)
+        if any(map(_may_be_none, args)) or (named and any(map(_may_be_none, named.values()))):
+            _refuse_no_numbers(function, args, named)
         return function(*args, **named)
 
     with_units.takes_units = True  # type: ignore[attr-defined]
     return with_units  # type: ignore[return-value]
+
+
+def _may_be_none(value: Any) -> bool:
+    """Whether an argument has to be looked at: masked numbers, or truth values for numbers."""
+    kind = type(value)
+    if kind is bool or kind is np.bool_:
+        return True
+    if kind is np.ndarray:
+        return value.dtype.kind == "b"
+    if kind is dict:
+        return any(map(_may_be_none, value.values()))
+    if kind in (list, tuple):
+        return len(value) <= LOOKED_AT and any(map(_may_be_none, value))
+    return isinstance(value, np.ma.MaskedArray)
+
+
+LOOKED_AT = 1000
+"""Longest list in which each item is looked at, for a truth value among numbers."""
+
+
+def masked_words(value: Any) -> str:
+    """Why an array cannot be used of which some values are masked; "" where none is.
+
+    >>> masked_words(np.ma.masked_array([5e6, 6e6], [False, True])), masked_words([5e6])
+    ('has 1 masked value of 2; a masked value is no number: leave it out, by .compressed()', '')
+    """
+    if not isinstance(value, np.ma.MaskedArray) or not (count := np.ma.count_masked(value)):
+        return ""
+    values = "value" if count == 1 else "values"
+    return (
+        f"has {count} masked {values} of {value.size}; a masked value is no number: "
+        "leave it out, by .compressed()"
+    )
+
+
+def _refuse_no_numbers(
+    function: Callable[..., Any], args: tuple[Any, ...], named: dict[str, Any]
+) -> None:
+    """Refuse masked values, and truth values where a number with a unit is needed."""
+    given = inspect.signature(function).bind_partial(*args, **named).arguments
+    owner: type = type(args[0]) if args else object
+    units = units_of(function, owner)
+    problems: list[str] = []
+    for name, value in given.items():
+        for key, each in value.items() if isinstance(value, dict) else [(name, value)]:
+            some = each if type(each) in (list, tuple) and len(each) <= LOOKED_AT else [each]
+            if why := next(filter(None, map(masked_words, some)), ""):
+                problems.append(f"{key} {why}")
+            elif units.get(key) is not None and any(map(_is_truth, some)):
+                problems.append(f"{key} = {each!r} must be a number, not a truth value")
+    if problems:
+        raise InvalidValue(*problems)
+
+
+def _is_truth(value: Any) -> bool:
+    """Whether a value is true or false, or an array of these."""
+    return isinstance(value, (bool, np.bool_)) or getattr(value, "dtype", None) == np.bool_
 
 
 def _need_contact(given: Any) -> None:

@@ -289,21 +289,40 @@ def refuse_clashes(
 
 
 def need_folders(*paths: str | os.PathLike[str] | None) -> None:
-    """Refuse files whose folder does not exist before long work is done for them.
+    """Refuse files that cannot be made, before long work is done for them.
+
+    Their folder does not exist or takes no files, or a folder has their name.
 
     Raises
     ------
     InvalidValue
         As `whole` says it, a sentence a file.
     """
-    targets = [(path, Path(os.path.realpath(path))) for path in paths if path is not None]
     problems = [
-        f"cannot write {path}: {_why(FileNotFoundError(), target)}"
-        for path, target in targets
-        if not target.parent.is_dir()
+        f"cannot write {path}: {why}"
+        for path in paths
+        if path is not None and (why := _hindrance(path))
     ]
     if problems:
         raise InvalidValue(*problems)
+
+
+def _hindrance(path: str | os.PathLike[str]) -> str:
+    """Why a file cannot be made, as far as can be known before; "" where it can."""
+    target = Path(os.path.realpath(path))
+    if target.is_dir():
+        return "it is a folder; give the name of a file"
+    if not target.parent.is_dir():
+        return _why(FileNotFoundError(), target)
+    if os.path.exists(path) and not os.path.isfile(path):
+        return ""  # a device or a pipe
+    draft = _draft(target)
+    try:
+        draft.touch(exist_ok=False)
+        draft.unlink()
+    except OSError as error:
+        return _why(error, target)
+    return ""
 
 
 def write_text(path: str | os.PathLike[str], text: str, *, tidy: bool = True) -> None:
@@ -320,6 +339,8 @@ def write_text(path: str | os.PathLike[str], text: str, *, tidy: bool = True) ->
 
 def _why(error: OSError, target: Path) -> str:
     if isinstance(error, (FileNotFoundError, NotADirectoryError)):
+        if target.parent.is_dir():
+            return f"{target.parent} takes no files; give another folder"
         return f"there is no folder {target.parent}; make it first"
     return (error.strerror or str(error)).lower()
 

@@ -16,7 +16,7 @@ from typing import Any, NoReturn
 from ..errors import InvalidValue
 from .kinds import KINDS, is_usual, kind_of_parsed, one_spelling, registry
 
-__all__ = ["EXAMPLES", "quantity_to_si", "say", "to_si"]
+__all__ = ["EXAMPLES", "comma_may_part_thousands", "quantity_to_si", "say", "to_si"]
 
 EXAMPLES = {
     "m": '"300 nm"',
@@ -109,7 +109,7 @@ def to_si(value: Any, unit: str) -> float:
         return _refuse(f"{shown} has no number in front; it must be {_needed(unit)}")
     rest = text[number.end() :].strip()
     if re.match(r",\d", rest):
-        return _refuse(f"{shown} has a decimal comma; write a point: {shown.replace(',', '.')}")
+        return _refuse(_about_comma(text, shown))
     if not rest:
         return float(number.group())
     power = _POWERS.get(unit, {}).get(rest)
@@ -119,6 +119,33 @@ def to_si(value: Any, unit: str) -> float:
     if body is None:
         return _refuse(f"{shown} cannot be read; it must be {_needed(unit)}")
     return _scaled(number.group(), body, shown, unit)
+
+
+_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+(?![\d,])")
+
+
+def comma_may_part_thousands(text: str) -> bool:
+    """Whether a comma in a number may stand between thousands as well as for a decimal point.
+
+    >>> comma_may_part_thousands("1,100 N"), comma_may_part_thousands("0,100 N")
+    (True, False)
+    """
+    return _THOUSANDS.match(text.strip()) is not None
+
+
+def _about_comma(text: str, shown: str) -> str:
+    """What a comma in a number may mean: a decimal point, or, before three digits, thousands."""
+    point = shown.replace(",", ".")
+    thousands = _THOUSANDS.match(text)
+    if thousands is None:
+        return f"{shown} has a decimal comma; write a point: {point}"
+    whole = shown.replace(",", "")
+    if thousands[0].count(",") > 1 or text[thousands.end() :].startswith("."):
+        return f"{shown} has commas between thousands; leave them out: {whole}"
+    return (
+        f"{shown} has a comma, which may stand for a decimal point or between thousands; write "
+        f"{point} or {whole}"
+    )
 
 
 def quantity_to_si(value: Any, about: Mapping[str, Any]) -> float:

@@ -18,7 +18,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from ..errors import InvalidValue, NotCompiled, tell_of_range
-from .carried import carries_unit, in_si, takes_units
+from .carried import carries_unit, in_si, masked_words, takes_units
 
 if TYPE_CHECKING:
     import numpy as np
@@ -239,6 +239,9 @@ class Value:
         for name, about, words in _declared(type(self)):  # type: ignore[arg-type]
             value = getattr(self, name)
             why = None
+            if type(value) is not float and (told := masked_words(value)):
+                problems.append(f"{type(self).__name__}.{name} {told}")
+                continue
             if type(value) is not float and carries_unit(value):
                 value, told = _without_unit(type(self), name, value)
                 if told:
@@ -416,8 +419,10 @@ def sequences(value: Value, *names: str) -> None:
         given = getattr(value, name)
         if given is None and type(value).__dataclass_fields__[name].default is None:  # type: ignore[attr-defined]
             continue
-        told = ""
-        if carries_unit(given):
+        told = masked_words(given)
+        if told:
+            told = f"{type(value).__name__}.{name} {told}"
+        elif carries_unit(given):
             given, told = _without_unit(type(value), name, given)
         if told:
             problems.append(told)

@@ -53,7 +53,7 @@ NODES = 24
 
 
 def _diameter(meaning: str, **options: Any) -> Any:
-    return quantity("D", "m", meaning, gt=0, usual=10.0, **options)
+    return quantity("D", "m", meaning, gt=0, usual=1.0, **options)
 
 
 class Body(Value, ABC):
@@ -151,7 +151,7 @@ class BallInGroove(Body):
         if self.pitch_diameter is not None and self.pitch_diameter <= self.diameter:
             return [
                 f"BallInGroove.pitch_diameter = {self.pitch_diameter:g} must be above the "
-                f"diameter of a ball, {self.diameter:g} [m]"
+                f"diameter of a ball, {self.diameter:g} [m]; check the units of both"
             ]
         return []
 
@@ -190,7 +190,7 @@ class Roller(Body):
     """
 
     diameter: float = _diameter("diameter of the roller")
-    length: float = quantity("l", "m", "length of the contact", gt=0, usual=10.0)
+    length: float = quantity("l", "m", "length of the contact", gt=0, usual=1.0)
     track_diameter: float | None = quantity(
         "d_r", "m", "diameter of the track", default=None, gt=0, usual=10.0
     )
@@ -202,7 +202,7 @@ class Roller(Body):
         if self.ring == "outer" and track is not None and track <= self.diameter:
             return [
                 f"Roller.track_diameter = {track:g} must be above the diameter of the roller, "
-                f'{self.diameter:g} [m], with ring = "outer"'
+                f'{self.diameter:g} [m], with ring = "outer"; check the units of both'
             ]
         return []
 
@@ -234,7 +234,7 @@ class Cylinders(Body):
 
     first_diameter: float = _diameter("diameter of the first cylinder")
     second_diameter: float = _diameter("diameter of the second cylinder")
-    length: float = quantity("l", "m", "length of the contact", gt=0, usual=10.0)
+    length: float = quantity("l", "m", "length of the contact", gt=0, usual=1.0)
     bodies: float = _bodies()
 
     @property

@@ -396,11 +396,15 @@ def _about_objective(each: Objective) -> dict[str, str]:
     return {"units": unit, "long_name": words, "aim": each.aim}
 
 
+APART = ("coverage", "buried_share", "refused")
+"""What `Task.metrics` holds beside the metrics that were asked for."""
+
+
 def _states(task: Task, best: Point) -> dict[str, Column]:
     """Metrics against the load, nominal."""
     found = task.metrics([best.numbers], best.materials, samples=False)
     columns: dict[str, Column] = {}
-    first = (name for name in found if name not in ("coverage", "buried_share"))
+    first = (name for name in found if name not in APART)
     for name in (*first, "buried_share"):
         told = METRICS.get(name) or about(name)
         about_it = {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}

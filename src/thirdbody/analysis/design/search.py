@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,6 +18,7 @@ from ...errors import InvalidValue
 from ...numerics.sampling import Span, sobol
 from ...quantities.progress import Cost, solving
 from ...quantities.say import percent
+from ..attempts import columns_tried
 from ..inputs import Input, inputs
 from ..uncertainty.inputs import Drawn
 
@@ -190,10 +191,11 @@ class Task:
     # ------------------------------------------------------------------ metrics
     def metrics(
         self, numbers: Sequence[Numbers], materials: Materials, *, samples: bool = True
-    ) -> dict[str, Array]:
+    ) -> dict[str, NDArray[Any]]:
         """Every metric (P, 1 + samples, loads), and coverage (P, 1 + samples).
 
-        NaN where there is no such contact, with an infinite coverage, or no state.
+        NaN where there is no such contact, with an infinite coverage, or no state; ``refused`` (P,)
+        says why no model takes the contact of a point.
         """
         contact = self.contact.replace(**materials) if materials else self.contact
         vary = self._moving(numbers, contact, samples)
@@ -215,17 +217,40 @@ class Task:
         possible = np.isfinite(covered)
         asked = dict.fromkeys((*self.columns, "A_t", "h", "d", "particle_load_share"))
         out = {name: np.full((P, S, J), math.nan) for name in asked}
+        refused = np.full(P, "", dtype=object)
         if possible.any():
             count = np.count_nonzero(possible)
             flat = {name: np.repeat(values[possible], J) for name, values in vary.items()}
-            given: dict[str, Any] = {self.load: np.tile(self.loads, count)}
-            states = state_columns(contact, vary=flat or None, **given)
+            states, why = self._states(contact, flat, asked)
+            owner = np.repeat(np.argwhere(possible)[:, 0], J)
+            for k in sorted(why, reverse=True):
+                refused[owner[k]] = why[k]
             with np.errstate(divide="ignore", invalid="ignore"):
                 states["plastic_share"] = states["A_p"] / states["A_t"]
             for name, values in out.items():
                 values[possible] = np.asarray(states[name], float).reshape(count, J)
         nominal = {name: values[:, 0] for name, values in vary.items()}
-        return {**out, "coverage": covered, "buried_share": self._buried(bare, nominal, out)}
+        buried_share = self._buried(bare, nominal, out)
+        return {**out, "coverage": covered, "buried_share": buried_share, "refused": refused}
+
+    def _states(
+        self, contact: Contact, vary: dict[str, Array], names: Iterable[str]
+    ) -> tuple[dict[str, NDArray[Any]], dict[int, str]]:
+        """Columns of contacts at every load, and why those that have none are refused."""
+        count = len(next(iter(vary.values()))) if vary else len(self.loads)
+        loads = np.tile(self.loads, count // len(self.loads))
+
+        def solve(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
+            some = {name: values[which] for name, values in vary.items()}
+            given: dict[str, Any] = {self.load: loads[which]}
+            return state_columns(contact, vary=some or None, **given)
+
+        try:
+            return columns_tried(solve, count)
+        except InvalidValue as error:  # all of these points
+            why = "; ".join(error.problems)
+            none = {name: np.full(count, math.nan) for name in (*names, "A_p")}
+            return none, dict.fromkeys(range(count), why)
 
     def _buried(self, contact: Contact, vary: dict[str, Array], found: dict[str, Array]) -> Array:
         """Share of the load on particles deeper than their radius, nominal: (P, loads)."""
@@ -305,6 +330,8 @@ class Task:
                 reasons = ["a load has no equilibrium"]
                 if jammed[i]:
                     reasons = [f"coverage < {MOST_COVERED} is broken: the particles jam"]
+                elif metric["refused"][i]:
+                    reasons = [f"the contact is refused: {metric['refused'][i]}"]
             elif any(math.isnan(value) for value in cost.values()):
                 own["value"] = math.inf
                 reasons = ["an objective has no value there"]
