@@ -310,3 +310,63 @@ def test_no_mark_is_wider_than_the_surface_bears(debris):
     assert "held to 3.17 times the particle's size" in told
     (why,) = [text for text in state.warnings if "depth and volume are not known" in text]
     assert ("debris = 'ductile' says" in why) == (debris == "ductile")
+
+
+# ---------------------------------------------------------------- exact quantiles of one size
+@pytest.mark.parametrize(("x", "h"), [(417e-9, 653e-9), (250e-9, 400e-9), (800e-9, 500e-9)])
+def test_percentile_and_deepest_of_one_size_are_exact(x, h):
+    """Particles of one size: those deeper than δ lie where the seat is high enough, Q(z)."""
+    from scipy.stats import norm
+
+    from thirdbody.effects.single.ploughing import residual_depth
+
+    dust = tb.Particles(material=SILICA, areal_density=1e11, diameter=tb.Monodisperse(mean=x))
+    case = contact(second=STEEL).replace(particles=dust)
+    first = co.squeezed_particle(
+        Series().law, *co.contact_sides(case.surfaces, SILICA), 0.5
+    ).yields[0] * x  # fmt: skip
+
+    def depth(delta):
+        """Left by a particle squeezed by δ, half of it into either of two equal surfaces."""
+        return float(residual_depth(np.array(delta / 2), depth_over_yield=delta / 2 / first))
+
+    def exact(count):
+        delta = x - h + ROUGH.sigma * float(norm.isf(count / 1e11))
+        return depth(delta)
+
+    n = 1e11 * norm.sf((h - x + 2 * first) / ROUGH.sigma)
+    area = 40 / n
+    shallow = exact(0.3 * n)
+    for shallowest, every in ((0.0, n), (shallow, 0.3 * n)):
+        dents = Dents(A_n=area, shallowest=shallowest)
+        found = tb.solve(case.replace(outputs=dents), d=h - ROUGH.y_s).outputs
+        assert found["n_dents_1"] == pytest.approx(every, rel=1e-9 if shallowest == 0 else 2e-3)
+        assert found["dent_depth_p95_1"] == pytest.approx(exact(0.05 * every), rel=2e-3)
+        rare = math.log(2 / (1 + math.exp(-every * area))) / area
+        assert found["dent_depth_max_1"] == pytest.approx(exact(rare), rel=2e-3)
+
+
+@pytest.mark.parametrize("seat", ["asperity", "plane"])
+def test_percentile_of_sizes_is_that_of_their_integral(seat):
+    """Lognormal sizes: half a million places by Sobol numbers, the rarest 2 % among them."""
+    from scipy.stats import norm, qmc
+
+    from thirdbody.effects.quantiles import exceeded
+
+    sizes = tb.LogNormal(median=300e-9, gsd=1.4)
+    dust = tb.Particles(material=SILICA, areal_density=1e10, diameter=sizes)
+    law = Series() if seat == "asperity" else Series(seat="plane")
+    case = contact(law=law).replace(particles=dust, outputs=())
+    state = tb.solve(case, d=300e-9)
+    from thirdbody.contact.interface import interface
+
+    (spots,) = interface(case).populations[0].spots(np.atleast_1d(state.d))
+    rank, seats = qmc.Sobol(2, seed=1).random(2**18).T
+    gap = state.h - ROUGH.sigma * norm.ppf(seats) if seat == "asperity" else state.d
+    squeeze = np.sort(np.maximum(sizes.ppf(rank) - gap, 0.0))[::-1]
+    values = spots.depths[0] + spots.depths[1]
+    for part in (0.05, 1e-2, 1e-3):
+        (found,) = exceeded([(spots, values, np.ones(()))], [np.array([part * 1e10])])
+        assert found[0] == pytest.approx(
+            squeeze[int(part * 2**18)], rel=1e-2 if part < 1e-2 else 3e-3
+        )

@@ -4,7 +4,9 @@ The doors are found by walking the public names and the classes of values, not b
 """
 
 import dataclasses
+import importlib
 import inspect
+import pkgutil
 import re
 
 import numpy as np
@@ -15,7 +17,14 @@ from random_contacts import draw
 from test_signatures import PUBLIC, _is_number
 
 import thirdbody as tb
-from thirdbody.quantities.carried import USUAL, carries_unit, in_si, takes_units, units_of
+from thirdbody.quantities.carried import (
+    USUAL,
+    carries_unit,
+    documented,
+    in_si,
+    takes_units,
+    units_of,
+)
 from thirdbody.quantities.value import Value
 from thirdbody.study.whole import check
 
@@ -409,3 +418,77 @@ def test_what_has_no_unit_is_left_as_it_is(plain):
 def test_the_library_carries_no_units_itself():
     for value in values_in(CONTACT):
         assert not carries_unit(value)
+
+
+# ---------------------------------------------------------------------------- every module
+PHYSICS = ("populations", "systems", "effects", "analysis", "equilibrium", "explicit")
+INNER = {
+    "thirdbody.explicit.press": "pixels of one solver, called by the solver alone",
+    "thirdbody.explicit.bodies": "pixels of one solver, called by the solver alone",
+    "thirdbody.explicit.interface": "called by the solver of height maps alone",
+    "thirdbody.explicit.seats": "called by the solver of height maps alone",
+    "thirdbody.equilibrium.crowding": "sentences about solved states",
+    "thirdbody.equilibrium.compiled.squeeze_rules": "rules of the compiled engine",
+}
+"""Modules whose functions no user calls, and why."""
+
+
+def measured_functions():
+    """Functions in ``__all__`` of any module of physics that measure a number in a unit."""
+    for package in PHYSICS:
+        root = importlib.import_module(f"thirdbody.{package}")
+        for found in pkgutil.walk_packages(root.__path__, f"{root.__name__}."):
+            if found.name in INNER:
+                continue
+            try:
+                module = importlib.import_module(found.name)
+            except ImportError:  # an extra that is not installed
+                continue
+            for name in getattr(module, "__all__", ()):
+                function = getattr(module, name, None)
+                if inspect.isfunction(function) and function.__module__ == found.name:
+                    units = {
+                        each: unit
+                        for each, unit in documented(function.__doc__ or "")
+                        if unit not in (None, "1")
+                        and each in (given := inspect.signature(function).parameters)
+                        and is_door(given[each])
+                    }
+                    if units:
+                        yield f"{found.name}.{name}", function
+
+
+def test_every_function_that_measures_a_number_is_a_door():
+    """Also those that no name of `thirdbody` itself leads to."""
+    found = dict(measured_functions())
+    assert "thirdbody.populations.ellipticity.combined_tips" in found
+    assert "thirdbody.systems.bodies.press" in found
+    assert [name for name, each in found.items() if not hasattr(each, "takes_units")] == []
+
+
+def test_tips_speeds_and_forces_are_converted():
+    from thirdbody.populations.ellipticity import combined_tips
+    from thirdbody.systems.bodies import BallOnFlat, press
+
+    got = combined_tips(3.0, 0.3 * u.um, 8.0, 5 * u.nm, 30 * u.deg)
+    assert np.array(got) == pytest.approx(combined_tips(3.0, 3e-7, 8.0, 5e-9, np.pi / 6), rel=1e-14)
+    ball = BallOnFlat(diameter=10e-3)
+    assert press(DRY, ball, 0.02 * u.kN, integrate=False) == press(DRY, ball, 20.0, integrate=False)
+
+
+def test_units_with_brackets_are_understood():
+    """W/(m K) and W/(m² K), as docstrings write them."""
+    from thirdbody.effects.single.heat import body_conductance
+
+    got = body_conductance(1e-6, k=50e3 * u.mW / u.m / u.K, D=1.3e-5)
+    assert got == body_conductance(1e-6, k=50.0, D=1.3e-5)
+    with pytest.raises(tb.InvalidValue, match=r"a thermal conductivity \[W/\(m K\)\] is needed"):
+        body_conductance(1e-6, k=5 * u.m, D=1.3e-5)
+
+
+def test_a_difference_of_temperatures_is_no_temperature():
+    hot = tb.outputs.FlashTemperature(v=1.0, A_n=1e-6, T_1=u.Quantity(40, "degC"))
+    assert hot.T_1 == 313.15
+    for unit in ("delta_degC", "delta_degF"):
+        with pytest.raises(tb.InvalidValue, match=r"FlashTemperature.T_1 = 5 .* is a difference"):
+            tb.outputs.FlashTemperature(v=1.0, A_n=1e-6, T_1=u.Quantity(5, unit))

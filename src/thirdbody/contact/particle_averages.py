@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,7 @@ from scipy import special
 
 from ..errors import InvalidValue
 from ..laws.base import COLUMNS, KINDS, OneParticle
-from ..laws.spots import ParticleSpots
+from ..laws.spots import Layout, ParticleSpots
 from ..numerics.chebyshev import PiecewiseChebyshev
 from ..numerics.products import in_pieces
 from ..numerics.quadrature import gauss_legendre, panel_rule, subdivide
@@ -252,7 +253,17 @@ class SizeAverage:
 
     def spots(self, gap: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         """Every particle squeezed in gaps (N,) under which they rest on a plane."""
-        return self.spots_in(gap[:, None], self.top - gap[:, None], splits, None, 1.0)
+        found = self.spots_in(gap[:, None], self.top - gap[:, None], splits, None, 1.0)
+        return self.laid_out(found, gap)
+
+    def laid_out(
+        self, spots: ParticleSpots, gaps: Array, means: Array | None = None, width: float = 0.0
+    ) -> ParticleSpots:
+        """Spots that know the sizes and gaps they stand for; of pieces nothing is known."""
+        if spots.parents is not None:
+            return spots
+        layout = Layout(sizes=self.sizes, x=spots.x, gaps=gaps, means=means, width=width)
+        return replace(spots, layout=layout)
 
     def spots_in(
         self,
@@ -427,7 +438,8 @@ class SeatAverage:
         gaps, rise, weights = gaps[near], rise[near], weights[near]
         z = (mean_gap[:, None] - gaps) / self.width
         share = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
-        return average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])
+        found = average.spots_in(gaps[:, None], rise[:, None], splits, share, weights[:, None])
+        return average.laid_out(found, gaps, mean_gap, self.width)
 
     def derivatives(self, gap: Array, columns: tuple[int, ...]) -> Array:
         """Some columns with two derivatives: (N, len(columns), 3)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from ..contact.output import AbstractOutput, Column
 from ..laws.particle.breakage import Breakage, crush_embed_size
 from ..quantities.value import quantity
-from .dents import _exceeded
+from .quantiles import exceeded
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -102,6 +102,7 @@ class Crushing(AbstractOutput):
         sizes, fragments = [], []
         for spots in state.particles:
             bears = spots.load > 0
+            counted = replace(spots, layout=None)  # sizes do not change as a gap closes
             was, survival = _before(spots)
             broken = bears * was * (1 - survival)
             number = np.where(spots.number > 0, spots.number, 1.0)
@@ -120,10 +121,10 @@ class Crushing(AbstractOutput):
             ):
                 each = np.sum(q, axis=-1)
                 sums[name] = sums[name] + (each if spots.share is None else spots.share @ each)
-            sizes.append((spots, bears * spots.x, bears.astype(float)))
-            fragments.append((spots, (piece > 0) * spots.x, piece * mass))
-        (median,) = _exceeded(fragments, [0.5 * sums["pieces"]])
-        (largest,) = _exceeded(sizes, [nothing + math.log(2) / self.A_n])
+            sizes.append((counted, bears * spots.x, bears.astype(float)))
+            fragments.append((counted, (piece > 0) * spots.x, piece * mass))
+        (median,) = exceeded(fragments, [0.5 * sums["pieces"]])
+        (largest,) = exceeded(sizes, [nothing + math.log(2) / self.A_n])
         with np.errstate(invalid="ignore", divide="ignore"):
             return {
                 "broken_share": sums["broken"] / sums["caught"],

@@ -457,7 +457,7 @@ def _ensemble(
                 f"F* = {outside}: {words} carry that at none of the separations pressed, so that "
                 "nothing is known there; more or larger surfaces"
             )
-    told += at["cv" if gaussian else "raw"].doubts(loads)
+    told += at["cv" if gaussian else "raw"].doubts(loads, columns="_cv" if gaussian else "")
     told += _few(records, pool, grid, float(table.h_raw.values[int(np.argmin(loads))]))
     columns: dict[str, list[Any]] = {"surface": [i for i in range(len(records)) for _ in grid]}
     for name in records[0]["columns"]:

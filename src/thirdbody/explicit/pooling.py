@@ -65,8 +65,12 @@ class AtLoads:
         """Loads that the surfaces carry at none of the separations pressed."""
         return np.isnan(self.values["h"])
 
-    def doubts(self, loads: Array) -> list[str]:
-        """Where shares are not known, since too little was drawn: what is known, and what to do."""
+    def doubts(self, loads: Array, *, columns: str = "") -> list[str]:
+        """Where shares are not known, since too little was drawn: what is known, and what to do.
+
+        ``columns`` says whose separations these are, where other columns have others.
+        """
+        there = f" at the separations of the {columns} columns" if columns else ""
         error, least, most = (
             each["particle_load_share"] for each in (self.errors, self.least, self.most)
         )
@@ -85,7 +89,8 @@ class AtLoads:
                     for i in np.flatnonzero(which)
                 )
                 out.append(
-                    f"{words}: the particles' load share has no error there, and all that is known "
+                    f"{words}{there}: the particles' load share has no error there, and all that "
+                    f"is known "
                     f"of it is {sure}; more or larger surfaces draw some"
                 )
         return out

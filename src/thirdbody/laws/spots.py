@@ -11,13 +11,14 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ..populations.distributions import Distribution
     from ..populations.materials import Material
     from ..populations.particles import Particles
     from ..populations.shape import Angular
 
     Array = NDArray[np.float64]
 
-__all__ = ["ParticleSpots", "Spots"]
+__all__ = ["Layout", "ParticleSpots", "Spots"]
 
 EVEN = 1e-9
 """Contacts of a particle that differ by less, relatively, are alike."""
@@ -67,6 +68,60 @@ class Spots:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class Layout:
+    """Where the classes of whole particles stand: their gaps, and the sizes that they are of.
+
+    Parameters
+    ----------
+    sizes : Distribution
+        Of the particles, in units of ``scale``.
+    x : array (M, n)
+        Diameters of the particles [m]; increasing along every row.
+    gaps : array (M,)
+        Gap of every class [m].
+    means, width : array (N,) and float, or None
+        Mean gap of every state and standard deviation of the seats [m]; None for plane seats,
+        where the class of a state is in its own gap.
+    density : array (N,) or float
+        Particles of every size per nominal area [1/m²].
+    scale : float
+        [m].
+    fragment : float or None
+        Size to which larger ones are broken [m].
+    """
+
+    sizes: Distribution
+    x: Array
+    gaps: Array
+    means: Array | None = None
+    width: float = 0.0
+    density: Array | float = 1.0
+    scale: float = 1.0
+    fragment: float | None = None
+
+    def larger(self, x: Array) -> Array:
+        """Part of the particles that is larger than x [m], by number; of broken ones, pieces."""
+        top, size = self.sizes.support[1], x / self.scale
+        if self.fragment is None:
+            return self.sizes.partial_moment(0, size, top)
+        cut = self.fragment / self.scale
+        pieces = self.sizes.partial_moment(3, np.maximum(size, cut), top) / cut**3
+        return self.sizes.partial_moment(0, size, cut) + pieces
+
+    def of_size(self, scale: float, density: float) -> Layout:
+        """So many particles per nominal area, every length ``scale`` times as large."""
+        return replace(
+            self,
+            x=scale * self.x,
+            gaps=scale * self.gaps,
+            means=None if self.means is None else scale * self.means,
+            width=scale * self.width,
+            density=density * self.density,
+            scale=scale * self.scale,
+        )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class ParticleSpots(Spots):
     """Particles of one population; each has a contact with surface 1 and one with surface 2.
 
@@ -94,6 +149,8 @@ class ParticleSpots(Spots):
         Of particles that break: how many there were of the size before any broke [1/m²].
     survival : array (M, n) or None
         Their P_s, and that of pieces of the size [1].
+    layout : Layout or None
+        Of whole particles: the sizes and gaps of the classes.
     """
 
     x: Array
@@ -110,6 +167,7 @@ class ParticleSpots(Spots):
     population: Particles | None = None
     parents: Array | None = None
     survival: Array | None = None
+    layout: Layout | None = None
 
     @property
     def half(self) -> Array:
@@ -139,6 +197,8 @@ class ParticleSpots(Spots):
     def thinned(self, factor: Array) -> Self:
         """A part of the spots of each state: factor (N,)."""
         thin = Spots.thinned(self, factor)
+        if self.layout is not None:
+            thin = replace(thin, layout=replace(self.layout, density=self.layout.density * factor))
         if self.share is None and self.parents is not None:
             return replace(thin, parents=self.parents * factor[:, None])
         return thin
@@ -158,4 +218,5 @@ class ParticleSpots(Spots):
             depths=(scale * one, scale * two),
             sinks=(scale * first_sink, scale * second_sink),
             areas=(scale**2 * first, scale**2 * second),
+            layout=None if self.layout is None else self.layout.of_size(scale, density),
         )

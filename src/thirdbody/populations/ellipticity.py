@@ -32,6 +32,7 @@ import numpy as np
 
 from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule, subdivide
+from ..quantities.carried import takes_units
 from ..quantities.say import percent
 from ..quantities.value import Value, problem_with, quantity, sequences, several
 from .distributions import Distribution
@@ -395,6 +396,7 @@ class Ellipticity(Value):
         )
 
 
+@takes_units
 def combined_tips(
     first_ratio: ArrayLike,
     R_first: ArrayLike,

@@ -114,9 +114,13 @@ def spelled(unit: str) -> str | None:
 
     >>> spelled("1/m²"), spelled("Pa m^0.5"), spelled("1"), spelled("N or N/m")
     ('1/m**2', 'Pa*m**0.5', '', None)
+    >>> spelled("W/(m² K)")
+    'W/m**2/K'
     """
     if unit == "1":
         return ""
+    # W/(m K) is W/m/K
+    unit = re.sub(r"/\(([^()]+)\)", lambda all_of: "/" + "/".join(all_of[1].split()), unit)
     body = one_spelling(unit)
     if body is None:
         return None
@@ -146,7 +150,10 @@ def needed(unit: str) -> str:
     >>> needed("m"), needed("1")
     ('a length [m] is needed', 'a pure number is needed')
     """
-    kind = KINDS.get("" if unit == "1" else unit.replace("^", "**"), "a quantity")
+    plain = unit.replace("^", "**")
+    kind = KINDS.get("" if unit == "1" else plain) or KINDS.get(
+        spelled(unit) or plain, "a quantity"
+    )
     return f"{kind} is needed" if unit == "1" else f"{kind} [{unit}] is needed"
 
 

@@ -393,6 +393,11 @@ def _without_unit(kind: type[Value], name: str, value: Any) -> tuple[Any, str]:
     try:
         if about is None:
             raise InvalidValue(f"{value} carries a unit, which is not understood here")
+        if about["unit"] == "K" and "delta_" in str(getattr(value, "units", "")):
+            raise InvalidValue(
+                f"{value} is a difference of temperatures, but a temperature [K] is needed; give "
+                "the temperature itself, in K or degC"
+            )
         return in_si(value, about["unit"]), ""
     except InvalidValue as error:
         return value, f"{kind.__name__}.{name} = {error}"

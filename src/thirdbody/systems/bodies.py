@@ -27,6 +27,7 @@ from ..equilibrium.words import meets
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..laws.asperity import ZMC
 from ..numerics.quadrature import gauss_legendre
+from ..quantities.carried import takes_units
 from ..quantities.say import number, percent, value_of
 from ..quantities.value import Value, choice, quantity
 from .film_formulas import Hertz, Line, Point
@@ -401,6 +402,7 @@ class Pressed:
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
 
 
+@takes_units
 def press(contact: Contact, body: Body, force: float, *, integrate: bool = True) -> Pressed:
     """A body under a force: pressures, and the rough contact integrated over it.
 

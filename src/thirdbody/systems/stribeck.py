@@ -150,6 +150,7 @@ SLOWEST, FASTEST = 1e-12, 1e12
 """Speeds among which those of `regime_speeds` are sought [m/s]."""
 
 
+@takes_units
 def regime_speeds(
     contact: Contact,
     *,
