@@ -201,11 +201,18 @@ def _best(stiff: Array, gain: Array, chi: Array, elastic: NDArray[np.bool_]) -> 
 
 
 def _solved(
-    basis: _Basis, h: Array, chi: Array, edges: Edges, kappa: float, rounds: int
+    basis: _Basis,
+    h: Array,
+    chi: Array,
+    edges: Edges,
+    kappa: float,
+    rounds: int,
+    fixed: NDArray[np.bool_] | None = None,
 ) -> tuple[Edges, Array]:
     """Newton's steps on edges and τ, no longer than is safe; and the last of them.
 
-    The slopes are taken afresh where steps do not become much smaller.
+    The slopes are taken afresh where steps do not become much smaller. The width of f stays where
+    it is ``fixed``.
     """
     size, before = np.full(len(h), np.inf), np.full(len(h), np.inf)
     slope = np.zeros((len(h), 3, 3))
@@ -217,7 +224,7 @@ def _solved(
         if not np.all(np.isfinite(slope)):
             break
         held = np.zeros((len(h), 3), bool)
-        held[:, 1] = edges.elastic
+        held[:, 1] = edges.elastic if fixed is None else edges.elastic | fixed
         held[:, 2] = ((edges.tau <= 0) & (turns[:, 2] < 0)) | ((edges.tau >= 1) & (turns[:, 2] > 0))
         free = np.where(held[:, :, None] | held[:, None, :], 0.0, slope)
         free[:, range(3), range(3)] += held
@@ -263,6 +270,10 @@ def pressed(
         edges = Edges(*(np.where(slight, a, b) for a, b in zip(begun, edges, strict=True)))
         edges = edges._replace(elastic=edges.elastic | slight)
         edges, miss = _solved(basis, h, each, edges, ENERGY, rounds)
+    fixed = ~(miss < GOOD) & ~edges.elastic
+    if fixed.any():  # it yields so little that the second edge swings; Φ is stationary in it
+        edges = Edges(*(np.where(fixed, a, b) for a, b in zip(begun, edges, strict=True)))
+        edges, miss = _solved(basis, h, each, edges, ENERGY, rounds, fixed)
     found = basis.state(h, each, edges, ENERGY)
     fine, fine_miss = _solved(basis, h, each, edges, EDGE, rounds)
     miss = np.maximum(miss, fine_miss)
