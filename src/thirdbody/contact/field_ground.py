@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from scipy.interpolate import BSpline
 
+    from ..laws.field.spectrum import Spectrum
     from ..laws.spots import ParticleSpots
 
     Array = NDArray[np.float64]
@@ -82,7 +83,8 @@ def heights(u: Array, zeta: Array) -> tuple[Array, Array]:
 class Seat:
     """Particles of one shape of size distribution on ground that gives way."""
 
-    def __init__(self, part: Part, sigma: float, mean: float, width: float):
+    def __init__(self, part: Part, sigma: float, mean: float, width: float, spectrum: Spectrum):
+        self.height = spectrum.height
         assert isinstance(part.average, SeatAverage)
         self.part, self.mean, self.width = part, mean, width
         self.average = part.average
@@ -98,13 +100,16 @@ class Seat:
         low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
         top = self.unit * self.average.average.top
         grid = np.linspace(low, high, 69)
-        below = h[:, None] - grid + heights(u, np.broadcast_to(grid, (len(h), 69)))[0] < top
+        below = (
+            h[:, None] - self.height(grid) + heights(u, np.broadcast_to(grid, (len(h), 69)))[0]
+            < top
+        )
         first = np.argmax(below, axis=1)
         first = np.where(below.any(axis=1), first, 68)
         left, right = grid[np.maximum(first - 1, 0)], grid[first]
         for _ in range(45):
             middle = 0.5 * (left + right)
-            under = h - middle + heights(u, middle[:, None])[0][:, 0] < top
+            under = h - self.height(middle) + heights(u, middle[:, None])[0][:, 0] < top
             left, right = np.where(under, left, middle), np.where(under, middle, right)
         root, weight = panel_rule(np.sqrt(PANELS), NODES)
         span = np.maximum(high - right, 0.0)[:, None]
@@ -112,7 +117,7 @@ class Seat:
         z = (zeta - self.mean) / self.width
         normal = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
         weight = 2 * span * root * weight * normal
-        return zeta, h[:, None] - zeta + heights(u, zeta)[0], weight
+        return zeta, h[:, None] - self.height(zeta) + heights(u, zeta)[0], weight
 
     def sums(self, h: Array, u: Array) -> tuple[Array, Array]:
         """Columns per factor (N, 7), and the loads' moments (N, 13), at h (N,)."""
@@ -164,13 +169,17 @@ class Ground:
         self.field, self.seats, self.shadow = field, list(seats), shadow
         self.coverage = 0.0
         spectrum = field.surface.spectrum
+        self.twice = 2 * math.sqrt(2) * spectrum.steeper
         x, transform = chebyshev_transform(TERMS)
         tau = 0.5 * (1 + x)
         self.k_pp, _ = spectrum.integrals_from(apart, tau, MOMENTS)
         self._k_zs = transform @ spectrum.integrals_from(0.0, tau, MOMENTS)[1]
         self._k_as = transform @ spectrum.integrals_from(0.5 * apart, tau, MOMENTS)[1]
         lowest = field.surface.lowest
+        highest = max(seat.mean + DENSITY * seat.width for seat in seats)
+        more = float(spectrum.height(np.array([highest]))[0]) - highest
         reach = max((seat.average.high * seat.unit + field_offset(seat, field)) for seat in seats)
+        reach += max(more, 0.0)
         width = min(1.0, *(seat.width for seat in seats))
         count = max(8, math.ceil((reach - lowest) / (STEP * width)))
         self.h = np.linspace(lowest, max(reach, lowest + 1.0), count + 1)
@@ -193,7 +202,7 @@ class Ground:
         """β_n and the shadow again, from those of the round before: (M, 14); and u_n."""
         beta, shade = state[:, :-1], np.clip(state[:, -1:], 0.0, 1.0)
         pressed, _ = self._of_asperities(h + self._lift(h, beta))
-        u = 2 * math.sqrt(2) * ((1 - shade) * pressed + self.k_pp * beta)
+        u = self.twice * ((1 - shade) * pressed + self.k_pp * beta)
         out = np.zeros_like(state)
         for seat in self.seats:
             columns, moments = seat.sums(h, u)
@@ -209,7 +218,7 @@ class Ground:
         w = np.zeros(len(h))
         for _ in range(12):
             _, weights = self._of_asperities(h + w)
-            before, w = w, 2 * math.sqrt(2) * np.sum(weights * beta, axis=1)
+            before, w = w, self.twice * np.sum(weights * beta, axis=1)
             w = np.maximum(w, self.h[0] - h)
             if np.max(np.abs(w - before), initial=0.0) < 1e-12:
                 break
@@ -443,12 +452,14 @@ def grounded(
     seats, owners = [], []
     for i, (each, law) in enumerate(zip(populations, laws, strict=True)):
         for part in each.parts:
-            seats.append(Seat(part, field.sigma, law.zeta_mean, law.zeta_std))
+            spectrum = field.surface.spectrum
+            seats.append(Seat(part, field.sigma, law.zeta_mean, law.zeta_std, spectrum))
             owners.append(i)
     density = np.array([sum(part.density for part in each.parts) for each in populations])
     mean_diameter = float(density @ np.array(diameters) / density.sum())
     # √(m0/m2) = √2 σ/g
-    apart = mean_diameter * field.gradient / (math.sqrt(2) * field.sigma)
+    waves = math.sqrt(2) * field.surface.spectrum.steeper * field.sigma / field.gradient
+    apart = mean_diameter / waves
     ground = Ground(field, seats, apart, populations[0].shadow)
     out = []
     for i, each in enumerate(populations):

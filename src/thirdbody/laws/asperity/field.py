@@ -55,12 +55,13 @@ class Field(AbstractAsperityLaw):
     -----
     Held against 54 clean surfaces pressed point by point: separation within 0.013 σ (elastic,
     α = 15: 0.027), area within 3 % (χ > 0.25: 5 %; α = 15 elastic 4 %). Spectra that differ from
-    the library's at equal α move h by 0.02 to 0.045 σ.
+    the library's at equal α move h by up to 0.04 σ and the share by 3 % (α = 15: 0.09 σ, 10 %).
 
     It is a law of a surface, not of one tip: where one tip is asked for, it answers as `ZMC`, and
     outputs that need single spots take those of `ZMC` in number and area scaled to F_ss and A_ss.
-    States below h = 0.2 σ are refused for χ > 0.4, and below −1 σ always; so are heights that are
-    not Gaussian, elliptic tips, α below 2.5 or above 30, and particles that do not rest on the
+    Heights of a map that are not Gaussian come with its `OwnSpectrum`: within 0.05 σ of maps of
+    skewness −0.8 to 0.7 that were pressed. States below h = 0.2 σ are refused for χ > 0.4, and
+    below −1 σ always; so are distributions of summits that are not Gaussian, elliptic tips, α below 2.5 or above 30, and particles that do not rest on the
     rough surface.
 
     References

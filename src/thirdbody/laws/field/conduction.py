@@ -66,7 +66,8 @@ def patch_stiffness(series: FilteredSeries, low: Array, tau: Array) -> Array:
     stiff = (a[:, :, 1:] * k[:, None, 1:]) @ a[:, :, 1:].transpose(0, 2, 1)
     stiff += 2 * k[:, -1, None, None] * tail
     gain = a[:, :, 0]
-    force = np.linalg.solve(2 * math.sqrt(2) * stiff, gain[..., None])[..., 0]
+    stiff *= 2 * math.sqrt(2) * series.spectrum.steeper
+    force = np.linalg.solve(stiff, gain[..., None])[..., 0]
     return np.einsum("ij,ij->i", force, gain)
 
 

@@ -7,19 +7,19 @@ holds for the library's spectrum is solved for them: some tenths of a second for
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.special import ndtr, ndtri
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, NoEquilibrium
 from ...populations.measured.spectra import filled
 from ...quantities.say import percent
 from ...quantities.value import Value, choice, quantity
-from .programme import TERMS, Edges, pressed
-from .spectrum import FARTHEST, HURST, Spectrum, rolled_off
+from .programme import TERMS, Edges, Pressed, pressed
+from .spectrum import FARTHEST, HURST, STRAIGHT, Spectrum, rolled_off
 from .table import (
     EDGE,
     HARD,
@@ -46,8 +46,14 @@ LOW = np.array([-1.0, -0.7, -0.4, -0.1])
 HIGH = np.array([0.2, 0.4, 0.65, 0.95, 1.3, 1.65, 2.0, 2.4, 2.8, 3.3, 3.8, 4.4, 5.0])
 MISSING = 0.01
 """Part of the points of a map that may be missing."""
-SKEWED, PEAKED = 0.3, 0.8
+DENSE = np.arange(0.2, 5.01, 0.15)
+"""Separations of tables: low ones, others, and those of heights that are not Gaussian."""
+SKEWED, PEAKED = 0.1, 0.3
 """|skewness| and |excess kurtosis| from which heights are not taken for Gaussian."""
+PARTS = (0.0, 0.25, 0.5, 0.75, 0.9, 1.0)
+"""Steps from Gaussian heights to those of a map."""
+MOST_SKEWED, MOST_PEAKED, MOST_HEIGHTS = 1.3, 4.0, 6
+"""Those beyond which they are refused, and the most G_n."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +69,9 @@ class OwnSpectrum(Value):
     box : float, optional
         Side after which the surface repeats itself [m], where it is pressed as such; 0 for a
         sample of a surface that goes on.
+    heights : tuple of float, optional
+        G_n from n = 1 of heights z/σ = Σ G_n He_n(t)/√n! on a Gaussian field t, whose waves the
+        others then are [1]; ΣG_n² = 1.
 
     Examples
     --------
@@ -79,6 +88,7 @@ class OwnSpectrum(Value):
     q: tuple[float, ...]
     weight: tuple[float, ...]
     box: float = 0.0
+    heights: tuple[float, ...] = (1.0,)
 
     def _problems(self) -> list[str]:
         if len(self.q) != len(self.weight) or len(self.q) < 8:
@@ -87,6 +97,8 @@ class OwnSpectrum(Value):
             return ["OwnSpectrum.q must be increasing numbers above 0 [1/m]"]
         if not (min(self.weight) >= 0 and sum(self.weight) > 0):
             return ["OwnSpectrum.weight must be numbers from 0, not all 0"]
+        if not self.heights or abs(sum(G * G for G in self.heights) - 1) > 1e-6:
+            return ["OwnSpectrum.heights must be numbers G_n whose squares sum to 1"]
         if not 0 <= self.box < math.inf:
             return [f"OwnSpectrum.box = {self.box!r} must be a length from 0 [m]"]
         return []
@@ -104,13 +116,19 @@ class OwnSpectrum(Value):
         cutoff : float, optional
             As in `Topography.roughness`; the same must be given to both.
         box : bool, optional
-            Of a map that repeats itself: press it as such, without its surroundings.
+            Of a map that repeats itself: press it as such, without its surroundings. Its heights
+            are taken for a draw of Gaussian ones, however few waves it has.
 
         Raises
         ------
         InvalidValue
             A profile, more than 1 % of missing points (fewer are filled harmonically), or heights
-            that are not Gaussian.
+            too far from Gaussian: skewness beyond ±1.3, excess kurtosis beyond 4.
+
+        Notes
+        -----
+        Heights of a skewness beyond ±0.1 or an excess kurtosis beyond ±0.3 are ranked: t is the
+        Gaussian field in the same order, and its waves are kept, with the polynomial z(t).
         """
         if surface.dim != 2:
             raise InvalidValue("a profile does not tell the waves of a surface: measure a map")
@@ -124,12 +142,9 @@ class OwnSpectrum(Value):
         z = filled(z)
         t = (z - z.mean()) / z.std()
         skewness, excess = float(np.mean(t**3)), float(np.mean(t**4) - 3)
-        if abs(skewness) > SKEWED or abs(excess) > PEAKED:
-            raise InvalidValue(
-                f"heights of skewness {skewness:.2g} and excess kurtosis {excess:.2g} are not "
-                f"Gaussian (up to {SKEWED:g} and {PEAKED:g}), which the law field asks for; use a "
-                "sum over summits with the measured heights"
-            )
+        G: tuple[float, ...] = (1.0,)
+        if not box and (abs(skewness) > SKEWED or abs(excess) > PEAKED):
+            t, G = _ranked(t, skewness, excess)
         if not surface.periodic:
             window = [np.hanning(n + 2)[1:-1] for n in t.shape]
             t = t * np.multiply.outer(*window)
@@ -141,13 +156,14 @@ class OwnSpectrum(Value):
         q = np.hypot(sides[0][:, None], sides[1])
         q, weight = _rings(q.ravel()[1:], power.ravel()[1:])
         side = min(n * d for n, d in zip(t.shape, surface.spacing, strict=True))
-        return cls(q=tuple(q.tolist()), weight=tuple(weight.tolist()), box=side if box else 0.0)
+        waves = {"q": tuple(q.tolist()), "weight": tuple(weight.tolist())}
+        return cls(**waves, box=side if box else 0.0, heights=G)
 
     @classmethod
     def of_both(cls, first: Topography, second: Topography) -> OwnSpectrum:
         """The waves of two faces together, whose heights have nothing to do with each other."""
         faces = [
-            (cls.of(face), float(np.nanstd(np.array(face.filtered(None), dtype=float))))
+            (cls._gaussian(face), float(np.nanstd(np.array(face.filtered(None), dtype=float))))
             for face in (first, second)
         ]
         waves = sorted(
@@ -159,6 +175,16 @@ class OwnSpectrum(Value):
             merged[q] = merged.get(q, 0.0) + weight
         total = sum(merged.values())
         return cls(q=tuple(merged), weight=tuple(w / total for w in merged.values()))
+
+    @classmethod
+    def _gaussian(cls, surface: Topography) -> OwnSpectrum:
+        own = cls.of(surface)
+        if len(own.heights) > 1:
+            raise InvalidValue(
+                "the heights of one of two faces are not Gaussian, and those of both together are "
+                "not known; give one face, or leave the spectrum out"
+            )
+        return own
 
     @property
     def spectrum(self) -> Spectrum:
@@ -198,6 +224,33 @@ class RollOff(Value):
         return rolled_off(alpha, self.hurst, self.corner)
 
 
+def _ranked(z: Array, skewness: float, excess: float) -> tuple[Array, tuple[float, ...]]:
+    """The Gaussian field in the order of these heights, and G_n with which it gives them.
+
+    As many terms as leave z(t) rising wherever points lie.
+    """
+    if abs(skewness) > MOST_SKEWED or excess > MOST_PEAKED:
+        raise InvalidValue(
+            f"heights of skewness {skewness:.2g} and excess kurtosis {excess:.2g} are too far from "
+            f"Gaussian (up to {MOST_SKEWED:g} and {MOST_PEAKED:g}) for the law field; use a sum "
+            "over summits with the measured heights"
+        )
+    order = np.argsort(z, axis=None, kind="stable")
+    t = np.empty(z.size)
+    t[order] = ndtri((np.arange(z.size) + 0.5) / z.size)
+    he = [np.ones(z.size), t]
+    for n in range(1, MOST_HEIGHTS):
+        he.append((t * he[n] - math.sqrt(n) * he[n - 1]) / math.sqrt(n + 1))
+    G = np.array([np.mean(z.ravel() * each) for each in he[1:]])
+    grid = np.linspace(-STRAIGHT, STRAIGHT, 161)
+    for count in range(MOST_HEIGHTS, 0, -1):
+        some = tuple((G[:count] / math.sqrt(float(G[:count] @ G[:count]))).tolist())
+        shape = Spectrum(q=np.ones(1), weight=np.ones(1), heights=some)
+        if np.all(np.diff(shape.height(grid)) > 0):
+            break
+    return t.reshape(z.shape), some
+
+
 def _rings(q: Array, power: Array) -> tuple[Array, Array]:
     """Wavenumbers and shares of rings of waves, the longest ones each by itself."""
     near = np.unique(np.round(q, 9 - math.floor(math.log10(q.min()))))
@@ -216,7 +269,29 @@ def _spectrum(own: OwnSpectrum) -> Spectrum:
     weight = weight / weight.sum()
     unit = math.sqrt(2 / float(weight @ q**2))
     farthest = min(FARTHEST, math.pi / (q[0] * unit))
-    return Spectrum(q=q * unit, weight=weight, farthest=farthest, box=own.box / unit)
+    return Spectrum(
+        q=q * unit, weight=weight, farthest=farthest, box=own.box / unit, heights=own.heights
+    )
+
+
+def _followed(spectrum: Spectrum, h: Array, t: Array, chi: float, edges: Edges) -> Pressed:
+    """The programme at h; where it is not found at once, from Gaussian heights step by step."""
+    try:
+        return pressed(spectrum.series(TERMS), h, chi, edges)
+    except NoEquilibrium:
+        if len(spectrum.heights) == 1:
+            raise
+    G = np.array(spectrum.heights)
+    first = np.zeros_like(G)
+    first[0] = 1.0
+    for part in PARTS:
+        mixed = part * G + (1 - part) * first
+        mixed /= math.sqrt(float(mixed @ mixed))
+        nearer = replace(spectrum, heights=tuple(mixed.tolist()))
+        place = nearer.height(t) if part < 1 else h
+        found = pressed(nearer.series(TERMS), place, chi, edges)
+        edges = found.edges._replace(elastic=np.zeros(len(h), bool))
+    return found
 
 
 @lru_cache(maxsize=64)
@@ -233,15 +308,25 @@ def own_field(own: OwnSpectrum | RollOff | None, chi: float, alpha: float) -> Fi
     spectrum = own.spectrum_of(alpha) if isinstance(own, RollOff) else own.spectrum
     alpha = spectrum.alpha
     start = field_of(chi, alpha)
-    h = np.concatenate([LOW, HIGH]) if chi <= SOFT else HIGH
+    high = HIGH if len(spectrum.heights) == 1 else DENSE
+    h = np.concatenate([LOW, high]) if chi <= SOFT else high
     h = h[h >= (start.lowest if chi <= SOFT else HARD)]
-    known = start.columns(h)
-    low = h + known[:, EDGE]
+    grid = np.linspace(-8.0, 8.0, 1601)
+    t = np.interp(h, spectrum.height(grid), grid)  # the Gaussian height of that height
+    if len(spectrum.heights) > 1:  # no point of a map lies higher
+        h, t = h[t < STRAIGHT], t[t < STRAIGHT]
+        slope = (spectrum.height(t + 1e-4) - spectrum.height(t - 1e-4)) / 2e-4
+        each = np.clip(chi * spectrum.steeper / slope, 1e-3, 1e2)  # χ by the slopes up there
+        near = [(x, field_of(y, alpha)) for x, y in zip(t.tolist(), each.tolist(), strict=True)]
+        known = np.concatenate([f.columns(np.array([max(x, f.lowest)])) for x, f in near])
+    else:
+        known = start.columns(h)
+    low = t + known[:, EDGE]
     share = np.clip(known[:, PLASTIC], 1e-12, 1 - 1e-6)
     high = -ndtri(share * ndtr(-low))
     width = np.log(np.maximum(high - low, 1e-3))
     edges = Edges(low, width, np.clip(known[:, TAU], 0.0, 1.0), np.zeros(len(h), bool))
-    found = pressed(spectrum.series(TERMS), h, chi, edges)
+    found = _followed(spectrum, h, t, chi, edges)
     rows = np.column_stack(
         [
             np.log(found.energy / plastic_energy(h, chi)),

@@ -4,6 +4,9 @@ r"""The programme of one field: which pressures a rough surface carries at a sep
           - \sqrt2\sum_{n \ge 1} k_n(b)\,a_n^2, \qquad
           a_n = \int f(s)\,\mathrm{he}_n(s)\,\varphi(s)\,ds
 
+Heights that are not Gaussian, z/σ = Σ G_n he_n(t), have Σ G_n cⁿ a_n in the place of c⟨s f⟩, which
+is c a_1, and √2 √(Σ n G_n²) in that of √2; all else is of t.
+
 f is 0 below an edge s_0, rises from it like a root, and is χ above a second edge s_1. With
 :math:`s = s_0 + (s_1 - s_0)(1 - \cos\theta)/2`,
 
@@ -137,6 +140,9 @@ class _Basis:
         self.f = np.concatenate([[theta / math.pi], modes])
         self.pairs = np.einsum("jm,km->mjk", self.f, self.f)
         self.roots = np.sqrt(np.arange(self.count + 2))
+        self.heights = np.array(series.spectrum.heights)
+        self.most = slice(1, len(self.heights) + 1)
+        self.root2 = ROOT2 * series.spectrum.steeper
 
     def hermite(self, s: Array) -> Array:
         """φ he_n at s (N, M): (N, M, count + 1)."""
@@ -151,6 +157,9 @@ class _Basis:
     def state(self, h: Array, chi: Array, edges: Edges, kappa: float) -> _State:
         """The best f between given edges, and what it lacks."""
         c, dc, k, dk = self.series(edges.tau)
+        order, most, root2 = np.arange(1, len(self.heights) + 1), self.most, self.root2
+        weights = self.heights * c[:, None] ** order  # ⟨z f⟩ = Σ G_n cⁿ a_n
+        bends = self.heights * order * c[:, None] ** (order - 1) * dc[:, None]
         last, dlast = kappa * k[:, -1], kappa * dk[:, -1]
         low, high = edges.low, edges.high
         span = (high - low)[:, None]
@@ -165,9 +174,9 @@ class _Basis:
         square[:, 0, 0] += ndtr(-high)
         more = k - last[:, None]
         more[:, 0] = -last
-        stiff = 2 * ROOT2 * ((a * more[:, None, :]) @ a.transpose(0, 2, 1))
-        stiff += 2 * ROOT2 * last[:, None, None] * square
-        gain = c[:, None] * a[:, :, 1] - h[:, None] * a[:, :, 0]
+        stiff = 2 * root2 * ((a * more[:, None, :]) @ a.transpose(0, 2, 1))
+        stiff += 2 * root2 * last[:, None, None] * square
+        gain = np.einsum("in,ijn->ij", weights, a[:, :, most]) - h[:, None] * a[:, :, 0]
         f = _best(stiff, gain, chi, edges.elastic)
         energy = np.sum(gain * f, axis=1) - 0.5 * np.einsum("ij,ijk,ik->i", f, stiff, f)
         a = np.einsum("ij,ijn->in", f, a)
@@ -176,12 +185,15 @@ class _Basis:
         def lacks(mode: Array) -> Array:
             part = 0.5 * span * mode * self.weight
             moments = np.einsum("im,imn->in", part, he)
-            own = 2 * ROOT2 * last * np.sum(part * he[:, :, 0] * pressure, axis=1)
-            bent = 2 * ROOT2 * np.sum(more * a * moments, axis=1)
-            return (c * moments[:, 1] - h * moments[:, 0] - bent - own) / moments[:, 0]
+            own = 2 * root2 * last * np.sum(part * he[:, :, 0] * pressure, axis=1)
+            bent = 2 * root2 * np.sum(more * a * moments, axis=1)
+            lifted = np.sum(weights * moments[:, most], axis=1)
+            return (lifted - h * moments[:, 0] - bent - own) / moments[:, 0]
 
         rest = np.einsum("ij,ijk,ik->i", f, square, f) - np.sum(a * a, axis=1)
-        turn = dc * a[:, 1] - ROOT2 * (np.sum(dk[:, 1:] * a[:, 1:] ** 2, axis=1) + dlast * rest)
+        turn = np.sum(bends * a[:, most], axis=1) - root2 * (
+            np.sum(dk[:, 1:] * a[:, 1:] ** 2, axis=1) + dlast * rest
+        )
         second = np.where(edges.elastic, 0.0, lacks(1 - self.cos))
         turns = np.stack([lacks(1 + self.cos), second, turn / energy], axis=1)
         return _State(energy, a, turns)
@@ -201,11 +213,18 @@ def _best(stiff: Array, gain: Array, chi: Array, elastic: NDArray[np.bool_]) -> 
 
 
 def _solved(
-    basis: _Basis, h: Array, chi: Array, edges: Edges, kappa: float, rounds: int
+    basis: _Basis,
+    h: Array,
+    chi: Array,
+    edges: Edges,
+    kappa: float,
+    rounds: int,
+    fixed: NDArray[np.bool_] | None = None,
 ) -> tuple[Edges, Array]:
     """Newton's steps on edges and τ, no longer than is safe; and the last of them.
 
-    The slopes are taken afresh where steps do not become much smaller.
+    The slopes are taken afresh where steps do not become much smaller. The width of f stays where
+    it is ``fixed``.
     """
     size, before = np.full(len(h), np.inf), np.full(len(h), np.inf)
     slope = np.zeros((len(h), 3, 3))
@@ -217,7 +236,7 @@ def _solved(
         if not np.all(np.isfinite(slope)):
             break
         held = np.zeros((len(h), 3), bool)
-        held[:, 1] = edges.elastic
+        held[:, 1] = edges.elastic if fixed is None else edges.elastic | fixed
         held[:, 2] = ((edges.tau <= 0) & (turns[:, 2] < 0)) | ((edges.tau >= 1) & (turns[:, 2] > 0))
         free = np.where(held[:, :, None] | held[:, None, :], 0.0, slope)
         free[:, range(3), range(3)] += held
@@ -263,6 +282,10 @@ def pressed(
         edges = Edges(*(np.where(slight, a, b) for a, b in zip(begun, edges, strict=True)))
         edges = edges._replace(elastic=edges.elastic | slight)
         edges, miss = _solved(basis, h, each, edges, ENERGY, rounds)
+    fixed = ~(miss < GOOD) & ~edges.elastic
+    if fixed.any():  # it yields so little that the second edge swings; Φ is stationary in it
+        edges = Edges(*(np.where(fixed, a, b) for a, b in zip(begun, edges, strict=True)))
+        edges, miss = _solved(basis, h, each, edges, ENERGY, rounds, fixed)
     found = basis.state(h, each, edges, ENERGY)
     fine, fine_miss = _solved(basis, h, each, edges, EDGE, rounds)
     miss = np.maximum(miss, fine_miss)

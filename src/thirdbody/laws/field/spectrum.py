@@ -36,6 +36,8 @@ WAVES = 200
 """Gauss nodes in q: 1e-12 of the moments for every α of the table."""
 WIGNER = 3.900
 """Of 1/r on a square lattice in a neutralising background."""
+STRAIGHT = 4.0
+"""|t| beyond which heights that are not Gaussian are taken for straight."""
 FARTHEST = 80.0
 """Distance at which ρ is cut: what lies beyond is 1e-5 of k_2 and nothing of k_1."""
 
@@ -56,6 +58,9 @@ class Spectrum:
         Side of a square after which the surface repeats itself [1], 0 if it does not. Then
         powers n ≥ 2 lose the mean pressure of all boxes, (3.900/L)∫ρⁿ r dr, and n = 1 is the sum
         over the waves.
+    heights : tuple of float
+        G_n from n = 1 of heights z/σ = Σ G_n he_n(t) on this Gaussian field t, ΣG_n² = 1 [1];
+        heights that are Gaussian themselves are t.
 
     Examples
     --------
@@ -67,6 +72,22 @@ class Spectrum:
     weight: Array
     farthest: float = FARTHEST
     box: float = 0.0
+    heights: tuple[float, ...] = (1.0,)
+
+    @property
+    def steeper(self) -> float:
+        """√(Σ n G_n²), RMS gradient of z/σ over that of t [1]."""
+        return math.sqrt(sum(n * G * G for n, G in enumerate(self.heights, 1)))
+
+    def height(self, t: Array) -> Array:
+        """z/σ where the Gaussian field is t, straight beyond ±4."""
+        if len(self.heights) == 1:
+            return t
+        norm = [math.sqrt(math.factorial(n)) for n in range(1, len(self.heights) + 1)]
+        series = np.array([0.0, *(G / each for G, each in zip(self.heights, norm, strict=True))])
+        near = np.clip(t, -STRAIGHT, STRAIGHT)
+        slope = np.polynomial.hermite_e.hermeval(near, np.polynomial.hermite_e.hermeder(series))
+        return np.polynomial.hermite_e.hermeval(near, series) + slope * (t - near)
 
     def mean(self, power: float) -> float:
         """⟨q^power⟩."""

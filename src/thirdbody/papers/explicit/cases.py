@@ -168,10 +168,10 @@ def _crowded() -> list[Case]:
              contact=_hard(chi, alpha), loads=CROWDED)
         for chi, alpha in ((0.4, 5.0), (0.7, 5.0), (0.4, 3.0), (0.4, 15.0))
     ]  # fmt: skip
-    debris = tb.LogNormal(median=5 * SIGMA, gsd=1.5)
-    wide = _hard(0.6, over_sigma=5.0, sizes=debris, density=1e10, harder=0.5)
-    words = f"half as hard, median {_named(5)}, σ_g = 1.5, χ = 0.6"
-    out.append(Case(name="debris", group="debris", words=words, contact=wide, loads=CROWDED))
+    sizes = tb.LogNormal(median=5 * SIGMA, gsd=1.5)
+    wide = _hard(0.6, over_sigma=5.0, sizes=sizes, density=3e9, harder=0.5)
+    words = "χ = 0.6, half as hard, median x/σ = 5, σ_g = 1.5, 3×10⁹ m⁻²"
+    out.append(Case(name="debris", group="debris", words=words, contact=wide, loads=CROWDED[:2]))
     return out
 
 

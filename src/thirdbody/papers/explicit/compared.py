@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -13,13 +14,16 @@ import numpy as np
 from scipy.stats import norm
 from scipy.stats import t as student
 
+from ...contact.contact import Contact
+from ...equilibrium.solve import solve
 from ...errors import RangeWarning
-from ...explicit import Ensemble, ensemble
+from ...explicit import Ensemble, ensemble, surface_of
+from ...laws.asperity import Field, OwnSpectrum
 from ...quantities.say import percent
 from ..seats import explicit_particles
 from .cases import SIGMA, Case
 
-__all__ = ["FULL", "QUICK", "Effort", "Point", "compared", "points_of"]
+__all__ = ["FULL", "QUICK", "Effort", "Point", "box_of", "by_field", "compared", "points_of"]
 
 SURE = 0.975
 """Probability to each side within which a difference is one of the draw."""
@@ -74,6 +78,8 @@ class Point:
     bounds : (float, float)
         Least and most of the share where too little was drawn for a number with an error; else
         NaN [1].
+    field : (float, float, float)
+        Share [1], separation over σ and real contact area [1] by the law of one field.
     """
 
     case: Case
@@ -91,6 +97,7 @@ class Point:
     zeta: tuple[float, float]
     stored: tuple[float, float] | None
     bounds: tuple[float, float] = (math.nan, math.nan)
+    field: tuple[float, float, float] = (math.nan, math.nan, math.nan)
 
     @property
     def bounded(self) -> bool:
@@ -101,6 +108,11 @@ class Point:
     def apart(self) -> float:
         """Share of the model over the explicit one, less 1."""
         return self.statistical / self.share[0] - 1 if self.share[0] > 0 else math.nan
+
+    @property
+    def apart_by_field(self) -> float:
+        """As `apart`, of the law of one field."""
+        return self.field[0] / self.share[0] - 1 if self.share[0] > 0 else math.nan
 
     @property
     def errors(self) -> float:
@@ -160,9 +172,28 @@ def compared(
         )
 
 
-def points_of(case: Case, found: Ensemble) -> list[Point]:
+@lru_cache(maxsize=8)
+def box_of(contact: Contact, size: int, spacing: float) -> OwnSpectrum:
+    """The waves of the maps that are pressed, which repeat themselves."""
+    return OwnSpectrum.of(surface_of(contact, size=size, spacing=spacing, seed=1), box=True)
+
+
+def by_field(model: Contact, loads: Sequence[float], own: OwnSpectrum | None) -> list[Any]:
+    """Share, separation over σ and real area by the law of one field, for each F*: (N, 3)."""
+    contact = model.replace(asperity_law=Field(spectrum=own))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)
+        state = solve(contact, F_star=np.array(loads))
+    rows = (state.particle_load_share, np.asarray(state.h) / SIGMA, state.A_t)
+    return np.stack([np.asarray(row, dtype=float) for row in rows], axis=-1).tolist()
+
+
+def points_of(case: Case, found: Ensemble, effort: Effort) -> list[Point]:
     """Every load of a case."""
     table, at, state = found.table, found.at_h, found.statistical
+    bare = case.contact.replace(particles=None)
+    waves = box_of(bare, effort.size, effort.spacing)
+    fields = by_field(found.model, table.F_star.values.tolist(), waves)
     hardness = found.contact.surfaces.H
 
     def pair(name: str, i: int, scale: float = 1.0) -> tuple[float, float]:
@@ -177,7 +208,7 @@ def points_of(case: Case, found: Ensemble) -> list[Point]:
         }
         own = float(np.atleast_1d(state.h)[i])
         bearing = hardness * float(norm.sf(own / SIGMA))
-        bare = float(np.atleast_1d(state.F_ss_star)[i]) * found.contact.E_ss / bearing
+        carried = float(np.atleast_1d(state.F_ss_star)[i]) * found.contact.E_ss / bearing
         out.append(
             Point(
                 case=case,
@@ -190,7 +221,7 @@ def points_of(case: Case, found: Ensemble) -> list[Point]:
                 area=pair("A_t_cv", i),
                 area_statistical=float(table["A_t_statistical"].values[i]),
                 ratios=ratios,
-                model_bare=bare,
+                model_bare=carried,
                 surfaces=found.surfaces,
                 zeta=(found.seats.mean, found.seats.std),
                 stored=_stored(case, load),
@@ -198,6 +229,7 @@ def points_of(case: Case, found: Ensemble) -> list[Point]:
                     float(table["particle_load_share_cv_least"].values[i]),
                     float(table["particle_load_share_cv_most"].values[i]),
                 ),
+                field=(fields[i][0], fields[i][1], fields[i][2]),
             )
         )
     return out

@@ -30,6 +30,7 @@ __all__ = ["Summary", "figure", "markdown", "reproduce"]
 
 Progress = Callable[[str, int, int], None]
 PRESETS = {None: FULL, "full": FULL, "quick": QUICK}
+HEAVY = 1.01e-4
 STEM, RECORD = "share", "comparison.json"
 
 
@@ -43,6 +44,8 @@ class Summary:
     left_out: int
     """States that did not converge, and count nowhere."""
     files: tuple[str, ...]
+    lost: tuple[str, ...] = ()
+    """Names of the cases of those."""
 
     def lines(self) -> list[str]:
         """The summary for a terminal."""
@@ -51,6 +54,7 @@ class Summary:
             f"{len(CASES)} contacts, each on {self.effort.words}",
             f"{len(self.points)} states: the model is off by more than the error bars (95 %) in "
             f"{off}; nothing fitted",
+            *(f"share {words}" for words in _worst(self.points)),
         ]
         for name, title in GROUPS.items():
             out += ["", title]
@@ -59,7 +63,7 @@ class Summary:
                     out.append(
                         f"  {point.case.words:<44} F* = {number(point.F_star, 2):<8} "
                         f"{_explicit(point):>18}  model {percent(point.statistical)}  "
-                        f"{_apart(point)}"
+                        f"{_apart(point)}  one field {_by_field(point)}"
                     )
         out += ["", f"{len(self.files)} files in {self.out}; read {self.out / 'index.html'}"]
         return out
@@ -96,6 +100,7 @@ def reproduce(
     total = len(CASES) * effort.surfaces
     points: list[Point] = []
     left_out = 0
+    lost: list[str] = []
     for i, case in enumerate(CASES):
         report("surfaces", i * effort.surfaces, total)
         before = i * effort.surfaces
@@ -105,12 +110,14 @@ def reproduce(
 
         found = compared(case, effort, folder / "surfaces", tell)
         left_out += found.left_out
-        points += points_of(case, found)
+        if found.left_out:
+            lost.append(case.name)
+        points += points_of(case, found, effort)
     report("surfaces", total, total)
     summary = Summary(folder, effort, tuple(points), left_out, ())
     drawn, svg = keep(figure(summary.points), _csv(summary.points), folder, STEM)
     files = (*drawn, "comparison.csv", "comparison.md", RECORD, "index.html")
-    summary = Summary(folder, effort, tuple(points), left_out, files)
+    summary = Summary(folder, effort, tuple(points), left_out, files, tuple(lost))
     write_text(folder / "comparison.csv", _csv(summary.points))
     record = _as_json(summary)
     text = json.dumps(record, ensure_ascii=False, indent=1, allow_nan=False)
@@ -118,6 +125,21 @@ def reproduce(
     write_text(folder / "comparison.md", markdown(record["states"]))
     write_text(folder / "index.html", _page(summary, svg))
     return summary
+
+
+def _worst(points: tuple[Point, ...]) -> list[str]:
+    """Worst and RMS of both laws above F* = 1e-4, where errors of the runs are small."""
+    some = [point for point in points if point.F_star > HEAVY and not math.isnan(point.apart)]
+    out = []
+    for words, off in (
+        ("by the sum over summits", [point.apart for point in some]),
+        ("by one field", [point.apart_by_field for point in some]),
+    ):
+        if known := [100 * each for each in off if not math.isnan(each)]:
+            rms = math.sqrt(sum(each**2 for each in known) / len(known))
+            worst = max(map(abs, known))
+            out.append(f"{words}, F* above 1e-4: off by {worst:.1f} % at most, RMS {rms:.1f} %")
+    return out
 
 
 # -------------------------------------------------------------------------- the record
@@ -149,6 +171,9 @@ def _columns(point: Point) -> dict[str, Any]:
         "A_t_statistical": point.area_statistical,
         **point.ratios,
         "bare_over_bearing_statistical": point.model_bare,
+        "share_field": point.field[0],
+        "h_over_sigma_field": point.field[1],
+        "A_t_field": point.field[2],
     }
 
 
@@ -184,10 +209,10 @@ def _as_json(summary: Summary) -> dict[str, Any]:
 
 
 def markdown(states: list[dict[str, Any]]) -> str:
-    """The record as tables of a book: a row a contact, explicit ± error | model at each load.
+    """The record as tables of a book: a row a contact, explicit ± error, model, field at each load.
 
     Numbers are in per cent of the load; the model's are bold where it is off by more than the
-    error bars.
+    error bars; the last is by the law of one field.
     """
     at = {(state["case"], state["F_star"]): state for state in states}
     out = []
@@ -206,7 +231,7 @@ def markdown(states: list[dict[str, Any]]) -> str:
 
 
 def _cell(state: dict[str, Any]) -> str:
-    """Explicit ± error, or the bounds that are known of it; and the model's number."""
+    """Explicit ± error, or the bounds that are known of it; the model's number, the field's."""
     ours, error, model, least, most = (
         None if state[name] is None else 100 * state[name]
         for name in ("share", "share_error", "share_statistical", "share_least", "share_most")
@@ -215,12 +240,18 @@ def _cell(state: dict[str, Any]) -> str:
     bold = "**{}**" if state["off"] else "{}"
     if least is not None and most is not None:
         told = f"{model:.1f}"
-        return f"{_between(least, most)}, " + bold.format(told)
+        return f"{_between(least, most)}, " + bold.format(told) + _field(state, 1)
     assert ours is not None
     decimals = 0 if not error else min(max(0, 1 - math.floor(math.log10(error))), 3)
     spread = f" ± {error:.{decimals}f}" if error else ""
     told = f"{model:.{max(decimals, 1)}f}"
-    return f"{ours:.{decimals}f}{spread}, " + bold.format(told)
+    return f"{ours:.{decimals}f}{spread}, " + bold.format(told) + _field(state, max(decimals, 1))
+
+
+def _field(state: dict[str, Any], decimals: int) -> str:
+    """The number of the law of one field, after a comma; nothing where there is none."""
+    share = state.get("share_field")
+    return "" if share is None else f", {100 * share:.{decimals}f}"
 
 
 def _between(least: float, most: float) -> str:
@@ -241,8 +272,8 @@ def figure(points: tuple[Point, ...]) -> Figure:
 
     inks = [OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky",
                                          "black")]  # fmt: skip
-    out = Figure(figsize=(10.4, 9.6), dpi=150, layout="constrained")
-    panels = out.subplots(3, 3, sharey=True).ravel().tolist()
+    out = Figure(figsize=(10.4, 12.6), dpi=150, layout="constrained")
+    panels = out.subplots(4, 3, sharey=True).ravel().tolist()
     for ax, (name, title) in zip(panels, GROUPS.items(), strict=False):
         mine = [point for point in points if point.case.group == name]
         names = list(dict.fromkeys(point.case.words for point in mine))
@@ -264,6 +295,8 @@ def figure(points: tuple[Point, ...]) -> Figure:
                 load, ratio, yerr=error, marker="o", markersize=4, capsize=2.5, linewidth=1.0,
                 elinewidth=1.0, color=ink, label=words,
             )  # fmt: skip
+            field = np.array([point.field[0] / point.share[0] for point in every])
+            ax.plot(load, field, marker="x", markersize=4, linestyle=":", linewidth=0.8, color=ink)
             for point in mine:  # a bar from bound to bound has no mark
                 if point.case.words == words and point.bounded and point.bounds[0] > 0:
                     ends = [point.statistical / each for each in point.bounds]
@@ -282,7 +315,8 @@ def figure(points: tuple[Point, ...]) -> Figure:
         ax.tick_params(which="both", direction="in", top=True, right=True)
         ax.tick_params(labelleft=True)
     out.supxlabel("load $F^*$", fontsize="medium")
-    out.supylabel("particles' load share, statistical over explicit", fontsize="medium")
+    out.supylabel("particles' load share, statistical over explicit; crosses: one field",
+                  fontsize="medium")  # fmt: skip
     return out
 
 
@@ -316,8 +350,9 @@ def _page(summary: Summary, svg: bytes) -> str:
         mine = [point for point in summary.points if point.case.group == name]
         stored = any(point.stored for point in mine)
         body.append(f"<h3>{escape(words)}</h3>")
-        head = ["contact", "F*", "explicit, raw", "explicit", "statistical", "off by", "h/σ",
-                "h/σ, statistical", "why"]  # fmt: skip
+        head = ["contact", "F*", "explicit, raw", "explicit", "statistical", "off by",
+                "one field, off by", "h/σ", "h/σ, statistical", "h/σ, one field",
+                "why"]  # fmt: skip
         if stored:
             head.insert(4, "stored runs")
         body.append(table(head, (_row(point, stored) for point in mine)))
@@ -334,6 +369,14 @@ def _apart(point: Point) -> str:
     return f"{signed(100 * point.apart, 1)} %, {signed(point.errors, 1)} errors"
 
 
+def _by_field(point: Point) -> str:
+    """Share by the law of one field, and by how much it is off."""
+    if math.isnan(point.field[0]):
+        return "unknown"
+    off = point.apart_by_field
+    return percent(point.field[0]) + ("" if math.isnan(off) else f", {signed(100 * off, 1)} %")
+
+
 def _row(point: Point, stored: bool) -> list[str]:
     kind = "fail" if point.off else "pass"
     cells = [
@@ -343,8 +386,10 @@ def _row(point: Point, stored: bool) -> list[str]:
         f"<b>{_explicit(point)}</b>",
         percent(point.statistical),
         f"<td class='{kind}'>{_apart(point)}</td>",
+        _by_field(point),
         f"{point.h[0]:.3f} ± {point.h[1]:.3f}",
         f"{point.h_statistical:.3f}",
+        f"{point.field[1]:.3f}",
         escape(point.why),
     ]
     if stored:
