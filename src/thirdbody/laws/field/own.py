@@ -220,7 +220,13 @@ class RollOff(Value):
     corner: str = choice("corner of the spectrum", "smooth", "sharp", default="smooth")
 
     def spectrum_of(self, alpha: float) -> Spectrum:
-        """In the units of the theory: ⟨q²⟩ = 2."""
+        """The spectrum in the units of the theory, ⟨q²⟩ = 2.
+
+        Parameters
+        ----------
+        alpha : float
+            Nayak's bandwidth α [1].
+        """
         return rolled_off(alpha, self.hurst, self.corner)
 
 
