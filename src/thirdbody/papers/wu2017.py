@@ -82,7 +82,7 @@ def contact(
         surfaces=tb.MaterialPair(steel, steel),
         roughness=tb.Roughness(sigma=roughness * SIGMA, R=RADIUS),
         particles=particles if density else None,
-        particle_law=tb.particle.Series(deep="off") if density else None,
+        particle_law=tb.particle.Series(deep="off"),
         outputs=(Friction(tau_ss=TAU_SS, tau_sa=TAU_SA, rear=rear),),
     )
 
