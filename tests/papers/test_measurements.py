@@ -93,7 +93,8 @@ def test_the_sharpest_change_of_one_size_is_at_its_cross_section(done):
     one = tb.particle.Series().single(1.0, 0.0, surfaces=surfaces, particle=dust)
     sharpest = float(one["force"]) / (STEEL.H * np.pi / 4)
     found = done.ledger["williamson1956"]["threshold"].band.low
-    assert found == pytest.approx(sharpest, abs=0.03)
+    # its load rises by a fifth only while the last third of it is closed in
+    assert 0.75 * sharpest < found < 1.03 * sharpest
 
 
 def test_a_band_is_met_lost_or_undecided():

@@ -101,7 +101,7 @@ class ParticleSum(ABC):
     >>> made = particle_sum(tb.particle.Series(seat="plane"), tb.MaterialPair(steel, steel),
     ...                     tb.Roughness(sigma=100e-9, R=2.8e-6), dust)
     >>> f"{made.reach:.1e}", f"{made.fields(np.array([250e-9]))['F_sa'][0]:.3g} Pa"
-    ('3.0e-07', '7.49e+06 Pa')
+    ('3.0e-07', '6.95e+06 Pa')
     """
 
     reach: float

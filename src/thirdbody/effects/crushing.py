@@ -58,7 +58,7 @@ class Crushing(AbstractOutput):
     ...                      roughness=tb.Roughness(sigma=1e-6, R=50e-6), outputs=Crushing())
     >>> found = tb.solve(contact, d=2e-6).outputs
     >>> f"{100 * found['broken_share']:.0f} % broken, x* = {found['x_star'] * 1e6:.1f} µm"
-    '60 % broken, x* = 10.4 µm'
+    '53 % broken, x* = 11.7 µm'
     """
 
     A_n: float = quantity(

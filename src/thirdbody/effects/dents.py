@@ -97,7 +97,7 @@ class Dents(AbstractOutput):
     ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6), outputs=Dents())
     >>> found = tb.solve(contact, pressure=5e6).outputs
     >>> f"{found['n_dents_1']:.2g} dents, {found['dent_depth_1'] * 1e9:.0f} nm deep on average"
-    '7.7e+09 dents, 50 nm deep on average'
+    '8.8e+09 dents, 17 nm deep on average'
     """
 
     debris: str = choice(

@@ -183,7 +183,7 @@ class Friction(AbstractOutput):
     ...                      outputs=Friction(tau_ss=580e6, tau_sa=200e6))
     >>> state = tb.solve(contact, pressure=5e6)
     >>> f"μ = {state.outputs['mu']:.3f}, rolling {state.outputs['rolling_share']:.0%}"
-    'μ = 0.212, rolling 100%'
+    'μ = 0.069, rolling 100%'
     """
 
     tau_ss: float | None = quantity(

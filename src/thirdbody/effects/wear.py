@@ -106,7 +106,7 @@ class Wear(AbstractOutput):
     ...              Wear(K_ss=1e-5, K_sa=0.0, f_ab=0.1, f_roll=0.001, renewal=100.0)))
     >>> worn = tb.solve(contact, pressure=5e6).outputs
     >>> f"surface 1 {worn['wear_1']:.1e}, surface 2 {worn['wear_2']:.1e} m³ per m² and m"
-    'surface 1 1.3e-05, surface 2 6.6e-09 m³ per m² and m'
+    'surface 1 7.2e-06, surface 2 5.7e-09 m³ per m² and m'
     """
 
     K_ss: float = quantity("K_ss", "1", "wear coefficient of plastic asperity contacts", ge=0)

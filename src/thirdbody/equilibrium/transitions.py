@@ -65,7 +65,7 @@ class TurningPoint:
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
     >>> point = tb.transitions(contact).F_tpca
     >>> point.A.status, f"{point.B.value:.2e}"
-    ('none', '2.59e-04')
+    ('none', '1.67e-04')
     """
 
     A: Critical
@@ -95,7 +95,7 @@ class Transitions:
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
     >>> found = tb.transitions(contact)
     >>> f"{found.F_cr1.value:.2e}", found.F_cr2.status
-    ('7.15e-06', 'found')
+    ('4.73e-06', 'never s-s')
     """
 
     F_cr1: Critical

@@ -103,7 +103,7 @@ class ContactProbability(Value):
     0.942
     >>> light, heavy = relay.probability([1e-3, 2.0])
     >>> f"{light:.2f} under 1 mN, {heavy:.2f} under 2 N"
-    '0.39 under 1 mN, 1.00 under 2 N'
+    '0.39 under 1 mN, 0.99 under 2 N'
     """
 
     radius: float = quantity(

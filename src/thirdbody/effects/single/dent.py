@@ -184,7 +184,7 @@ class Dent(NamedTuple):
     ...                                  material=silica, film=0.5e-6, entry=1.0)
     >>> dent = dent_of(oil.single([2e-6, 5e-6]), side=0, particle=silica)
     >>> (dent.diameter.ravel() * 1e6).round(2).tolist()  # µm
-    [1.94, 4.97]
+    [2.38, 7.91]
     """
 
     depth: Array
@@ -333,7 +333,7 @@ def dent_of(
     ...                                  material=silica, film=0.5e-6, entry=1.0)
     >>> depth = dent_of(oil.single(2e-6), side=0, particle=silica).depth[0, 0]
     >>> f"{depth * 1e6:.2f} µm"
-    '0.52 µm'
+    '0.10 µm'
     """
     depth = sunk(spots, side=side, particle=particle, debris=debris)
     if np.any(np.isnan(depth)):

@@ -90,8 +90,9 @@ class Series(SeatedLaw, _OfTips):
 
     Notes
     -----
-    A particle softer than a surface is squashed there, each half keeping its own volume. With the
-    squash τ = 2δ/x of a half, and area A_L and pressure p_L of one contact by ``law``,
+    With ``deep="off"`` a particle softer than a surface is squashed there, each half keeping its
+    own volume. With the squash τ = 2δ/x of a half, and area A_L and pressure p_L of one contact by
+    ``law``,
 
     .. math:: \frac{A}{x^2} = \frac{\min(A_L/x^2, \pi/6)}{1-\tau}, \qquad
         p = p_L\left\{1 - \frac{0.92}{2.84}\left[1-\cos\pi q\right]
@@ -104,9 +105,10 @@ class Series(SeatedLaw, _OfTips):
     the surface keeps the law of a sphere, and so does one whose ``law`` never becomes plastic. On
     measured spheres the pressure is 19 to 53 % too high (`docs/validation.md`), falling as it does.
 
-    With ``deep="table"`` a side of a particle follows rigid- and elastic-plastic flow computed for
-    hardness ratios ρ = H_particle/H_surface from 0.5 to 5 and both limits, faces that are smooth
-    to welded, and E*/H of 11 and more (`benchmarks/deep.py`; errors of 5 to 10 % stand in its
+    With ``deep="table"``, the default, a side of a particle follows rigid- and elastic-plastic
+    flow computed for hardness ratios ρ = H_particle/H_surface from 0.5 to 5 and both limits, faces
+    that are smooth to welded, and E*/H of 11 and more (`benchmarks/deep.py`; errors of 5 to 10 %
+    stand in its
     table). A particle as hard as a surface is squashed, not embedded; it embeds from ρ = 1.4 to 2
     on with smooth faces and from 2 to 3 with rough ones. Up to ε = 0.05 the ``law`` holds, from
     0.15 the table. What the collars of the two surfaces carry where they touch, from ε = 0.7 on,
