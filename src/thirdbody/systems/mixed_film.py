@@ -325,7 +325,7 @@ def mixed_film(
     h_T = bodies.thickness(u, np.exp(x))
     h = height_of(h_T, sigma=sigma)
     d = h - interface(contact).mean_plane
-    if np.any(deep := d < bodies.floor):
+    if interface(contact).one_field and np.any(deep := d < bodies.floor):
         _refuse_deep(contact, float(u[deep].max()))
     state, notes = _solve_heard(contact, d)
     notes += _ranges(bodies, u, h_T / sigma)
@@ -412,14 +412,11 @@ class Lubricated:
 
 
 def _refuse_deep(contact: Contact, speed: float) -> None:
-    """A gap that is narrower than the law of the solids knows."""
-    bound = interface(contact)
-    end = f"{DEEPEST:g} sigma from the mean asperity height"
-    if bound.one_field:
-        end = bound.why_lowest
+    """A gap that is narrower than the law of one field knows."""
     raise NoEquilibrium(
-        f"no equilibrium at speed = {speed:g} m/s: the film leaves a gap below {end}, where what "
-        "the solids carry is not known; take a higher speed or a smaller load"
+        f"no equilibrium at speed = {speed:g} m/s: the film leaves a gap below "
+        f"{interface(contact).why_lowest}, and what the solids carry is not known; take a higher "
+        "speed or a smaller load"
     )
 
 
