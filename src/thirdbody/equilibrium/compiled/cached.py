@@ -35,12 +35,15 @@ PATIENCE = 600
 
 
 def sources() -> str:
-    """Digest of the modules beside this one, from which compiled functions take code and layout.
+    """Digest of the modules from which compiled functions take code and layout.
 
     numba looks at the module of a function alone.
     """
-    about = hashlib.sha256()
-    for path in sorted(files(__package__).iterdir(), key=lambda path: path.name):
+    about, package = hashlib.sha256(), files("thirdbody")
+    folders = (package / "equilibrium" / "compiled", package / "equilibrium" / "engine")
+    paths = [path for each in folders for path in each.iterdir()]
+    paths.append(package / "laws" / "asperity" / "formulas.py")
+    for path in sorted(paths, key=str):
         if path.name.endswith(".py"):
             about.update(path.read_bytes())
     return about.hexdigest()

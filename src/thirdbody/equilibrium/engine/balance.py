@@ -25,7 +25,8 @@ __all__ = ["LEVELS", "solve_own"]
 LOWEST, HIGHEST = -3.0, 37.0
 """Separations searched [σ_s]; particles may reach higher."""
 COARSE, FINE, LEVELS = 0, 1, 2
-"""Few nodes, to search with; all; and how often both are made finer."""
+"""Few nodes, to search with; all; and how often both are made finer. They are handed on as `few`
+and `every`, numbers and no constants, for which numba would compile what takes them twice."""
 COUNT, GRID, GRID_END, SIZED, SIZED_END = range(5)
 """What is laid of a part, a level: its panels; where nodes and sizes begin and end. The row after
 the last part is of the asperities."""
@@ -114,12 +115,13 @@ def _imbalance(load, target):
 def search(given, skin, work, laid, rules, target, out):
     """Separation near the root by few nodes, slope of ln F there, evaluations; NaN if none is."""
     apart()
+    few = laid.shape[1] - 2
     high, low = top_of(given, skin), LOWEST
     f_high, f_low = -800.0, math.inf
     h, f, slope, n = 2.0, 0.0, 0.0, 0
     old_h, old_f = math.nan, math.nan
     while n < SEARCHED:
-        f = _imbalance(total(given, skin, work, laid, rules, COARSE, h, out), target)
+        f = _imbalance(total(given, skin, work, laid, rules, few, h, out), target)
         n += 1
         if f > 0:
             low, f_low = h, f
@@ -150,10 +152,11 @@ def search(given, skin, work, laid, rules, target, out):
 def polish(given, skin, work, laid, rules, target, h, slope, out):
     """Root by all nodes from a close one: separation, slope of ln F, evaluations; NaN if none."""
     apart()
+    few = laid.shape[1] - 2
     best, best_f = math.nan, math.inf
     old_h = old_f = math.nan
     for n in range(1, POLISHED + 1):
-        f = _imbalance(total(given, skin, work, laid, rules, FINE, h, out), target)
+        f = _imbalance(total(given, skin, work, laid, rules, few + 1, h, out), target)
         if abs(f) < abs(best_f):
             best, best_f = h, f
         if abs(f) < 2e-13 or (n > 4 and abs(f) < 1e-12):
@@ -168,7 +171,7 @@ def polish(given, skin, work, laid, rules, target, h, slope, out):
             break
         h += step
     if abs(best_f) < 1e-11:
-        total(given, skin, work, laid, rules, FINE, best, out)
+        total(given, skin, work, laid, rules, few + 1, best, out)
         return best, slope, POLISHED
     return math.nan, slope, POLISHED
 
@@ -215,7 +218,8 @@ def _falls(given, work, laid, bound, sigma_s):
 def estimate(given, skin, work, laid, rules, h, slope, row, out):
     """Error of the columns at h, from what few nodes give there, over what is asked of each."""
     apart()
-    total(given, skin, work, laid, rules, COARSE, h, out)
+    few = laid.shape[1] - 2
+    total(given, skin, work, laid, rules, few, h, out)
     load = (1 - min(row[SHADE], 1.0)) * row[F_SS] + row[F_SA]
     area = row[A_E] + row[A_E + 1] + row[A_E + 2]
     area += row[A_SA] + row[A_SA + 1] + row[A_SA + 2]
@@ -234,7 +238,7 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
 def _own_state(given, skin, work, laid, rules, target, h, row, out):
     """Separation, evaluations, fate and error of one state; its columns into ``row``."""
     apart()
-    last = len(given)
+    last, few = len(given), laid.shape[1] - 2
     for p in range(last):
         count = lay_panels(given, work[1], work[2], p, rules[0, 3:])
         laid[p, COARSE, COUNT] = count
@@ -244,14 +248,15 @@ def _own_state(given, skin, work, laid, rules, target, h, row, out):
     for level in range(LEVELS):
         own = rules[2 * level :]
         if not (
-            lay(given, skin, work, laid, own, COARSE) and lay(given, skin, work, laid, own, FINE)
+            lay(given, skin, work, laid, own, few)
+            and lay(given, skin, work, laid, own, few + 1)
         ):
             return h, count, TOO_LONG, math.inf
         if target > 0:
             h, slope, n = search(given, skin, work, laid, own, target, out)
             count += n
             if h == -math.inf:
-                total(given, skin, work, laid, own, FINE, LOWEST, row)
+                total(given, skin, work, laid, own, few + 1, LOWEST, row)
                 sure = _falls(given, work, laid, row[F_SS], skin[0, SIGMA_S])
                 return h, count, TOO_MUCH if sure else NOT_MONOTONE, 0.0
             h, slope, n = polish(given, skin, work, laid, own, target, h, slope, row)
@@ -260,7 +265,7 @@ def _own_state(given, skin, work, laid, rules, target, h, row, out):
                 return h, count, UNSOLVED, math.inf
         else:
             count += 1
-            if not total(given, skin, work, laid, own, FINE, h, row) >= 0:
+            if not total(given, skin, work, laid, own, few + 1, h, row) >= 0:
                 return h, count, UNSOLVED, math.inf
         error = estimate(given, skin, work, laid, own, h, slope, row, out)
         if error <= ASKED:
@@ -292,7 +297,9 @@ def solve_own(skins, parts, bodies, rules, target, h, count, fate, error, rows):
     laid = np.zeros((most + 1, 2, 5), np.int64)
     out = np.empty(10)
     for i in range(len(target)):
-        sides[:, : bodies.shape[2]] = bodies[i]
+        for s in range(2 * most):
+            for k in range(bodies.shape[2]):
+                sides[s, k] = bodies[i, s, k]
         h[i], count[i], fate[i], error[i] = _own_state(
             parts[i], skins[i : i + 1], work, laid, rules, target[i], h[i], rows[i], out
         )

@@ -30,14 +30,15 @@ NOT_MONOTONE = "the load may rise with the separation; this is the loading branc
 NOT_BALANCED = "the compiled engine does not balance this load"
 NOT_RESOLVED = "its error by the compiled engine may be above 1e-9"
 TOO_LONG = "it takes more nodes than the compiled engine has room for"
-DOUBTS = {
+DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG)
+"""Why a state is for the NumPy engine to judge."""
+CODES = {
     f.UNSOLVED: NOT_BALANCED,
     f.TOO_LITTLE: NOT_BALANCED,
     f.NOT_MONOTONE: NOT_MONOTONE,
     f.NOT_RESOLVED: NOT_RESOLVED,
     f.TOO_LONG: TOO_LONG,
 }
-"""Why a state is for the NumPy engine to judge."""
 
 
 def own_columns(
@@ -75,9 +76,10 @@ def own_columns(
     star = loads if load == "F_star" else None
     found = as_columns(raw, d, rough.y_s, rough.sigma, E, target=target, F_star=star)
     doubt = np.full(count, "", dtype=object)
-    for code, why in DOUBTS.items():
+    for code, why in CODES.items():
         doubt[fate == code] = why
     doubt[(fate == f.OK) & ~(found["residual"] <= RESIDUAL)] = NOT_BALANCED
+    fate[doubt != ""] = f.UNSOLVED
     return found | {"status": fate, "iterations": evaluations, "doubt": doubt, "error": error}
 
 

@@ -228,7 +228,8 @@ def _cut_at_crossings(given, sides, panels, p, count):
             if sign * before < 0:
                 at = _crossing(given, sides, panels, p, n, place, eps)
                 for m in range(count, n, -1):
-                    panels[p, m] = panels[p, m - 1]
+                    for k in range(PANEL):
+                        panels[p, m, k] = panels[p, m - 1, k]
                 panels[p, n, TO] = panels[p, n + 1, EDGE] = at
                 count += 1
                 break

@@ -37,27 +37,28 @@ exact = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
 def lay_skin(skin, heights, count, gauss, weights, nodes):
     """Nodes over the interference of asperities: t, weighted load and area; where they end."""
     apart()
-    w = skin[0, W]
+    row = len(skin) - 1  # a number and no constant, for which numba would compile twice
+    w = skin[row, W]
     end = (DEEPEST + math.sqrt(DEEPEST**2 + 100.0)) / w
     number = breaks(skin, 0)
     a = 0.0
     while a < end:
         b = 0.3 / w if a == 0 else min(a * 4.0, a + 2.5 / w)
         for n in range(number):
-            y = break_at(skin, 0, n)
+            y = break_at(skin, row, n)
             if a < y * (1 - 1e-12) and y < b:
                 b = y
         if b > 0.9 * end:
             b = end
         if count + nodes > MOST_HEIGHTS:
             return -1
-        regime = regime_of_branch(skin, 0, branch_of(skin, 0, 0.5 * (a + b)))
+        regime = regime_of_branch(skin, row, branch_of(skin, row, 0.5 * (a + b)))
         first, half = (0.0, 0.5 * math.sqrt(b)) if a == 0 else (a, 0.5 * (b - a))
         for j in range(nodes):
             y, weight = first + half * (1 + gauss[j]), half * weights[j]
             if a == 0:
                 y, weight = y * y, 2 * y * weight
-            load, area = law_at(skin, 0, y)
+            load, area = law_at(skin, row, y)
             weight *= w / ROOT_2PI
             heights[T, count] = w * y
             heights[OF_LOAD, count] = weight * load
