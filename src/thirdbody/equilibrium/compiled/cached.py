@@ -18,6 +18,7 @@ import sys
 import threading
 from collections.abc import Callable
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -39,13 +40,11 @@ def sources() -> str:
 
     numba looks at the module of a function alone.
     """
-    about, package = hashlib.sha256(), files("thirdbody")
-    folders = (package / "equilibrium" / "compiled", package / "equilibrium" / "engine")
-    paths = [path for each in folders for path in each.iterdir()]
-    paths.append(package / "laws" / "asperity" / "formulas.py")
-    for path in sorted(paths, key=str):
-        if path.name.endswith(".py"):
-            about.update(path.read_bytes())
+    about, here = hashlib.sha256(), Path(str(files(__package__)))
+    others = (here.parent / "engine", here.parents[1] / "laws" / "asperity")
+    paths = [*here.glob("*.py"), *(path for each in others for path in each.glob("*.py"))]
+    for path in sorted(paths):
+        about.update(path.read_bytes())
     return about.hexdigest()
 
 

@@ -103,7 +103,7 @@ def numbers(typingctx: Any, record: Any, name: Any) -> Any:
 
 @intrinsic
 def apart(typingctx: Any) -> Any:
-    """Say that the function which calls this stays one: it is optimised once, not in each caller."""
+    """Keep the function that calls this one: optimised once, not again in each caller."""
 
     def codegen(context, builder, signature, args):
         builder.function.attributes.add("noinline")

@@ -10,14 +10,52 @@ from numba import njit
 from ..compiled.cached import Cached
 from ..compiled.machine import apart
 from .fields import (
-    A_E, A_SA, A_SA2, COVERAGE, DENSITY, F_SA, F_SS, FOOTPRINT, HIGH, LOW, NOT_MONOTONE,
-    NOT_RESOLVED, OFFSET, OK, PROJECTED, ROUGH, SEAT, SHADE, SHADOW, SIDE, SIGMA, SIGMA_S, SIZE_1,
-    SIZE_2, SOFTEST, STIFFEST, TOO_LONG, TOO_MUCH, UNSOLVED, WIDTH,
+    A_E,
+    A_SA,
+    COVERAGE,
+    F_SA,
+    F_SS,
+    FOOTPRINT,
+    HIGH,
+    NODES,
+    NOT_MONOTONE,
+    NOT_RESOLVED,
+    OFFSET,
+    OK,
+    PROJECTED,
+    ROUGH,
+    RULE,
+    SEAT,
+    SERIES,
+    SHADE,
+    SHADOW,
+    SIDE,
+    SIGMA,
+    SIGMA_S,
+    SIZE_2,
+    SIZE_NODES,
+    SIZE_RULE,
+    SIZE_SPAN,
+    SOFTEST,
+    SPAN,
+    STIFFEST,
+    TOO_LONG,
+    TOO_MUCH,
+    UNSOLVED,
+    WIDTH,
 )  # fmt: skip
 from .sides import scalar
-from .squeeze import EDGE, MOST_PANELS, PANEL, TO, lay_panels, particle_at
+from .squeeze import EDGE, MOST_PANELS, PANEL, SHARE, TO, lay_panels, particle_at
 from .sums import (
-    MOST_HEIGHTS, MOST_NODES, MOST_SIZES, add_part, add_skin, lay_nodes, lay_sizes, lay_skin, shade,
+    MOST_HEIGHTS,
+    MOST_NODES,
+    MOST_SIZES,
+    add_part,
+    add_skin,
+    lay_nodes,
+    lay_sizes,
+    lay_skin,
+    shade,
 )  # fmt: skip
 
 __all__ = ["LEVELS", "solve_own"]
@@ -36,6 +74,8 @@ SAFE = 10.0
 """The error of a rule of twice the nodes is this many squares of its difference to the other."""
 SEARCHED, POLISHED = 80, 14
 """Evaluations at most, by few nodes and by all."""
+BALANCED, ULPS = 9e-13, 4e-16
+"""ln of load over target of a solved state, unless so much of the separation explains it."""
 RISE = 1e-6
 """Rise of the load with the separation that does not count."""
 
@@ -49,15 +89,15 @@ def total(given, skin, work, laid, rules, level, h, out):
         out[k] = 0.0
     last = len(given)
     add_skin(skin, heights, laid[last, level, GRID], laid[last, level, GRID_END], h, out)
-    nodes, span = int(rules[level, 0, 0]), rules[level, 0, 1]
+    nodes, span = int(rules[level, 0, NODES]), rules[level, 0, SPAN]
     d = h * skin[0, SIGMA_S]
     good = True
     for p in range(last):
         own = laid[p, level]
         good &= add_part(
             given, sides, panels, p, own[COUNT], grid, own[GRID], own[GRID_END],
-            sizes, own[SIZED], own[SIZED_END], d, rules[level, 1], rules[level, 2], nodes, span,
-            out,
+            sizes, own[SIZED], own[SIZED_END], d, rules[level, RULE], rules[level, RULE + 1],
+            nodes, span, out,
         )  # fmt: skip
     if not good:
         return math.nan
@@ -69,8 +109,8 @@ def lay(given, skin, work, laid, rules, level):
     """Lay the nodes of one level behind those of the one before; False if there is no room."""
     apart()
     heights, sides, panels, grid, sizes = work
-    nodes, span = int(rules[level, 0, 0]), rules[level, 0, 1]
-    gauss, weights = rules[level, 1], rules[level, 2]
+    nodes, span = int(rules[level, 0, NODES]), rules[level, 0, SPAN]
+    gauss, weights = rules[level, RULE], rules[level, RULE + 1]
     last, good = len(given), True
     place = size = begin = 0
     if level == FINE:
@@ -85,7 +125,10 @@ def lay(given, skin, work, laid, rules, level):
         own[COUNT] = laid[p, COARSE, COUNT]
         own[GRID], own[SIZED] = place, size
         if given[p, SEAT] == ROUGH and good:
-            size = lay_sizes(given, p, sizes, size, gauss, weights, nodes, span)
+            size = lay_sizes(
+                given, p, sizes, size, rules[level, SIZE_RULE], rules[level, SIZE_RULE + 1],
+                int(rules[level, 0, SIZE_NODES]), rules[level, 0, SIZE_SPAN],
+            )  # fmt: skip
             place = lay_nodes(
                 given, sides, panels, p, own[COUNT], grid, place, gauss, weights, nodes, span
             )
@@ -133,7 +176,7 @@ def search(given, skin, work, laid, rules, target, out):
             slope = (f - old_f) / (h - old_h)
         old_h, old_f = h, f
         step = -f / slope if slope < -1e-3 else (f / 3 if abs(f) < 9 else math.copysign(3.0, f))
-        if abs(step) < 1e-4 and slope < -1e-3 and f_low < math.inf:
+        if abs(step) < 1e-4 and slope < -1e-3:
             return h + step, slope, n
         x = h + step
         if f_low < math.inf and f_high > -800.0 and n % 3 == 0:
@@ -155,12 +198,14 @@ def polish(given, skin, work, laid, rules, target, h, slope, out):
     few = laid.shape[1] - 2
     best, best_f = math.nan, math.inf
     old_h = old_f = math.nan
-    for n in range(1, POLISHED + 1):
+    n = 0
+    while n < POLISHED:
         f = _imbalance(total(given, skin, work, laid, rules, few + 1, h, out), target)
+        n += 1
         if abs(f) < abs(best_f):
             best, best_f = h, f
-        if abs(f) < 2e-13 or (n > 4 and abs(f) < 1e-12):
-            return h, slope, n
+        if abs(f) < 2e-13 or (n > 4 and abs(best_f) < BALANCED):
+            break
         if old_h == old_h and abs(h - old_h) > 1e-10:
             slope = (f - old_f) / (h - old_h)
         if not slope < 0:
@@ -170,10 +215,11 @@ def polish(given, skin, work, laid, rules, target, h, slope, out):
         if h + step == h:
             break
         h += step
-    if abs(best_f) < 1e-11:
+    if abs(best_f) >= BALANCED and abs(best_f) > -slope * ULPS * max(abs(best), 1.0):
+        return math.nan, slope, n
+    if best != h:
         total(given, skin, work, laid, rules, few + 1, best, out)
-        return best, slope, POLISHED
-    return math.nan, slope, POLISHED
+    return best, slope, n
 
 
 @scalar
@@ -184,7 +230,7 @@ def _falls(given, work, laid, bound, sigma_s):
     with its squeeze than its load.
     """
     apart()
-    heights, sides, panels, grid, sizes = work
+    sides, panels = work[1], work[2]
     steepest = covered = 0.0
     for p in range(len(given)):
         shadow = given[p, SHADOW]
@@ -225,10 +271,15 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
     area += row[A_SA] + row[A_SA + 1] + row[A_SA + 2]
     worst = 0.0
     for k in range(10):
-        unit = load if k == F_SS or k == F_SA else (1.0 if k == SHADE else area)
+        unit = 1.0 if k == SHADE else area
+        if k % F_SA == 0 and k < SHADE - 1:  # the two loads
+            unit = load
         if unit > 0:
             worst = max(worst, abs(out[k] - row[k]) / unit)
     error = SAFE * worst * worst
+    for p in range(len(given)):  # shares of unlike sides are corrected once
+        off = work[2][p, laid[p, few, COUNT], SHARE]
+        error = max(error, SAFE * off * off)
     if slope < 0:
         error = max(error, error / -slope * skin[0, SIGMA_S] / skin[0, SIGMA])
     return error
@@ -240,7 +291,7 @@ def _own_state(given, skin, work, laid, rules, target, h, row, out):
     apart()
     last, few = len(given), laid.shape[1] - 2
     for p in range(last):
-        count = lay_panels(given, work[1], work[2], p, rules[0, 3:])
+        count = lay_panels(given, work[1], work[2], p, rules[0, SERIES:])
         laid[p, COARSE, COUNT] = count
         if count < 0:
             return h, 0, TOO_LONG, math.inf
@@ -248,8 +299,7 @@ def _own_state(given, skin, work, laid, rules, target, h, row, out):
     for level in range(LEVELS):
         own = rules[2 * level :]
         if not (
-            lay(given, skin, work, laid, own, few)
-            and lay(given, skin, work, laid, own, few + 1)
+            lay(given, skin, work, laid, own, few) and lay(given, skin, work, laid, own, few + 1)
         ):
             return h, count, TOO_LONG, math.inf
         if target > 0:

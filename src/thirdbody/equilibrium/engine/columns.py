@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Mapping
 from functools import lru_cache
@@ -14,6 +15,7 @@ from ...contact.contact import Contact
 from ...errors import NotCompiled
 from ...laws import asperity, particle
 from ...laws.asperity.elliptic import elliptic_hertz
+from ...laws.particle.deep import squeeze_curve
 from ...numerics.quadrature import gauss_legendre
 from ...populations import distributions as sizes
 from ...populations.heights import GaussianHeights
@@ -36,27 +38,26 @@ SHADOWS = {
     "none": f.NOTHING,
 }
 TERMS = 12
-NODES = ((8, 16), (16, 24))
-"""Nodes of a panel, few and all, of each level."""
-SPANS = (3.0, 1.5)
-"""Widths of a density that a panel covers, of each level."""
+NODES = (((6, 3.0, 10, 6.5), (12, 4.0, 16, 6.5)), ((12, 2.0, 16, 4.0), (24, 2.0, 24, 4.0)))
+"""Of each level, few and all: nodes of a panel and how many widths of a density it covers, then
+the same of sizes on a rough seat."""
 NARROWEST = 1e-5
 """Width of sizes over their middle below which differences of sizes keep too few digits."""
 
 
 @lru_cache(maxsize=1)
 def rules() -> Array:
-    """Gauss rules of every level, then nodes and transform of a Chebyshev series."""
-    out = np.zeros((2 * len(NODES), 4 + TERMS, 24))
-    for level, (pair, span) in enumerate(zip(NODES, SPANS, strict=True)):
-        for i, count in enumerate(pair):
-            row = out[2 * level + i]
-            row[0, :2] = count, span
-            row[1, :count], row[2, :count] = gauss_legendre(count)
+    """Gauss rules of every level, then places and transform of a Chebyshev series."""
+    out = np.zeros((2 * len(NODES), f.SERIES + 1 + TERMS, 24))
+    for i, asked in enumerate(itertools.chain(*NODES)):
+        out[i, 0, :4] = asked
+        for row, count in ((f.RULE, asked[0]), (f.SIZE_RULE, asked[2])):
+            out[i, row, :count], out[i, row + 1, :count] = gauss_legendre(count)
     angle = (np.arange(TERMS) + 0.5) * math.pi / TERMS
-    out[0, 3, :TERMS] = np.cos(angle)
-    out[0, 4:, :TERMS] = 2 / TERMS * np.cos(np.outer(np.arange(TERMS), angle))
-    out[0, 4, :TERMS] /= 2
+    series = out[0, f.SERIES :]
+    series[0, :TERMS] = np.cos(angle)
+    series[1:, :TERMS] = 2 / TERMS * np.cos(np.outer(np.arange(TERMS), angle))
+    series[1, :TERMS] /= 2
     return out
 
 
@@ -155,12 +156,14 @@ class Numbers:
     def _populations(self) -> list[tuple[Any, Any, Any, Any]]:
         """Particles and law, as they are and with arrays in them."""
         given, varied = self.contact.particles, self.varied.particles
-        pairs = [(given, varied)] if not isinstance(given, tuple) else list(zip(given, varied))
+        pairs = (
+            [(given, varied)]
+            if not isinstance(given, tuple)
+            else list(zip(given, varied, strict=True))
+        )
         out = []
         for one, changed in pairs:
-            if isinstance(given, tuple) and one.law is not None:
-                law = one.law, changed.law
-            elif one.law is not None:
+            if (isinstance(given, tuple) and one.law is not None) or one.law is not None:
                 law = one.law, changed.law
             else:
                 law = self.contact.particle_law, self.varied.particle_law
@@ -168,7 +171,7 @@ class Numbers:
         return out
 
     def _add_particles(self, p: int, one: Particles, changed: Any, law: Any, varied: Any) -> None:
-        if type(law) is not particle.Series or law.deep != "off" or law.onset != "hermite":
+        if type(law) is not particle.Series or law.onset != "hermite":
             raise NotCompiled("particles that are not Series")
         if one.strength is not None:
             raise NotCompiled("particles that break")
@@ -203,13 +206,16 @@ class Numbers:
         numbers, delta_1 = _law(type(law.law), varied.law, R, E, H, nu)
         _filled(rows, dict(enumerate(numbers)))
         soft = np.broadcast_to(body.H < surface.H, self.count)
-        if law.soft != "squashed" or type(law.law) in (asperity.GW, asperity.JG):
+        yields = type(law.law) not in (asperity.GW, asperity.JG)
+        if law.soft != "squashed" or not yields:
             soft = np.zeros(self.count, bool)
         ratio = np.broadcast_to(E / H, self.count)
         if np.any(soft & ((ratio < 1e-6) | (ratio > 1e9) | (surface.H / H > 1e9))):
             raise NotCompiled("squashed particles beyond the law")
         if type(law.law) in (asperity.EllipticZMC, asperity.EllipticCEB):
             raise NotCompiled("elliptic tips of particles")
+        if law.deep == "table" and law.soft == "squashed" and yields:
+            return self._add_deep(rows, surface.H, body.H, E, H, delta_1, varied)
         full = np.where(soft, 1 / (6 * R * delta_1), 0.5 / delta_1)
         _filled(
             rows,
@@ -218,6 +224,28 @@ class Numbers:
                 **{f.UNIT: R * math.pi * delta_1 * H, f.FULL: full},
                 f.HILL: np.where(soft, 2 * varied.friction_factor / (3 * math.sqrt(3)), 0.0),
                 f.HARDER: np.where(soft, surface.H / H, 1.0),
+            },
+        )
+        return E, H
+
+    def _add_deep(
+        self, rows: Array, surface: Any, body: Any, E: Any, H: Any, delta_1: Any, varied: Any
+    ) -> tuple[Any, Any]:
+        """Fill in the rows of a side by the table of deep squeezes; its E* and H."""
+        ratio, R = body / surface, 0.5
+        given = np.broadcast_arrays(ratio, varied.friction_factor, E / H, np.empty(self.count))
+        cases, which = np.unique(np.stack(given[:3]), axis=1, return_inverse=True)
+        curves = [squeeze_curve(*case) for case in cases.T.tolist()]
+        terms = f.TABLE_LOAD + f.TABLE_TERMS
+        rows[:, f.TABLE_LOAD : terms] = np.array([each.log_load for each in curves])[which]
+        rows[:, f.TABLE_AREA : f.OF_SIDE] = np.array([each.log_area for each in curves])[which]
+        _filled(
+            rows,
+            {
+                **{f.FORM: f.DEEP, f.DELTA_1: delta_1, f.TIP: R, f.FULL: 0.5 / delta_1},
+                f.UNIT: R * math.pi * delta_1 * H,
+                f.HILL: varied.friction_factor / (3 * math.sqrt(3)),
+                f.HARDER: np.maximum(1 / ratio, 1.0),
             },
         )
         return E, H

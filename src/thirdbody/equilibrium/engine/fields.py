@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-__all__ = ["NO_FORM", "SPHERE", "SQUASHED"]
-
 GW, ZMC, HERMITE, CEB, KE, JG = range(6)
 """Laws of one contact."""
 SPHERE, SQUASHED, DEEP, FACED = range(4)
@@ -26,9 +24,13 @@ OF_ASPERITIES = 10
 FORM, DELTA_1, UNIT, FULL, TIP, HILL, HARDER = range(5, 12)
 """Kind, first yield over x, unit of load [Pa], reduced area of the great circle or of the disc,
 tip radius over x, friction hill, hardness of the surface over H."""
-OF_SIDE = 12
+TABLE_TERMS = 20
+TABLE_LOAD = 12
+TABLE_AREA = TABLE_LOAD + TABLE_TERMS
+"""Series of ln of load and of area of a side by the table of deep squeezes."""
+OF_SIDE = TABLE_AREA + TABLE_TERMS
 # found once a state
-CAP, WIDE, END, PLATEAU, LIMIT, COUNT, KINKS = range(12, 19)
+CAP, WIDE, END, PLATEAU, LIMIT, COUNT, KINKS = range(OF_SIDE, OF_SIDE + 7)
 """Reduced indentation at the cap; where it is as wide as the sphere; where it sinks in; whether
 it goes on; the most load; how many kinks, and where they begin [x]."""
 MOST_KINKS = 40
@@ -54,3 +56,8 @@ F_SS, A_E, F_SA, A_SA, A_SA2, SHADE = 0, 1, 4, 5, 8, 9
 OK, TOO_MUCH, TOO_LITTLE, UNSOLVED = range(4)
 NOT_MONOTONE, NOT_RESOLVED, TOO_LONG = 10, 11, 12
 """For another engine: the load may rise, the error is not small enough, too many nodes."""
+
+# ------------------------------------------------------------------ the rules of a level
+NODES, SPAN, SIZE_NODES, SIZE_SPAN = range(4)
+RULE, SIZE_RULE, SERIES = 1, 3, 5
+"""Rows of Gauss nodes, each before one of weights, and of the Chebyshev series."""

@@ -91,8 +91,10 @@ def solve(
 
     count = numbers.count
     h = np.array(given)
-    goal = np.zeros(count) if target is None else np.ascontiguousarray(
-        np.broadcast_to(target, count), dtype=float
+    goal = (
+        np.zeros(count)
+        if target is None
+        else np.ascontiguousarray(np.broadcast_to(target, count), dtype=float)
     )
     evaluations, fate = np.zeros(count, np.int64), np.zeros(count, np.int64)
     error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))

@@ -10,10 +10,40 @@ import math
 from numba import njit
 
 from ...laws.asperity import formulas
+from ...laws.particle import deep
 from ..compiled.machine import apart
 from .fields import (
-    CAP, CEB, CODE, COUNT, DELTA_1, END, FORM, FULL, GW, HARDER, HERMITE, HILL, JG, KE, KINKS,
-    LAW_1, LAW_2, LAW_3, LAW_4, LIMIT, MOST_KINKS, PLATEAU, SQUASHED, TIP, UNIT, WIDE, ZMC,
+    CAP,
+    CEB,
+    CODE,
+    COUNT,
+    DEEP,
+    DELTA_1,
+    END,
+    FORM,
+    FULL,
+    GW,
+    HARDER,
+    HERMITE,
+    HILL,
+    JG,
+    KE,
+    KINKS,
+    LAW_1,
+    LAW_2,
+    LAW_3,
+    LAW_4,
+    LIMIT,
+    MOST_KINKS,
+    PLATEAU,
+    SQUASHED,
+    TABLE_AREA,
+    TABLE_LOAD,
+    TABLE_TERMS,
+    TIP,
+    UNIT,
+    WIDE,
+    ZMC,
 )  # fmt: skip
 
 __all__ = ["break_at", "breaks", "law_at", "prepare", "regime_of", "side_at"]
@@ -28,6 +58,13 @@ plastic_ceb = scalar(formulas.plastic_ceb)
 kogut = scalar(formulas.kogut)
 green_middle = scalar(formulas.green_middle)
 HALVINGS, STEEPEST = 60, 1e-15
+LAW_ENDS, TABLE_BEGINS, TABLE_ENDS, SPLITS = (
+    deep.LAW_ENDS,
+    deep.TABLE_BEGINS,
+    deep.TABLE_ENDS,
+    deep.SPLITS,
+)
+THINNEST = math.exp(deep.THINNEST)
 GRADING = 4.0
 """Ratio of heights left at neighbouring kinks of a disc."""
 
@@ -55,7 +92,7 @@ def breaks(rows, i):
     code = rows[i, CODE]
     if code == GW:
         return 0
-    if code == ZMC or code == HERMITE:
+    if ZMC <= code <= HERMITE:
         return 2
     if code == KE:
         return 3
@@ -100,7 +137,7 @@ def law_at(rows, i, y):
     """Reduced load and area of the law of a row at y > 0."""
     apart()
     code = rows[i, CODE]
-    if code == ZMC or code == HERMITE:
+    if ZMC <= code <= HERMITE:
         k, rho = rows[i, LAW_1], rows[i, LAW_2]
         r, full = rows[i, LAW_3], rows[i, LAW_4]
         if y < 1:
@@ -219,6 +256,90 @@ def _squashed_at(rows, i, y):
 
 
 @scalar
+def _series(rows, i, begin, x):
+    """A Chebyshev series of a row at x, from −1 to 1."""
+    b, c = 0.0, 0.0
+    for k in range(TABLE_TERMS - 1, 0, -1):
+        b, c = rows[i, begin + k] + 2 * x * b - c, b
+    return rows[i, begin] + x * b - c
+
+
+@scalar
+def _disc_at(rows, i, left):
+    """Load over πR²H and area over πR² of a disc beyond the table, of a height left."""
+    load = math.exp(_series(rows, i, TABLE_LOAD, 1.0))
+    area = math.exp(_series(rows, i, TABLE_AREA, 1.0))
+    thick = 1 - TABLE_ENDS
+    wide, hill = area * thick / left, rows[i, HILL]
+    rise = (1 + hill * math.sqrt(wide) / left) / (1 + hill * math.sqrt(area) / thick)
+    return load * thick / left * rise, wide
+
+
+@scalar
+def _deep_at(rows, i, eps):
+    """Load over πR²H and area over πR² of a side by the table, at a squeeze ε = δ/R."""
+    apart()
+    if eps > TABLE_ENDS:
+        return _disc_at(rows, i, 1 - eps)
+    thin = rows[i, DELTA_1] / rows[i, TIP]
+    if eps <= LAW_ENDS:
+        load, area = law_at(rows, i, eps / thin)
+        return thin * load, thin * area
+    first, last = math.log(LAW_ENDS / (1 - LAW_ENDS)), math.log(TABLE_ENDS / (1 - TABLE_ENDS))
+    place = (2 * math.log(eps / (1 - eps)) - first - last) / (last - first)
+    table_load = math.exp(_series(rows, i, TABLE_LOAD, place))
+    table_area = math.exp(_series(rows, i, TABLE_AREA, place))
+    if eps >= TABLE_BEGINS:
+        return table_load, table_area
+    load, area = law_at(rows, i, eps / thin)
+    u = math.log(eps / LAW_ENDS) / math.log(TABLE_BEGINS / LAW_ENDS)
+    w = u * u * (3 - 2 * u)
+    load, area = thin * load, thin * area
+    return load * (table_load / load) ** w, area * (table_area / area) ** w
+
+
+@scalar
+def _prepare_table(rows, i):
+    """Where a side by the table is wide, sinks in, and changes its formula."""
+    thin = rows[i, DELTA_1] / rows[i, TIP]
+    low = high = 1 - TABLE_ENDS
+    load, area = _disc_at(rows, i, low)
+    while load < rows[i, HARDER] * area and low > THINNEST:
+        high, low = low, 0.5 * low
+        load, area = _disc_at(rows, i, low)
+    end = 1 - low
+    if low < high and low > THINNEST:
+        for _ in range(HALVINGS):
+            left = math.sqrt(low * high)
+            load, area = _disc_at(rows, i, left)
+            if load < rows[i, HARDER] * area:
+                high = left
+            else:
+                low = left
+        end = 1 - low
+    rows[i, END] = end / thin
+    for eps in (LAW_ENDS, TABLE_BEGINS, *SPLITS, TABLE_ENDS, end):
+        _add_kink(rows, i, eps / thin)
+    for n in range(breaks(rows, i)):
+        if break_at(rows, i, n) * thin < TABLE_BEGINS:
+            _add_kink(rows, i, break_at(rows, i, n))
+    if _deep_at(rows, i, end)[1] > 1 >= _deep_at(rows, i, TABLE_BEGINS)[1]:
+        low, high = TABLE_BEGINS, end
+        for _ in range(HALVINGS):
+            eps = 0.5 * (low + high)
+            if _deep_at(rows, i, eps)[1] > 1:
+                high = eps
+            else:
+                low = eps
+        _add_kink(rows, i, 0.5 * (low + high) / thin)
+    left = 1 - TABLE_ENDS
+    while left > GRADING * (1 - end):
+        left /= GRADING
+        _add_kink(rows, i, (1 - left) / thin)
+    rows[i, CAP] = TABLE_BEGINS / thin
+
+
+@scalar
 def side_at(rows, i, delta):
     """Load over x² [Pa] and area over x² of a side indented by δ over x."""
     apart()
@@ -226,6 +347,10 @@ def side_at(rows, i, delta):
     y = delta / delta_1
     if rows[i, FORM] == SQUASHED:
         load, area = _squashed_at(rows, i, min(y, rows[i, END]))
+    elif rows[i, FORM] == DEEP:
+        thin = delta_1 / rows[i, TIP]
+        load, area = _deep_at(rows, i, min(y, rows[i, END]) * thin)
+        load, area = load / thin, area / thin
     else:
         cap, full = rows[i, CAP], rows[i, FULL]
         if rows[i, PLATEAU] == 0 and y > cap:
@@ -310,9 +435,14 @@ def prepare(rows, i):
     apart()
     code = rows[i, CODE]
     rows[i, COUNT] = 0
-    rows[i, PLATEAU] = 0.0 if code == GW or code == JG else 1.0
-    cap = rows[i, CAP] = _cap(rows, i)
+    rows[i, PLATEAU] = 1.0 if GW < code < JG else 0.0
     rows[i, END] = math.inf
+    if rows[i, FORM] == DEEP:
+        _prepare_table(rows, i)
+        last = rows[i, KINKS + int(rows[i, COUNT]) - 1]
+        rows[i, LIMIT] = side_at(rows, i, last)[0]
+        return rows[i, COUNT] < MOST_KINKS
+    cap = rows[i, CAP] = _cap(rows, i)
     if rows[i, FORM] == SQUASHED:
         if not _prepare_disc(rows, i):
             return False

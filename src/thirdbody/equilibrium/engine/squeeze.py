@@ -16,7 +16,7 @@ EDGE, TO, REGIME, FROM, UNTIL, SHARE = range(6)
 PANEL = SHARE + TERMS
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
-CLOSE = 1e-12
+CLOSE, BALANCED, RESOLVED = 1e-12, 1e-13, 1e-6
 DEEPEST = 1e3
 
 
@@ -67,40 +67,33 @@ def inverse(sides, i, load):
 
 
 @scalar
-def split(sides, i, eps, low, high):
-    """Indentation over x of side i at a squeeze ε, between two; side i + 1 takes the rest."""
+def split(sides, i, eps, low, high, delta):
+    """Indentation over x of side i at a squeeze ε, between two; side i + 1 takes the rest.
+
+    By secants from a first guess, inside the bracket; the first slope is that of a load which
+    grows like a power of the indentation.
+    """
     apart()
-    f_low = -math.inf
-    if low > 0:
-        f_low = math.log(side_at(sides, i, low)[0] / side_at(sides, i + 1, eps - low)[0])
-    f_high = math.inf
-    if high < eps:
-        f_high = math.log(side_at(sides, i, high)[0] / side_at(sides, i + 1, eps - high)[0])
-    if f_low >= 0:
-        return low
-    if f_high <= 0:
-        return high
-    delta, last = 0.5 * (low + high), 0
-    for step in range(200):
-        if math.isfinite(f_low) and math.isfinite(f_high) and step % 8 != 7:
-            delta = (low * f_high - high * f_low) / (f_high - f_low)
-        else:
-            delta = 0.5 * (low + high)
-        if not low < delta < high:
-            delta = 0.5 * (low + high)
+    if not low < delta < high:
+        delta = 0.5 * (low + high)
+    old = old_f = math.nan
+    slope = 1.3 / delta + 1.3 / max(eps - delta, 1e-300)
+    for step in range(100):
         f = math.log(side_at(sides, i, delta)[0] / side_at(sides, i + 1, eps - delta)[0])
+        if f < 0:
+            low = delta
+        else:
+            high = delta
         if abs(f) < 4e-16 or high - low < 4e-16 * high:
             break
-        if f < 0:
-            low, f_low = delta, f
-            if last == -1:
-                f_high *= 0.5
-            last = -1
-        else:
-            high, f_high = delta, f
-            if last == 1:
-                f_low *= 0.5
-            last = 1
+        if old == old and delta != old:
+            slope = (f - old_f) / (delta - old)
+        old, old_f = delta, f
+        delta -= f / slope
+        if not low < delta < high or not slope > 0 or step % 12 == 11:
+            delta = 0.5 * (low + high)
+        elif abs(delta - old) < 2e-16 * delta:
+            break
     return delta
 
 
@@ -127,10 +120,21 @@ def particle_at(given, sides, panels, p, n, eps):
         load, area = side_at(sides, 2 * p, 0.5 * eps)
         return load, area, area
     one = eps * share_at(panels, p, n, eps)
-    two = eps - one
     load, first = side_at(sides, 2 * p, one)
-    other, second = side_at(sides, 2 * p + 1, two)
-    return load if one > two else other, first, second
+    other, second = side_at(sides, 2 * p + 1, eps - one)
+    off = other / load - 1
+    if abs(off) > BALANCED:
+        # along the line from here to a point that is closer, with an error of its square
+        step = off / (1.3 / one + 1.3 / (eps - one))
+        near, near_first = side_at(sides, 2 * p, one + step)
+        near_other, near_second = side_at(sides, 2 * p + 1, eps - one - step)
+        part = off / (off - (near_other / near - 1)) if near_other > 0 else 0.0
+        one += part * step
+        load += part * (near - load)
+        other += part * (near_other - other)
+        first += part * (near_first - first)
+        second += part * (near_second - second)
+    return load if one > eps - one else other, first, second
 
 
 @scalar
@@ -183,14 +187,42 @@ def _fill_share(sides, panels, p, n, rule, low, high):
     panels[p, n, FROM], panels[p, n, UNTIL] = first, last
     for k in range(TERMS):
         panels[p, n, SHARE + k] = 0.0
+    share = 0.0
     for j in range(TERMS):  # from the last place down to the first
         x = rule[0, j]
         eps = 0.25 * last * (x + 1) ** 2
         if first > 0:
             eps = first * math.exp(0.5 * (x + 1) * math.log(last / first))
-        delta = split(sides, 2 * p, eps, max(low, eps - (last - high)), min(high, eps))
+        guess = share * eps if j > 0 else high * eps / last
+        delta = split(sides, 2 * p, eps, max(low, eps - (last - high)), min(high, eps), guess)
+        share = delta / eps
         for k in range(TERMS):
-            panels[p, n, SHARE + k] += rule[1 + k, j] * delta / eps
+            panels[p, n, SHARE + k] += rule[1 + k, j] * share
+
+
+@scalar
+def _share_out(sides, panels, p, count, rule):
+    """Fill the series of the share on every panel, halved where it is not resolved.
+
+    How many panels there are then, and the largest last term of a series.
+    """
+    apart()
+    low, n, worst = 0.0, 0, 0.0
+    while n < count:
+        a, b = panels[p, n, EDGE], panels[p, n, TO]
+        high = split(sides, 2 * p, b, low, min(b, low + b - a), low + 0.5 * (b - a))
+        _fill_share(sides, panels, p, n, rule, low, high)
+        tail = abs(panels[p, n, SHARE + TERMS - 1]) + abs(panels[p, n, SHARE + TERMS - 2])
+        if tail > RESOLVED and b > a * 1.02 and count < MOST_PANELS - 2:
+            for m in range(count, n, -1):
+                panels[p, m, EDGE], panels[p, m, TO] = panels[p, m - 1, EDGE], panels[p, m - 1, TO]
+            panels[p, n, TO] = panels[p, n + 1, EDGE] = math.sqrt(a * b) if a > 0 else 0.25 * b
+            count += 1
+            continue
+        worst = max(worst, tail)
+        low = high
+        n += 1
+    return count, worst
 
 
 @scalar
@@ -245,7 +277,7 @@ def lay_panels(given, sides, panels, p, rule):
     apart()
     if not prepare(sides, 2 * p):
         return -1
-    equal = given[p, EQUAL] == 1
+    equal, worst = given[p, EQUAL] == 1, 0.0
     if not equal and not prepare(sides, 2 * p + 1):
         return -1
     count = _kinks(given, sides, panels, p)
@@ -254,7 +286,7 @@ def lay_panels(given, sides, panels, p, rule):
     known = count
     for k in range(1, known - 1):  # cut those whose ends lie far apart
         a, b = panels[p, known - 1 - k, EDGE], panels[p, known - k, EDGE]
-        parts = int(math.ceil(math.log(b / a) / math.log(RATIO) - 1e-9))
+        parts = math.ceil(math.log(b / a) / math.log(RATIO) - 1e-9)
         if count + parts >= MOST_PANELS - 2:
             return -1
         step = (b / a) ** (1.0 / parts) if parts > 1 else 1.0
@@ -265,15 +297,7 @@ def lay_panels(given, sides, panels, p, rule):
         panels[p, n, TO] = panels[p, n + 1, EDGE]
     count -= 1
     if not equal:
-        low = 0.0
-        weaker = min(sides[2 * p, LIMIT], sides[2 * p + 1, LIMIT])
-        for n in range(count):
-            high = panels[p, n, TO]
-            high = split(sides, 2 * p, high, low, min(high, low + high - panels[p, n, EDGE]))
-            if n == count - 1 and weaker == 0:
-                return -1
-            _fill_share(sides, panels, p, n, rule, low, high)
-            low = high
+        count, worst = _share_out(sides, panels, p, count, rule)
         count = _cut_at_crossings(given, sides, panels, p, count)
     for n in range(count):
         eps = 0.5 * (panels[p, n, EDGE] + panels[p, n, TO])
@@ -283,5 +307,6 @@ def lay_panels(given, sides, panels, p, rule):
     eps = panels[p, count - 1, TO]
     one = 0.5 * eps if equal else eps * share_at(panels, p, count - 1, eps)
     deeper = equal or sides[2 * p, LIMIT] <= sides[2 * p + 1, LIMIT] * (1 + CLOSE)
+    panels[p, count, SHARE] = 0.0 if equal else worst
     panels[p, count, REGIME] = regime_of(sides, 2 * p, one * (1 + 1e-9 * (1 if deeper else -1)))
     return count

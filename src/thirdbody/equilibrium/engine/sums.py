@@ -8,11 +8,37 @@ from numba import njit
 
 from ..compiled.machine import apart, exp, normal_cdf
 from .fields import (
-    AREA, A_E, A_SA, A_SA2, BREADTH, COVERAGE, COVERED, DENSITY, F_SA, F_SS, FOOTPRINT, FORCE,
-    GAUSSIAN, HIGH, KIND, LOGNORMAL, LOW, NORM, OFFSET, ONE_SIZE, PLANE, PROJECTED, SEAT, SHADE,
-    SHADOW, SIZE_1, SIZE_2, W, WIDTH,
+    A_E,
+    A_SA,
+    A_SA2,
+    AREA,
+    BREADTH,
+    COVERAGE,
+    COVERED,
+    DENSITY,
+    F_SA,
+    F_SS,
+    FOOTPRINT,
+    FORCE,
+    GAUSSIAN,
+    HIGH,
+    KIND,
+    LOGNORMAL,
+    LOW,
+    NORM,
+    OFFSET,
+    ONE_SIZE,
+    PLANE,
+    PROJECTED,
+    SEAT,
+    SHADE,
+    SHADOW,
+    SIZE_1,
+    SIZE_2,
+    WIDTH,
+    W,
 )  # fmt: skip
-from .sides import break_at, breaks, branch_of, law_at, regime_of_branch, scalar
+from .sides import branch_of, break_at, breaks, law_at, regime_of_branch, scalar
 from .squeeze import EDGE, REGIME, TO, particle_at
 
 __all__ = ["MOST_NODES", "MOST_SIZES", "add_part", "add_skin", "lay_nodes", "lay_skin"]
@@ -167,7 +193,7 @@ def lay_nodes(given, sides, panels, p, count, grid, begin, gauss, weights, nodes
         first, last = panels[p, n, EDGE], panels[p, n, TO]
         thin = own * (1 - 0.5 * (first + last))
         step = span * math.sqrt((width / given[p, HIGH]) ** 2 + thin * thin * (least >= 0))
-        parts = max(1, int(math.ceil((last - first) / step)))
+        parts = max(1, math.ceil((last - first) / step))
         if place + parts * nodes > MOST_NODES:
             return -1
         for m in range(parts):
@@ -323,7 +349,7 @@ def _add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span,
     if given[p, KIND] == ONE_SIZE:
         _add_one_size(given, sides, panels, p, count, gap, out)
         return True
-    squared = touched = 0.0
+    squared = 0.0
     for n in range(count + 1):
         # sizes squeezed by the ε of panel n, and last those squeezed beyond
         a, b = max(low, gap), high
