@@ -118,6 +118,38 @@ def test_unlike_sides_hold_to_the_slow_path(law, seat):
     hold(contact(law, seat, "hard"), 2, 3, unlike=True)
 
 
+@pytest.mark.parametrize(("sigma", "std"), [(8e-9, 0.25), (8e-9, 0.02), (1e-6, 0.1)])
+@pytest.mark.parametrize("body", BODIES)
+def test_seats_that_are_narrow_or_wide(sigma, std, body):
+    case = contact(body=body)
+    vary = {
+        "roughness.sigma": np.array([0.9, 1.1]) * sigma,
+        "particles.diameter.std": np.array([1.0, 1.1]) * std * 300e-9,
+    }
+    loads = np.array([1e-6, 3e-5])
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    sure = got["doubt"] == ""
+    assert sure.all()
+    assert max(largest_error(got, want, sure).values()) <= BOUND
+
+
+@pytest.mark.parametrize("seat", SEATS)
+def test_other_sizes_and_flakes(seat):
+    case = contact(seat=seat)
+    loads, turn = np.array([1e-7, 3e-5]), np.array([0.9, 1.1])
+    for particles, law, vary in (
+        (tb.LogNormal(median=250e-9, gsd=1.3), {}, {"particles.diameter.gsd": 1.3 * turn}),
+        (tb.Uniform(low=1e-7, high=4e-7), {}, {"particles.diameter.high": 4e-7 * turn}),
+        (SIZES["gaussian"], {"aspect": 2.0}, {"particle_law.aspect": 2.0 * turn}),
+    ):
+        own = tb.particle.Flakes(seat=seat, **law) if law else case.particle_law
+        every = case.replace(particles=case.particles.replace(diameter=particles), particle_law=own)
+        got, want = own_columns(every, vary, "F_star", loads), slow(every, vary, loads)
+        sure = got["doubt"] == ""
+        assert sure.all(), got["doubt"]
+        assert max(largest_error(got, want, sure).values()) <= BOUND
+
+
 def test_populations_side_by_side_hold_to_the_slow_path():
     case = contact()
     wear = case.particles.replace(material=tb.Material(E=190e9, nu=0.3, H=1e9), areal_density=5e10)

@@ -155,15 +155,13 @@ class Numbers:
 
     def _populations(self) -> list[tuple[Any, Any, Any, Any]]:
         """Particles and law, as they are and with arrays in them."""
-        given, varied = self.contact.particles, self.varied.particles
-        pairs = (
-            [(given, varied)]
-            if not isinstance(given, tuple)
-            else list(zip(given, varied, strict=True))
-        )
+        given: Any = self.contact.particles
+        varied: Any = self.varied.particles
+        if not isinstance(given, tuple):
+            given, varied = (given,), (varied,)
         out = []
-        for one, changed in pairs:
-            if (isinstance(given, tuple) and one.law is not None) or one.law is not None:
+        for one, changed in zip(given, varied, strict=True):
+            if one.law is not None:
                 law = one.law, changed.law
             else:
                 law = self.contact.particle_law, self.varied.particle_law
@@ -171,7 +169,7 @@ class Numbers:
         return out
 
     def _add_particles(self, p: int, one: Particles, changed: Any, law: Any, varied: Any) -> None:
-        if type(law) is not particle.Series or law.onset != "hermite":
+        if type(law) not in (particle.Series, particle.Flakes) or law.onset != "hermite":
             raise NotCompiled("particles that are not Series")
         if one.strength is not None:
             raise NotCompiled("particles that break")
@@ -184,11 +182,11 @@ class Numbers:
             {
                 **{f.SEAT: f.ROUGH if law.seat == "rough" else f.PLANE, f.WIDTH: width},
                 **{f.OFFSET: varied.seat_offset(rough), f.SHADOW: SHADOWS[law.shadow]},
-                **{f.DENSITY: changed.areal_density, f.BREADTH: 1.0},
+                **{f.DENSITY: changed.areal_density, f.BREADTH: 2 * varied.tip_radius},
             },
         )
         second = self._add_sizes(rows, one.diameter, changed.diameter)
-        rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.DENSITY] * second
+        rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.BREADTH] * rows[:, f.DENSITY] * second
         if np.any(rows[:, f.COVERAGE] >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
         sides = [
@@ -201,7 +199,7 @@ class Numbers:
 
     def _side(self, rows: Array, surface: Any, body: Any, law: Any, varied: Any) -> tuple[Any, Any]:
         """Fill in the rows of a side; its E* and H."""
-        R = 0.5
+        R = varied.tip_radius
         E, (H, nu) = reduced_modulus(surface, body), _softer(surface, body)
         numbers, delta_1 = _law(type(law.law), varied.law, R, E, H, nu)
         _filled(rows, dict(enumerate(numbers)))
@@ -273,4 +271,28 @@ class Numbers:
             m1 = mean + std * (edge[0] - edge[1]) / mass
             v = 1 + (A * edge[0] - B * edge[1]) / mass
             return mean * (2 * m1 - mean) + std**2 * v
-        raise NotCompiled("sizes that are not Gaussian")
+        if type(one) is sizes.LogNormal:
+            median, s = changed.median, np.log(changed.gsd)
+            cut = sizes.NORMAL_CUT
+            _filled(
+                rows,
+                {
+                    **{f.KIND: f.LOGNORMAL, f.SIZE_1: median, f.SIZE_2: s},
+                    f.NORM: 1 / (math.sqrt(2 * math.pi) * s),
+                    **{
+                        f.LOW: median * np.exp(-cut * s),
+                        f.HIGH: median * np.exp((cut + 2 * s) * s),
+                    },
+                },
+            )
+            if np.any(s < NARROWEST):
+                raise NotCompiled("sizes that lie very close together")
+            return median**2 * np.exp(2 * s * s)
+        if type(one) is sizes.Uniform:
+            low, high = changed.low, changed.high
+            if np.any(high - low < NARROWEST * high):
+                raise NotCompiled("sizes that lie very close together")
+            kind = {f.KIND: f.UNIFORM, f.NORM: 1 / (high - low), f.LOW: low, f.HIGH: high}
+            _filled(rows, kind)
+            return (high**2 + high * low + low**2) / 3
+        raise NotCompiled("sizes that are not Gaussian, log-normal or uniform")

@@ -71,7 +71,7 @@ def own_columns(
     names = ("F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow")
     part = dict(zip(names, columns[4:], strict=True))
     part["shadow"] = np.minimum(part["shadow"], 1.0)
-    raw = together(columns[0], columns[1:4], part)
+    raw = together(columns[0], list(columns[1:4]), part)
     d = np.where(bad, np.nan, loads) if target is None else sigma_s * h
     star = loads if load == "F_star" else None
     found = as_columns(raw, d, rough.y_s, rough.sigma, E, target=target, F_star=star)
@@ -91,11 +91,8 @@ def solve(
 
     count = numbers.count
     h = np.array(given)
-    goal = (
-        np.zeros(count)
-        if target is None
-        else np.ascontiguousarray(np.broadcast_to(target, count), dtype=float)
-    )
+    # an array of its own: one that may not be written to would be compiled for anew
+    goal = np.array(np.broadcast_to(0.0 if target is None else target, count), dtype=float)
     evaluations, fate = np.zeros(count, np.int64), np.zeros(count, np.int64)
     error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))
 

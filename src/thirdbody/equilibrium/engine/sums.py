@@ -43,7 +43,7 @@ from .squeeze import EDGE, REGIME, TO, particle_at
 
 __all__ = ["MOST_NODES", "MOST_SIZES", "add_part", "add_skin", "lay_nodes", "lay_skin"]
 
-MOST_NODES, MOST_SIZES, MOST_HEIGHTS = 8192, 512, 1024
+MOST_NODES, MOST_SIZES, MOST_HEIGHTS = 16_384, 2048, 1024
 EPS, LOAD, FIRST, SECOND, LARGER, KEPT, SUM = range(7)
 """Rows of the nodes over ε: ε, weighted load, areas on both surfaces, the larger of the areas,
 regime, and the sum over sizes."""
@@ -52,7 +52,8 @@ T, OF_LOAD, OF_AREA, ITS_REGIME = range(4)
 ROOT_2PI = math.sqrt(2 * math.pi)
 REACH, DEEPEST = 9.5, 5.0
 """Widths of a seat beyond which nothing is summed; lowest separation [σ_s], down."""
-HALF_MOST = 350.0
+WIDE_SPAN = 2.5
+"""Widths of a panel from which on it may be as wide as the sizes spread."""
 
 exact = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True,
              fastmath={"nnan", "ninf", "nsz", "contract"})  # fmt: skip
@@ -187,12 +188,13 @@ def lay_nodes(given, sides, panels, p, count, grid, begin, gauss, weights, nodes
     apart()
     place = begin
     size, width = 0.5 * (given[p, LOW] + given[p, HIGH]), given[p, WIDTH]
-    least = 1 / given[p, LOW] if given[p, LOW] > 0 else math.inf
     own = 0.0 if given[p, KIND] == ONE_SIZE else scale_of(given, p, size) / size
+    if span < WIDE_SPAN:  # sizes that end abruptly show in the width of the seat alone
+        own = 0.0
     for n in range(count):
         first, last = panels[p, n, EDGE], panels[p, n, TO]
         thin = own * (1 - 0.5 * (first + last))
-        step = span * math.sqrt((width / given[p, HIGH]) ** 2 + thin * thin * (least >= 0))
+        step = span * math.sqrt((width / given[p, HIGH]) ** 2 + thin * thin)
         parts = max(1, math.ceil((last - first) / step))
         if place + parts * nodes > MOST_NODES:
             return -1
@@ -256,13 +258,11 @@ def _add_rough(given, sides, panels, p, count, grid, begin, end, sizes, first, l
     """What a part carries on a rough seat, into the columns of the particles."""
     apart()
     width = given[p, WIDTH]
-    # only nodes that some seat reaches
-    low = 1 - (gap + REACH * width) / given[p, HIGH] if given[p, HIGH] > 0 else 0.0
-    high = math.inf
-    if gap - REACH * width < 0 and given[p, LOW] > 0:
-        high = 1 - (gap - REACH * width) / given[p, LOW]
-    elif gap - REACH * width > 0:
-        high = 1 - (gap - REACH * width) / given[p, HIGH]
+    # only nodes that some seat reaches: those of x(1 − ε) within REACH widths of the gap
+    most, least = gap + REACH * width, gap - REACH * width
+    smallest = max(given[p, LOW], 1e-300)
+    low = 1 - most / (smallest if most > 0 else given[p, HIGH])
+    high = 1 - least / (given[p, HIGH] if least > 0 else smallest)
     a, b = begin, end
     while a < b and grid[EPS, a] < low:
         a += 1
