@@ -223,3 +223,29 @@ def test_many_random_states(law, seat, body, sizes, unlike):
     if unlike and law == "ke":
         pytest.skip("loads that jump between unlike sides are for the NumPy engine")
     hold(contact(law, seat, body, sizes), 20, 8, unlike)
+
+
+def test_laws_of_the_kernel_are_the_laws():
+    """Load and area on every branch, by the kernel and by the objects that NumPy asks."""
+    from numba import njit
+
+    from thirdbody.equilibrium.engine import fields, sides
+    from thirdbody.equilibrium.engine.columns import _law
+
+    @njit
+    def at(rows, y, out):
+        for j in range(len(y)):
+            out[j] = sides.law_at(rows, 0, y[j])
+
+    a = tb.asperity
+    y = np.geomspace(1e-3, 400.0, 200)
+    for law in (a.GW(), a.ZMC(), a.Hermite(), a.CEB(), a.KE(), a.JG(), a.EllipticZMC(ratio=3.0)):
+        rows, tip = np.zeros((1, fields.OF_SIDE)), {"R": 1e-6, "H": 5e9}
+        numbers, omega_1 = _law(type(law), law, tip["R"], 1.1e11, tip["H"], 0.3)
+        rows[0, : len(numbers)] = numbers
+        bound = law.bound(E_star=1.1e11, nu=0.3, **tip)
+        assert omega_1 == pytest.approx(bound.yield_interference(E_star=1.1e11, **tip), rel=1e-14)
+        out = np.empty((len(y), 2))
+        at(rows, y, out)
+        for column, name in enumerate(("force", "area")):
+            np.testing.assert_allclose(out[:, column], bound.reduced(name, y), rtol=1e-13)
