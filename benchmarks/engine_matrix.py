@@ -181,6 +181,8 @@ def inputs_of(contact: tb.Contact, varied: str, count: int) -> tuple[np.ndarray,
 def measured(case: str, contact: tb.Contact, varied: str, seconds: float) -> Row:
     """The rate of one row: blocks grow until one takes long enough."""
     count, spent = FEWEST, 0.0
+    loads, values = inputs_of(contact, varied, count)
+    state_columns(contact, F_star=loads, vary={varied: values})  # what is compiled is read in
     while True:
         loads, values = inputs_of(contact, varied, count)
         start = time.process_time()
