@@ -21,6 +21,7 @@ from thirdbody.contact.interface import interface as bound_interface
 from thirdbody.equilibrium import states
 from thirdbody.equilibrium.columns import COLUMNS
 from thirdbody.equilibrium.compiled import batch as engine
+from thirdbody.equilibrium.engine import run as own
 from thirdbody.equilibrium.load_scan import load_scan
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.errors import NotCompiled
@@ -60,9 +61,10 @@ def compiled_engine(scanned: int = 3):
         mock.patch.dict(os.environ, THIRDBODY_ENGINE=""),
         mock.patch.object(engine, "SCANNED", scanned),
         mock.patch.object(engine._Batch, "solve", autospec=True, side_effect=solve) as asked,
+        mock.patch.object(own, "solve", side_effect=own.solve) as asked_own,
     ):
         yield
-    assert asked.called
+    assert asked.called or asked_own.called
 
 
 def columns(result) -> dict[str, np.ndarray]:
@@ -335,7 +337,7 @@ def materials_of_their_own(count: int) -> dict[str, np.ndarray]:
 
 @pytest.mark.parametrize("seat", ["plane", "rough"])
 def test_states_with_materials_and_shapes_of_their_own(seat):
-    """Nodes over the squeeze on a rough seat; on a plane one state after another."""
+    """Nodes over the squeeze on a rough seat; on a plane nodes over the sizes."""
     loads = 10.0 ** np.random.default_rng(3).uniform(-9, -3, 4)
     hold_states(default(seat), materials_of_their_own(4), F_star=loads)
 

@@ -22,6 +22,7 @@ from ..quantities.value import warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
 from .crowding import crowded
+from .engine.run import DOUBTS, own_columns
 from .solve import SOLVER, given_load, solve_untold
 from .status import SENTENCES, Status
 
@@ -274,6 +275,10 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
         return _by_nodes(contact, numbers, load, loads)
     except NotCompiled as error:
         why = str(error)
+        try:
+            return _by_own(contact, numbers, load, loads)
+        except NotCompiled:
+            pass
         odd = np.zeros(len(loads), bool)
         for name, values in numbers.items():
             if name.startswith(DEMANDING):
@@ -336,8 +341,34 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
         rest = pool.map(part, (slice(start, start + at_once) for start in starts))
         parts = chain([(here, columns)], (found[:2] for found in rest))
         out = _joined(len(loads), _told(parts))
-    # what the compiled engine doubts is for the other one to judge
+    # what the compiled engine doubts is for another one to judge
     for why in (engine.NOT_BALANCED, engine.NOT_MONOTONE):
+        if len(which := np.flatnonzero(out["engine"] == why)):
+            some = _taken(arrays, which)
+            try:
+                again = _by_own(contact, some, load, loads[which])
+            except NotCompiled:
+                again = _by_groups(contact, some, load, loads[which], why)
+            for name, column in again.items():
+                out[name][which] = column
+    return out
+
+
+def _by_own(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
+    """Every column, each state by quadrature over its own laws; what is doubted, one by one."""
+
+    def part(start: int) -> tuple[Any, Columns]:
+        here = np.arange(start, min(start + AT_ONCE, len(loads)))
+        columns = own_columns(contact, _taken(arrays, here), load, loads[here], engine.threads())
+        doubt = columns.pop("doubt")
+        code = columns["status"].astype(np.int8)
+        code[(code == Status.OK) & crowded(contact, columns["A_t"])] = Status.CROWDED
+        code[doubt != ""] = Status.UNSOLVED
+        path = np.where(doubt, doubt, "compiled")
+        return here, columns | {"status": SENTENCES[code], CODE: code, "engine": path}
+
+    out = _joined(len(loads), _told(map(part, range(0, len(loads), AT_ONCE))))
+    for why in DOUBTS:
         if len(which := np.flatnonzero(out["engine"] == why)):
             again = _by_groups(contact, _taken(arrays, which), load, loads[which], why)
             for name, column in again.items():

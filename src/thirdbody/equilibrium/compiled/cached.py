@@ -18,6 +18,7 @@ import sys
 import threading
 from collections.abc import Callable
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -35,14 +36,15 @@ PATIENCE = 600
 
 
 def sources() -> str:
-    """Digest of the modules beside this one, from which compiled functions take code and layout.
+    """Digest of the modules from which compiled functions take code and layout.
 
     numba looks at the module of a function alone.
     """
-    about = hashlib.sha256()
-    for path in sorted(files(__package__).iterdir(), key=lambda path: path.name):
-        if path.name.endswith(".py"):
-            about.update(path.read_bytes())
+    about, here = hashlib.sha256(), Path(str(files(__package__)))
+    others = (here.parent / "engine", here.parents[1] / "laws" / "asperity")
+    paths = [*here.glob("*.py"), *(path for each in others for path in each.glob("*.py"))]
+    for path in sorted(paths):
+        about.update(path.read_bytes())
     return about.hexdigest()
 
 

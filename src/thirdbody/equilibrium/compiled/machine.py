@@ -12,6 +12,7 @@ from numba.core import cgutils
 
 __all__ = [
     "ahead",
+    "apart",
     "exact",
     "exp",
     "inlined",
@@ -98,6 +99,17 @@ def numbers(typingctx: Any, record: Any, name: Any) -> Any:
         return cgutils.get_record_member(builder, args[0], field.offset, pointee)
 
     return types.CPointer(number)(record, name), codegen
+
+
+@intrinsic
+def apart(typingctx: Any) -> Any:
+    """Keep the function that calls this one: optimised once, not again in each caller."""
+
+    def codegen(context, builder, signature, args):
+        builder.function.attributes.add("noinline")
+        return context.get_dummy_value()
+
+    return types.none(), codegen
 
 
 LOG2E = 1.4426950408889634

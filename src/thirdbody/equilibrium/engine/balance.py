@@ -1,0 +1,355 @@
+"""The balance of a state: the separation at which it carries its load, and how well it is known."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from ..compiled.cached import Cached
+from ..compiled.machine import apart
+from .fields import (
+    A_E,
+    A_SA,
+    COVERAGE,
+    F_SA,
+    F_SS,
+    FOOTPRINT,
+    HIGH,
+    NODES,
+    NOT_MONOTONE,
+    NOT_RESOLVED,
+    OFFSET,
+    OK,
+    PROJECTED,
+    ROUGH,
+    RULE,
+    SEAT,
+    SERIES,
+    SHADE,
+    SHADOW,
+    SIDE,
+    SIGMA,
+    SIGMA_S,
+    SIZE_2,
+    SIZE_NODES,
+    SIZE_RULE,
+    SIZE_SPAN,
+    SOFTEST,
+    SPAN,
+    STIFFEST,
+    TOO_LONG,
+    TOO_MUCH,
+    UNSOLVED,
+    WIDTH,
+)  # fmt: skip
+from .sides import scalar
+from .squeeze import EDGE, MOST_PANELS, PANEL, SHARE, TO, lay_panels, particle_at
+from .sums import (
+    MOST_HEIGHTS,
+    MOST_NODES,
+    MOST_SIZES,
+    add_part,
+    add_skin,
+    lay_nodes,
+    lay_sizes,
+    lay_skin,
+    shade,
+)  # fmt: skip
+
+__all__ = ["LEVELS", "solve_own"]
+
+LOWEST, HIGHEST = -3.0, 37.0
+"""Separations searched [σ_s]; particles may reach higher."""
+COARSE, FINE, LEVELS = 0, 1, 2
+"""Few nodes, to search with; all; and how often both are made finer. They are handed on as `few`
+and `every`, numbers and no constants, for which numba would compile what takes them twice."""
+COUNT, GRID, GRID_END, SIZED, SIZED_END = range(5)
+"""What is laid of a part, a level: its panels; where nodes and sizes begin and end. The row after
+the last part is of the asperities."""
+ASKED = 1e-10
+"""Error of loads, areas and the separation over σ that is asked for."""
+SAFE = 10.0
+"""The error of a rule of twice the nodes is this many squares of its difference to the other."""
+SEARCHED, POLISHED = 80, 14
+"""Evaluations at most, by few nodes and by all."""
+BALANCED, ULPS = 9e-13, 4e-16
+"""ln of load over target of a solved state, unless so much of the separation explains it."""
+RISE = 1e-6
+"""Rise of the load with the separation that does not count."""
+
+
+@scalar
+def total(given, skin, work, laid, rules, level, h, out):
+    """Columns at h [σ_s] by the nodes of a level; the load, or NaN where formulas do not reach."""
+    apart()
+    heights, sides, panels, grid, sizes = work
+    for k in range(10):
+        out[k] = 0.0
+    last = len(given)
+    add_skin(skin, heights, laid[last, level, GRID], laid[last, level, GRID_END], h, out)
+    nodes, span = int(rules[level, 0, NODES]), rules[level, 0, SPAN]
+    d = h * skin[0, SIGMA_S]
+    good = True
+    for p in range(last):
+        own = laid[p, level]
+        good &= add_part(
+            given, sides, panels, p, own[COUNT], grid, own[GRID], own[GRID_END],
+            sizes, own[SIZED], own[SIZED_END], d, rules[level, RULE], rules[level, RULE + 1],
+            nodes, span, out,
+        )  # fmt: skip
+    if not good:
+        return math.nan
+    return (1 - min(out[SHADE], 1.0)) * out[F_SS] + out[F_SA]
+
+
+@scalar
+def lay(given, skin, work, laid, rules, level):
+    """Lay the nodes of one level behind those of the one before; False if there is no room."""
+    apart()
+    heights, sides, panels, grid, sizes = work
+    nodes, span = int(rules[level, 0, NODES]), rules[level, 0, SPAN]
+    gauss, weights = rules[level, RULE], rules[level, RULE + 1]
+    last, good = len(given), True
+    place = size = begin = 0
+    if level == FINE:
+        begin = laid[last, COARSE, GRID_END]
+        if last > 0:
+            place, size = laid[last - 1, COARSE, GRID_END], laid[last - 1, COARSE, SIZED_END]
+    laid[last, level, GRID] = begin
+    begin = laid[last, level, GRID_END] = lay_skin(skin, heights, begin, gauss, weights, nodes)
+    good &= begin >= 0
+    for p in range(last):
+        own = laid[p, level]
+        own[COUNT] = laid[p, COARSE, COUNT]
+        own[GRID], own[SIZED] = place, size
+        if given[p, SEAT] == ROUGH and good:
+            size = lay_sizes(
+                given, p, sizes, size, rules[level, SIZE_RULE], rules[level, SIZE_RULE + 1],
+                int(rules[level, 0, SIZE_NODES]), rules[level, 0, SIZE_SPAN],
+            )  # fmt: skip
+            place = lay_nodes(
+                given, sides, panels, p, own[COUNT], grid, place, gauss, weights, nodes, span
+            )
+            good &= size >= 0 and place >= 0
+        own[GRID_END], own[SIZED_END] = place, size
+    return good
+
+
+@scalar
+def top_of(given, skin):
+    """Highest separation [σ_s] at which anything is carried."""
+    apart()
+    top = HIGHEST
+    for p in range(len(given)):
+        reach = given[p, HIGH] - given[p, OFFSET] + 9.5 * given[p, WIDTH]
+        top = max(top, reach / skin[0, SIGMA_S])
+    return top
+
+
+@scalar
+def _imbalance(load, target):
+    """ln of the load over the target."""
+    return math.log(load / target) if load > 0 else -800.0
+
+
+@scalar
+def search(given, skin, work, laid, rules, target, out):
+    """Separation near the root by few nodes, slope of ln F there, evaluations; NaN if none is."""
+    apart()
+    few = laid.shape[1] - 2
+    high, low = top_of(given, skin), LOWEST
+    f_high, f_low = -800.0, math.inf
+    h, f, slope, n = 2.0, 0.0, 0.0, 0
+    old_h, old_f = math.nan, math.nan
+    while n < SEARCHED:
+        f = _imbalance(total(given, skin, work, laid, rules, few, h, out), target)
+        n += 1
+        if f > 0:
+            low, f_low = h, f
+        else:
+            if h == LOWEST:
+                return -math.inf, 0.0, n
+            high, f_high = h, f
+        if old_h == old_h and h != old_h:
+            slope = (f - old_f) / (h - old_h)
+        old_h, old_f = h, f
+        step = -f / slope if slope < -1e-3 else (f / 3 if abs(f) < 9 else math.copysign(3.0, f))
+        if abs(step) < 1e-4 and slope < -1e-3:
+            return h + step, slope, n
+        x = h + step
+        if f_low < math.inf and f_high > -800.0 and n % 3 == 0:
+            x = low + (high - low) * f_low / (f_low - f_high)
+        if f_low == math.inf:
+            x = max(x, LOWEST)
+        if not low < x < high and x != LOWEST:
+            x = 0.5 * (low + high) if f_low < math.inf else LOWEST
+        if high - low < 1e-13:
+            break
+        h = x
+    return math.nan, 0.0, n
+
+
+@scalar
+def polish(given, skin, work, laid, rules, target, h, slope, out):
+    """Root by all nodes from a close one: separation, slope of ln F, evaluations; NaN if none."""
+    apart()
+    few = laid.shape[1] - 2
+    best, best_f = math.nan, math.inf
+    old_h = old_f = math.nan
+    n = 0
+    while n < POLISHED:
+        f = _imbalance(total(given, skin, work, laid, rules, few + 1, h, out), target)
+        n += 1
+        if abs(f) < abs(best_f):
+            best, best_f = h, f
+        if abs(f) < 2e-13 or (n > 4 and abs(best_f) < BALANCED):
+            break
+        if old_h == old_h and abs(h - old_h) > 1e-10:
+            slope = (f - old_f) / (h - old_h)
+        if not slope < 0:
+            return math.nan, slope, n
+        old_h, old_f = h, f
+        step = -f / slope
+        if h + step == h:
+            break
+        h += step
+    if abs(best_f) >= BALANCED and abs(best_f) > -slope * ULPS * max(abs(best), 1.0):
+        return math.nan, slope, n
+    if best != h:
+        total(given, skin, work, laid, rules, few + 1, best, out)
+    return best, slope, n
+
+
+@scalar
+def _falls(given, work, laid, bound, sigma_s):
+    """Whether no larger separation can carry the load, of which asperities take ``bound`` [Pa].
+
+    What a particle takes from the asperities, the bound times its shadow, must not grow faster
+    with its squeeze than its load.
+    """
+    apart()
+    sides, panels = work[1], work[2]
+    steepest = covered = 0.0
+    for p in range(len(given)):
+        shadow = given[p, SHADOW]
+        if shadow != FOOTPRINT and shadow != PROJECTED:
+            continue
+        coverage = given[p, COVERAGE]
+        covered += coverage
+        if shadow == PROJECTED:
+            width = given[p, WIDTH] if given[p, SEAT] == ROUGH else given[p, SIZE_2]
+            if not width > 0:
+                return False
+            steepest += coverage / (2.5 * width)
+        if bound > 0.2 * given[p, SOFTEST]:
+            return False
+        if coverage * (0.5 * math.pi * bound / given[p, STIFFEST]) ** 2 > RISE:
+            return False
+        most = worst = 0.0
+        for n in range(laid[p, COARSE, COUNT]):
+            a, b = panels[p, n, EDGE], panels[p, n, TO]
+            for j in range(1, 5):
+                load, one, two = particle_at(given, sides, panels, p, n, a + 0.25 * j * (b - a))
+                left = load - bound * shade(given, p, one, two)
+                most = max(most, left)
+                worst = max(worst, most - left)
+        if worst * coverage > RISE * bound:
+            return False
+    return steepest * sigma_s <= 0.3 * (1 - covered)
+
+
+@scalar
+def estimate(given, skin, work, laid, rules, h, slope, row, out):
+    """Error of the columns at h, from what few nodes give there, over what is asked of each."""
+    apart()
+    few = laid.shape[1] - 2
+    total(given, skin, work, laid, rules, few, h, out)
+    load = (1 - min(row[SHADE], 1.0)) * row[F_SS] + row[F_SA]
+    area = row[A_E] + row[A_E + 1] + row[A_E + 2]
+    area += row[A_SA] + row[A_SA + 1] + row[A_SA + 2]
+    worst = 0.0
+    for k in range(10):
+        unit = 1.0 if k == SHADE else area
+        if k % F_SA == 0 and k < SHADE - 1:  # the two loads
+            unit = load
+        if unit > 0:
+            worst = max(worst, abs(out[k] - row[k]) / unit)
+    error = SAFE * worst * worst
+    for p in range(len(given)):  # shares of unlike sides are corrected once
+        off = work[2][p, laid[p, few, COUNT], SHARE]
+        error = max(error, SAFE * off * off)
+    if slope < 0:
+        error = max(error, error / -slope * skin[0, SIGMA_S] / skin[0, SIGMA])
+    return error
+
+
+@scalar
+def _own_state(given, skin, work, laid, rules, target, h, row, out):
+    """Separation, evaluations, fate and error of one state; its columns into ``row``."""
+    apart()
+    last, few = len(given), laid.shape[1] - 2
+    for p in range(last):
+        count = lay_panels(given, work[1], work[2], p, rules[0, SERIES:])
+        laid[p, COARSE, COUNT] = count
+        if count < 0:
+            return h, 0, TOO_LONG, math.inf
+    count, slope, error = 0, 0.0, math.inf
+    for level in range(LEVELS):
+        own = rules[2 * level :]
+        if not (
+            lay(given, skin, work, laid, own, few) and lay(given, skin, work, laid, own, few + 1)
+        ):
+            return h, count, TOO_LONG, math.inf
+        if target > 0:
+            h, slope, n = search(given, skin, work, laid, own, target, out)
+            count += n
+            if h == -math.inf:
+                total(given, skin, work, laid, own, few + 1, LOWEST, row)
+                sure = _falls(given, work, laid, row[F_SS], skin[0, SIGMA_S])
+                return h, count, TOO_MUCH if sure else NOT_MONOTONE, 0.0
+            h, slope, n = polish(given, skin, work, laid, own, target, h, slope, row)
+            count += n
+            if not math.isfinite(h):
+                return h, count, UNSOLVED, math.inf
+        else:
+            count += 1
+            if not total(given, skin, work, laid, own, few + 1, h, row) >= 0:
+                return h, count, UNSOLVED, math.inf
+        error = estimate(given, skin, work, laid, own, h, slope, row, out)
+        if error <= ASKED:
+            break
+    if not error <= ASKED:
+        return h, count, NOT_RESOLVED, error
+    if target > 0 and not _falls(given, work, laid, row[F_SS], skin[0, SIGMA_S]):
+        return h, count, NOT_MONOTONE, error
+    return h, count, OK, error
+
+
+@Cached
+@njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
+def solve_own(skins, parts, bodies, rules, target, h, count, fate, error, rows):
+    """Solve states by their own numbers: skins (N, ...), parts (N, P, ...), bodies (N, 2P, ...).
+
+    For the loads target [Pa], or where they are zero at the separations ``h`` [σ_s]. Fills ``h``,
+    the evaluations ``count``, ``fate``, the estimated ``error`` and the columns ``rows`` (N, 10).
+    """
+    most = parts.shape[1]
+    sides = np.zeros((2 * most, SIDE))
+    work = (
+        np.empty((5, MOST_HEIGHTS)),
+        sides,
+        np.empty((most, MOST_PANELS, PANEL)),
+        np.empty((7, MOST_NODES)),
+        np.empty((2, MOST_SIZES)),
+    )
+    laid = np.zeros((most + 1, 2, 5), np.int64)
+    out = np.empty(10)
+    for i in range(len(target)):
+        for s in range(2 * most):
+            for k in range(bodies.shape[2]):
+                sides[s, k] = bodies[i, s, k]
+        h[i], count[i], fate[i], error[i] = _own_state(
+            parts[i], skins[i : i + 1], work, laid, rules, target[i], h[i], rows[i], out
+        )

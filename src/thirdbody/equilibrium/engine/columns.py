@@ -1,0 +1,298 @@
+"""From a contact to the numbers of its states: the one place where that happens."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy import special
+
+from ...contact.contact import Contact
+from ...errors import NotCompiled
+from ...laws import asperity, particle
+from ...laws.asperity.elliptic import elliptic_hertz
+from ...laws.particle.deep import squeeze_curve
+from ...numerics.quadrature import gauss_legendre
+from ...populations import distributions as sizes
+from ...populations.heights import GaussianHeights
+from ...populations.materials import reduced_modulus
+from ...populations.particles import Particles
+from ...populations.shape import Sphere
+from . import fields as f
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Numbers", "rules"]
+
+SHADOWS = {
+    "footprint": f.FOOTPRINT,
+    "projected": f.PROJECTED,
+    "covered": f.COVERED,
+    "none": f.NOTHING,
+}
+TERMS = 12
+NODES = (((6, 3.0, 10, 6.5), (12, 4.0, 16, 6.5)), ((12, 2.0, 16, 4.0), (24, 2.0, 24, 4.0)))
+"""Of each level, few and all: nodes of a panel and how many widths of a density it covers, then
+the same of sizes on a rough seat."""
+NARROWEST = 1e-5
+"""Width of sizes over their middle below which differences of sizes keep too few digits."""
+
+
+@lru_cache(maxsize=1)
+def rules() -> Array:
+    """Gauss rules of every level, then places and transform of a Chebyshev series."""
+    out = np.zeros((2 * len(NODES), f.SERIES + 1 + TERMS, 24))
+    for i, asked in enumerate(itertools.chain(*NODES)):
+        out[i, 0, :4] = asked
+        for row, count in ((f.RULE, asked[0]), (f.SIZE_RULE, asked[2])):
+            out[i, row, :count], out[i, row + 1, :count] = gauss_legendre(count)
+    angle = (np.arange(TERMS) + 0.5) * math.pi / TERMS
+    series = out[0, f.SERIES :]
+    series[0, :TERMS] = np.cos(angle)
+    series[1:, :TERMS] = 2 / TERMS * np.cos(np.outer(np.arange(TERMS), angle))
+    series[1, :TERMS] /= 2
+    return out
+
+
+def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[Any], Any]:
+    """Code and numbers of a law at a contact, and ω_1."""
+    a = asperity
+    if kind is a.GW:
+        return [f.GW, 0, 0, 0, 0], law.yield_interference(R=R, E_star=E, H=H)
+    if kind in (a.ZMC, a.Hermite):
+        code = f.ZMC if kind is a.ZMC else f.HERMITE
+        return [code, law.k, law.rho, 1.0, 2.0], law.yield_interference(R=R, E_star=E, H=H)
+    if kind is a.EllipticZMC and not np.ndim(law.ratio):
+        r = elliptic_hertz(law.ratio).R_A
+        full = 2.0 if law.area_rule == "volume" else 2 * r
+        return [f.ZMC, law.k, law.rho, r, full], law.yield_interference(R=R, E_star=E, H=H)
+    if kind in (a.CEB, a.KE, a.EllipticCEB) and not np.ndim(getattr(law, "ratio", 1.0)):
+        K = law.K if law.K is not None else 0.454 + 0.41 * (nu if law.nu is None else law.nu)
+        omega_1 = (math.pi * K * H / (2 * E)) ** 2 * R
+        if kind is a.KE:
+            return [f.KE, K, 0, 0, 0], omega_1
+        if kind is a.CEB:
+            return [f.CEB, K, 1.0, 2.0, 0], omega_1
+        hertz = elliptic_hertz(law.ratio)
+        slope = 2.0 if law.area_rule == "volume" else 2 * hertz.R_A
+        return [f.CEB, K, hertz.R_A, slope, 0], hertz.yield_factor * (2 / 3 * K * H / E) ** 2 * R
+    if kind is a.JG:
+        C = 1.295 * np.exp(0.736 * (nu if law.nu is None else law.nu))
+        strain = H / (law.hardness_ratio * E)
+        over_R = (math.pi * C * strain / 2) ** 2
+        return [f.JG, C, 0.14 * np.exp(23 * strain), over_R, law.hardness_ratio], over_R * R
+    raise NotCompiled(f"the law {law.name} is known to the NumPy engine alone")
+
+
+def _filled(rows: Array, values: Mapping[int, Any]) -> None:
+    for column, value in values.items():
+        rows[:, column] = value
+
+
+def _softer(first: Any, second: Any) -> tuple[Any, Any]:
+    """Hardness and Poisson ratio of the softer of two bodies."""
+    takes = first.H <= second.H
+    return np.where(takes, first.H, second.H), np.where(takes, first.nu, second.nu)
+
+
+class Numbers:
+    """The numbers of N states, as the kernel reads them.
+
+    Parameters
+    ----------
+    contact : Contact
+        The inputs that do not vary.
+    arrays : mapping
+        Dotted names of inputs and their values (N,).
+
+    Attributes
+    ----------
+    skins, parts, bodies : array (N, ...), (N, P, ...), (N, 2P, ...)
+        Of asperities, populations and sides.
+
+    Raises
+    ------
+    NotCompiled
+        Models that the kernel does not know.
+    """
+
+    def __init__(self, contact: Contact, arrays: Mapping[str, Array], count: int):
+        self.contact, self.count = contact, count
+        self.varied = contact.with_arrays(arrays)
+        self.skins = np.zeros((count, f.OF_ASPERITIES))
+        self._add_asperities()
+        bare = contact.two_body and "particles.areal_density" not in arrays
+        found = [] if bare else self._populations()
+        self.parts = np.zeros((count, len(found), f.OF_PARTICLES))
+        self.bodies = np.zeros((count, 2 * len(found), f.OF_SIDE))
+        for p, each in enumerate(found):
+            self._add_particles(p, *each)
+
+    def _add_asperities(self) -> None:
+        rough, surfaces, law = self.varied.roughness, self.varied.surfaces, self.varied.asperity_law
+        if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity:
+            raise NotCompiled("heights that are not Gaussian, or asperities of several shapes")
+        E, (H, nu) = surfaces.E_star, _softer(surfaces.first, surfaces.second)
+        numbers, omega_1 = _law(type(self.contact.asperity_law), law, rough.R, E, H, nu)
+        area = rough.density * math.pi * rough.R * omega_1
+        _filled(self.skins, dict(enumerate(numbers)))
+        _filled(
+            self.skins,
+            {
+                **{f.W: omega_1 / rough.sigma_s, f.FORCE: area * H, f.AREA: area},
+                **{f.SIGMA_S: rough.sigma_s, f.SIGMA: rough.sigma},
+            },
+        )
+        if self.skins[:, f.W].min() < 1e-9 or self.skins[:, f.W].max() > 1e9:
+            raise NotCompiled("asperities that yield at once, or never")
+
+    def _populations(self) -> list[tuple[Any, Any, Any, Any]]:
+        """Particles and law, as they are and with arrays in them."""
+        given: Any = self.contact.particles
+        varied: Any = self.varied.particles
+        if not isinstance(given, tuple):
+            given, varied = (given,), (varied,)
+        out = []
+        for one, changed in zip(given, varied, strict=True):
+            if one.law is not None:
+                law = one.law, changed.law
+            else:
+                law = self.contact.particle_law, self.varied.particle_law
+            out.append((one, changed, *law))
+        return out
+
+    def _add_particles(self, p: int, one: Particles, changed: Any, law: Any, varied: Any) -> None:
+        if type(law) not in (particle.Series, particle.Flakes) or law.onset != "hermite":
+            raise NotCompiled("particles that are not Series")
+        if one.strength is not None:
+            raise NotCompiled("particles that break")
+        if not isinstance(one.shape, Sphere):
+            raise NotCompiled("angular particles")
+        rows, rough = self.parts[:, p], self.varied.roughness
+        width = varied.zeta_std * rough.sigma if law.seat == "rough" else 0.0
+        _filled(
+            rows,
+            {
+                **{f.SEAT: f.ROUGH if law.seat == "rough" else f.PLANE, f.WIDTH: width},
+                **{f.OFFSET: varied.seat_offset(rough), f.SHADOW: SHADOWS[law.shadow]},
+                **{f.DENSITY: changed.areal_density, f.BREADTH: 2 * varied.tip_radius},
+            },
+        )
+        second = self._add_sizes(rows, one.diameter, changed.diameter)
+        rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.BREADTH] * rows[:, f.DENSITY] * second
+        if np.any(rows[:, f.COVERAGE] >= 1):
+            raise NotCompiled("some particles are jammed")  # said better, one contact at a time
+        sides = [
+            self._side(self.bodies[:, 2 * p + i], surface, changed.material, law, varied)
+            for i, surface in enumerate((self.varied.surfaces.first, self.varied.surfaces.second))
+        ]
+        (E, H), (E_2, H_2) = sides
+        rows[:, f.STIFFEST], rows[:, f.SOFTEST] = np.minimum(E, E_2), np.minimum(H, H_2)
+        rows[:, f.EQUAL] = np.all(self.bodies[:, 2 * p] == self.bodies[:, 2 * p + 1], axis=1)
+
+    def _side(self, rows: Array, surface: Any, body: Any, law: Any, varied: Any) -> tuple[Any, Any]:
+        """Fill in the rows of a side; its E* and H."""
+        R = varied.tip_radius
+        E, (H, nu) = reduced_modulus(surface, body), _softer(surface, body)
+        numbers, delta_1 = _law(type(law.law), varied.law, R, E, H, nu)
+        _filled(rows, dict(enumerate(numbers)))
+        soft = np.broadcast_to(body.H < surface.H, self.count)
+        yields = type(law.law) not in (asperity.GW, asperity.JG)
+        if law.soft != "squashed" or not yields:
+            soft = np.zeros(self.count, bool)
+        ratio = np.broadcast_to(E / H, self.count)
+        if np.any(soft & ((ratio < 1e-6) | (ratio > 1e9) | (surface.H / H > 1e9))):
+            raise NotCompiled("squashed particles beyond the law")
+        if type(law.law) in (asperity.EllipticZMC, asperity.EllipticCEB):
+            raise NotCompiled("elliptic tips of particles")
+        if law.deep == "table" and law.soft == "squashed" and yields:
+            return self._add_deep(rows, surface.H, body.H, E, H, delta_1, varied)
+        full = np.where(soft, 1 / (6 * R * delta_1), 0.5 / delta_1)
+        _filled(
+            rows,
+            {
+                **{f.FORM: np.where(soft, f.SQUASHED, f.SPHERE), f.DELTA_1: delta_1, f.TIP: R},
+                **{f.UNIT: R * math.pi * delta_1 * H, f.FULL: full},
+                f.HILL: np.where(soft, 2 * varied.friction_factor / (3 * math.sqrt(3)), 0.0),
+                f.HARDER: np.where(soft, surface.H / H, 1.0),
+            },
+        )
+        return E, H
+
+    def _add_deep(
+        self, rows: Array, surface: Any, body: Any, E: Any, H: Any, delta_1: Any, varied: Any
+    ) -> tuple[Any, Any]:
+        """Fill in the rows of a side by the table of deep squeezes; its E* and H."""
+        ratio, R = body / surface, 0.5
+        given = np.broadcast_arrays(ratio, varied.friction_factor, E / H, np.empty(self.count))
+        cases, which = np.unique(np.stack(given[:3]), axis=1, return_inverse=True)
+        curves = [squeeze_curve(*case) for case in cases.T.tolist()]
+        terms = f.TABLE_LOAD + f.TABLE_TERMS
+        rows[:, f.TABLE_LOAD : terms] = np.array([each.log_load for each in curves])[which]
+        rows[:, f.TABLE_AREA : f.OF_SIDE] = np.array([each.log_area for each in curves])[which]
+        _filled(
+            rows,
+            {
+                **{f.FORM: f.DEEP, f.DELTA_1: delta_1, f.TIP: R, f.FULL: 0.5 / delta_1},
+                f.UNIT: R * math.pi * delta_1 * H,
+                f.HILL: varied.friction_factor / (3 * math.sqrt(3)),
+                f.HARDER: np.maximum(1 / ratio, 1.0),
+            },
+        )
+        return E, H
+
+    def _add_sizes(self, rows: Array, one: Any, changed: Any) -> Any:
+        """Fill in the sizes; ⟨x²⟩."""
+        if type(one) is sizes.Monodisperse:
+            x = changed.mean
+            kind = {f.KIND: f.ONE_SIZE, f.SIZE_1: x, f.LOW: x, f.HIGH: x, f.NORM: 1.0}
+            _filled(rows, kind)
+            return x * x
+        if type(one) is sizes.TruncatedGaussian:
+            mean, std = changed.mean, changed.std
+            cut = np.minimum(changed.n, sizes.NORMAL_CUT)
+            low, high = np.maximum(0.0, mean - cut * std), mean + cut * std
+            A, B = (low - mean) / std, (high - mean) / std
+            mass = special.ndtr(B) - special.ndtr(A)
+            root = math.sqrt(2 * math.pi)
+            edge = [np.exp(-0.5 * u * u) / root for u in (A, B)]
+            norm = 1 / (root * std * mass)
+            kind = {f.KIND: f.GAUSSIAN, f.SIZE_1: mean, f.SIZE_2: std, f.NORM: norm}
+            _filled(rows, {**kind, f.LOW: low, f.HIGH: high})
+            if np.any(std < NARROWEST * mean):
+                raise NotCompiled("sizes that lie very close together")
+            m1 = mean + std * (edge[0] - edge[1]) / mass
+            v = 1 + (A * edge[0] - B * edge[1]) / mass
+            return mean * (2 * m1 - mean) + std**2 * v
+        if type(one) is sizes.LogNormal:
+            median, s = changed.median, np.log(changed.gsd)
+            cut = sizes.NORMAL_CUT
+            _filled(
+                rows,
+                {
+                    **{f.KIND: f.LOGNORMAL, f.SIZE_1: median, f.SIZE_2: s},
+                    f.NORM: 1 / (math.sqrt(2 * math.pi) * s),
+                    **{
+                        f.LOW: median * np.exp(-cut * s),
+                        f.HIGH: median * np.exp((cut + 2 * s) * s),
+                    },
+                },
+            )
+            if np.any(s < NARROWEST):
+                raise NotCompiled("sizes that lie very close together")
+            return median**2 * np.exp(2 * s * s)
+        if type(one) is sizes.Uniform:
+            low, high = changed.low, changed.high
+            if np.any(high - low < NARROWEST * high):
+                raise NotCompiled("sizes that lie very close together")
+            kind = {f.KIND: f.UNIFORM, f.NORM: 1 / (high - low), f.LOW: low, f.HIGH: high}
+            _filled(rows, kind)
+            return (high**2 + high * low + low**2) / 3
+        raise NotCompiled("sizes that are not Gaussian, log-normal or uniform")

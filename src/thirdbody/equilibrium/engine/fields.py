@@ -1,0 +1,63 @@
+"""Which number of a state stands where: columns that NumPy fills and the kernel reads."""
+
+from __future__ import annotations
+
+GW, ZMC, HERMITE, CEB, KE, JG = range(6)
+"""Laws of one contact."""
+SPHERE, SQUASHED, DEEP, FACED = range(4)
+"""What a side of a particle is."""
+ONE_SIZE, GAUSSIAN, LOGNORMAL, UNIFORM = range(4)
+"""Kinds of sizes."""
+PLANE, ROUGH = range(2)
+FOOTPRINT, PROJECTED, COVERED, NOTHING = range(4)
+"""What the shadow is."""
+
+# ------------------------------------------------------------------ given, of a law
+CODE, LAW_1, LAW_2, LAW_3, LAW_4 = range(5)
+
+# ------------------------------------------------------------------ given, of the asperities
+W, FORCE, AREA, SIGMA_S, SIGMA = range(5, 10)
+"""ω_1/σ_s, the units of load [Pa] and area, σ_s and σ [m]."""
+OF_ASPERITIES = 10
+
+# ------------------------------------------------------------------ given, of a side
+FORM, DELTA_1, UNIT, FULL, TIP, HILL, HARDER = range(5, 12)
+"""Kind, first yield over x, unit of load [Pa], reduced area of the great circle or of the disc,
+tip radius over x, friction hill, hardness of the surface over H."""
+TABLE_TERMS = 20
+TABLE_LOAD = 12
+TABLE_AREA = TABLE_LOAD + TABLE_TERMS
+"""Series of ln of load and of area of a side by the table of deep squeezes."""
+OF_SIDE = TABLE_AREA + TABLE_TERMS
+# found once a state
+CAP, WIDE, END, PLATEAU, LIMIT, COUNT, KINKS = range(OF_SIDE, OF_SIDE + 7)
+"""Reduced indentation at the cap; where it is as wide as the sphere; where it sinks in; whether
+it goes on; the most load; how many kinks, and where they begin [x]."""
+MOST_KINKS = 40
+SIDE = KINKS + MOST_KINKS
+
+# ------------------------------------------------------------------ given, of particles
+SEAT, SHADOW, EQUAL, KIND, SIZE_1, SIZE_2, NORM, LOW, HIGH = range(9)
+"""Where they rest, what their shadow is, whether both sides are alike, kind of sizes, their two
+numbers (centre and width; of one size the size), factor of the density, ends of the support [m]."""
+DENSITY, OFFSET, WIDTH, BREADTH, COVERAGE = range(9, 14)
+"""Number per area, gap − d [m], width of the seat [m], projected area over πx²/4 and the nominal
+area."""
+STIFFEST, SOFTEST = 14, 15
+"""Least E* and least H of both sides [Pa]."""
+OF_PARTICLES = 16
+
+# ------------------------------------------------------------------ found, of a state
+COLUMNS = ("F", "A_e", "A_ep", "A_p", "F_sa", "A_sa_e", "A_sa_ep", "A_sa_p", "A_sa2", "shadow")
+"""Of the asperities alone; of the particles."""
+F_SS, A_E, F_SA, A_SA, A_SA2, SHADE = 0, 1, 4, 5, 8, 9
+
+# ------------------------------------------------------------------ what became of a state
+OK, TOO_MUCH, TOO_LITTLE, UNSOLVED = range(4)
+NOT_MONOTONE, NOT_RESOLVED, TOO_LONG = 10, 11, 12
+"""For another engine: the load may rise, the error is not small enough, too many nodes."""
+
+# ------------------------------------------------------------------ the rules of a level
+NODES, SPAN, SIZE_NODES, SIZE_SPAN = range(4)
+RULE, SIZE_RULE, SERIES = 1, 3, 5
+"""Rows of Gauss nodes, each before one of weights, and of the Chebyshev series."""

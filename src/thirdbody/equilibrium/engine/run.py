@@ -1,0 +1,114 @@
+"""Many states by the kernel, and what is said of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...contact.asperity_sums import ReducedSum
+from ...contact.contact import Contact
+from ...contact.interface import together
+from ..columns import as_columns
+from ..load_scan import RESIDUAL
+from ..status import Status
+from . import fields as f
+from .columns import Numbers, rules
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["DOUBTS", "own_columns"]
+
+AT_ONCE = 256
+"""States handed to a thread at a time."""
+NOT_MONOTONE = "the load may rise with the separation; this is the loading branch"
+NOT_BALANCED = "the compiled engine does not balance this load"
+NOT_RESOLVED = "its error by the compiled engine may be above 1e-9"
+TOO_LONG = "it takes more nodes than the compiled engine has room for"
+DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG)
+"""Why a state is for the NumPy engine to judge."""
+CODES = {
+    f.UNSOLVED: NOT_BALANCED,
+    f.TOO_LITTLE: NOT_BALANCED,
+    f.NOT_MONOTONE: NOT_MONOTONE,
+    f.NOT_RESOLVED: NOT_RESOLVED,
+    f.TOO_LONG: TOO_LONG,
+}
+
+
+def own_columns(
+    contact: Contact, arrays: Mapping[str, Array], load: str, loads: Array, threads: int = 1
+) -> dict[str, Any]:
+    """Every column of states at the given pressure [Pa], F* [1] or d [m].
+
+    ``doubt`` says of each state why it is for the NumPy engine to judge, or nothing; ``error`` is
+    its estimate.
+
+    Raises
+    ------
+    NotCompiled
+        Models that the kernel does not know.
+    """
+    count = len(loads)
+    numbers = Numbers(contact, arrays, count)
+    E, rough = numbers.varied.E_ss, numbers.varied.roughness
+    sigma_s = np.broadcast_to(rough.sigma_s, count)
+    target = None if load == "d" else loads * E if load == "F_star" else loads
+    given = np.full(count, np.nan) if target is not None else loads / sigma_s
+    h, evaluations, fate, error, rows = solve(numbers, target, given, threads)
+    if target is None:
+        deep = given < -ReducedSum.DEEPEST
+        fate[deep], evaluations[deep] = Status.TOO_DEEP, 0
+    bad = fate != f.OK
+    h[bad] = np.nan
+    rows[bad] = np.nan
+    columns = np.ascontiguousarray(rows.T)
+    names = ("F_sa", "A_e", "A_ep", "A_p", "A_sa2", "shadow")
+    part = dict(zip(names, columns[4:], strict=True))
+    part["shadow"] = np.minimum(part["shadow"], 1.0)
+    raw = together(columns[0], list(columns[1:4]), part)
+    d = np.where(bad, np.nan, loads) if target is None else sigma_s * h
+    star = loads if load == "F_star" else None
+    found = as_columns(raw, d, rough.y_s, rough.sigma, E, target=target, F_star=star)
+    doubt = np.full(count, "", dtype=object)
+    for code, why in CODES.items():
+        doubt[fate == code] = why
+    doubt[(fate == f.OK) & ~(found["residual"] <= RESIDUAL)] = NOT_BALANCED
+    fate[doubt != ""] = f.UNSOLVED
+    return found | {"status": fate, "iterations": evaluations, "doubt": doubt, "error": error}
+
+
+def solve(
+    numbers: Numbers, target: Array | None, given: Array, threads: int = 1
+) -> tuple[Array, Any, Any, Array, Array]:
+    """Separations [σ_s], evaluations, fates, errors and columns of states."""
+    from .balance import solve_own
+
+    count = numbers.count
+    h = np.array(given)
+    # an array of its own: one that may not be written to would be compiled for anew
+    goal = np.array(np.broadcast_to(0.0 if target is None else target, count), dtype=float)
+    evaluations, fate = np.zeros(count, np.int64), np.zeros(count, np.int64)
+    error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))
+
+    def part(start: int) -> None:
+        here = slice(start, start + AT_ONCE)
+        solve_own(
+            *(numbers.skins[here], numbers.parts[here], numbers.bodies[here], rules()),
+            *(goal[here], h[here], evaluations[here], fate[here], error[here], rows[here]),
+        )
+
+    starts = range(0, count, AT_ONCE)
+    if (workers := min(threads, len(starts))) > 1:
+        part(0)  # compiled once, not by every thread
+        with ThreadPoolExecutor(workers) as pool:
+            list(pool.map(part, starts[1:]))
+    else:
+        for start in starts:
+            part(start)
+    return h, evaluations, fate, error, rows

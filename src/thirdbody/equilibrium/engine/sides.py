@@ -1,0 +1,457 @@
+"""One contact of a particle, and the law of one contact, as functions of numbers.
+
+A side is a row of numbers; `prepare` finds its kinks once a state, `side_at` evaluates it.
+"""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+from ...laws.asperity import formulas
+from ...laws.particle import deep
+from ..compiled.machine import apart
+from .fields import (
+    CAP,
+    CEB,
+    CODE,
+    COUNT,
+    DEEP,
+    DELTA_1,
+    END,
+    FORM,
+    FULL,
+    GW,
+    HARDER,
+    HERMITE,
+    HILL,
+    JG,
+    KE,
+    KINKS,
+    LAW_1,
+    LAW_2,
+    LAW_3,
+    LAW_4,
+    LIMIT,
+    MOST_KINKS,
+    PLATEAU,
+    SQUASHED,
+    TABLE_AREA,
+    TABLE_LOAD,
+    TABLE_TERMS,
+    TIP,
+    UNIT,
+    WIDE,
+    ZMC,
+)  # fmt: skip
+
+__all__ = ["break_at", "breaks", "law_at", "prepare", "regime_of", "side_at"]
+
+scalar = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
+"""Options of functions that only the kernel calls."""
+
+elastic = scalar(formulas.elastic)
+doubled = scalar(formulas.doubled)
+zmc_spread = scalar(formulas._spread)
+plastic_ceb = scalar(formulas.plastic_ceb)
+kogut = scalar(formulas.kogut)
+green_middle = scalar(formulas.green_middle)
+HALVINGS, STEEPEST = 60, 1e-15
+LAW_ENDS, TABLE_BEGINS, TABLE_ENDS, SPLITS = (
+    deep.LAW_ENDS,
+    deep.TABLE_BEGINS,
+    deep.TABLE_ENDS,
+    deep.SPLITS,
+)
+THINNEST = math.exp(deep.THINNEST)
+GRADING = 4.0
+"""Ratio of heights left at neighbouring kinks of a disc."""
+
+
+@scalar
+def zmc_middle(y, k, rho, r, full):
+    apart()
+    area = zmc_spread(y, rho, r, full)
+    return (k + (1 - k) * math.log(y) / math.log(rho)) * area, area
+
+
+@scalar
+def hermite_middle(y, k, rho, r, full):
+    apart()
+    log_rho = math.log(rho)
+    u, slope = math.log(y) / log_rho, 0.5 * k * log_rho
+    p = k * (u * u * (2 * u - 3) + 1) + slope * u * (1 - u) ** 2 + u * u * (3 - 2 * u)
+    area = zmc_spread(y, rho, r, full)
+    return p * area, area
+
+
+@scalar
+def breaks(rows, i):
+    """How many breakpoints the law of a row has."""
+    code = rows[i, CODE]
+    if code == GW:
+        return 0
+    if ZMC <= code <= HERMITE:
+        return 2
+    if code == KE:
+        return 3
+    return 1
+
+
+@scalar
+def break_at(rows, i, n):
+    """The n-th breakpoint y of the law of a row."""
+    code = rows[i, CODE]
+    if code == JG:
+        return 1.9
+    if n == 0:
+        return 1.0
+    if code == KE:
+        return 6.0 if n == 1 else 110.0
+    return rows[i, LAW_2]
+
+
+@scalar
+def branch_of(rows, i, y):
+    """Which branch of its law a row is on at y."""
+    apart()
+    n = 0
+    while n < breaks(rows, i) and y >= break_at(rows, i, n):
+        n += 1
+    return n
+
+
+@scalar
+def regime_of_branch(rows, i, branch):
+    code = rows[i, CODE]
+    if code == CEB:
+        return 2 * branch
+    if code == KE:
+        return branch if branch < 2 else branch - 1
+    return branch
+
+
+@scalar
+def law_at(rows, i, y):
+    """Reduced load and area of the law of a row at y > 0."""
+    apart()
+    code = rows[i, CODE]
+    if ZMC <= code <= HERMITE:
+        k, rho = rows[i, LAW_1], rows[i, LAW_2]
+        r, full = rows[i, LAW_3], rows[i, LAW_4]
+        if y < 1:
+            return elastic(y, k, r)
+        if y >= rho:
+            return doubled(y, full)
+        if code == HERMITE:
+            return hermite_middle(y, k, rho, r, full)
+        return zmc_middle(y, k, rho, r, full)
+    if code == GW:
+        return elastic(y, 1.0, 1.0)
+    first = rows[i, LAW_1]
+    if code == CEB:
+        if y < 1:
+            return elastic(y, 2 / 3 * first, rows[i, LAW_2])
+        return plastic_ceb(y, first, rows[i, LAW_2], rows[i, LAW_3])
+    if code == KE:
+        if y < 1:
+            return elastic(y, 2 / 3 * first, 1.0)
+        if y < 6:
+            return kogut(y, 2 / 3 * first, 1.03, 1.425, 0.93, 1.136)
+        if y < 110:
+            return kogut(y, 2 / 3 * first, 1.40, 1.263, 0.94, 1.146)
+        return doubled(y, 2.0)
+    if y < 1.9:
+        return elastic(y, 2 / 3 * first / rows[i, LAW_4], 1.0)
+    return green_middle(y, first, rows[i, LAW_2], rows[i, LAW_3], rows[i, LAW_4])
+
+
+@scalar
+def _excess(rows, i, y, what):
+    """What is zero at a kink of a row, rising with y: 0 the cap, 1 the width, 2 the pressure."""
+    apart()
+    if what == 0:
+        return law_at(rows, i, y)[1] - rows[i, FULL]
+    load, area = _squashed_at(rows, i, y)
+    if what == 1:
+        return 4 * rows[i, TIP] * rows[i, DELTA_1] * area - 1
+    return load - rows[i, HARDER] * area
+
+
+@scalar
+def _crossing(rows, i, low, high, what):
+    """y between two at which `_excess` changes its sign, by halving and by chords."""
+    apart()
+    f_low, f_high = _excess(rows, i, low, what), _excess(rows, i, high, what)
+    if f_low >= 0:
+        return low
+    side = 0
+    for n in range(4 * HALVINGS):
+        if high - low <= STEEPEST * high:
+            break
+        y = (low * f_high - high * f_low) / (f_high - f_low)
+        if not low < y < high or n % 8 == 7:
+            y = 0.5 * (low + high)
+        f = _excess(rows, i, y, what)
+        if f < 0:
+            low, f_low = y, f
+            if side == -1:
+                f_high *= 0.5
+            side = -1
+        elif f > 0:
+            high, f_high = y, f
+            if side == 1:
+                f_low *= 0.5
+            side = 1
+        else:
+            return y
+    return 0.5 * (low + high)
+
+
+@scalar
+def _cap(rows, i):
+    """Reduced indentation at which the area of the law reaches the great circle."""
+    apart()
+    full, count = rows[i, FULL], breaks(rows, i)
+    code = rows[i, CODE]
+    if code == GW or (rows[i, LAW_3] * 0 + full <= break_at(rows, i, 0) and code != KE):
+        return full
+    if code == KE and full < 0.93:
+        return full
+    last = break_at(rows, i, count - 1)
+    if code == CEB:
+        return 1 + (full - rows[i, LAW_2]) / rows[i, LAW_3]
+    if code != JG and 0.5 * full >= last:
+        return 0.5 * full
+    low, high = 0.4 * full, max(full, 1.0)
+    while law_at(rows, i, high)[1] < full:
+        high *= 2
+    for n in range(count):  # a jump of the area over the great circle
+        y = break_at(rows, i, n)
+        below = y * (1 - 1e-15)
+        if low < y < high:
+            under, at = law_at(rows, i, below)[1], law_at(rows, i, y)[1]
+            if under < full <= at:
+                return y
+            if at < full:
+                low = y
+            elif under >= full:
+                high = below
+    return _crossing(rows, i, low, high, 0)
+
+
+@scalar
+def _squashed_at(rows, i, y):
+    """Reduced load and area of a squashed half."""
+    apart()
+    delta_1, full = rows[i, DELTA_1], rows[i, FULL]
+    load, area = law_at(rows, i, y)
+    left = 1 - 2 * delta_1 * y
+    spread = min(area, full) / left
+    radius = math.sqrt(rows[i, TIP] * delta_1 * spread)
+    fall = 0.92 * (1 - math.cos(math.pi * min(2 * radius, 1.0)))
+    rise = (rows[i, HILL] * radius / left - fall) / 2.84
+    return spread * (load / area) * (1 + rise), spread
+
+
+@scalar
+def _series(rows, i, begin, x):
+    """A Chebyshev series of a row at x, from −1 to 1."""
+    b, c = 0.0, 0.0
+    for k in range(TABLE_TERMS - 1, 0, -1):
+        b, c = rows[i, begin + k] + 2 * x * b - c, b
+    return rows[i, begin] + x * b - c
+
+
+@scalar
+def _disc_at(rows, i, left):
+    """Load over πR²H and area over πR² of a disc beyond the table, of a height left."""
+    load = math.exp(_series(rows, i, TABLE_LOAD, 1.0))
+    area = math.exp(_series(rows, i, TABLE_AREA, 1.0))
+    thick = 1 - TABLE_ENDS
+    wide, hill = area * thick / left, rows[i, HILL]
+    rise = (1 + hill * math.sqrt(wide) / left) / (1 + hill * math.sqrt(area) / thick)
+    return load * thick / left * rise, wide
+
+
+@scalar
+def _deep_at(rows, i, eps):
+    """Load over πR²H and area over πR² of a side by the table, at a squeeze ε = δ/R."""
+    apart()
+    if eps > TABLE_ENDS:
+        return _disc_at(rows, i, 1 - eps)
+    thin = rows[i, DELTA_1] / rows[i, TIP]
+    if eps <= LAW_ENDS:
+        load, area = law_at(rows, i, eps / thin)
+        return thin * load, thin * area
+    first, last = math.log(LAW_ENDS / (1 - LAW_ENDS)), math.log(TABLE_ENDS / (1 - TABLE_ENDS))
+    place = (2 * math.log(eps / (1 - eps)) - first - last) / (last - first)
+    table_load = math.exp(_series(rows, i, TABLE_LOAD, place))
+    table_area = math.exp(_series(rows, i, TABLE_AREA, place))
+    if eps >= TABLE_BEGINS:
+        return table_load, table_area
+    load, area = law_at(rows, i, eps / thin)
+    u = math.log(eps / LAW_ENDS) / math.log(TABLE_BEGINS / LAW_ENDS)
+    w = u * u * (3 - 2 * u)
+    load, area = thin * load, thin * area
+    return load * (table_load / load) ** w, area * (table_area / area) ** w
+
+
+@scalar
+def _prepare_table(rows, i):
+    """Where a side by the table is wide, sinks in, and changes its formula."""
+    thin = rows[i, DELTA_1] / rows[i, TIP]
+    low = high = 1 - TABLE_ENDS
+    load, area = _disc_at(rows, i, low)
+    while load < rows[i, HARDER] * area and low > THINNEST:
+        high, low = low, 0.5 * low
+        load, area = _disc_at(rows, i, low)
+    end = 1 - low
+    if low < high and low > THINNEST:
+        for _ in range(HALVINGS):
+            left = math.sqrt(low * high)
+            load, area = _disc_at(rows, i, left)
+            if load < rows[i, HARDER] * area:
+                high = left
+            else:
+                low = left
+        end = 1 - low
+    rows[i, END] = end / thin
+    for eps in (LAW_ENDS, TABLE_BEGINS, *SPLITS, TABLE_ENDS, end):
+        _add_kink(rows, i, eps / thin)
+    for n in range(breaks(rows, i)):
+        if break_at(rows, i, n) * thin < TABLE_BEGINS:
+            _add_kink(rows, i, break_at(rows, i, n))
+    if _deep_at(rows, i, end)[1] > 1 >= _deep_at(rows, i, TABLE_BEGINS)[1]:
+        low, high = TABLE_BEGINS, end
+        for _ in range(HALVINGS):
+            eps = 0.5 * (low + high)
+            if _deep_at(rows, i, eps)[1] > 1:
+                high = eps
+            else:
+                low = eps
+        _add_kink(rows, i, 0.5 * (low + high) / thin)
+    left = 1 - TABLE_ENDS
+    while left > GRADING * (1 - end):
+        left /= GRADING
+        _add_kink(rows, i, (1 - left) / thin)
+    rows[i, CAP] = TABLE_BEGINS / thin
+
+
+@scalar
+def side_at(rows, i, delta):
+    """Load over x² [Pa] and area over x² of a side indented by δ over x."""
+    apart()
+    delta_1 = rows[i, DELTA_1]
+    y = delta / delta_1
+    if rows[i, FORM] == SQUASHED:
+        load, area = _squashed_at(rows, i, min(y, rows[i, END]))
+    elif rows[i, FORM] == DEEP:
+        thin = delta_1 / rows[i, TIP]
+        load, area = _deep_at(rows, i, min(y, rows[i, END]) * thin)
+        load, area = load / thin, area / thin
+    else:
+        cap, full = rows[i, CAP], rows[i, FULL]
+        if rows[i, PLATEAU] == 0 and y > cap:
+            y = cap
+        load, area = law_at(rows, i, y)
+        if y > cap:
+            load *= full / area
+        area = min(area, full)
+    return rows[i, UNIT] * load, math.pi * rows[i, TIP] * delta_1 * area
+
+
+@scalar
+def regime_of(rows, i, delta):
+    """0 elastic, 1 elastoplastic, 2 plastic, of a side indented by δ over x."""
+    apart()
+    y = delta / rows[i, DELTA_1]
+    if y >= rows[i, CAP] and rows[i, PLATEAU] == 1:
+        return 2
+    return regime_of_branch(rows, i, branch_of(rows, i, y))
+
+
+@scalar
+def _add_kink(rows, i, y):
+    """Note a reduced indentation as a kink, in increasing order; equal ones once."""
+    apart()
+    delta = y * rows[i, DELTA_1]
+    n = int(rows[i, COUNT])
+    if n >= MOST_KINKS:
+        return
+    place = n
+    while place > 0 and rows[i, KINKS + place - 1] > delta:
+        place -= 1
+    if place > 0 and rows[i, KINKS + place - 1] >= delta * (1 - 1e-14):
+        return
+    for j in range(n, place, -1):
+        rows[i, KINKS + j] = rows[i, KINKS + j - 1]
+    rows[i, KINKS + place] = delta
+    rows[i, COUNT] = n + 1
+
+
+@scalar
+def _prepare_disc(rows, i):
+    """Where a squashed half is bounded by its volume, is as wide as the sphere, and sinks in."""
+    apart()
+    delta_1, cap = rows[i, DELTA_1], rows[i, CAP]
+    top = 0.5 * (1 - 1e-6) / delta_1
+    rows[i, WIDE] = cap
+    if cap < top and abs(_excess(rows, i, cap, 1)) > 1e-9:
+        low, high = (1e-9 * cap, cap) if _excess(rows, i, cap, 1) > 0 else (cap, top)
+        rows[i, WIDE] = _crossing(rows, i, low, high, 1)
+    begin = max(rows[i, WIDE], cap)
+    high, left = begin, 1 - 2 * delta_1 * begin
+    if not left > 0:
+        return False
+    while _excess(rows, i, high, 2) < 0:
+        left *= 0.5
+        if left < 1e-9:
+            return False
+        high = 0.5 * (1 - left) / delta_1
+    rows[i, END] = begin
+    if high > begin:
+        rows[i, END] = _crossing(rows, i, max(begin, 0.5 * (1 - 2 * left) / delta_1), high, 2)
+    end = rows[i, END]
+    for n in range(breaks(rows, i)):
+        if break_at(rows, i, n) < end:
+            _add_kink(rows, i, break_at(rows, i, n))
+    if cap < end:
+        _add_kink(rows, i, cap)
+    if rows[i, WIDE] < end:
+        _add_kink(rows, i, rows[i, WIDE])
+    left, last = 1 - 2 * delta_1 * begin, 1 - 2 * delta_1 * end
+    while left > GRADING * last:
+        left /= GRADING
+        _add_kink(rows, i, 0.5 * (1 - left) / delta_1)
+    _add_kink(rows, i, end)
+    return True
+
+
+@scalar
+def prepare(rows, i):
+    """Find the kinks of a side; False where its formulas do not cover it."""
+    apart()
+    code = rows[i, CODE]
+    rows[i, COUNT] = 0
+    rows[i, PLATEAU] = 1.0 if GW < code < JG else 0.0
+    rows[i, END] = math.inf
+    if rows[i, FORM] == DEEP:
+        _prepare_table(rows, i)
+        last = rows[i, KINKS + int(rows[i, COUNT]) - 1]
+        rows[i, LIMIT] = side_at(rows, i, last)[0]
+        return rows[i, COUNT] < MOST_KINKS
+    cap = rows[i, CAP] = _cap(rows, i)
+    if rows[i, FORM] == SQUASHED:
+        if not _prepare_disc(rows, i):
+            return False
+    else:
+        for n in range(breaks(rows, i)):
+            y = break_at(rows, i, n)
+            if rows[i, PLATEAU] == 1 or y < cap:
+                _add_kink(rows, i, y)
+        _add_kink(rows, i, cap)
+    last = rows[i, KINKS + int(rows[i, COUNT]) - 1]
+    rows[i, LIMIT] = side_at(rows, i, last if rows[i, FORM] == SQUASHED else 2 * last)[0]
+    return rows[i, COUNT] < MOST_KINKS

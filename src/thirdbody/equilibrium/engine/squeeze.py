@@ -1,0 +1,312 @@
+"""One particle of unit size between two sides, as panels of its squeeze ε, once a state."""
+
+from __future__ import annotations
+
+import math
+
+from ..compiled.machine import apart
+from .fields import COUNT, EQUAL, KINKS, LIMIT
+from .sides import prepare, regime_of, scalar, side_at
+
+__all__ = ["EDGE", "MOST_PANELS", "PANEL", "REGIME", "TERMS", "lay_panels", "particle_at"]
+
+MOST_PANELS, TERMS = 160, 12
+EDGE, TO, REGIME, FROM, UNTIL, SHARE = range(6)
+"""Of a panel: its ends in ε, the regime of side 1; ends and coefficients of the share of side 1."""
+PANEL = SHARE + TERMS
+RATIO = 4.0
+"""Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
+CLOSE, BALANCED, RESOLVED = 1e-12, 1e-13, 1e-6
+DEEPEST = 1e3
+
+
+@scalar
+def inverse(sides, i, load):
+    """Indentation over x at which a side first carries a load below its limit."""
+    apart()
+    count = int(sides[i, COUNT])
+    n = 0
+    while n < count and side_at(sides, i, sides[i, KINKS + n])[0] < load:
+        n += 1
+    if n == count:
+        return sides[i, KINKS + count - 1]
+    top = sides[i, KINKS + n]
+    high = math.log(top)
+    f_high = math.log(side_at(sides, i, top)[0] / load)
+    if n == 0:
+        low = high - f_high / 1.4 - 0.5
+        f_low = math.log(side_at(sides, i, math.exp(low))[0] / load)
+        while f_low > 0:
+            low -= 2.0
+            f_low = math.log(side_at(sides, i, math.exp(low))[0] / load)
+    else:
+        low = math.log(sides[i, KINKS + n - 1])
+        f_low = math.log(side_at(sides, i, sides[i, KINKS + n - 1])[0] / load)
+    if f_low >= 0:
+        return math.exp(low)
+    last = 0
+    x = high
+    for step in range(200):
+        x = (low * f_high - high * f_low) / (f_high - f_low)
+        if not low < x < high or step % 8 == 7:
+            x = 0.5 * (low + high)
+        f = math.log(side_at(sides, i, math.exp(x))[0] / load)
+        if abs(f) < 2e-16 or high - low < 1e-15 * abs(x):
+            break
+        if f < 0:
+            low, f_low = x, f
+            if last == -1:
+                f_high *= 0.5
+            last = -1
+        else:
+            high, f_high = x, f
+            if last == 1:
+                f_low *= 0.5
+            last = 1
+    return math.exp(x)
+
+
+@scalar
+def split(sides, i, eps, low, high, delta):
+    """Indentation over x of side i at a squeeze ε, between two; side i + 1 takes the rest.
+
+    By secants from a first guess, inside the bracket; the first slope is that of a load which
+    grows like a power of the indentation.
+    """
+    apart()
+    if not low < delta < high:
+        delta = 0.5 * (low + high)
+    old = old_f = math.nan
+    slope = 1.3 / delta + 1.3 / max(eps - delta, 1e-300)
+    for step in range(100):
+        f = math.log(side_at(sides, i, delta)[0] / side_at(sides, i + 1, eps - delta)[0])
+        if f < 0:
+            low = delta
+        else:
+            high = delta
+        if abs(f) < 4e-16 or high - low < 4e-16 * high:
+            break
+        if old == old and delta != old:
+            slope = (f - old_f) / (delta - old)
+        old, old_f = delta, f
+        delta -= f / slope
+        if not low < delta < high or not slope > 0 or step % 12 == 11:
+            delta = 0.5 * (low + high)
+        elif abs(delta - old) < 2e-16 * delta:
+            break
+    return delta
+
+
+@scalar
+def share_at(panels, p, n, eps):
+    """Share of side 1 in a squeeze ε on panel n."""
+    apart()
+    first, last = panels[p, n, FROM], panels[p, n, UNTIL]
+    if first == 0:
+        x = 2 * math.sqrt(eps / last) - 1
+    else:
+        x = 2 * math.log(eps / first) / math.log(last / first) - 1
+    b, c = 0.0, 0.0
+    for k in range(TERMS - 1, 0, -1):
+        b, c = panels[p, n, SHARE + k] + 2 * x * b - c, b
+    return panels[p, n, SHARE] + x * b - c
+
+
+@scalar
+def particle_at(given, sides, panels, p, n, eps):
+    """Load over x² [Pa] and areas over x² on both surfaces, of ε on panel n of part p."""
+    apart()
+    if given[p, EQUAL] == 1:
+        load, area = side_at(sides, 2 * p, 0.5 * eps)
+        return load, area, area
+    one = eps * share_at(panels, p, n, eps)
+    load, first = side_at(sides, 2 * p, one)
+    other, second = side_at(sides, 2 * p + 1, eps - one)
+    off = other / load - 1
+    if abs(off) > BALANCED:
+        # along the line from here to a point that is closer, with an error of its square
+        step = off / (1.3 / one + 1.3 / (eps - one))
+        near, near_first = side_at(sides, 2 * p, one + step)
+        near_other, near_second = side_at(sides, 2 * p + 1, eps - one - step)
+        part = off / (off - (near_other / near - 1)) if near_other > 0 else 0.0
+        one += part * step
+        load += part * (near - load)
+        other += part * (near_other - other)
+        first += part * (near_first - first)
+        second += part * (near_second - second)
+    return load if one > eps - one else other, first, second
+
+
+@scalar
+def _lay(panels, p, count, eps):
+    """Note an end of panels, in increasing order; equal ones once."""
+    apart()
+    place = count
+    while place > 0 and panels[p, place - 1, EDGE] > eps:
+        place -= 1
+    if place > 0 and panels[p, place - 1, EDGE] >= eps * (1 - 1e-13):
+        return count
+    for j in range(count, place, -1):
+        panels[p, j, EDGE] = panels[p, j - 1, EDGE]
+    panels[p, place, EDGE] = eps
+    return count + 1
+
+
+@scalar
+def _kinks(given, sides, panels, p):
+    """Kinks in ε as ends of panels after 0; how many ends, or −1 where a load jumps."""
+    apart()
+    panels[p, 0, EDGE] = 0.0
+    count = 1
+    equal = given[p, EQUAL] == 1
+    for i in range(1 if equal else 2):
+        own, other = 2 * p + i, 2 * p + 1 - i
+        for k in range(int(sides[own, COUNT])):
+            delta = sides[own, KINKS + k]
+            if equal:
+                count = _lay(panels, p, count, 2 * delta)
+                continue
+            load = side_at(sides, own, delta)[0]
+            below = side_at(sides, own, delta * (1 - 1e-13))[0]
+            if abs(load - below) > 1e-9 * load:
+                return -1
+            limit = sides[other, LIMIT]
+            if load < limit * (1 - CLOSE):
+                count = _lay(panels, p, count, delta + inverse(sides, other, load))
+            elif load < limit * (1 + CLOSE):
+                last = sides[other, KINKS + int(sides[other, COUNT]) - 1]
+                count = _lay(panels, p, count, delta + last)
+    return count
+
+
+@scalar
+def _fill_share(sides, panels, p, n, rule, low, high):
+    """Series of the share of side 1 on panel n, which lies between two indentations of it."""
+    apart()
+    first, last = panels[p, n, EDGE], panels[p, n, TO]
+    panels[p, n, FROM], panels[p, n, UNTIL] = first, last
+    for k in range(TERMS):
+        panels[p, n, SHARE + k] = 0.0
+    share = 0.0
+    for j in range(TERMS):  # from the last place down to the first
+        x = rule[0, j]
+        eps = 0.25 * last * (x + 1) ** 2
+        if first > 0:
+            eps = first * math.exp(0.5 * (x + 1) * math.log(last / first))
+        guess = share * eps if j > 0 else high * eps / last
+        delta = split(sides, 2 * p, eps, max(low, eps - (last - high)), min(high, eps), guess)
+        share = delta / eps
+        for k in range(TERMS):
+            panels[p, n, SHARE + k] += rule[1 + k, j] * share
+
+
+@scalar
+def _share_out(sides, panels, p, count, rule):
+    """Fill the series of the share on every panel, halved where it is not resolved.
+
+    How many panels there are then, and the largest last term of a series.
+    """
+    apart()
+    low, n, worst = 0.0, 0, 0.0
+    while n < count:
+        a, b = panels[p, n, EDGE], panels[p, n, TO]
+        high = split(sides, 2 * p, b, low, min(b, low + b - a), low + 0.5 * (b - a))
+        _fill_share(sides, panels, p, n, rule, low, high)
+        tail = abs(panels[p, n, SHARE + TERMS - 1]) + abs(panels[p, n, SHARE + TERMS - 2])
+        if tail > RESOLVED and b > a * 1.02 and count < MOST_PANELS - 2:
+            for m in range(count, n, -1):
+                panels[p, m, EDGE], panels[p, m, TO] = panels[p, m - 1, EDGE], panels[p, m - 1, TO]
+            panels[p, n, TO] = panels[p, n + 1, EDGE] = math.sqrt(a * b) if a > 0 else 0.25 * b
+            count += 1
+            continue
+        worst = max(worst, tail)
+        low = high
+        n += 1
+    return count, worst
+
+
+@scalar
+def _crossing(given, sides, panels, p, n, low, high):
+    """ε on panel n between two at which the areas on both surfaces are equal."""
+    apart()
+    _, one, two = particle_at(given, sides, panels, p, n, low)
+    above = one > two
+    for _ in range(100):
+        eps = 0.5 * (low + high)
+        if high - low <= 1e-15 * high:
+            break
+        _, one, two = particle_at(given, sides, panels, p, n, eps)
+        if (one > two) == above:
+            low = eps
+        else:
+            high = eps
+    return 0.5 * (low + high)
+
+
+@scalar
+def _cut_at_crossings(given, sides, panels, p, count):
+    """Panels cut where the larger of the two areas changes; their number."""
+    apart()
+    n = 0
+    while n < count and count < MOST_PANELS - 2:
+        a, b = panels[p, n, EDGE], panels[p, n, TO]
+        before, place = 0.0, a
+        for j in range(9):
+            eps = a + (b - a) * (0.02 + 0.12 * j)
+            _, one, two = particle_at(given, sides, panels, p, n, eps)
+            sign = 0.0
+            if abs(one - two) > 1e-11 * max(one, two):
+                sign = 1.0 if one > two else -1.0
+            if sign * before < 0:
+                at = _crossing(given, sides, panels, p, n, place, eps)
+                for m in range(count, n, -1):
+                    for k in range(PANEL):
+                        panels[p, m, k] = panels[p, m - 1, k]
+                panels[p, n, TO] = panels[p, n + 1, EDGE] = at
+                count += 1
+                break
+            if sign != 0:
+                before, place = sign, eps
+        n += 1
+    return count
+
+
+@scalar
+def lay_panels(given, sides, panels, p, rule):
+    """Lay the panels of part p; how many, or −1 where the formulas do not cover it."""
+    apart()
+    if not prepare(sides, 2 * p):
+        return -1
+    equal, worst = given[p, EQUAL] == 1, 0.0
+    if not equal and not prepare(sides, 2 * p + 1):
+        return -1
+    count = _kinks(given, sides, panels, p)
+    if count < 2 or panels[p, count - 1, EDGE] > DEEPEST:
+        return -1
+    known = count
+    for k in range(1, known - 1):  # cut those whose ends lie far apart
+        a, b = panels[p, known - 1 - k, EDGE], panels[p, known - k, EDGE]
+        parts = math.ceil(math.log(b / a) / math.log(RATIO) - 1e-9)
+        if count + parts >= MOST_PANELS - 2:
+            return -1
+        step = (b / a) ** (1.0 / parts) if parts > 1 else 1.0
+        for _ in range(parts - 1):
+            a *= step
+            count = _lay(panels, p, count, a)
+    for n in range(count - 1):
+        panels[p, n, TO] = panels[p, n + 1, EDGE]
+    count -= 1
+    if not equal:
+        count, worst = _share_out(sides, panels, p, count, rule)
+        count = _cut_at_crossings(given, sides, panels, p, count)
+    for n in range(count):
+        eps = 0.5 * (panels[p, n, EDGE] + panels[p, n, TO])
+        one = 0.5 * eps if equal else eps * share_at(panels, p, n, eps)
+        panels[p, n, REGIME] = regime_of(sides, 2 * p, one)
+    # beyond the last the weaker side takes the rest
+    eps = panels[p, count - 1, TO]
+    one = 0.5 * eps if equal else eps * share_at(panels, p, count - 1, eps)
+    deeper = equal or sides[2 * p, LIMIT] <= sides[2 * p + 1, LIMIT] * (1 + CLOSE)
+    panels[p, count, SHARE] = 0.0 if equal else worst
+    panels[p, count, REGIME] = regime_of(sides, 2 * p, one * (1 + 1e-9 * (1 if deeper else -1)))
+    return count

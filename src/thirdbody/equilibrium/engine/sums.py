@@ -1,0 +1,400 @@
+"""Sums over asperities, sizes and seats of one state, at one separation."""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+from ..compiled.machine import apart, exp, normal_cdf
+from .fields import (
+    A_E,
+    A_SA,
+    A_SA2,
+    AREA,
+    BREADTH,
+    COVERAGE,
+    COVERED,
+    DENSITY,
+    F_SA,
+    F_SS,
+    FOOTPRINT,
+    FORCE,
+    GAUSSIAN,
+    HIGH,
+    KIND,
+    LOGNORMAL,
+    LOW,
+    NORM,
+    OFFSET,
+    ONE_SIZE,
+    PLANE,
+    PROJECTED,
+    SEAT,
+    SHADE,
+    SHADOW,
+    SIZE_1,
+    SIZE_2,
+    WIDTH,
+    W,
+)  # fmt: skip
+from .sides import branch_of, break_at, breaks, law_at, regime_of_branch, scalar
+from .squeeze import EDGE, REGIME, TO, particle_at
+
+__all__ = ["MOST_NODES", "MOST_SIZES", "add_part", "add_skin", "lay_nodes", "lay_skin"]
+
+MOST_NODES, MOST_SIZES, MOST_HEIGHTS = 16_384, 2048, 1024
+EPS, LOAD, FIRST, SECOND, LARGER, KEPT, SUM = range(7)
+"""Rows of the nodes over ε: ε, weighted load, areas on both surfaces, the larger of the areas,
+regime, and the sum over sizes."""
+T, OF_LOAD, OF_AREA, ITS_REGIME = range(4)
+"""Rows of the nodes over heights: t = ω/σ_s, weighted load and area, regime."""
+ROOT_2PI = math.sqrt(2 * math.pi)
+REACH, DEEPEST = 9.5, 5.0
+"""Widths of a seat beyond which nothing is summed; lowest separation [σ_s], down."""
+WIDE_SPAN = 2.5
+"""Widths of a panel from which on it may be as wide as the sizes spread."""
+
+exact = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True,
+             fastmath={"nnan", "ninf", "nsz", "contract"})  # fmt: skip
+
+
+# ------------------------------------------------------------------------------ asperities
+@scalar
+def lay_skin(skin, heights, count, gauss, weights, nodes):
+    """Nodes over the interference of asperities: t, weighted load and area; where they end."""
+    apart()
+    row = len(skin) - 1  # a number and no constant, for which numba would compile twice
+    w = skin[row, W]
+    end = (DEEPEST + math.sqrt(DEEPEST**2 + 100.0)) / w
+    number = breaks(skin, 0)
+    a = 0.0
+    while a < end:
+        b = 0.3 / w if a == 0 else min(a * 4.0, a + 2.5 / w)
+        for n in range(number):
+            y = break_at(skin, row, n)
+            if a < y * (1 - 1e-12) and y < b:
+                b = y
+        if b > 0.9 * end:
+            b = end
+        if count + nodes > MOST_HEIGHTS:
+            return -1
+        regime = regime_of_branch(skin, row, branch_of(skin, row, 0.5 * (a + b)))
+        first, half = (0.0, 0.5 * math.sqrt(b)) if a == 0 else (a, 0.5 * (b - a))
+        for j in range(nodes):
+            y, weight = first + half * (1 + gauss[j]), half * weights[j]
+            if a == 0:
+                y, weight = y * y, 2 * y * weight
+            load, area = law_at(skin, row, y)
+            weight *= w / ROOT_2PI
+            heights[T, count] = w * y
+            heights[OF_LOAD, count] = weight * load
+            heights[OF_AREA, count] = weight * area
+            heights[ITS_REGIME, count] = regime
+            count += 1
+        a = b
+    return count
+
+
+@exact
+def _weigh(heights, begin, end, h):
+    """Densities of the heights at the nodes, without exp(−h²/2)."""
+    apart()
+    for j in range(begin, end):
+        t = heights[T, j]
+        heights[4, j] = exp(max(-t * (h + 0.5 * t), -700.0))
+
+
+@scalar
+def add_skin(skin, heights, begin, end, h, out):
+    """Load and areas of the asperities at h [σ_s], into the first four columns."""
+    apart()
+    _weigh(heights, begin, end, h)
+    load, elastic, middle, plastic = 0.0, 0.0, 0.0, 0.0
+    for j in range(begin, end):
+        share = heights[4, j]
+        load += heights[OF_LOAD, j] * share
+        area = heights[OF_AREA, j] * share
+        regime = heights[ITS_REGIME, j]
+        if regime == 0:
+            elastic += area
+        elif regime == 1:
+            middle += area
+        else:
+            plastic += area
+    factor = math.exp(-0.5 * h * h)
+    out[F_SS] = skin[0, FORCE] * factor * load
+    factor *= skin[0, AREA]
+    out[A_E], out[A_E + 1], out[A_E + 2] = factor * elastic, factor * middle, factor * plastic
+
+
+# ------------------------------------------------------------------------------ sizes
+@scalar
+def density(given, p, x):
+    """How many particles have a size x, per size."""
+    apart()
+    kind, middle, width = given[p, KIND], given[p, SIZE_1], given[p, SIZE_2]
+    if kind == GAUSSIAN:
+        u = (x - middle) / width
+        return given[p, NORM] * math.exp(-0.5 * u * u)
+    if kind == LOGNORMAL:
+        u = math.log(x / middle) / width
+        return given[p, NORM] / x * math.exp(-0.5 * u * u)
+    return given[p, NORM]
+
+
+@scalar
+def scale_of(given, p, x):
+    """Size over which the density changes near x."""
+    apart()
+    if given[p, KIND] == GAUSSIAN:
+        return given[p, SIZE_2]
+    if given[p, KIND] == LOGNORMAL:
+        return x * min(given[p, SIZE_2], 0.7)
+    return given[p, HIGH]
+
+
+@scalar
+def lay_sizes(given, p, sizes, begin, gauss, weights, nodes, span):
+    """Nodes over sizes on a rough seat: x and weight x³; where they end, or −1."""
+    apart()
+    if given[p, KIND] == ONE_SIZE:
+        x = given[p, SIZE_1]
+        sizes[0, begin], sizes[1, begin] = x, 1.0
+        return begin + 1
+    low, high, width = given[p, LOW], given[p, HIGH], given[p, WIDTH]
+    a, count = low, begin
+    while a < high:
+        own = scale_of(given, p, a)
+        step = span / math.sqrt(1 / (own * own) + 1 / (width * width))
+        parts = math.ceil((high - a) / step - 1e-9)
+        b = high if parts <= 1 else a + (high - a) / parts
+        if given[p, KIND] == LOGNORMAL and parts > 1:
+            b = min(high, a + step)
+        if count + nodes > MOST_SIZES:
+            return -1
+        for j in range(nodes):
+            x = a + 0.5 * (b - a) * (1 + gauss[j])
+            sizes[0, count] = x
+            sizes[1, count] = 0.5 * (b - a) * weights[j] * density(given, p, x)
+            count += 1
+        a = b
+    return count
+
+
+@scalar
+def lay_nodes(given, sides, panels, p, count, grid, begin, gauss, weights, nodes, span):
+    """Nodes over ε on a rough seat: weighted load and areas; where they end, or −1."""
+    apart()
+    place = begin
+    size, width = 0.5 * (given[p, LOW] + given[p, HIGH]), given[p, WIDTH]
+    own = 0.0 if given[p, KIND] == ONE_SIZE else scale_of(given, p, size) / size
+    if span < WIDE_SPAN:  # sizes that end abruptly show in the width of the seat alone
+        own = 0.0
+    for n in range(count):
+        first, last = panels[p, n, EDGE], panels[p, n, TO]
+        thin = own * (1 - 0.5 * (first + last))
+        step = span * math.sqrt((width / given[p, HIGH]) ** 2 + thin * thin)
+        parts = max(1, math.ceil((last - first) / step))
+        if place + parts * nodes > MOST_NODES:
+            return -1
+        for m in range(parts):
+            a = first + (last - first) * m / parts
+            b = first + (last - first) * (m + 1) / parts
+            for j in range(nodes):
+                if a == 0:
+                    root = 0.5 * math.sqrt(b) * (1 + gauss[j])
+                    eps, weight = root * root, root * math.sqrt(b) * weights[j]
+                else:
+                    eps = a + 0.5 * (b - a) * (1 + gauss[j])
+                    weight = 0.5 * (b - a) * weights[j]
+                load, one, two = particle_at(given, sides, panels, p, n, eps)
+                grid[EPS, place] = eps
+                grid[LOAD, place] = weight * load
+                grid[FIRST, place] = weight * one
+                grid[SECOND, place] = weight * two
+                grid[LARGER, place] = weight * shade(given, p, one, two)
+                grid[KEPT, place] = panels[p, n, REGIME]
+                place += 1
+    return place
+
+
+@scalar
+def shade(given, p, one, two):
+    """Area over x² that a particle shades beside its projected area, if that counts at all."""
+    larger = max(one, two)
+    if given[p, SHADOW] == FOOTPRINT:
+        return larger
+    if given[p, SHADOW] == PROJECTED:
+        return max(larger - 0.25 * math.pi * given[p, BREADTH], 0.0)
+    return 0.0
+
+
+# ------------------------------------------------------------------------------ seats
+@exact
+def _sum_sizes(grid, begin, end, sizes, first, last, gap, width):
+    """Over sizes at each node: weight x³ times the density of the seat, into the last row."""
+    apart()
+    for i in range(begin, end):
+        grid[SUM, i] = 0.0
+    for j in range(first, last):
+        x = sizes[0, j]
+        c = sizes[1, j] * x * x * x / (ROOT_2PI * width)
+        start, rate = (gap - x) / width, x / width
+        for i in range(begin, end):
+            z = start + rate * grid[EPS, i]
+            grid[SUM, i] += c * exp(max(-0.5 * z * z, -700.0))
+
+
+@scalar
+def above(z):
+    """The normal distribution Φ(z)."""
+    apart()
+    return normal_cdf(z, math.exp(-0.5 * z * z)) if abs(z) < 37 else (1.0 if z > 0 else 0.0)
+
+
+@scalar
+def _add_rough(given, sides, panels, p, count, grid, begin, end, sizes, first, last, gap, out):
+    """What a part carries on a rough seat, into the columns of the particles."""
+    apart()
+    width = given[p, WIDTH]
+    # only nodes that some seat reaches: those of x(1 − ε) within REACH widths of the gap
+    most, least = gap + REACH * width, gap - REACH * width
+    smallest = max(given[p, LOW], 1e-300)
+    low = 1 - most / (smallest if most > 0 else given[p, HIGH])
+    high = 1 - least / (given[p, HIGH] if least > 0 else smallest)
+    a, b = begin, end
+    while a < b and grid[EPS, a] < low:
+        a += 1
+    while b > a and grid[EPS, b - 1] > high:
+        b -= 1
+    _sum_sizes(grid, a, b, sizes, first, last, gap, width)
+    factor = given[p, DENSITY]
+    for i in range(a, b):
+        share = factor * grid[SUM, i]
+        out[F_SA] += share * grid[LOAD, i]
+        out[A_SA + int(grid[KEPT, i])] += share * grid[FIRST, i]
+        out[A_SA2] += share * grid[SECOND, i]
+        out[SHADE] += share * grid[LARGER, i]
+    edge = panels[p, count - 1, TO]
+    squeezed = touched = 0.0
+    for j in range(first, last):
+        x = sizes[0, j]
+        weight = factor * sizes[1, j] * x * x
+        squeezed += weight * above((x * (1 - edge) - gap) / width)
+        touched += weight * above((x - gap) / width)
+    _add_last(given, sides, panels, p, count, squeezed, out)
+    if given[p, SHADOW] == PROJECTED:
+        out[SHADE] += 0.25 * math.pi * given[p, BREADTH] * touched
+
+
+@scalar
+def _add_last(given, sides, panels, p, count, squared, out):
+    """What particles beyond the last panel carry, by the sum of their sizes squared."""
+    apart()
+    edge = panels[p, count - 1, TO]
+    load, one, two = particle_at(given, sides, panels, p, count - 1, edge)
+    out[F_SA] += squared * load
+    out[A_SA + int(panels[p, count, REGIME])] += squared * one
+    out[A_SA2] += squared * two
+    out[SHADE] += squared * shade(given, p, one, two)
+
+
+# ------------------------------------------------------------------------------ planes
+@scalar
+def _add_size(given, sides, panels, p, n, x, eps, weight, out):
+    """What so many particles of a size x squeezed by ε on panel n carry."""
+    apart()
+    load, one, two = particle_at(given, sides, panels, p, n, eps)
+    squared = weight * x * x
+    out[F_SA] += squared * load
+    out[A_SA + int(panels[p, n, REGIME])] += squared * one
+    out[A_SA2] += squared * two
+    out[SHADE] += squared * shade(given, p, one, two)
+    if given[p, SHADOW] == PROJECTED:
+        out[SHADE] += squared * 0.25 * math.pi * given[p, BREADTH]
+
+
+@scalar
+def _add_one_size(given, sides, panels, p, count, gap, out):
+    """What particles of one size carry on a plane."""
+    apart()
+    x = given[p, SIZE_1]
+    eps = (x - gap) / x
+    if eps <= 0:
+        return
+    n = 0
+    while n < count and eps > panels[p, n, TO]:
+        n += 1
+    if n < count:
+        _add_size(given, sides, panels, p, n, x, eps, given[p, DENSITY], out)
+        return
+    squared = given[p, DENSITY] * x * x
+    _add_last(given, sides, panels, p, count, squared, out)
+    if given[p, SHADOW] == PROJECTED:
+        out[SHADE] += squared * 0.25 * math.pi * given[p, BREADTH]
+
+
+@scalar
+def _add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, out):
+    """What a part carries on a plane, by panels in the size x; False below its range."""
+    apart()
+    low, high = given[p, LOW], given[p, HIGH]
+    factor = given[p, DENSITY]
+    if gap >= high:
+        return True
+    edge = panels[p, count - 1, TO]
+    if gap <= 0 and edge >= 1:
+        return False
+    if given[p, KIND] == ONE_SIZE:
+        _add_one_size(given, sides, panels, p, count, gap, out)
+        return True
+    squared = 0.0
+    for n in range(count + 1):
+        # sizes squeezed by the ε of panel n, and last those squeezed beyond
+        a, b = max(low, gap), high
+        if n > 0:
+            eps = panels[p, n - 1, TO]
+            a = max(a, gap / (1 - eps) if eps < 1 else high)
+        if n < count:
+            eps = panels[p, n, TO]
+            if gap <= 0:
+                continue
+            b = min(b, gap / (1 - eps) if eps < 1 else high)
+        while a < b:
+            step = span * scale_of(given, p, a)
+            parts = math.ceil((b - a) / step - 1e-9)
+            c = b if parts <= 1 else a + (b - a) / parts
+            rooted = n == 0
+            start = math.sqrt(max(a - gap, 0.0)) if rooted else a
+            half = 0.5 * ((math.sqrt(c - gap) if rooted else c) - start)
+            for j in range(nodes):
+                x, weight = start + half * (1 + gauss[j]), half * weights[j]
+                delta = x - gap
+                if rooted:
+                    delta, weight = x * x, 2 * x * weight
+                    x = gap + delta
+                weight *= factor * density(given, p, x)
+                if n == count:
+                    squared += weight * x * x
+                else:
+                    _add_size(given, sides, panels, p, n, x, delta / x, weight, out)
+            a = c
+    _add_last(given, sides, panels, p, count, squared, out)
+    if given[p, SHADOW] == PROJECTED:
+        out[SHADE] += squared * 0.25 * math.pi * given[p, BREADTH]
+    return True
+
+
+@scalar
+def add_part(given, sides, panels, p, count, grid, begin, end, sizes, first, last, d, gauss,
+             weights, nodes, span, out):  # fmt: skip
+    """What part p carries at a separation d [m]; False where its formulas do not reach."""
+    apart()
+    gap = d + given[p, OFFSET]
+    if given[p, SHADOW] == COVERED:
+        out[SHADE] += given[p, COVERAGE]
+    if given[p, SEAT] == PLANE:
+        return _add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, out)
+    _add_rough(given, sides, panels, p, count, grid, begin, end, sizes, first, last, gap, out)
+    return True

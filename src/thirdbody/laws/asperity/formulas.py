@@ -1,0 +1,76 @@
+r"""The reduced formulas of the laws of one contact, as plain functions of numbers.
+
+Each gives :math:`f = F/(\pi R\omega_1H)` and :math:`a = A/(\pi R\omega_1)` at
+:math:`y = \omega/\omega_1` on one smooth branch. Numbers or arrays, by NumPy or compiled: a law is
+written here once. What the letters mean and where the formulas come from stands with each law.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+__all__ = [
+    "doubled",
+    "elastic",
+    "green_middle",
+    "hermite_middle",
+    "hertz_zmc",
+    "kogut",
+    "plastic_ceb",
+    "zmc_middle",
+]
+
+
+def elastic(y, factor, r):
+    """Hertz: load factor·r·y^(3/2), area r·y, with r = 1 for a round tip."""
+    return factor * r * y * np.sqrt(y), r * y
+
+
+def hertz_zmc(y, k, r):
+    """The elastic branch of `ZMC`."""
+    return elastic(y, k, r)
+
+
+def doubled(y, full):
+    """Fully plastic at the hardness: load and area full·y."""
+    return full * y, full * y
+
+
+def _spread(y, rho, r, full):
+    s = (y - 1) / (rho - 1)
+    return y * (r + (full - r) * (s * s * (3 - 2 * s)))
+
+
+def zmc_middle(y, k, rho, r, full):
+    """The elastoplastic branch of `ZMC`, from r·y to full·y."""
+    area = _spread(y, rho, r, full)
+    return (k + (1 - k) * np.log(y) / np.log(rho)) * area, area
+
+
+def hermite_middle(y, k, rho, r, full):
+    """The elastoplastic branch of `Hermite`."""
+    u, slope = np.log(y) / np.log(rho), 0.5 * k * np.log(rho)
+    p = k * (u * u * (2 * u - 3) + 1) + slope * u * (1 - u) ** 2 + u * u * (3 - 2 * u)
+    area = _spread(y, rho, r, full)
+    return p * area, area
+
+
+def plastic_ceb(y, K, r, slope):
+    """The plastic branch of `CEB`, round or elliptic."""
+    area = r + slope * (y - 1)
+    return K * area, area
+
+
+def kogut(y, unit, f, m, a, n):
+    """One of the power laws of `KE`, with unit = (2/3)K."""
+    return unit * f * y**m, a * y**n
+
+
+def green_middle(y, C, B, omega_R, hardness_ratio):
+    """The branch of `JG` beyond y = 1.9, with ω_c/R."""
+    area = y * (y / 1.9) ** B
+    radius = np.sqrt(omega_R * area)
+    hardness = 2.84 * (1 - np.exp(-0.82 * radius**-0.7))
+    first = np.exp(-(y ** (5 / 12)) / 4) * y**1.5
+    second = 4 / C * hardness * -np.expm1(-(y ** (5 / 9)) / 25) * y
+    return 2 / 3 * C / hardness_ratio * (first + second), area

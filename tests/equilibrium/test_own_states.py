@@ -1,0 +1,251 @@
+"""States by quadrature over their own laws hold to the slow path, and to themselves."""
+
+import os
+from unittest import mock
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.equilibrium.columns import COLUMNS
+from thirdbody.equilibrium.states import state_columns
+
+pytest.importorskip("numba")
+from thirdbody.equilibrium.engine.run import own_columns
+
+pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+BOUND = 1e-9
+"""Of d over σ, of loads over F, of areas over A_t."""
+STEEL = tb.Material(E=208e9, nu=0.3, H=6e9)
+SERIES = tb.particle.Series
+LAWS = {
+    "hermite": SERIES(),
+    "zmc": SERIES(law=tb.asperity.ZMC(k=0.38, rho=70.0)),
+    "ke": SERIES(law=tb.asperity.KE()),
+    "gw": SERIES(law=tb.asperity.GW()),
+    "sphere": SERIES(soft="sphere"),
+    "projected": SERIES(shadow="projected"),
+    "deep": SERIES(deep="table"),
+}
+SEATS = ("rough", "plane")
+BODIES = {"hard": (72e9, 7.7e9), "soft": (190e9, 1e9)}
+SIZES = {
+    "gaussian": tb.TruncatedGaussian(mean=300e-9, std=30e-9, n=3.0),
+    "one size": tb.Monodisperse(mean=300e-9),
+}
+
+
+def contact(law="hermite", seat="rough", body="hard", sizes="gaussian", other=STEEL, **more):
+    E, H = BODIES[body]
+    return tb.Contact(
+        surfaces=tb.MaterialPair(STEEL, other),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6, alpha=5.0),
+        particles=tb.Particles(
+            material=tb.Material(E=E, nu=0.2, H=H), areal_density=1e11, diameter=SIZES[sizes]
+        ),
+        particle_law=LAWS[law].replace(seat=seat),
+        **more,
+    )
+
+
+def drawn(case: tb.Contact, count: int, seed: int, unlike: bool) -> tuple[dict, np.ndarray]:
+    """Inputs that all vary at once, and loads F*."""
+    rng = np.random.default_rng(seed)
+
+    def around(value, spread):
+        return value * np.exp(rng.uniform(-spread, spread, count))
+
+    sizes, body = case.particles.diameter, case.particles.material
+    x = around(sizes.mean, 0.5)
+    vary = {
+        "roughness.sigma": around(100e-9, 0.6),
+        "roughness.R": around(2.8e-6, 0.7),
+        "roughness.alpha": rng.uniform(2, 10, count),
+        "particles.areal_density": around(3e10, 1.0),
+        "particles.diameter.mean": x,
+        "particles.material.E": around(body.E, 0.4),
+        "particles.material.nu": rng.uniform(0.1, 0.45, count),
+        "particles.material.H": around(body.H, 0.2),
+    }
+    if hasattr(sizes, "std"):
+        vary["particles.diameter.std"] = x * rng.uniform(0.02, 0.25, count)
+        vary["particles.diameter.n"] = rng.uniform(1.5, 5, count)
+    if unlike:
+        vary["surfaces.first.H"] = around(STEEL.H, 0.2)
+        vary["surfaces.first.E"] = around(STEEL.E, 0.2)
+    return vary, 10.0 ** rng.uniform(-7, -4, count)
+
+
+def slow(case: tb.Contact, vary: dict, loads: np.ndarray) -> dict:
+    with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
+        return state_columns(case, F_star=loads, vary=vary)
+
+
+def largest_error(got: dict, want: dict, which: np.ndarray) -> dict[str, float]:
+    """Of each column, over what it is measured against."""
+    out = {}
+    for name in ("d_star", "F_ss_star", "F_sa_star", "A_e", "A_ep", "A_p", "A_sa", "A_sa2", "A_t"):
+        unit = {"d": 1.0, "F": want["F_star"]}.get(name[0], want["A_t"])
+        out[name] = float(np.max((np.abs(got[name] - want[name]) / unit)[which], initial=0.0))
+    return out
+
+
+def hold(case: tb.Contact, count: int, seed: int, unlike: bool = False) -> None:
+    vary, loads = drawn(case, count, seed, unlike)
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    sure = (got["doubt"] == "") & (got["status"] == 0)
+    assert sure.mean() > 0.8
+    known = sure & np.isfinite(want["d"])
+    assert np.array_equal(sure, known)
+    assert max(largest_error(got, want, known).values()) <= BOUND
+    assert np.all(got["error"][sure] <= 1e-10)
+    assert np.all(got["residual"][sure] <= 1e-11)
+
+
+@pytest.mark.parametrize("seat", SEATS)
+@pytest.mark.parametrize("body", BODIES)
+def test_like_sides_hold_to_the_slow_path(seat, body):
+    hold(contact("hermite", seat, body), 3, 1)
+
+
+@pytest.mark.parametrize(("law", "seat"), [("deep", "rough"), ("ke", "plane"), ("zmc", "rough")])
+def test_laws_hold_to_the_slow_path(law, seat):
+    hold(contact(law, seat, "soft"), 2, 2)
+
+
+@pytest.mark.parametrize(("law", "seat"), [("hermite", "plane"), ("deep", "rough")])
+def test_unlike_sides_hold_to_the_slow_path(law, seat):
+    hold(contact(law, seat, "hard"), 2, 3, unlike=True)
+
+
+@pytest.mark.parametrize(("sigma", "std"), [(8e-9, 0.25), (8e-9, 0.02), (1e-6, 0.1)])
+@pytest.mark.parametrize("body", BODIES)
+def test_seats_that_are_narrow_or_wide(sigma, std, body):
+    case = contact(body=body)
+    vary = {
+        "roughness.sigma": np.array([0.9, 1.1]) * sigma,
+        "particles.diameter.std": np.array([1.0, 1.1]) * std * 300e-9,
+    }
+    loads = np.array([1e-6, 3e-5])
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    sure = got["doubt"] == ""
+    assert sure.all()
+    assert max(largest_error(got, want, sure).values()) <= BOUND
+
+
+@pytest.mark.parametrize("seat", SEATS)
+def test_other_sizes_and_flakes(seat):
+    case = contact(seat=seat)
+    loads, turn = np.array([1e-7, 3e-5]), np.array([0.9, 1.1])
+    for particles, law, vary in (
+        (tb.LogNormal(median=250e-9, gsd=1.3), {}, {"particles.diameter.gsd": 1.3 * turn}),
+        (tb.Uniform(low=1e-7, high=4e-7), {}, {"particles.diameter.high": 4e-7 * turn}),
+        (SIZES["gaussian"], {"aspect": 2.0}, {"particle_law.aspect": 2.0 * turn}),
+    ):
+        own = tb.particle.Flakes(seat=seat, **law) if law else case.particle_law
+        every = case.replace(particles=case.particles.replace(diameter=particles), particle_law=own)
+        got, want = own_columns(every, vary, "F_star", loads), slow(every, vary, loads)
+        sure = got["doubt"] == ""
+        assert sure.all(), got["doubt"]
+        assert max(largest_error(got, want, sure).values()) <= BOUND
+
+
+def test_populations_side_by_side_hold_to_the_slow_path():
+    case = contact()
+    wear = case.particles.replace(material=tb.Material(E=190e9, nu=0.3, H=1e9), areal_density=5e10)
+    both = case.replace(particles=(case.particles, wear))
+    vary = {"surfaces.first.H": STEEL.H * np.array([0.9, 1.1])}
+    loads = np.array([1e-6, 5e-5])
+    got, want = own_columns(both, vary, "F_star", loads), slow(both, vary, loads)
+    assert max(largest_error(got, want, np.ones(2, bool)).values()) <= BOUND
+
+
+def test_asperity_laws_by_numbers_of_their_own():
+    case = contact().replace(particles=None)
+    loads, turn = np.geomspace(1e-8, 1e-4, 4), np.linspace(0.95, 1.05, 4)
+    for law, own in (
+        (tb.asperity.ZMC(), {"k": 0.4 * turn, "rho": 54 * turn}),
+        (tb.asperity.Hermite(), {"k": 0.4 * turn}),
+        (tb.asperity.JG(), {"hardness_ratio": 2.8 * turn}),
+        (tb.asperity.KE(), {"K": 0.6 * turn}),
+        (tb.asperity.CEB(), {"K": 0.6 * turn}),
+        (tb.asperity.EllipticZMC(ratio=2.0), {"k": 0.4 * turn}),
+        (tb.asperity.GW(), {}),
+    ):
+        bare = case.replace(asperity_law=law.replace(K=0.6) if "K" in own else law)
+        vary = {f"asperity_law.{name}": values for name, values in own.items()}
+        vary["surfaces.first.H"] = STEEL.H * turn
+        got, want = own_columns(bare, vary, "F_star", loads), slow(bare, vary, loads)
+        assert set(got["doubt"]) == {""}
+        assert max(largest_error(got, want, np.ones(4, bool)).values()) <= BOUND, law.name
+
+
+@pytest.mark.parametrize("seat", SEATS)
+def test_company_order_and_threads_change_no_bit(seat):
+    case = contact("hermite", seat, "soft")
+    vary, loads = drawn(case, 600, 4, unlike=False)
+    whole = own_columns(case, vary, "F_star", loads)
+    order = np.random.default_rng(5).permutation(600)
+    mixed = {name: values[order] for name, values in vary.items()}
+    other = own_columns(case, mixed, "F_star", loads[order], threads=2)
+    one = {name: values[7:8] for name, values in vary.items()}
+    alone = own_columns(case, one, "F_star", loads[7:8])
+    for name in COLUMNS:
+        if name not in ("mode", "status"):
+            np.testing.assert_array_equal(whole[name][order], other[name], name)
+            np.testing.assert_array_equal(whole[name][7:8], alone[name], name)
+
+
+def test_given_separations_give_the_load():
+    case = contact("hermite", "plane", "soft")
+    vary, loads = drawn(case, 40, 6, unlike=False)
+    found = own_columns(case, vary, "F_star", loads)
+    again = own_columns(case, vary, "d", found["d"])
+    sure = found["doubt"] == ""
+    np.testing.assert_allclose(again["F_star"][sure], loads[sure], rtol=1e-10)
+
+
+def test_the_slow_rows_are_told_of_as_compiled():
+    case = contact("hermite", "plane", "soft")
+    vary, loads = drawn(case, 30, 7, unlike=True)
+    got = state_columns(case, F_star=loads, vary=vary)
+    assert np.mean(got["engine"] == "compiled") > 0.8
+    assert all(each == "compiled" or each.startswith("numpy: ") for each in got["engine"])
+
+
+@pytest.mark.check
+@pytest.mark.parametrize("unlike", [False, True])
+@pytest.mark.parametrize("sizes", SIZES)
+@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("seat", SEATS)
+@pytest.mark.parametrize("law", LAWS)
+def test_many_random_states(law, seat, body, sizes, unlike):
+    if unlike and law == "ke":
+        pytest.skip("loads that jump between unlike sides are for the NumPy engine")
+    hold(contact(law, seat, body, sizes), 20, 8, unlike)
+
+
+def test_laws_of_the_kernel_are_the_laws():
+    """Load and area on every branch, by the kernel and by the objects that NumPy asks."""
+    from numba import njit
+
+    from thirdbody.equilibrium.engine import fields, sides
+    from thirdbody.equilibrium.engine.columns import _law
+
+    @njit
+    def at(rows, y, out):
+        for j in range(len(y)):
+            out[j] = sides.law_at(rows, 0, y[j])
+
+    a = tb.asperity
+    y = np.geomspace(1e-3, 400.0, 200)
+    for law in (a.GW(), a.ZMC(), a.Hermite(), a.CEB(), a.KE(), a.JG(), a.EllipticZMC(ratio=3.0)):
+        rows, tip = np.zeros((1, fields.OF_SIDE)), {"R": 1e-6, "H": 5e9}
+        numbers, omega_1 = _law(type(law), law, tip["R"], 1.1e11, tip["H"], 0.3)
+        rows[0, : len(numbers)] = numbers
+        bound = law.bound(E_star=1.1e11, nu=0.3, **tip)
+        assert omega_1 == pytest.approx(bound.yield_interference(E_star=1.1e11, **tip), rel=1e-14)
+        out = np.empty((len(y), 2))
+        at(rows, y, out)
+        for column, name in enumerate(("force", "area")):
+            np.testing.assert_allclose(out[:, column], bound.reduced(name, y), rtol=1e-13)
