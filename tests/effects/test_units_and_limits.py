@@ -98,6 +98,11 @@ def test_every_output_is_here():
 ratios = st.floats(-0.7, 0.7).map(lambda power: 10.0**power)
 
 
+def rounding(name):
+    """How closely a column is known: percentiles and extremes of dents are interpolated."""
+    return 1e-3 if name.startswith("dent_") and ("_p95" in name or "_max" in name) else 1e-6
+
+
 @settings(max_examples=12, deadline=None)
 @given(
     scales=st.tuples(ratios, ratios, ratios, ratios, ratios),
@@ -111,7 +116,8 @@ def test_change_of_units(scales, pressure, x_a):
     for name, value in here.outputs.items():
         unit = column(name).unit
         other = there.outputs[name] / factor(unit, scales)
-        assert other == pytest.approx(value, rel=1e-6, abs=1e-300, nan_ok=True), (name, unit)
+        rel = rounding(name)
+        assert other == pytest.approx(value, rel=rel, abs=1e-300, nan_ok=True), (name, unit)
 
 
 @settings(max_examples=4, deadline=None)
@@ -155,7 +161,8 @@ def test_swapped_surfaces(pressure, x_a, hardness):
     one_sided = {"p_sa"}
     for name, value in here.outputs.items():
         if name not in one_sided:
-            assert there.outputs[swapped(name)] == pytest.approx(value, rel=1e-6, nan_ok=True), name
+            rel = rounding(name)
+            assert there.outputs[swapped(name)] == pytest.approx(value, rel=rel, nan_ok=True), name
 
 
 def test_few_particles_are_no_particles():

@@ -73,7 +73,7 @@ def comparison() -> list[dict[str, Any]]:
     Examples
     --------
     >>> len({state["case"] for state in comparison()})
-    29
+    34
     """
     file = resources.files("thirdbody").joinpath("data/explicit_comparison.json")
     states: list[dict[str, Any]] = json.loads(file.read_text("utf-8"))["states"]
