@@ -54,25 +54,18 @@ def test_schema_is_a_schema():
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
 
 
-DEEP = (
-    "bearing_wear_debris", "dusty_ball_screw", "explicit", "iso4406", "nanoparticle_additive",
-    "soft_ptfe_particles", "sweep",
-)  # fmt: skip
-WARNED = {"quartz_in_bearing": ["strengths are extrapolated by a factor"]}
-WARNED |= {name: ["sit deeper than their radius"] for name in DEEP}
-SQUASHED = "soft particles squashed to contacts wider than"
-WARNED |= {
-    name: [SQUASHED, *WARNED.get(name, [])]
-    for name in ("soft_ptfe_particles", "steel_debris_in_film")
-}
+TABLE = "squeezed by more than 0.15 of their radius a side"
 CHI = "from 0.005 on particles carried 3 to 4 % less"
+WARNED = {name: [TABLE] for name in ("additive", "explicit", "oil_film")}
 WARNED |= {
-    name: [CHI, *WARNED.get(name, [])]
+    name: [CHI, TABLE]
     for name in (
-        "bearing_wear_debris", "dusty_ball_screw", "iso4406", "nanoparticle_additive",
-        "soft_ptfe_particles", "steel_debris_in_film", "sweep",
+        "bearing_wear_debris", "dust_and_debris", "dusty_ball_screw", "iso4406",
+        "nanoparticle_additive", "soft_ptfe_particles", "steel_debris_in_film", "sweep",
     )
 }  # fmt: skip
+WARNED["steel_debris_in_film"].append("particles flatten, as debris = 'ductile' says")
+WARNED["quartz_in_bearing"] = ["strengths are extrapolated by a factor"]
 """What examples are warned of, and not of anything else."""
 
 
@@ -155,7 +148,7 @@ def test_table_has_transitions_and_plain_words():
         "At 5 MPa (F* = 4.468×10⁻⁵) real contact is on particles and on asperities (hybrid), and "
         in text
     )
-    assert "particles carry 88.4 % of the load" in text
+    assert "particles carry 78.1 % of the load" in text
 
 
 def test_table_without_particles_has_no_word_of_them():
@@ -573,7 +566,7 @@ def test_one_state_loads_little_and_is_small():
     # kilobytes, on macOS bytes
     assert int(peak) * (1 if sys.platform == "darwin" else 1024) < 400e6
     heavy = {"matplotlib", "xarray", "pandas", "numba", "pint", "zarr", "distributed", "nicegui"}
-    heavy |= {"scipy.stats", "scipy.integrate", "scipy.interpolate", "scipy.optimize", "rich"}
+    heavy |= {"scipy.stats", "scipy.integrate", "rich"}
     assert not heavy & set(loaded)
     assert "scipy.special" in loaded
 

@@ -47,6 +47,7 @@ def contact(ratio=0.04464, *, density=1e11, size=SIGMA, law=None, **others):
         "roughness": tb.Roughness(sigma=SIGMA, R=3e-6, alpha=5.0),
         "asperity_law": law or tb.asperity.Field(),
         "particles": particles if density else None,
+        "particle_law": tb.particle.Series(deep="off"),
     }
     return tb.Contact(**given | others)
 

@@ -317,23 +317,19 @@ def test_engines_agree():
                 assert many[name][0] == pytest.approx(first[name][0], rel=1e-9, abs=1e-15), name
 
 
-def test_what_the_compiled_engine_does_not_take_has_a_reason():
-    """Hardness across that of the surfaces: only those that are squashed go one by one."""
+def test_hardness_and_friction_of_squashed_particles_are_compiled():
+    """Hardness across that of the surfaces: those that are squashed and those that are not."""
     pytest.importorskip("numba")
     H = np.linspace(3e9, 12e9, 60)
     vary = {"particles.material.H": H}
     states = state_columns(contact("rough"), pressure=5e6, vary=vary)
-    soft = H < STEEL.H
-    assert set(states["engine"][soft]) == {
-        "numpy: squashed particles whose material or shape of sizes varies"
-    }
-    assert set(states["engine"][~soft]) == {"compiled"}
+    assert set(states["engine"]) == {"compiled"}
     for i in (0, 20, 59):
         alone = tb.solve(contact("rough", particle=SOFT.replace(H=H[i])), pressure=5e6)
         assert states["d"][i] == pytest.approx(alone.d, rel=1e-9)
     friction = {"particle_law.friction_factor": np.linspace(0.1, 0.5, 30)}
     states = state_columns(contact("rough"), pressure=5e6, vary=friction)
-    assert set(states["engine"]) == {"numpy: the friction of squashed particles varies"}
+    assert set(states["engine"]) == {"compiled"}
     alone = tb.solve(contact("rough", friction_factor=0.5), pressure=5e6)
     assert states["d"][-1] == pytest.approx(alone.d, rel=1e-9)
 

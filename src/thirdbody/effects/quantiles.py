@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import special
-from scipy.interpolate import PchipInterpolator
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -210,6 +209,8 @@ class _GapOf:
     """
 
     def __init__(self, gaps: Array, values: Array):
+        from scipy.interpolate import PchipInterpolator
+
         order = np.argsort(-gaps)
         gaps, values = gaps[order], np.maximum.accumulate(values[order])
         first = int(np.argmax(values > 0))

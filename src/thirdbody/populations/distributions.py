@@ -42,18 +42,16 @@ __all__ = [
 
 NORMAL_CUT = 8.5
 """Standard deviations after which a Gaussian tail holds less than 1e-17."""
-NARROWEST = 1e-11
-"""Width of the support over the largest diameter below which rounding blurs its shape."""
 
 
 def _blurred(sizes: Distribution, width: str) -> list[str]:
-    """Why sizes lie too close together for numbers to tell them apart, or nothing."""
+    """Why sizes are so close together that numbers cannot tell them apart, or nothing."""
     low, high = sizes.support
-    if high - low > NARROWEST * high or not math.isfinite(high):
+    if high > low or not math.isfinite(high):
         return []
     return [
-        f"{type(sizes).__name__}.{width} must spread the diameters by more than {NARROWEST:g} of "
-        f"the largest, {high:g} m; for one single size use Monodisperse"
+        f"{type(sizes).__name__}.{width} must spread the diameters by more than rounding around "
+        f"{high:g} m; for one single size use Monodisperse"
     ]
 
 

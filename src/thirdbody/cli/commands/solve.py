@@ -24,7 +24,6 @@ from ...errors import NoEquilibrium
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, unit_of, value_of
 from ...quantities.tables import Table
-from ...study.body import of_bodies
 from ..options import AsJson, ParquetFile, Settings, StudyFile, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import TableFiles, warn
@@ -218,6 +217,8 @@ def _transition_table(critical: dict[str, Any], E_ss: float) -> Any:
 
 def summary(result: dict[str, Any]) -> str:
     """The result in plain words."""
+    from ...study.body import of_bodies
+
     states = result["states"]
     known = [i for i, status in enumerate(states["status"]) if status == "ok"]
     three_body = result["inputs"]["particles"] is not None

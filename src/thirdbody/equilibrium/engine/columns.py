@@ -6,7 +6,7 @@ import itertools
 import math
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from scipy import special
@@ -41,6 +41,8 @@ TERMS = 12
 NODES = (((6, 3.0, 10, 6.5), (12, 4.0, 16, 6.5)), ((12, 2.0, 16, 4.0), (24, 2.0, 24, 4.0)))
 """Of each level, few and all: nodes of a panel and how many widths of a density it covers, then
 the same of sizes on a rough seat."""
+MOST_SECTIONS = 40
+"""Classes of size of a population: each costs as much as a population of its own."""
 NARROWEST = 1e-5
 """Width of sizes over their middle below which differences of sizes keep too few digits."""
 
@@ -102,6 +104,38 @@ def _softer(first: Any, second: Any) -> tuple[Any, Any]:
     return np.where(takes, first.H, second.H), np.where(takes, first.nu, second.nu)
 
 
+class Power(NamedTuple):
+    """Sizes x^(−slope−1) from low to high [m]: a section of a `PowerLaw`."""
+
+    low: float
+    high: float
+    slope: float
+
+
+def _sections(one: Any, changed: Any) -> list[tuple[float, tuple[Any, Any]]]:
+    """Shares of particles, and sizes of each that the kernel knows: a population is their sum.
+
+    Numbers of classes are no inputs that vary.
+    """
+    if type(one) not in (sizes.Histogram, sizes.PowerLaw, sizes.Mixture):
+        return [(1.0, (one, changed))]
+    if type(one) is sizes.Mixture:
+        parts = [(share, _sections(part, part)) for share, part in one.components]
+        return [(share * inner, section) for share, part in parts for inner, section in part]
+    out: list[tuple[float, tuple[Any, Any]]] = []
+    slopes: tuple[Any, ...] = getattr(one, "slopes", (None,) * len(one.counts))
+    classes = zip(itertools.pairwise(one.edges), one.counts, slopes, strict=True)
+    for (low, high), count, slope in classes:
+        if count > 0:
+            kind: Any = Power(low, high, slope)
+            if slope is None:
+                kind = sizes.Uniform(low=low, high=high)
+            out.append((count / math.fsum(one.counts), (kind, kind)))
+    if len(out) > MOST_SECTIONS:
+        raise NotCompiled("sizes in many classes")
+    return out
+
+
 class Numbers:
     """The numbers of N states, as the kernel reads them.
 
@@ -139,6 +173,8 @@ class Numbers:
         rough, surfaces, law = self.varied.roughness, self.varied.surfaces, self.varied.asperity_law
         if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity:
             raise NotCompiled("heights that are not Gaussian, or asperities of several shapes")
+        if type(self.contact.asperity_law) is asperity.JG:
+            raise NotCompiled("the law jg, whose fits end, to the NumPy engine alone")
         E, (H, nu) = surfaces.E_star, _softer(surfaces.first, surfaces.second)
         numbers, omega_1 = _law(type(self.contact.asperity_law), law, rough.R, E, H, nu)
         area = rough.density * math.pi * rough.R * omega_1
@@ -153,8 +189,8 @@ class Numbers:
         if self.skins[:, f.W].min() < 1e-9 or self.skins[:, f.W].max() > 1e9:
             raise NotCompiled("asperities that yield at once, or never")
 
-    def _populations(self) -> list[tuple[Any, Any, Any, Any]]:
-        """Particles and law, as they are and with arrays in them."""
+    def _populations(self) -> list[tuple[Any, Any, Any, Any, float, Any]]:
+        """Particles and law, as they are and with arrays in them; a share and its sizes."""
         given: Any = self.contact.particles
         varied: Any = self.varied.particles
         if not isinstance(given, tuple):
@@ -165,10 +201,20 @@ class Numbers:
                 law = one.law, changed.law
             else:
                 law = self.contact.particle_law, self.varied.particle_law
-            out.append((one, changed, *law))
+            for share, section in _sections(one.diameter, changed.diameter):
+                out.append((one, changed, *law, share, section))
         return out
 
-    def _add_particles(self, p: int, one: Particles, changed: Any, law: Any, varied: Any) -> None:
+    def _add_particles(
+        self,
+        p: int,
+        one: Particles,
+        changed: Any,
+        law: Any,
+        varied: Any,
+        share: float,
+        section: Any,
+    ) -> None:
         if type(law) not in (particle.Series, particle.Flakes) or law.onset != "hermite":
             raise NotCompiled("particles that are not Series")
         if one.strength is not None:
@@ -182,10 +228,10 @@ class Numbers:
             {
                 **{f.SEAT: f.ROUGH if law.seat == "rough" else f.PLANE, f.WIDTH: width},
                 **{f.OFFSET: varied.seat_offset(rough), f.SHADOW: SHADOWS[law.shadow]},
-                **{f.DENSITY: changed.areal_density, f.BREADTH: 2 * varied.tip_radius},
+                **{f.DENSITY: changed.areal_density * share, f.BREADTH: 2 * varied.tip_radius},
             },
         )
-        second = self._add_sizes(rows, one.diameter, changed.diameter)
+        second = self._add_sizes(rows, *section)
         rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.BREADTH] * rows[:, f.DENSITY] * second
         if np.any(rows[:, f.COVERAGE] >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
@@ -210,8 +256,8 @@ class Numbers:
         ratio = np.broadcast_to(E / H, self.count)
         if np.any(soft & ((ratio < 1e-6) | (ratio > 1e9) | (surface.H / H > 1e9))):
             raise NotCompiled("squashed particles beyond the law")
-        if type(law.law) in (asperity.EllipticZMC, asperity.EllipticCEB):
-            raise NotCompiled("elliptic tips of particles")
+        if type(law.law) not in (asperity.Hermite, asperity.ZMC):
+            raise NotCompiled(f"the law {law.law.name} of particles, to the NumPy engine alone")
         if law.deep == "table" and law.soft == "squashed" and yields:
             return self._add_deep(rows, surface.H, body.H, E, H, delta_1, varied)
         full = np.where(soft, 1 / (6 * R * delta_1), 0.5 / delta_1)
@@ -295,4 +341,11 @@ class Numbers:
             kind = {f.KIND: f.UNIFORM, f.NORM: 1 / (high - low), f.LOW: low, f.HIGH: high}
             _filled(rows, kind)
             return (high**2 + high * low + low**2) / 3
-        raise NotCompiled("sizes that are not Gaussian, log-normal or uniform")
+        if type(one) is Power:
+            low, high, slope = one
+            long = math.log(high / low)
+            kind = {f.KIND: f.POWER, f.SIZE_1: low, f.SIZE_2: slope + 1, f.LOW: low, f.HIGH: high}
+            _filled(rows, {**kind, f.NORM: 1 / (low * long * special.exprel(-slope * long))})
+            ratio = special.exprel((2 - slope) * long) / special.exprel(-slope * long)
+            return low**2 * float(ratio)
+        raise NotCompiled("sizes of a kind that the kernel does not know")

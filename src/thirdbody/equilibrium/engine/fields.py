@@ -6,7 +6,7 @@ GW, ZMC, HERMITE, CEB, KE, JG = range(6)
 """Laws of one contact."""
 SPHERE, SQUASHED, DEEP, FACED = range(4)
 """What a side of a particle is."""
-ONE_SIZE, GAUSSIAN, LOGNORMAL, UNIFORM = range(4)
+ONE_SIZE, GAUSSIAN, LOGNORMAL, UNIFORM, POWER = range(5)
 """Kinds of sizes."""
 PLANE, ROUGH = range(2)
 FOOTPRINT, PROJECTED, COVERED, NOTHING = range(4)

@@ -29,6 +29,7 @@ from .fields import (
     OFFSET,
     ONE_SIZE,
     PLANE,
+    POWER,
     PROJECTED,
     SEAT,
     SHADE,
@@ -140,6 +141,8 @@ def density(given, p, x):
     if kind == LOGNORMAL:
         u = math.log(x / middle) / width
         return given[p, NORM] / x * math.exp(-0.5 * u * u)
+    if kind == POWER:
+        return given[p, NORM] * math.exp(-width * math.log(x / middle))
     return given[p, NORM]
 
 
@@ -151,6 +154,8 @@ def scale_of(given, p, x):
         return given[p, SIZE_2]
     if given[p, KIND] == LOGNORMAL:
         return x * min(given[p, SIZE_2], 0.7)
+    if given[p, KIND] == POWER:
+        return x / max(1.0, abs(given[p, SIZE_2]))
     return given[p, HIGH]
 
 
@@ -169,7 +174,7 @@ def lay_sizes(given, p, sizes, begin, gauss, weights, nodes, span):
         step = span / math.sqrt(1 / (own * own) + 1 / (width * width))
         parts = math.ceil((high - a) / step - 1e-9)
         b = high if parts <= 1 else a + (high - a) / parts
-        if given[p, KIND] == LOGNORMAL and parts > 1:
+        if (given[p, KIND] == LOGNORMAL or given[p, KIND] == POWER) and parts > 1:
             b = min(high, a + step)
         if count + nodes > MOST_SIZES:
             return -1
