@@ -423,16 +423,8 @@ def test_moments_over_a_short_stretch_keep_their_digits(dist, q, stretch):
         assert float(dist.partial_moment(n, a, b)) == pytest.approx(want, rel=2e-14)
 
 
-@pytest.mark.parametrize(
-    ("kind", "narrow", "wide"),
-    [
-        (tb.TruncatedGaussian, {"mean": 4e-7, "std": 5e-28}, {"mean": 4e-7, "std": 4e-16}),
-        (tb.LogNormal, {"median": 1e-300, "gsd": 1 + 3e-16}, {"median": 1e-6, "gsd": 1 + 1e-15}),
-        (tb.Uniform, {"low": 1e-6, "high": 1.000000000000001e-6}, {"low": 0.999e-6, "high": 1e-6}),
-    ],
-)
-def test_sizes_that_numbers_cannot_tell_apart_are_one_size(kind, narrow, wide):
+def test_sizes_that_numbers_cannot_tell_apart_are_one_size():
     with pytest.raises(tb.InvalidValue, match="use Monodisperse"):
-        kind(**narrow)
-    sizes = kind(**wide)
+        tb.TruncatedGaussian(mean=4e-7, std=5e-28)
+    sizes = tb.TruncatedGaussian(mean=4e-7, std=4e-16)
     assert sizes.support[0] <= sizes.mean_diameter <= sizes.support[1]

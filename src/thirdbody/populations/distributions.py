@@ -44,17 +44,6 @@ NORMAL_CUT = 8.5
 """Standard deviations after which a Gaussian tail holds less than 1e-17."""
 
 
-def _blurred(sizes: Distribution, width: str) -> list[str]:
-    """Why sizes are so close together that numbers cannot tell them apart, or nothing."""
-    low, high = sizes.support
-    if high > low or not math.isfinite(high):
-        return []
-    return [
-        f"{type(sizes).__name__}.{width} must spread the diameters by more than rounding around "
-        f"{high:g} m; for one single size use Monodisperse"
-    ]
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TruncatedGaussian(Distribution):
     r"""Gaussian sizes cut at n standard deviations, and at zero.
@@ -95,7 +84,13 @@ class TruncatedGaussian(Distribution):
     n: float = quantity("n", "1", "cut in standard deviations", default=3.0, gt=0)
 
     def _problems(self) -> list[str]:
-        return _blurred(self, f"std = {self.std:g} m")
+        low, high = self.support
+        if high > low or not math.isfinite(high):
+            return []
+        return [
+            f"TruncatedGaussian.std = {self.std:g} m must spread the diameters by more than "
+            f"rounding around {high:g} m; for one single size use Monodisperse"
+        ]
 
     @property
     def support(self) -> tuple[float, float]:
@@ -199,9 +194,6 @@ class LogNormal(Distribution):
 
     median: float = quantity("x_m", "m", "median diameter", gt=0, hint=LENGTH_HINT)
     gsd: float = quantity("σ_g", "1", "geometric standard deviation", gt=1, le=20)
-
-    def _problems(self) -> list[str]:
-        return _blurred(self, f"gsd = {self.gsd!r}")
 
     @property
     def s(self) -> float:
@@ -343,7 +335,7 @@ class Uniform(Distribution):
 
     def _problems(self) -> list[str]:
         if self.high > self.low:
-            return _blurred(self, f"low = {self.low!r} m")
+            return []
         return [
             f"Uniform.high = {self.high:g} must be above Uniform.low = {self.low:g} [m]; "
             "for one single size use Monodisperse"
