@@ -17,6 +17,7 @@ from thirdbody.laws.particle.deep import (
     TABLE_BEGINS,
     TABLE_ENDS,
     DeepSqueeze,
+    curve_rows,
     place_of,
     squeeze_curve,
 )
@@ -333,3 +334,14 @@ def test_tables_and_definition_agree():
 
         total = integrate.fixed_quad(np.vectorize(inner), *sizes.support, n=40)[0]
         assert states.F_sa_star[i] * contact.E_ss == pytest.approx(1e11 * total, rel=2e-6)
+
+
+def test_many_curves_are_those_of_one():
+    rng = np.random.default_rng(3)
+    ratio, kappa = np.exp(rng.uniform(-3, 3, 40)), np.exp(rng.uniform(1, 7, 40))
+    friction = np.where(rng.random(40) < 0.5, 0.2, rng.random(40))
+    load, area = curve_rows(ratio, friction, kappa)
+    for i, sides in enumerate(zip(ratio.tolist(), friction.tolist(), kappa.tolist(), strict=True)):
+        one = squeeze_curve(*sides)
+        np.testing.assert_allclose(load[i], one.log_load, atol=1e-13)
+        np.testing.assert_allclose(area[i], one.log_area, atol=1e-13)

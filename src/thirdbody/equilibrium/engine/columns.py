@@ -15,7 +15,7 @@ from ...contact.contact import Contact
 from ...errors import NotCompiled
 from ...laws import asperity, particle
 from ...laws.asperity.elliptic import elliptic_hertz
-from ...laws.particle.deep import squeeze_curve
+from ...laws.particle.deep import curve_rows
 from ...numerics.quadrature import gauss_legendre
 from ...populations import distributions as sizes
 from ...populations.heights import GaussianHeights
@@ -279,10 +279,10 @@ class Numbers:
         ratio, R = body / surface, 0.5
         given = np.broadcast_arrays(ratio, varied.friction_factor, E / H, np.empty(self.count))
         cases, which = np.unique(np.stack(given[:3]), axis=1, return_inverse=True)
-        curves = [squeeze_curve(*case) for case in cases.T.tolist()]
+        load, area = curve_rows(*cases)
         terms = f.TABLE_LOAD + f.TABLE_TERMS
-        rows[:, f.TABLE_LOAD : terms] = np.array([each.log_load for each in curves])[which]
-        rows[:, f.TABLE_AREA : f.OF_SIDE] = np.array([each.log_area for each in curves])[which]
+        rows[:, f.TABLE_LOAD : terms] = load[which]
+        rows[:, f.TABLE_AREA : f.OF_SIDE] = area[which]
         _filled(
             rows,
             {

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ..base import AbstractAsperityLaw
     from .one_particle import Array
 
-__all__ = ["DeepSide", "DeepSqueeze", "SqueezeCurve", "squeeze_curve"]
+__all__ = ["DeepSide", "DeepSqueeze", "SqueezeCurve", "curve_rows", "squeeze_curve"]
 
 LAW_ENDS, TABLE_BEGINS = 0.05, 0.15
 """Squeezes ε up to which the law of one contact holds, and from which the table does."""
@@ -142,7 +142,7 @@ def _between(nodes: Any, values: Any) -> Any:
     order = np.argsort(nodes)
     nodes = np.asarray(nodes)[order]
     curve = PchipInterpolator(nodes, np.asarray(values)[order], axis=0)
-    return lambda x: curve(min(max(x, nodes[0]), nodes[-1]))
+    return lambda x: curve(np.clip(x, nodes[0], nodes[-1]))
 
 
 @lru_cache(maxsize=4)
@@ -205,6 +205,43 @@ def squeeze_curve(ratio: float, friction: float, kappa: float) -> SqueezeCurve:
     log_load = logarithm("own")
     log_load[0] -= math.log(math.pi * FULL)
     return SqueezeCurve(log_load, logarithm("area"), _sinks(x, friction))
+
+
+def curve_rows(ratio: Array, friction: Array, kappa: Array) -> tuple[Array, Array]:
+    """Series of ln load and ln area of many sides (N, terms), as `squeeze_curve` has of one."""
+    out = [np.empty((len(ratio), 2 * TERMS)), np.empty((len(ratio), 2 * TERMS))]
+    for m in np.unique(friction):
+        here = friction == m
+        x, softness = np.log(ratio[here]), 1 / np.maximum(kappa[here], SOFTEST_KAPPA)
+        for rows, name in zip(out, ("own", "area"), strict=True):
+            rows[here] = _logarithms(name, x, float(m), softness)
+    out[0][:, 0] -= math.log(math.pi * FULL)
+    return out[0], out[1]
+
+
+def _logarithms(name: str, x: Array, friction: float, softness: Array) -> Array:
+    """The series of `squeeze_curve` at ln ρ and H/E* (N,)."""
+    from numpy.polynomial.chebyshev import chebint
+    from scipy.interpolate import PchipInterpolator
+
+    welded, rubbing, elastic = _fans(name)
+    row = welded(x) + _between(_frictions(), [fan(x) for fan in rubbing])(friction)
+    nodes = np.array([node for node, _ in elastic])
+    cubic = PchipInterpolator(nodes, np.array([fan(softness) for _, fan in elastic]), axis=0)
+    at = np.clip(x, nodes[0], nodes[-1])
+    piece = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, len(nodes) - 2)
+    c, u = cubic.c[:, piece, np.arange(len(x))], (at - nodes[piece])[:, None]
+    row = row + softness[:, None] * (((c[0] * u + c[1]) * u + c[2]) * u + c[3])
+    root = row[:, 1:] @ chebyshev_transform(TERMS)[1].T
+    square = np.zeros((len(x), 2 * TERMS - 1))
+    for i in range(TERMS):
+        for j in range(TERMS):
+            term = 0.5 * root[:, i] * root[:, j]
+            square[:, i + j] += term
+            square[:, abs(i - j)] += term
+    series = chebint(square, lbnd=-1, axis=1)
+    series[:, 0] += row[:, 0]
+    return series
 
 
 def _sinks(x: float, friction: float) -> Array:
