@@ -72,7 +72,7 @@ def contact(seat: str, x_a: float = naive.X_A) -> tb.Contact:
         return bare
     return bare.replace(
         particles=tb.Particles(material=silica, diameter=sizes, areal_density=naive.ETA_A),
-        particle_law=tb.particle.Series(seat=seat),
+        particle_law=tb.particle.Series(deep="off", seat=seat),
     )
 
 
