@@ -43,6 +43,8 @@ NODES = (((6, 3.0, 10, 6.5), (12, 4.0, 16, 6.5)), ((12, 2.0, 16, 4.0), (24, 2.0,
 the same of sizes on a rough seat."""
 MOST_SECTIONS = 40
 """Classes of size of a population: each costs as much as a population of its own."""
+WIDEST = math.log(2.5)
+"""Standard deviation of ln x up to which log-normal sizes were held to the slow path at 1e-9."""
 NARROWEST = 1e-5
 """Width of sizes over their middle below which differences of sizes keep too few digits."""
 
@@ -333,6 +335,8 @@ class Numbers:
             )
             if np.any(s < NARROWEST):
                 raise NotCompiled("sizes that lie very close together")
+            if np.any(s > WIDEST):
+                raise NotCompiled("sizes over many decades, to the NumPy engine alone")
             return median**2 * np.exp(2 * s * s)
         if type(one) is sizes.Uniform:
             low, high = changed.low, changed.high
