@@ -239,7 +239,7 @@ def _logarithms(name: str, x: Array, friction: float, softness: Array) -> Array:
             term = 0.5 * root[:, i] * root[:, j]
             square[:, i + j] += term
             square[:, abs(i - j)] += term
-    series = chebint(square, lbnd=-1, axis=1)
+    series: Array = chebint(square, lbnd=-1, axis=1).astype(float)
     series[:, 0] += row[:, 0]
     return series
 
