@@ -310,7 +310,7 @@ def particle_limits():
     x = 300e-9
     contact = dusty().replace(
         **{"particles.diameter": tb.Monodisperse(mean=x)},
-        particle_law=tb.particle.Series(seat="plane"),
+        particle_law=tb.particle.Series(deep="off", seat="plane"),
     )
     squeeze = np.array([1e-5, 0.9]) * x
     force = np.asarray(tb.solve(contact, d=x - squeeze).F_sa_star) * contact.E_ss / 1e11
