@@ -428,10 +428,10 @@ def critical_loads_have_error_bars(page):
     options = page.locator(".q-menu .q-item").all_inner_texts()
     for wanted in ("F_cr1:", "F_cr2:", "F_tpca.B:", "mu:"):
         assert any(text.startswith(wanted) for text in options), wanted
-    page.locator(".q-menu .q-item", has_text="F_cr2:").click()
+    page.locator(".q-menu .q-item", has_text="F_cr1:").click()
     page.locator('[data-work="error bars"]').click()
-    when(page, "document.querySelector('[data-figure=bands]').data[0].y[1] === 'F_cr2'")
-    assert [trace["y"][1] for trace in drawn(page, "bands")] == ["F_cr2"] * 4
+    when(page, "document.querySelector('[data-figure=bands]').data[0].y[1] === 'F_cr1'")
+    assert [trace["y"][1] for trace in drawn(page, "bands")] == ["F_cr1"] * 4
 
 
 ANSWERS = {
