@@ -430,8 +430,8 @@ def critical_loads_have_error_bars(page):
         assert any(text.startswith(wanted) for text in options), wanted
     page.locator(".q-menu .q-item", has_text="F_cr1:").click()
     page.locator('[data-work="error bars"]').click()
-    when(page, "document.querySelector('[data-figure=bands]').data[0].y[1] === 'F_cr1'")
-    assert [trace["y"][1] for trace in drawn(page, "bands")] == ["F_cr1"] * 4
+    when(page, "document.querySelector('[data-figure=bands]').data[0].y.includes('F_cr1')")
+    assert all("F_cr1" in trace["y"] for trace in drawn(page, "bands"))
 
 
 ANSWERS = {
