@@ -568,7 +568,7 @@ def integral(f: Any, *edges: Any) -> Any:
 
     values: dict[bytes, Any] = {}
 
-    def at(v: Any) -> Any:
+    def values_at(v: Any) -> Any:
         """f, which both passes ask for at the points of every box."""
         if (key := v.tobytes()) not in values:
             values[key] = f(*v.T).T
@@ -577,9 +577,9 @@ def integral(f: Any, *edges: Any) -> Any:
     def total(f: Any, rtol: float, atol: float) -> Any:
         return sum(cubature(f, *box, rtol=rtol, atol=atol).estimate for box in boxes)
 
-    size = np.abs(total(at, 0.1, 0.0))
+    size = np.abs(total(values_at, 0.1, 0.0))
     size[size == 0] = 1.0
-    return size * total(lambda v: at(v) / size, 1e-11, 1e-12)
+    return size * total(lambda v: values_at(v) / size, 1e-11, 1e-12)
 
 
 def between(low: float, high: float, points: Any) -> Any:

@@ -1,6 +1,7 @@
 """States by quadrature over their own laws hold to the slow path, and to themselves."""
 
 import os
+from itertools import product
 from unittest import mock
 
 import numpy as np
@@ -241,13 +242,16 @@ def test_the_slow_rows_are_told_of_as_compiled():
 
 @pytest.mark.check
 @pytest.mark.parametrize("unlike", [False, True])
-@pytest.mark.parametrize("sizes", SIZES)
-@pytest.mark.parametrize("body", BODIES)
-@pytest.mark.parametrize("seat", SEATS)
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize(
+    ("law", "seat", "body", "sizes"),
+    # a shadow that jumps at one size: the load may rise, which is for the NumPy engine
+    [
+        case
+        for case in product(LAWS, SEATS, BODIES, SIZES)
+        if not (case[0] == "projected" and case[1] == "plane" and case[3] == "one size")
+    ],
+)
 def test_many_random_states(law, seat, body, sizes, unlike):
-    if law == "projected" and sizes == "one size" and seat == "plane":
-        pytest.skip("a shadow that jumps at one size: the load may rise, for the NumPy engine")
     hold(contact(law, seat, body, sizes), 20, 8, unlike)
 
 

@@ -31,4 +31,4 @@ figure = tb.plot.modes(curves).figure
 # The load that ends contact by particles alone.
 found = tb.transitions(contact)
 print(f"F_cr1 = {found.F_cr1.value:.3e} ({found.F_cr1.status})")
-assert abs(found.F_cr1.value / 7.15e-6 - 1) < 2e-3
+assert abs(found.F_cr1.value / 4.726e-6 - 1) < 2e-3

@@ -2,8 +2,9 @@
 Friction against particle size
 ==============================
 
-Steel on steel with silica. Growing particles first raise friction, as each of them sinks deeper and
-leaves a wider track; where they come to carry everything, friction is that of their rolling alone.
+Steel on steel with alumina. Growing particles first raise friction, as each of them sinks deeper
+and leaves a wider track; where they come to carry everything, the larger dent less for the same
+load. Silica, 1.5 times as hard as the steel, is squashed: friction with it falls from the start.
 """
 
 import warnings
@@ -21,7 +22,7 @@ contact = tb.Contact(
     surfaces=tb.MaterialPair(steel, steel),
     roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),  # m
     particles=tb.Particles(
-        material=tb.materials["SiO2"],
+        material=tb.materials["Al2O3"],
         areal_density=1e10,  # 1/m²
         diameter=tb.Monodisperse(mean=500e-9),  # m
     ),
@@ -53,4 +54,4 @@ worst = sizes[np.argmax(mu)]
 print(f"largest friction {mu.max():.3f} with particles of {worst * 1e9:.0f} nm")
 print(f"{mu[0]:.3f} with 100 nm, {mu[-1]:.3f} with 1.5 µm")
 assert np.allclose(sum(values), mu, rtol=1e-9)
-assert abs(mu.max() - 0.2083) < 1e-3
+assert abs(mu.max() - 0.2541) < 1e-3

@@ -292,7 +292,7 @@ class Dents(AbstractOutput):
         out = []
         for each in state.contact.populations:
             mine = [spots for spots in self._groups(state) if spots.population is each]
-            shares = [self._held(mine, side, state.contact) for side in (0, 1)]
+            shares = [self._share_held(mine, side, state.contact) for side in (0, 1)]
             share, side = max((share, side) for side, share in enumerate(shares))
             if share > 0:
                 out.append(
@@ -303,7 +303,7 @@ class Dents(AbstractOutput):
                 )
         return out
 
-    def _held(self, groups: Sequence[ParticleSpots], side: int, contact: Contact) -> float:
+    def _share_held(self, groups: Sequence[ParticleSpots], side: int, contact: Contact) -> float:
         """The largest share of flattened particles in any state whose width is the widest."""
         marks: Any = 0.0
         held: Any = 0.0

@@ -108,7 +108,7 @@ def _tail(
     layout = spots.layout
     values = np.broadcast_to(values, spots.number.shape)
     if layout is not None and np.all((weight == 1) | (values == 0)):
-        found = _Columns.of(layout, values)
+        found = _Columns.from_layout(layout, values)
         if found is not None:
             return found.tail()
     return _Counted(spots, values, weight, top)
@@ -123,7 +123,7 @@ class _Columns:
     values: Array
 
     @classmethod
-    def of(cls, layout: Layout, values: Array) -> _Columns | None:
+    def from_layout(cls, layout: Layout, values: Array) -> _Columns | None:
         """The values at the same sizes in every gap; None where they do not rise."""
         low, high = layout.sizes.support
         if low == high:

@@ -321,57 +321,62 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
     if own and np.ptp(fine := engine.fineness(arrays)) > ALIKE * fine.min():
         order = np.argsort(fine, kind="stable")  # those that need as many nodes side by side
 
-    def part(here: Any) -> tuple[Any, Columns, int]:
+    def solve_part(here: Any) -> tuple[Any, Columns, int]:
         if order is not None:
             here = order[here]
         given = loads[here]
         batch = engine.States(contact, _taken(arrays, here), len(given))
-        columns = batch.columns(load, given)
-        doubt = columns.pop("doubt")
-        code = columns["status"].astype(np.int8)
-        code[(code == Status.OK) & crowded(contact, columns["A_t"])] = Status.CROWDED
-        path = np.where(doubt, doubt, "compiled")
-        words = {"status": SENTENCES[code], CODE: code, "engine": path}
-        return here, columns | words, batch.rows.own
+        return here, _with_words(contact, batch.columns(load, given)), batch.rows.own
 
-    here, columns, size = part(slice(0, FIRST))  # refused, or compiled, once
+    here, columns, size = solve_part(slice(0, FIRST))  # refused, or compiled, once
     at_once = max(min(AT_ONCE, ROOM * FIRST // max(size, 1)), 1)
     starts = range(FIRST, len(loads), at_once)
     with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
-        rest = pool.map(part, (slice(start, start + at_once) for start in starts))
+        rest = pool.map(solve_part, (slice(start, start + at_once) for start in starts))
         parts = chain([(here, columns)], (found[:2] for found in rest))
         out = _joined(len(loads), _told(parts))
-    # what the compiled engine doubts is for another one to judge
-    for why in (engine.NOT_BALANCED, engine.NOT_MONOTONE):
-        if len(which := np.flatnonzero(out["engine"] == why)):
-            some = _taken(arrays, which)
-            try:
-                again = _by_own(contact, some, load, loads[which])
-            except NotCompiled:
-                again = _by_groups(contact, some, load, loads[which], why)
-            for name, column in again.items():
-                out[name][which] = column
-    return out
+
+    def solve_again(which: Any, why: str) -> Columns:
+        try:
+            return _by_own(contact, _taken(arrays, which), load, loads[which])
+        except NotCompiled:
+            return _by_groups(contact, _taken(arrays, which), load, loads[which], why)
+
+    return _without_doubts(out, (engine.NOT_BALANCED, engine.NOT_MONOTONE), solve_again)
 
 
 def _by_own(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
     """Every column, each state by quadrature over its own laws; what is doubted, one by one."""
 
-    def part(start: int) -> tuple[Any, Columns]:
+    def solve_from(start: int) -> tuple[Any, Columns]:
         here = np.arange(start, min(start + AT_ONCE, len(loads)))
         columns = own_columns(contact, _taken(arrays, here), load, loads[here], engine.threads())
-        doubt = columns.pop("doubt")
-        code = columns["status"].astype(np.int8)
-        code[(code == Status.OK) & crowded(contact, columns["A_t"])] = Status.CROWDED
-        code[doubt != ""] = Status.UNSOLVED
-        path = np.where(doubt, doubt, "compiled")
-        return here, columns | {"status": SENTENCES[code], CODE: code, "engine": path}
+        return here, _with_words(contact, columns)
 
-    out = _joined(len(loads), _told(map(part, range(0, len(loads), AT_ONCE))))
-    for why in DOUBTS:
+    def solve_again(which: Any, why: str) -> Columns:
+        return _by_groups(contact, _taken(arrays, which), load, loads[which], why)
+
+    out = _joined(len(loads), _told(map(solve_from, range(0, len(loads), AT_ONCE))))
+    return _without_doubts(out, DOUBTS, solve_again)
+
+
+def _with_words(contact: Contact, columns: Columns) -> Columns:
+    """Columns of a compiled engine with status and path in words; its doubts stand as the path."""
+    doubt = columns.pop("doubt")
+    code = columns["status"].astype(np.int8)
+    code[(code == Status.OK) & crowded(contact, columns["A_t"])] = Status.CROWDED
+    code[doubt != ""] = Status.UNSOLVED
+    path = np.where(doubt, doubt, "compiled")
+    return columns | {"status": SENTENCES[code], CODE: code, "engine": path}
+
+
+def _without_doubts(
+    out: Columns, doubts: Iterable[str], solve_again: Callable[[Any, str], Columns]
+) -> Columns:
+    """Columns in which states that an engine doubts are those that another one finds."""
+    for why in doubts:
         if len(which := np.flatnonzero(out["engine"] == why)):
-            again = _by_groups(contact, _taken(arrays, which), load, loads[which], why)
-            for name, column in again.items():
+            for name, column in solve_again(which, why).items():
                 out[name][which] = column
     return out
 

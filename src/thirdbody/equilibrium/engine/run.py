@@ -12,6 +12,7 @@ from ...contact.asperity_sums import ReducedSum
 from ...contact.contact import Contact
 from ...contact.interface import together
 from ..columns import as_columns
+from ..compiled.batch import NOT_BALANCED, NOT_MONOTONE
 from ..load_scan import RESIDUAL
 from ..status import Status
 from . import fields as f
@@ -26,8 +27,6 @@ __all__ = ["DOUBTS", "own_columns"]
 
 AT_ONCE = 256
 """States handed to a thread at a time."""
-NOT_MONOTONE = "the load may rise with the separation; this is the loading branch"
-NOT_BALANCED = "the compiled engine does not balance this load"
 NOT_RESOLVED = "its error by the compiled engine may be above 1e-9"
 TOO_LONG = "it takes more nodes than the compiled engine has room for"
 DOUBTS = (NOT_BALANCED, NOT_MONOTONE, NOT_RESOLVED, TOO_LONG)
@@ -96,7 +95,7 @@ def solve(
     evaluations, fate = np.zeros(count, np.int64), np.zeros(count, np.int64)
     error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))
 
-    def part(start: int) -> None:
+    def solve_from(start: int) -> None:
         here = slice(start, start + AT_ONCE)
         solve_own(
             *(numbers.skins[here], numbers.parts[here], numbers.bodies[here], rules()),
@@ -105,10 +104,10 @@ def solve(
 
     starts = range(0, count, AT_ONCE)
     if (workers := min(threads, len(starts))) > 1:
-        part(0)  # compiled once, not by every thread
+        solve_from(0)  # compiled once, not by every thread
         with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(part, starts[1:]))
+            list(pool.map(solve_from, starts[1:]))
     else:
         for start in starts:
-            part(start)
+            solve_from(start)
     return h, evaluations, fate, error, rows

@@ -56,7 +56,7 @@ class State:
         )
 
 
-def _own(case: Case, endless: bool) -> OwnSpectrum | None:
+def _own_spectrum(case: Case, endless: bool) -> OwnSpectrum | None:
     bare = case.contact.replace(particles=None, surfaces=CASES[0].contact.surfaces)
     return None if endless else box_of(bare, FULL.size, FULL.spacing)
 
@@ -87,7 +87,7 @@ def against_stored(
             continue
         seat = {name: own[0][name] for name in ("zeta_mean", "zeta_std")}
         model = case.contact.replace(particle_law=case.contact.particle_law.replace(**seat))
-        found = by_field(model, [row["F_star"] for row in own], _own(case, endless))
+        found = by_field(model, [row["F_star"] for row in own], _own_spectrum(case, endless))
         out += [
             State(
                 case=case.name,
