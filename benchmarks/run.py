@@ -165,11 +165,10 @@ def many_loads() -> Iterator[Row]:
             )
 
 
-def own_inputs(nanoseconds: float) -> Iterator[Row]:
+def own_inputs(nanoseconds: float, count: int = 100_000) -> Iterator[Row]:
     """Every state with its own load, σ, R, η_a and x_a."""
     import floor
 
-    count = 100_000
     for seat, targets in DIRECT.items():
         base, vary, many = contact(seat), inputs(seat, count), loads(count)
         solved = state_columns(base, F_star=many, vary=vary)

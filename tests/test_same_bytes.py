@@ -73,10 +73,10 @@ def contents(folder):
     }
 
 
-def answers(tmp_path, commands):
+def answers(tmp_path, commands, seeds=SEEDS):
     """What the commands print and write, under each seed; one process a seed, at once."""
     running = {}
-    for seed in SEEDS:
+    for seed in seeds:
         folder = tmp_path / str(seed)
         folder.mkdir()
         (folder / "sampled.toml").write_text(SAMPLED, "utf-8")
@@ -193,7 +193,8 @@ def test_every_command_on_every_example(tmp_path, name):
             ["design", path, "--json", "--csv", "points.csv", "--figure", "points.svg"],
             ["sweep", path, "--out", "sweep", "--set", "sweep.chunk=32"],
         ],
+        SEEDS[:2],
     )
-    assert found[SEEDS[0]][0][0][1] == 0
-    for seed in SEEDS[1:]:
-        assert found[seed] == found[SEEDS[0]], f"PYTHONHASHSEED {SEEDS[0]} and {seed}"
+    one, two = SEEDS[:2]
+    assert found[one][0][0][1] == 0
+    assert found[two] == found[one], f"PYTHONHASHSEED {one} and {two}"

@@ -18,7 +18,11 @@ from thirdbody.study.analyses import arguments, design_study
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "additive.toml"
 # what is compared with a grid is compared without the table, on which the optimum is flatter
-OFF = ["particle_law.name=series", "particle_law.deep=off"]
+OFF = [
+    "particle_law.name=series",
+    "particle_law.deep=off",
+    'design.limits=[{ of = "plastic_share", most = 0.2 }]',
+]
 # variance of a standard Gaussian cut at three standard deviations
 CUT = 1 - 6 * norm.pdf(3) / (2 * norm.cdf(3) - 1)
 SIZE, AMOUNT = "particles.diameter.mean+particles.diameter.std", "particles.concentration"
@@ -102,7 +106,7 @@ def test_slopes_hold_the_concentration(best):
 def test_command(tmp_path):
     """One JSON object, a table of every point, a figure, and nothing else."""
     command = [sys.executable, "-m", "thirdbody", "design", EXAMPLE, "--json"]
-    command += ["--set", OFF[0], "--set", OFF[1]]
+    command += [word for setting in OFF for word in ("--set", setting)]
     command += ["--csv", tmp_path / "p.csv", "--figure", tmp_path / "p.png"]
     done = subprocess.run(
         [str(part) for part in command],
@@ -136,7 +140,7 @@ def test_the_file_says_what_python_says():
         gap=1e-6, concentration=3e-3, particle_density=2200.0
     )
     assert asked["objective"] == [tb.Objective(of="mu")]
-    assert asked["limits"] == [tb.Limit(of="plastic_share", most=0.2)]
+    assert asked["limits"] == [tb.Limit(of="plastic_share", most=0.5)]
     np.testing.assert_allclose(asked["pressure"], [1e6, 2e6, 5e6, 1e7])
 
 
