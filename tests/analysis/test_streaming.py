@@ -483,7 +483,7 @@ def sampled(tmp_path):
 @pytest.mark.parametrize(
     ("format", "step"),
     [
-        pytest.param("zarr", 1, marks=pytest.mark.slow),
+        pytest.param("zarr", 2, marks=pytest.mark.slow),
         pytest.param("netcdf", 1, marks=pytest.mark.slow),
     ],
 )
