@@ -8,11 +8,15 @@ import numpy as np
 import pytest
 
 import thirdbody as tb
+from thirdbody.contact.interface import interface
 from thirdbody.equilibrium.columns import COLUMNS
+from thirdbody.equilibrium.load_scan import load_scan
 from thirdbody.equilibrium.states import state_columns
+from thirdbody.errors import NotCompiled
 from thirdbody.populations.distributions import PowerLaw
 
 pytest.importorskip("numba")
+from thirdbody.equilibrium.compiled.batch import NOT_MONOTONE
 from thirdbody.equilibrium.engine.run import own_columns
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
@@ -193,7 +197,6 @@ def test_asperity_laws_by_numbers_of_their_own():
     for law, own in (
         (tb.asperity.ZMC(), {"k": 0.4 * turn, "rho": 54 * turn}),
         (tb.asperity.Hermite(), {"k": 0.4 * turn}),
-        (tb.asperity.JG(), {"hardness_ratio": 2.8 * turn}),
         (tb.asperity.KE(), {"K": 0.6 * turn}),
         (tb.asperity.CEB(), {"K": 0.6 * turn}),
         (tb.asperity.EllipticZMC(ratio=2.0), {"k": 0.4 * turn}),
@@ -205,6 +208,50 @@ def test_asperity_laws_by_numbers_of_their_own():
         got, want = own_columns(bare, vary, "F_star", loads), slow(bare, vary, loads)
         assert set(got["doubt"]) == {""}
         assert max(largest_error(got, want, np.ones(4, bool)).values()) <= BOUND, law.name
+
+
+def test_a_law_whose_fits_end_is_for_the_numpy_engine():
+    bare = contact().replace(particles=None, asperity_law=tb.asperity.JG())
+    with pytest.raises(NotCompiled, match="jg"):
+        own_columns(bare, {"surfaces.first.H": STEEL.H * np.ones(4)}, "F_star", np.full(4, 1e-6))
+
+
+@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("law", ["hermite", "deep"])
+def test_loads_that_asperities_carry_are_its_own_on_a_rough_seat(law, body):
+    """Few particles shade too little for the load to rise again: NumPy need not look.
+
+    That it falls is checked by the scan of the load over all separations.
+    """
+    count = 24
+    case = contact(law, "rough", body)
+    rng = np.random.default_rng(11)
+    vary = {
+        "surfaces.first.H": STEEL.H * rng.uniform(0.8, 1.2, count),
+        "roughness.sigma": 100e-9 * rng.uniform(0.85, 1.15, count),
+    }
+    loads = np.full(count, 1e-2)  # the asperities carry a fifth of the hardness
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    assert NOT_MONOTONE not in set(got["doubt"])
+    solved = got["status"] == 0
+    assert solved.mean() > 0.8
+    assert max(largest_error(got, want, solved).values()) <= BOUND
+    for i in range(0, count, 6):
+        one = case.replace(**{name: float(values[i]) for name, values in vary.items()})
+        assert load_scan(interface(one)).monotone
+
+
+def test_a_crowd_on_a_rough_seat_is_left_to_the_scan_of_the_load():
+    """Where the shadow of many particles could outrun the asperities, nothing is claimed."""
+    crowd = {
+        "particles.areal_density": 5e12,
+        "particle_law.zeta_std": 0.05,
+        "particle_law.zeta_mean": -3.0,
+    }
+    case = contact("hermite").replace(**crowd)
+    vary = {"surfaces.first.H": STEEL.H * np.linspace(0.9, 1.1, 4)}
+    got = own_columns(case, vary, "F_star", np.full(4, 1e-2))
+    assert set(got["doubt"]) == {NOT_MONOTONE}
 
 
 @pytest.mark.parametrize("seat", SEATS)

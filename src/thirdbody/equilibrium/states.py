@@ -22,7 +22,7 @@ from ..quantities.value import warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
 from .crowding import crowded
-from .engine.run import DOUBTS, own_columns
+from .engine.run import DOUBTS, knows_own, own_columns
 from .solve import SOLVER, given_load, solve_untold
 from .status import SENTENCES, Status
 
@@ -299,11 +299,17 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
 
 def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
     """Whether states that differ in these inputs each need tables of their own: 0.1 s a state."""
-    if not any(name.startswith(DEMANDING) for name in vary):
+    names = list(vary)
+    if not any(name.startswith(DEMANDING) for name in names):
         return False
     populations = contact.populations
     shaped = any(isinstance(each.shape, Angular) for each in populations)
-    return len(populations) > 1 or shaped or bool(engine.squashed(contact, {}, 1).any())
+    if len(populations) <= 1 and not shaped and not engine.squashed(contact, {}, 1).any():
+        return False
+    own = {name: _own(contact, name) for name in names}
+    if not (engine.available() and all(isinstance(value, (int, float)) for value in own.values())):
+        return True
+    return not knows_own(contact, {name: np.array([float(v)]) for name, v in own.items()})
 
 
 def _own(contact: Contact, name: str) -> Any:

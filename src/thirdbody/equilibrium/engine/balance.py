@@ -12,6 +12,7 @@ from ..compiled.machine import apart
 from .fields import (
     A_E,
     A_SA,
+    BREADTH,
     COVERAGE,
     F_SA,
     F_SS,
@@ -223,40 +224,65 @@ def polish(given, skin, work, laid, rules, target, h, slope, out):
 
 
 @scalar
+def _pays(given, work, laid, p, bound):
+    """Whether the load of each particle of part p grows at least as fast as what it shades.
+
+    The asperities carry ``bound`` [Pa] where nothing is shaded.
+    """
+    apart()
+    panels, coverage = work[2], given[p, COVERAGE]
+    if bound > 0.2 * given[p, SOFTEST]:
+        return False
+    if coverage * (0.5 * math.pi * bound / given[p, STIFFEST]) ** 2 > RISE:
+        return False
+    most = worst = 0.0
+    for n in range(laid[p, COARSE, COUNT]):
+        a, b = panels[p, n, EDGE], panels[p, n, TO]
+        for j in range(1, 5):
+            load, one, two = particle_at(given, work[1], panels, p, n, a + 0.25 * j * (b - a))
+            left = load - bound * shade(given, p, one, two)
+            most = max(most, left)
+            worst = max(worst, most - left)
+    return worst * coverage <= RISE * bound
+
+
+@scalar
+def _widest(given, work, laid, p):
+    """Share of the area that part p would shade with every particle squeezed as far as it goes."""
+    apart()
+    n = laid[p, COARSE, COUNT] - 1
+    _, one, two = particle_at(given, work[1], work[2], p, n, work[2][p, n, TO])
+    return given[p, COVERAGE] * shade(given, p, one, two) / (0.25 * math.pi * given[p, BREADTH])
+
+
+@scalar
 def _falls(given, work, laid, bound, sigma_s):
     """Whether no larger separation can carry the load, of which asperities take ``bound`` [Pa].
 
-    What a particle takes from the asperities, the bound times its shadow, must not grow faster
-    with its squeeze than its load.
+    Either a particle gains by each squeeze what it takes from the asperities, the bound times its
+    shadow, or the shadow of all grows more slowly with the approach than the asperities' load:
+    that of a Gaussian seat of a width s, up to c in all, by c/(s √(2π)) at most, and their load by
+    0.3/σ_s of itself at least.
     """
     apart()
-    sides, panels = work[1], work[2]
     steepest = covered = 0.0
     for p in range(len(given)):
         shadow = given[p, SHADOW]
         if shadow != FOOTPRINT and shadow != PROJECTED:
             continue
-        coverage = given[p, COVERAGE]
-        covered += coverage
+        covered += given[p, COVERAGE]
+        rough = given[p, SEAT] == ROUGH
         if shadow == PROJECTED:
-            width = given[p, WIDTH] if given[p, SEAT] == ROUGH else given[p, SIZE_2]
+            width = given[p, WIDTH] if rough else given[p, SIZE_2]
             if not width > 0:
                 return False
-            steepest += coverage / (2.5 * width)
-        if bound > 0.2 * given[p, SOFTEST]:
-            return False
-        if coverage * (0.5 * math.pi * bound / given[p, STIFFEST]) ** 2 > RISE:
-            return False
-        most = worst = 0.0
-        for n in range(laid[p, COARSE, COUNT]):
-            a, b = panels[p, n, EDGE], panels[p, n, TO]
-            for j in range(1, 5):
-                load, one, two = particle_at(given, sides, panels, p, n, a + 0.25 * j * (b - a))
-                left = load - bound * shade(given, p, one, two)
-                most = max(most, left)
-                worst = max(worst, most - left)
-        if worst * coverage > RISE * bound:
-            return False
+            steepest += given[p, COVERAGE] / (2.5 * width)
+        if not _pays(given, work, laid, p, bound):
+            if not rough or not given[p, WIDTH] > 0:
+                return False
+            widest = _widest(given, work, laid, p)
+            steepest += widest / (2.5 * given[p, WIDTH])
+            covered += widest
     return steepest * sigma_s <= 0.3 * (1 - covered)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from ...contact.asperity_sums import ReducedSum
 from ...contact.contact import Contact
 from ...contact.interface import together
+from ...errors import NotCompiled
 from ..columns import as_columns
 from ..compiled.batch import NOT_BALANCED, NOT_MONOTONE
 from ..load_scan import RESIDUAL
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["DOUBTS", "own_columns"]
+__all__ = ["DOUBTS", "knows_own", "own_columns"]
 
 AT_ONCE = 256
 """States handed to a thread at a time."""
@@ -38,6 +39,15 @@ CODES = {
     f.NOT_RESOLVED: NOT_RESOLVED,
     f.TOO_LONG: TOO_LONG,
 }
+
+
+def knows_own(contact: Contact, arrays: Mapping[str, Array]) -> bool:
+    """Whether the kernel knows the models of states that differ in these inputs."""
+    try:
+        Numbers(contact, arrays, 1)
+    except NotCompiled:
+        return False
+    return True
 
 
 def own_columns(

@@ -10,7 +10,6 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.polynomial import Chebyshev
 from numpy.polynomial.chebyshev import chebval
 
 from ...numerics.chebyshev import chebyshev_transform
@@ -145,32 +144,42 @@ def _between(nodes: Any, values: Any) -> Any:
     return lambda x: curve(np.clip(x, nodes[0], nodes[-1]))
 
 
-@lru_cache(maxsize=4)
-def _fans(name: str) -> tuple[Any, list[Any], list[tuple[float, Any]]]:
-    """Rows of a logarithm: welded ones over ln ρ, changes over ln ρ by friction, over H/E* by ρ.
+@lru_cache(maxsize=1)
+def _fans() -> tuple[Any, list[Any], list[tuple[float, Any]]]:
+    """Rows of both logarithms: welded ones over ln ρ, changes by friction and by H/E* with ρ.
 
-    A row is the first value and the roots of the slope at places of the table.
+    A row is the first value and the roots of the slope at places of the table, of the load and
+    then of the area.
     """
     places = chebyshev_transform(TERMS)[0]
     welded = _chosen(1.0)
     rubbing = []
     for m in _frictions():
         runs = _chosen(m)
-        changes = [_change(run, name, places) for run in runs]
+        changes = [_change(run, places) for run in runs]
         rubbing.append(_between([run.node for run in runs], changes))
     elastic = []
     runs = [run for run in _runs() if run.softness > 0]
     for node in sorted({run.node for run in runs}):
         here = [run for run in runs if run.node == node]
-        slopes = [_change(run, name, places) / run.softness for run in here]
+        slopes = [_change(run, places) / run.softness for run in here]
         elastic.append((node, _between([run.softness for run in here], slopes)))
-    rows = [_row(run, name, places) for run in welded]
+    rows = [_row(run, places) for run in welded]
     return _between([run.node for run in welded], rows), rubbing, elastic
 
 
-def _frictions() -> list[float]:
+@lru_cache(maxsize=1)
+def _frictions() -> tuple[float, ...]:
     """Friction factors of the rigid-plastic runs."""
-    return sorted({run.friction for run in _runs() if run.softness == 0})
+    return tuple(sorted({run.friction for run in _runs() if run.softness == 0}))
+
+
+def _at_friction(friction: float, fans: Any, x: Any) -> Any:
+    """What functions of x, one a friction factor of the runs, say between these factors."""
+    nodes = _frictions()
+    if friction in nodes:
+        return fans[nodes.index(friction)](x)
+    return _between(nodes, [fan(x) for fan in fans])(friction)
 
 
 @lru_cache(maxsize=512)
@@ -190,58 +199,61 @@ def squeeze_curve(ratio: float, friction: float, kappa: float) -> SqueezeCurve:
     kappa : float
         E*/H of the softer body, κ [1]; below 8 as at 8.
     """
-    x, softness = math.log(ratio), 1 / max(kappa, SOFTEST_KAPPA)
-    transform = chebyshev_transform(TERMS)[1]
-
-    def logarithm(name: str) -> Array:
-        """First value and roots of the slope, then the series that rises so."""
-        welded, rubbing, elastic = _fans(name)
-        row = welded(x) + _between(_frictions(), [fan(x) for fan in rubbing])(friction)
-        nodes, slopes = zip(*((node, fan(softness)) for node, fan in elastic), strict=True)
-        row = row + softness * _between(nodes, slopes)(x)
-        root = Chebyshev(transform @ row[1:])
-        return ((root * root).integ(lbnd=-1) + row[0]).coef
-
-    log_load = logarithm("own")
-    log_load[0] -= math.log(math.pi * FULL)
-    return SqueezeCurve(log_load, logarithm("area"), _sinks(x, friction))
+    log_load, log_area = curve_rows(*(np.array([value]) for value in (ratio, friction, kappa)))
+    return SqueezeCurve(log_load[0], log_area[0], _sinks(math.log(ratio), friction))
 
 
 def curve_rows(ratio: Array, friction: Array, kappa: Array) -> tuple[Array, Array]:
-    """Series of ln load and ln area of many sides (N, terms), as `squeeze_curve` has of one."""
-    out = [np.empty((len(ratio), 2 * TERMS)), np.empty((len(ratio), 2 * TERMS))]
+    """Series of ln load and ln area of many sides (N, terms), of which `squeeze_curve` has one."""
+    out = np.empty((2, len(ratio), 2 * TERMS))
     for m in np.unique(friction):
         here = friction == m
-        x, softness = np.log(ratio[here]), 1 / np.maximum(kappa[here], SOFTEST_KAPPA)
-        for rows, name in zip(out, ("own", "area"), strict=True):
-            rows[here] = _logarithms(name, x, float(m), softness)
-    out[0][:, 0] -= math.log(math.pi * FULL)
+        softness = 1 / np.maximum(kappa[here], SOFTEST_KAPPA)
+        out[:, here] = _logarithms(np.log(ratio[here]), float(m), softness)
+    out[0, :, 0] -= math.log(math.pi * FULL)
     return out[0], out[1]
 
 
-def _logarithms(name: str, x: Array, friction: float, softness: Array) -> Array:
-    """The series of `squeeze_curve` at ln ρ and H/E* (N,)."""
+def _logarithms(x: Array, friction: float, softness: Array) -> Array:
+    """The series of `squeeze_curve` at ln ρ and H/E* (N,): (2, N, terms)."""
     from numpy.polynomial.chebyshev import chebint
     from scipy.interpolate import PchipInterpolator
 
-    welded, rubbing, elastic = _fans(name)
-    row = welded(x) + _between(_frictions(), [fan(x) for fan in rubbing])(friction)
+    welded, rubbing, elastic = _fans()
+    row = welded(x) + _at_friction(friction, rubbing, x)
     nodes = np.array([node for node, _ in elastic])
     cubic = PchipInterpolator(nodes, np.array([fan(softness) for _, fan in elastic]), axis=0)
     at = np.clip(x, nodes[0], nodes[-1])
     piece = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, len(nodes) - 2)
     c, u = cubic.c[:, piece, np.arange(len(x))], (at - nodes[piece])[:, None]
     row = row + softness[:, None] * (((c[0] * u + c[1]) * u + c[2]) * u + c[3])
-    root = row[:, 1:] @ chebyshev_transform(TERMS)[1].T
-    square = np.zeros((len(x), 2 * TERMS - 1))
+    both = np.stack([row[:, : TERMS + 1], row[:, TERMS + 1 :]])
+    root = both[:, :, 1:] @ chebyshev_transform(TERMS)[1].T
+    # T_i T_j = (T_{i+j} + T_{|i-j|})/2
+    square = np.zeros((*root.shape[:2], 2 * TERMS - 1))
     for i in range(TERMS):
-        for j in range(TERMS):
-            term = 0.5 * root[:, i] * root[:, j]
-            square[:, i + j] += term
-            square[:, abs(i - j)] += term
-    series: Array = chebint(square, lbnd=-1, axis=1).astype(float)
-    series[:, 0] += row[:, 0]
+        term = 0.5 * root[:, :, i, None] * root
+        square[:, :, i : i + TERMS] += term
+        square[:, :, : TERMS - i] += term[:, :, i:]
+        square[:, :, 1 : i + 1] += term[:, :, :i][:, :, ::-1]
+    series: Array = chebint(square, lbnd=-1, axis=2).astype(float)
+    series[:, :, 0] += both[:, :, 0]
     return series
+
+
+@lru_cache(maxsize=1)
+def _share_lines() -> tuple[Any, ...]:
+    """Sinks over the squeeze at `SINK_AT`, of ln ρ: one function a friction factor of the runs."""
+    from scipy.interpolate import make_interp_spline
+
+    def line(m: float) -> Any:
+        runs = _chosen(m)
+        nodes = np.array([run.node for run in runs])
+        # in straight lines: a cubic is half as steep again where a particle begins to embed
+        between = make_interp_spline(nodes, np.array([run.share for run in runs]), k=1)
+        return lambda x: between(np.clip(x, nodes[0], nodes[-1]))
+
+    return tuple(line(m) for m in _frictions())
 
 
 def _sinks(x: float, friction: float) -> Array:
@@ -249,31 +261,24 @@ def _sinks(x: float, friction: float) -> Array:
 
     Nor do they rise faster than it, so that the squash of the particle never falls either.
     """
-    from scipy.interpolate import make_interp_spline
-
-    shares = []
-    for m in _frictions():
-        runs = _chosen(m)
-        nodes = np.array([run.node for run in runs])
-        # in straight lines: a cubic is half as steep again where a particle begins to embed
-        between = make_interp_spline(nodes, np.array([run.share for run in runs]), k=1)
-        shares.append(between(np.clip(x, nodes[0], nodes[-1])))
-    out = _between(_frictions(), shares)(friction) * SINK_AT
+    out = _at_friction(friction, _share_lines(), x) * SINK_AT
     for i in range(1, len(out)):
         out[i] = np.clip(out[i], out[i - 1], out[i - 1] + (SINK_AT[i] - SINK_AT[i - 1]))
     return out
 
 
-def _row(run: _Run, name: str, places: Array) -> Array:
-    """First value, then roots of the slope at places (N,) of the table: (1 + N,)."""
-    return np.concatenate([[run.first(name)], run.root(name, places)])
+def _row(run: _Run, places: Array) -> Array:
+    """First value, then roots of the slope at places (N,) of the table, of load and of area."""
+    parts = [([run.first(name)], run.root(name, places)) for name in ("own", "area")]
+    return np.concatenate([part for both in parts for part in both])
 
 
-def _change(run: _Run, name: str, places: Array) -> Array:
+def _change(run: _Run, places: Array) -> Array:
     """A row less that of the welded rigid-plastic run of the same ρ; 0 beyond either."""
-    change = _row(run, name, places) - _row(_welded(run), name, places)
-    change[1:][squeeze_at(places) > min(run.high, _welded(run).high) * (1 + 1e-9)] = 0.0
-    return change
+    welded = _welded(run)
+    change = (_row(run, places) - _row(welded, places)).reshape(2, 1 + len(places))
+    change[:, 1:][:, squeeze_at(places) > min(run.high, welded.high) * (1 + 1e-9)] = 0.0
+    return change.ravel()
 
 
 @dataclass(frozen=True)
@@ -427,6 +432,11 @@ class DeepSide(Side):
         if np.any(over):
             load[over], area[over] = self._disc(1 - eps[over])
         return load, area
+
+    def both(self, delta: Array) -> tuple[Array, Array]:
+        load, area = self._columns(delta / self.delta_1)
+        thin = self._squeeze(1.0)
+        return self.unit * (load / thin), self.R * math.pi * self.delta_1 * (area / thin)
 
     def reduced_force(self, y: Array) -> Array:
         return self._columns(y)[0] / self._squeeze(1.0)

@@ -152,6 +152,10 @@ class Side:
     def area(self, delta: Array) -> Array:
         return self.R * math.pi * self.delta_1 * self.reduced_area(delta / self.delta_1)
 
+    def both(self, delta: Array) -> tuple[Array, Array]:
+        """Load and area."""
+        return self.force(delta), self.area(delta)
+
     def sink(self, delta: Array) -> Array:
         """Depth of the impression in the surface, of an indentation δ; both over x."""
         return delta
@@ -224,10 +228,13 @@ class SqueezedParticle(OneParticle):
         shape: Angular | None = None,
     ):
         self.key = (law, first, second, R, forms, shape)
-        self.sides = (
-            (forms[0] and forms[0].side(law, *first, R)) or Side(law, *first, R),
-            (forms[1] and forms[1].side(law, *second, R)) or Side(law, *second, R),
-        )
+        self.equal = first == second and forms[0] == forms[1]
+
+        def side(body: Body, form: SideForm | None) -> Side:
+            return (form and form.side(law, *body, R)) or Side(law, *body, R)
+
+        upper = side(first, forms[0])
+        self.sides = (upper, upper if self.equal else side(second, forms[1]))
         self.tip_radius, self.breadth, self.shape = R, 2 * R, shape
         if shape is not None:
             self.breadth = shape.breadth
@@ -236,7 +243,6 @@ class SqueezedParticle(OneParticle):
         self.great_circle = self.breadth * math.pi / 4
         self.spreads = any(side.spreads for side in self.sides)
         self.knows_sink = (self.sides[0].knows_sink, self.sides[1].knows_sink)
-        self.equal = first == second and forms[0] == forms[1]
         one, two = self.sides
         kinks = set()
         self.held: list[tuple[float, float, int, float]] = []
@@ -356,11 +362,8 @@ class SqueezedParticle(OneParticle):
             two = np.where(here, stays if number == 1 else eps - stays, two)
         return one, two
 
-    def force(self, eps: Array, one: Array) -> Array:
-        """Load over x² at ε, of which ``one`` is the first side's."""
-        force = self.sides[0].force(one)
-        if self.equal:
-            return force
+    def _load(self, eps: Array, one: Array, force: Array) -> Array:
+        """Load over x² at ε, of which ``one`` and the load ``force`` are the first side's."""
         for begin, end, number, _ in self.held:
             if number == 0 and np.any(here := (eps > begin) & (eps < end)):
                 force = np.where(here, self.sides[1].force(eps - one), force)
@@ -369,12 +372,11 @@ class SqueezedParticle(OneParticle):
 
     def at(self, eps: Array) -> Squeezed:
         one, two = depths = self.indentations(eps)
-        first, second = self.sides
-        return Squeezed(
-            load=self.force(eps, one),
-            depths=depths,
-            areas=(first.area(one), second.area(two)),
-        )
+        force, area = self.sides[0].both(one)
+        if self.equal:
+            return Squeezed(load=force, depths=depths, areas=(area, area))
+        load = self._load(eps, one, force)
+        return Squeezed(load=load, depths=depths, areas=(area, self.sides[1].area(two)))
 
     def sinks(self, depths: tuple[Array, Array]) -> tuple[Array, Array]:
         one, two = depths
