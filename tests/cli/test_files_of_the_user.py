@@ -1,17 +1,22 @@
 """What a command may write: what it made itself, and files that its user names."""
 
+import inspect
 import json
 import os
 import re
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 from damage import empty, flipped, missing, truncated
 
 import thirdbody as tb
+from thirdbody.cli.commands import COMMANDS
+from thirdbody.cli.own_files import need_places
 from thirdbody.quantities.files import need_folders, refuse_clashes, whole, write_text
+from thirdbody.views.html import document
 
 from .test_cli import EXAMPLES, run
 
@@ -154,13 +159,178 @@ def test_two_tables_do_not_go_into_one_file(tmp_path):
     refuse_clashes([Path(os.devnull), Path(os.devnull), None], [])
 
 
+ONE_FILE = {
+    "solve.csv": ("solve", STUDY, "--csv"),
+    "solve.xlsx": ("solve", STUDY, "--xlsx"),
+    "solve.parquet": ("solve", STUDY, "--parquet"),
+    "film.csv": ("film", FILM, "--set", "film.speed.points=3", "--csv"),
+    "film.png": ("film", FILM, "--set", "film.speed.points=3", "--figure"),
+    "film.svg": ("film", FILM, "--set", "film.speed.points=3", "--figure"),
+    "film.pdf": ("film", FILM, "--set", "film.speed.points=3", "--figure"),
+    "design.csv": ("design", DESIGN, "--set", "design.points=8", "--csv"),
+    "design.png": ("design", DESIGN, "--set", "design.points=8", "--figure"),
+    "compare.csv": ("compare", STUDY, "--laws", "gw", "--csv"),
+    "surface.csv": ("surface", "example", "--csv"),
+    "surface.xlsx": ("surface", "example", "--xlsx"),
+    "table.csv": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.inp": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.txt": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.avl": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.py": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+    "table.c": ("table", STUDY, "--tolerance", "1e-3", "--out"),
+}
+"""Files that a command writes quickly, and the command up to the name of the file."""
+
+
+@pytest.mark.parametrize("name", ONE_FILE)
+def test_a_file_of_somebody_else_is_replaced_by_force_only(tmp_path, name):
+    """Our own file of an earlier run, and an empty one, are replaced without asking."""
+    for library in {"xlsx": ["openpyxl"], "parquet": ["pyarrow"]}.get(name.partition(".")[2], []):
+        pytest.importorskip(library)
+    file = tmp_path / name
+    file.touch()
+    assert run(*ONE_FILE[name], file).exit_code == 0
+    wanted = file.read_bytes()
+    assert run(*ONE_FILE[name], file).exit_code == 0, "our own file is refused"
+    assert contents(tmp_path) == {name: wanted}
+    file.write_bytes(b"mine")
+    done = run(*ONE_FILE[name], file)
+    assert done.exit_code == 2
+    (line,) = (each for each in done.stderr.splitlines() if each.startswith("error"))
+    assert f"cannot write {file}: it exists and is no" in line
+    assert "--force" in line
+    assert done.stdout == ""
+    assert contents(tmp_path) == {name: b"mine"}
+    assert run(*ONE_FILE[name], file, "--force").exit_code == 0
+    assert contents(tmp_path) == {name: wanted}
+
+
+def of_excel(file):
+    """Saved by somebody since."""
+    from openpyxl import load_workbook
+
+    book = load_workbook(file)
+    book.active["A1"].comment = None
+    book.save(file)
+
+
+STRANGERS = {
+    "solve.csv": b"time,force\n1,2\n",
+    "solve.xlsx": of_excel,
+    "film.png": lambda file: __import__("matplotlib.figure").figure.Figure().savefig(file),
+    "film.svg": lambda file: __import__("matplotlib.figure").figure.Figure().savefig(file),
+    "film.pdf": lambda file: __import__("matplotlib.figure").figure.Figure().savefig(file),
+    "table.csv": b"h [m],p [Pa]\n1,2\n",
+    "table.py": b"# my script\n",
+}
+
+
+@pytest.mark.parametrize("name", STRANGERS)
+def test_a_file_of_the_same_kind_is_told_from_ours(tmp_path, name):
+    file = tmp_path / name
+    made = STRANGERS[name]
+    if isinstance(made, bytes):
+        file.write_bytes(made)
+    else:
+        if name.endswith("xlsx"):
+            pytest.importorskip("openpyxl")
+            assert run(*ONE_FILE[name], file).exit_code == 0
+        made(file)
+    before = contents(tmp_path)
+    done = run(*ONE_FILE[name], file)
+    assert done.exit_code == 2, done.output
+    assert "--force" in done.stderr
+    assert contents(tmp_path) == before
+
+
+def test_one_of_ours_of_another_kind_is_not_replaced(tmp_path):
+    """As where two options are mixed up."""
+    file = tmp_path / "film.png"
+    assert run(*ONE_FILE["film.png"], file).exit_code == 0
+    before = contents(tmp_path)
+    done = run(*ONE_FILE["film.csv"], file)
+    assert done.exit_code == 2
+    assert "is no table of thirdbody" in done.stderr
+    assert contents(tmp_path) == before
+
+
+@pytest.mark.parametrize("words", [("report", STUDY, "--out"), ("assess", ASSESS, "--html")])
+def test_a_page_takes_the_place_of_a_page_only(tmp_path, words):
+    file = tmp_path / "mine.html"
+    file.write_text("<p>mine</p>")
+    done = run(*words, file)
+    assert done.exit_code == 2
+    assert "mine.html: it exists and is no page of thirdbody" in done.stderr
+    assert done.stderr.count("error:") == 1
+    assert file.read_text() == "<p>mine</p>"
+    file.write_text(document("Report", []))
+    need_places([(file, "page")], force=False)
+
+
 def test_the_usual_report_takes_the_place_of_a_report_only(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "report.html").write_text("<p>mine</p>")
     done = run("report", STUDY)
     assert done.exit_code == 2
-    assert "report.html exists and is no report of thirdbody" in done.stderr
+    assert "report.html: it exists and is no page of thirdbody" in done.stderr
     assert (tmp_path / "report.html").read_text() == "<p>mine</p>"
+
+
+def options_of(command):
+    return {
+        name
+        for each in inspect.signature(command, eval_str=True).parameters.values()
+        for kind in getattr(each.annotation, "__metadata__", ())
+        for name in (getattr(kind, "default", None), *(getattr(kind, "param_decls", None) or ()))
+    }
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_that_writes_a_file_has_force(name):
+    """`new` writes a study, which a user has changed since; folders say whose they are."""
+    options = options_of(import_module(f"thirdbody.cli.commands.{name}").command)
+    writes = options & {"--csv", "--xlsx", "--parquet", "--figure", "--html"}
+    if writes or name in ("report", "table"):
+        assert "--force" in options
+    else:
+        assert "--out" not in options or name in ("new", "sweep", "explicit", "reproduce")
+
+
+@pytest.mark.parametrize("words", [("surface", "example"), ("compare", STUDY, "--laws", "gw")])
+def test_a_folder_is_judged_before_the_work_and_replaced_by_force(tmp_path, words, monkeypatch):
+    out = tmp_path / "o"
+    assert run(*words, "--out", out).exit_code == 0
+    wanted = contents(out)
+    main = next(each for each in wanted if each.endswith(("csv", "json")))
+    (out / main).write_text("mine")
+    with monkeypatch.context() as patch:
+        for place in ("analysis.compare.compared", "populations.measured.topography.read_surface"):
+            patch.setattr(f"thirdbody.{place}", None, raising=False)  # nothing is worked out
+        done = run(*words, "--out", out)
+    assert done.exit_code == 2
+    assert "--force" in done.stderr
+    assert (out / main).read_text() == "mine"
+    assert run(*words, "--out", out, "--force").exit_code == 0
+    assert contents(out) == wanted
+
+
+@pytest.mark.parametrize(
+    "words",
+    [*FOLDERS.values(), ("surface", "example"), ("compare", STUDY, "--laws", "gw")],
+    ids=lambda words: words[0],
+)
+def test_a_folder_that_cannot_be_made_is_told_before_the_work(tmp_path, words):
+    if not Path("/proc/self").exists():
+        pytest.skip("this system has no folder that takes no files")
+    done = run(*words, "--out", "/proc/thirdbody")
+    assert done.exit_code == 2
+    assert done.stderr.count("error:") == 1
+    assert "/proc" in done.stderr
+    assert "..." not in done.stderr  # no stage has begun
+    (tmp_path / "file").write_text("mine")
+    done = run(*words, "--out", tmp_path / "file" / "o")
+    assert done.exit_code == 2
+    assert done.stderr.count("error:") == 1
 
 
 # ---------------------------------------------------------------- drafts
@@ -212,32 +382,28 @@ DAMAGES = pytest.mark.parametrize(
         pytest.param(truncated, marks=pytest.mark.slow),
     ],
 )
-WRITERS = {
-    "solve.csv": ("solve", STUDY, "--csv"),
-    "solve.xlsx": ("solve", STUDY, "--xlsx"),
-    "solve.parquet": ("solve", STUDY, "--parquet"),
-    "film.png": ("film", FILM, "--set", "film.speed.points=3", "--figure"),
-    "film.svg": ("film", FILM, "--set", "film.speed.points=3", "--figure"),
-    "table.csv": ("table", STUDY, "--tolerance", "1e-3", "--out"),
-    "table.inp": ("table", STUDY, "--tolerance", "1e-3", "--out"),
-    "table.txt": ("table", STUDY, "--tolerance", "1e-3", "--out"),
-    "table.avl": ("table", STUDY, "--tolerance", "1e-3", "--out"),
-    "table.py": ("table", STUDY, "--tolerance", "1e-3", "--out"),
-    "table.c": ("table", STUDY, "--tolerance", "1e-3", "--out"),
-}
+QUICK = [name for name in ONE_FILE if name.startswith(("solve", "film.png", "film.svg", "table"))]
 
 
 @DAMAGES
-@pytest.mark.parametrize("name", WRITERS)
+@pytest.mark.parametrize("name", QUICK)
 def test_a_damaged_file_is_written_anew(tmp_path, name, damage):
-    """Nobody reads it back, and its place is taken by a whole one."""
+    """Nobody reads it back; what still says that it is ours is replaced, the rest by force."""
     for library in {"xlsx": ["openpyxl"], "parquet": ["pyarrow"]}.get(name[6:], []):
         pytest.importorskip(library)
     file = tmp_path / name
-    assert run(*WRITERS[name], file).exit_code == 0
+    assert run(*ONE_FILE[name], file).exit_code == 0
     wanted = file.read_bytes()
     damage(file)
-    assert run(*WRITERS[name], file).exit_code == 0
+    before = contents(tmp_path)
+    done = run(*ONE_FILE[name], file)
+    assert "Traceback" not in done.output
+    if done.exit_code == 2:
+        assert name.endswith(("xlsx", "parquet"))
+        assert "--force" in done.stderr
+        assert contents(tmp_path) == before
+        done = run(*ONE_FILE[name], file, "--force")
+    assert done.exit_code == 0
     assert contents(tmp_path) == {name: wanted}
 
 
@@ -261,7 +427,7 @@ def test_damaged_files_of_a_folder_are_written_anew_or_left(tmp_path, words, nam
     assert "Traceback" not in done.output
     if name.endswith(("json", "csv")):
         assert done.exit_code == 2
-        assert "give another folder, or remove what is not needed" in done.stderr
+        assert "give another folder, remove what is not needed, or" in done.stderr
         assert contents(tmp_path) == before
     else:
         assert done.exit_code == 0

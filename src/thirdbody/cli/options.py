@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AsJson",
+    "Force",
     "OwnCode",
     "ParquetFile",
     "Settings",
@@ -42,6 +43,7 @@ ParquetFile = Annotated[
     Path | None,
     typer.Option("--parquet", metavar="FILE", help="The same as Parquet (needs pyarrow)."),
 ]
+Force = Annotated[bool, typer.Option("--force", help="Replace files that thirdbody did not make.")]
 Settings = Annotated[
     list[str] | None,
     typer.Option(
@@ -113,9 +115,14 @@ def read_study(
 
 def not_a_folder(out: Path | None) -> list[str]:
     """Why files cannot be written into this folder."""
-    if out is not None and out.exists() and not out.is_dir():
+    from ..quantities.files import hindrance_of_folder
+
+    if out is None:
+        return []
+    if out.exists() and not out.is_dir():
         return [f"--out {out} must be a folder, and a file of that name exists"]
-    return []
+    why = hindrance_of_folder(out)
+    return [f"--out {out}: cannot write there: {why}"] if why else []
 
 
 def metres(option: str, text: str, problems: list[str]) -> float:

@@ -114,9 +114,12 @@ class TableFiles(NamedTuple):
     def asked(self) -> list[Path]:
         return [path for path in self if path is not None]
 
-    def need(self, *others: Path | None) -> None:
-        """Refuse a missing folder or library, of other files too, before long work is done."""
-        from ..quantities.files import need_folders
+    def need(self, figure: Path | None = None, *, force: bool = False) -> None:
+        """Refuse what cannot or must not be written, of a figure too, before long work is done.
+
+        A library or a folder is missing, or a file exists that thirdbody did not make.
+        """
+        from .own_files import need_places
 
         problems = []
         for option, library in (("xlsx", "openpyxl"), ("parquet", "pyarrow")):
@@ -128,7 +131,8 @@ class TableFiles(NamedTuple):
                 )
         if problems:
             raise InvalidValue(*problems)
-        need_folders(*self, *others)
+        kinds = ("table", "workbook", "Parquet file", "picture")
+        need_places(zip((*self, figure), kinds, strict=True), force=force)
 
     def write(self, columns: Mapping[str, list[Any]], units: Mapping[str, str]) -> None:
         """A column each, its unit in its name, a row a state; the same bytes every time."""
@@ -184,9 +188,12 @@ def write_figure(figure: Path, drawing: Any) -> None:
     from matplotlib import rc_context
 
     from ..quantities.files import whole
+    from ..version import __version__
 
     kind = figure_format(figure)
-    no_date = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind)
+    # by which the next run knows it for one of ours
+    made = {"Software" if kind == "png" else "Creator": f"thirdbody {__version__}"}
+    made |= {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})  # type: ignore[arg-type]
     with whole(figure) as part, rc_context({"svg.hashsalt": "thirdbody"}):
-        drawing.savefig(part, format=kind, metadata=no_date)
+        drawing.savefig(part, format=kind, metadata=made)
     print(f"written: {figure}", file=sys.stderr)

@@ -22,6 +22,8 @@ from ..errors import InvalidValue
 
 __all__ = [
     "csv_of",
+    "hindrance",
+    "hindrance_of_folder",
     "is_draft",
     "make_folder",
     "need_folders",
@@ -301,13 +303,13 @@ def need_folders(*paths: str | os.PathLike[str] | None) -> None:
     problems = [
         f"cannot write {path}: {why}"
         for path in paths
-        if path is not None and (why := _hindrance(path))
+        if path is not None and (why := hindrance(path))
     ]
     if problems:
         raise InvalidValue(*problems)
 
 
-def _hindrance(path: str | os.PathLike[str]) -> str:
+def hindrance(path: str | os.PathLike[str]) -> str:
     """Why a file cannot be made, as far as can be known before; "" where it can."""
     target = Path(os.path.realpath(path))
     if target.is_dir():
@@ -315,7 +317,8 @@ def _hindrance(path: str | os.PathLike[str]) -> str:
     if not target.parent.is_dir():
         return _why(FileNotFoundError(), target)
     if os.path.exists(path) and not os.path.isfile(path):
-        return ""  # a device or a pipe
+        # a device or a pipe
+        return "" if os.access(path, os.W_OK) else "it takes nothing; give the name of a file"
     draft = _draft(target)
     try:
         draft.touch(exist_ok=False)
@@ -323,6 +326,16 @@ def _hindrance(path: str | os.PathLike[str]) -> str:
     except OSError as error:
         return _why(error, target)
     return ""
+
+
+def hindrance_of_folder(folder: str | os.PathLike[str]) -> str:
+    """Why files cannot be written into a folder, which may have to be made; "" where they can."""
+    place = Path(os.path.realpath(folder))
+    while not place.exists() and place != place.parent:
+        place = place.parent
+    if not place.is_dir():
+        return f"{place} is a file; give the name of a folder"
+    return hindrance(place / "a")
 
 
 def write_text(path: str | os.PathLike[str], text: str, *, tidy: bool = True) -> None:

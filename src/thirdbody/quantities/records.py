@@ -214,7 +214,7 @@ def refuse_replaced(folder: Path, texts: Mapping[str, str | None]) -> None:
     if there and not all(same):
         raise InvalidValue(
             f"{folder} holds {', '.join(there)} of another study, or of another program; "
-            "give another folder, or remove what is not needed"
+            "give another folder, remove what is not needed, or replace it (--force, in Python force=True)"
         )
 
 

@@ -154,7 +154,11 @@ def _regimes(ax: Axes, table: xarray.Dataset, at: int) -> None:
 
 
 def save(
-    table: xarray.Dataset, folder: str | os.PathLike[str], *, at: int | None = None
+    table: xarray.Dataset,
+    folder: str | os.PathLike[str],
+    *,
+    at: int | None = None,
+    force: bool = False,
 ) -> list[Path]:
     """Write a comparison as ``compare.csv``, ``compare.png`` and ``compare.svg``.
 
@@ -168,6 +172,8 @@ def save(
         Where to write.
     at : int, optional
         As in `figure`.
+    force : bool, optional
+        Replace files of these names that are of another study, or of another program.
 
     Returns
     -------
@@ -188,7 +194,8 @@ def save(
         raise InvalidValue(f"cannot write into {folder}: a file of that name exists")
     drawing = figure(table, at=at)
     text = csv_text(table)
-    refuse_replaced(folder, {"compare.csv": text, "compare.png": None, "compare.svg": None})
+    if not force:
+        refuse_replaced(folder, {"compare.csv": text, "compare.png": None, "compare.svg": None})
     make_folder(folder)
     out = [folder / f"compare.{suffix}" for suffix in ("csv", "png", "svg")]
     with ExitStack() as stack:

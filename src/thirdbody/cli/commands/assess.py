@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from ..options import AsJson, Settings, read_study
+from ..options import AsJson, Force, Settings, read_study
 from ..show import terminal
 
 __all__ = ["command"]
@@ -27,15 +27,17 @@ def command(
         Path | None,
         typer.Option("--html", metavar="FILE", help="Write the page with figures, one file."),
     ] = None,
+    force: Force = False,
     settings: Settings = None,
 ) -> None:
     """One page: the mode at each operating load, how sure it is, and what would change it."""
-    from ...quantities.files import need_folders, write_text
+    from ...quantities.files import write_text
     from ...study.analyses import assess_study
     from ...views.assess_page import page
+    from ..own_files import need_places
 
     asked = read_study(study, settings, writes=[html_file])
-    need_folders(html_file)
+    need_places([(html_file, "page")], force=force)
     answer = assess_study(asked, progress=True)
     if html_file is not None:
         write_text(html_file, page(answer))

@@ -13,7 +13,7 @@ from ...errors import InvalidValue, NoEquilibrium
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table
-from ..options import ParquetFile, Settings, StudyFile, XlsxFile, not_a_folder, read_study
+from ..options import Force, ParquetFile, Settings, StudyFile, XlsxFile, not_a_folder, read_study
 from ..show import terminal
 from ..streams import TableFiles, warn
 
@@ -60,10 +60,12 @@ def command(
     ] = None,
     xlsx_file: XlsxFile = None,
     parquet_file: ParquetFile = None,
+    force: Force = False,
     settings: Settings = None,
 ) -> None:
     """The interface of a study under every asperity law, against the law the study names."""
     from ...analysis.compare import Persson, compared
+    from ..own_files import refuse_strangers
 
     problems = []
     if at not in PLACES:
@@ -72,8 +74,10 @@ def command(
     if problems:
         raise InvalidValue(*problems)
     files = TableFiles(csv_file, xlsx_file, parquet_file)
-    files.need()
     asked = read_study(study, settings, writes=[*files, *_of_folder(out)])
+    files.need(force=force)
+    if not force:
+        refuse_strangers(out, "compare.csv", "compare.png", "compare.svg")
     with heartbeat("compare"):
         found = compared(asked.contact, **_equal_loads(asked), laws=_words(names))
     for sentence in filter(None, found.attrs["warnings"].splitlines()):
@@ -89,7 +93,7 @@ def command(
     if out is not None:
         from ...views.comparison import save
 
-        written = save(found.dataset(), out, at=index)
+        written = save(found.dataset(), out, at=index, force=force)
     files.write(*found.flat())
     written += files.asked
     _show_comparison(asked.title, found, index)

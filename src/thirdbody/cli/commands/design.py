@@ -13,7 +13,7 @@ import typer
 from ...quantities.progress import heartbeat
 from ...quantities.say import concentration_of, number, percent, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, ParquetFile, Settings, XlsxFile, read_study
+from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
 from ..show import MOST_ROWS, some, terminal
 from ..streams import TableFiles, figure_format, warn, write_figure
 
@@ -34,6 +34,7 @@ def command(
     ] = None,
     xlsx_file: XlsxFile = None,
     parquet_file: ParquetFile = None,
+    force: Force = False,
     figure: Annotated[
         Path | None, typer.Option("--figure", metavar="FILE", help="Draw the points tried.")
     ] = None,
@@ -44,7 +45,7 @@ def command(
 
     files = TableFiles(csv_file, xlsx_file, parquet_file)
     asked = read_study(study, settings, writes=[*files, figure])
-    files.need(figure)
+    files.need(figure, force=force)
     if figure is not None:
         figure_format(figure)  # refused before long work
     bar = sys.stderr.isatty()

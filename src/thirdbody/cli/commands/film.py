@@ -12,7 +12,7 @@ import typer
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, ParquetFile, Settings, XlsxFile, read_study
+from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import TableFiles, figure_format, warn, write_figure
 
@@ -40,6 +40,7 @@ def command(
     ] = None,
     xlsx_file: XlsxFile = None,
     parquet_file: ParquetFile = None,
+    force: Force = False,
     figure: Annotated[
         Path | None, typer.Option("--figure", metavar="FILE", help="Draw the curve over speed.")
     ] = None,
@@ -50,7 +51,7 @@ def command(
 
     files = TableFiles(csv_file, xlsx_file, parquet_file)
     asked = read_study(study, settings, writes=[*files, figure])
-    files.need(figure)
+    files.need(figure, force=force)
     if figure is not None:
         figure_format(figure)  # refused before long work
     with heartbeat("film"):

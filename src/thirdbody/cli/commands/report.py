@@ -8,8 +8,7 @@ from typing import Annotated
 
 import typer
 
-from ...errors import InvalidValue
-from ..options import Settings, StudyFile, read_study
+from ..options import Force, Settings, StudyFile, read_study
 from ..streams import warn
 
 __all__ = ["command"]
@@ -24,21 +23,18 @@ def command(
         Path | None,
         typer.Option("--out", metavar="FILE", help="The page, one HTML file; report.html else."),
     ] = None,
+    force: Force = False,
     settings: Settings = None,
 ) -> None:
     """A report to hand on: answer, figures, tables, error bars and sources, in one file."""
-    from ...quantities.files import need_folders, read_bytes, write_text
+    from ...quantities.files import read_bytes, write_text
     from ...quantities.progress import stages
-    from ...views.html import is_page
     from ...views.report import PARTS, report
+    from ..own_files import need_places
 
     target = out or USUAL
     asked = read_study(study, settings, writes=[target])
-    need_folders(target)
-    if out is None and target.exists() and not is_page(target):
-        raise InvalidValue(
-            f"{target} exists and is no report of thirdbody; choose another name: --out NAME.html"
-        )
+    need_places([(target, "page")], force=force)
     text = read_bytes(study, "a study file").decode("utf-8-sig")
     given = "".join(f"# --set {setting}\n" for setting in settings or ())
     with stages("report", len(PARTS)) as progress:

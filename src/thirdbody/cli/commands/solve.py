@@ -24,7 +24,7 @@ from ...errors import NoEquilibrium
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, unit_of, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, ParquetFile, Settings, StudyFile, XlsxFile, read_study
+from ..options import AsJson, Force, ParquetFile, Settings, StudyFile, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import TableFiles, warn
 
@@ -59,6 +59,7 @@ def command(
     ] = None,
     xlsx_file: XlsxFile = None,
     parquet_file: ParquetFile = None,
+    force: Force = False,
     settings: Settings = None,
 ) -> None:
     """Separation, real contact area, load shares and contact mode under the loads of a study."""
@@ -69,8 +70,8 @@ def command(
         raise typer.BadParameter(
             "--json and --csv, --xlsx or --parquet exclude each other; run the command twice"
         )
-    files.need()
     asked = read_study(study, settings, writes=files.asked)
+    files.need(force=force)
     with heartbeat("solve"):
         result = run_study(asked)
     for sentence in result["warnings"][len(asked.notes) :]:

@@ -12,7 +12,7 @@ import typer
 from ...errors import InvalidValue
 from ...quantities.say import number, signed, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, ParquetFile, XlsxFile, metres, not_a_folder
+from ..options import AsJson, Force, ParquetFile, XlsxFile, metres, not_a_folder
 from ..show import ALL, finite, terminal
 from ..streams import TableFiles, warn
 
@@ -64,6 +64,7 @@ def command(
     ] = None,
     xlsx_file: XlsxFile = None,
     parquet_file: ParquetFile = None,
+    force: Force = False,
     out: Annotated[
         Path | None,
         typer.Option("--out", metavar="DIR", help="Folder for surface.png, .svg and .json."),
@@ -72,21 +73,24 @@ def command(
     """Moments and asperities of a measured surface, and what they owe to the cut-off."""
     from ...populations.measured.topography import from_topography
     from ...quantities.files import refuse_clashes
+    from ..own_files import refuse_strangers
 
     problems: list[str] = []
     files = TableFiles(csv_file, xlsx_file, parquet_file)
-    files.need()
     lengths = _lengths(cutoff, resolution, spacing, problems)
     problems += not_a_folder(out)
     if problems:
         raise InvalidValue(*problems)
     refuse_clashes([*files, *(_of_folder(out) if out else ())], [file])
+    files.need(force=force)
+    if not force:
+        refuse_strangers(out, "surface.json", "surface.png", "surface.svg")
     found = from_topography(file, detrend=detrend, unit=unit, channel=channel, **lengths)
     result = found.to_dict()
     for sentence in found.warnings:
         warn(sentence)
     files.write(finite(result["curve"]), result["units"])
-    written = files.asked + ([] if out is None else _write_surface(out, found, result))
+    written = files.asked + ([] if out is None else _write_surface(out, found, result, force))
     if as_json:
         print(json.dumps(finite(result), indent=1, allow_nan=False))
     else:
@@ -114,7 +118,7 @@ def _lengths(
     return lengths
 
 
-def _write_surface(folder: Path, found: Any, result: dict[str, Any]) -> list[Path]:
+def _write_surface(folder: Path, found: Any, result: dict[str, Any], force: bool) -> list[Path]:
     import matplotlib as mpl
 
     from ...quantities.files import make_folder, whole, write_text
@@ -122,7 +126,8 @@ def _write_surface(folder: Path, found: Any, result: dict[str, Any]) -> list[Pat
     from ...views.plot.topography import surface as draw
 
     text = json.dumps(finite(result), indent=1, allow_nan=False) + "\n"
-    refuse_replaced(folder, {"surface.json": text, "surface.png": None, "surface.svg": None})
+    if not force:
+        refuse_replaced(folder, {"surface.json": text, "surface.png": None, "surface.svg": None})
     make_folder(folder)
     out = _of_folder(folder)
     drawing = draw(found)

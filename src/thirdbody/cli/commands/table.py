@@ -11,7 +11,7 @@ import typer
 from ...errors import InvalidValue
 from ...quantities.progress import heartbeat
 from ...quantities.say import value_of
-from ..options import Settings, StudyFile, metres, read_study
+from ..options import Force, Settings, StudyFile, metres, read_study
 
 __all__ = ["command"]
 
@@ -45,12 +45,13 @@ def command(
         str | None,
         typer.Option("--units", help="SI or mm (mm, MPa), for abaqus and avl."),
     ] = None,
+    force: Force = False,
     settings: Settings = None,
 ) -> None:
     """Pressure and real area of a study's contact against separation, for other solvers."""
     from ...equilibrium.table.make import table
     from ...equilibrium.table.writers import FORMATS, rounded_up
-    from ...quantities.files import need_folders
+    from ..own_files import need_places
 
     name, problems = _format(form, out, units)
     ends = [
@@ -60,7 +61,7 @@ def command(
     if problems:
         raise InvalidValue(*problems)
     contact = read_study(study, settings, writes=[out]).contact
-    need_folders(out)
+    need_places([(out, "export")], force=force)
     with heartbeat("table"):
         made = table(contact, low=ends[0], high=ends[1], tolerance=tolerance, coordinate=coordinate)
     write, _ = FORMATS[name]
