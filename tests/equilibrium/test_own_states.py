@@ -177,6 +177,52 @@ def test_other_sizes_and_flakes(seat):
         assert max(largest_error(got, want, sure).values()) <= BOUND
 
 
+PRINTED = {
+    "as it falls": dict(preset="published"),
+    "one window": dict(preset="window", datum=0.5),
+    "by its approach": dict(preset="literal", particle_regime="split", normalise=True),
+    "by x(x - d)": dict(plastic_weight="xxd", shadow="xmin"),
+    "by the mean": dict(weight="xa2", hardness_rule="replace2", second_modulus="sa"),
+}
+
+
+@pytest.mark.parametrize("reading", PRINTED)
+@pytest.mark.parametrize("sizes", ["gaussian", "lognormal", "uniform"])
+def test_printed_integrals_hold_to_the_slow_path(reading, sizes):
+    case = contact().replace(particle_law=tb.particle.Horng2022(**PRINTED[reading]))
+    kind = {
+        "gaussian": SIZES["gaussian"],
+        "lognormal": tb.LogNormal(median=3e-7, gsd=1.3),
+        "uniform": tb.Uniform(low=1e-7, high=4e-7),
+    }[sizes]
+    base = case.replace(particles=case.particles.replace(diameter=kind))
+    vary, loads = drawn(case, 6, 8, unlike=True)
+    if sizes != "gaussian":
+        vary = {name: values for name, values in vary.items() if "diameter" not in name}
+    vary["particle_law.chi"] = np.linspace(0.01, 0.5, 6)
+    got, want = own_columns(base, vary, "F_star", loads), slow(base, vary, loads)
+    sure = got["doubt"] == ""
+    assert sure.all(), got["doubt"]
+    assert np.array_equal(got["status"] == 0, np.isfinite(want["d"]))
+    assert max(largest_error(got, want, np.isfinite(want["d"])).values()) <= BOUND
+    np.testing.assert_allclose(got["h"] - got["d"], want["h"] - want["d"], rtol=1e-9)
+
+
+def test_the_highest_of_several_separations_is_found():
+    """A window of narrow sizes: the load rises and falls, and three separations carry some."""
+    case = contact().replace(particle_law=tb.particle.Horng2022(preset="window", chi=1.0))
+    dust = tb.TruncatedGaussian(mean=3e-7, std=6e-9, n=3.0)
+    case = case.replace(particles=case.particles.replace(diameter=dust))
+    loads = np.geomspace(1e-6, 1e-3, 60)
+    several = [len(tb.roots(case, F_star=x)) > 1 for x in loads]
+    assert 3 < sum(several) < 57
+    vary = {"roughness.alpha": np.full(60, case.roughness.alpha)}
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    sure = got["doubt"] == ""
+    assert sure.mean() > 0.9
+    assert max(largest_error(got, want, sure & np.isfinite(want["d"])).values()) <= BOUND
+
+
 def test_populations_side_by_side_hold_to_the_slow_path():
     case = contact()
     wear = case.particles.replace(material=tb.Material(E=190e9, nu=0.3, H=1e9), areal_density=5e10)

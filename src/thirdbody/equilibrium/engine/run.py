@@ -58,7 +58,7 @@ def own_columns(
     E, rough = numbers.varied.E_ss, numbers.varied.roughness
     sigma_s = np.broadcast_to(rough.sigma_s, count)
     target = None if load == "d" else loads * E if load == "F_star" else loads
-    given = np.full(count, np.nan) if target is not None else loads / sigma_s
+    given = np.full(count, np.nan) if target is not None else (loads - numbers.centre) / sigma_s
     h, evaluations, fate, error, rows = solve(numbers, target, given, threads)
     if target is None:
         deep = given < -ReducedSum.DEEPEST
@@ -71,9 +71,11 @@ def own_columns(
     part = dict(zip(names, columns[4:], strict=True))
     part["shadow"] = np.minimum(part["shadow"], 1.0)
     raw = together(columns[0], list(columns[1:4]), part)
-    d = np.where(bad, np.nan, loads) if target is None else sigma_s * h
+    d = np.where(bad, np.nan, loads) if target is None else numbers.centre + sigma_s * h
     star = loads if load == "F_star" else None
-    found = as_columns(raw, d, rough.y_s, rough.sigma, E, target=target, F_star=star)
+    found = as_columns(
+        raw, d, rough.y_s - numbers.centre, rough.sigma, E, target=target, F_star=star
+    )
     doubt = np.full(count, "", dtype=object)
     for code, why in CODES.items():
         doubt[fate == code] = why
