@@ -9,7 +9,7 @@ import pytest
 
 import thirdbody as tb
 from thirdbody.equilibrium.columns import COLUMNS
-from thirdbody.equilibrium.states import state_columns
+from thirdbody.equilibrium.states import state_columns, tables_each
 from thirdbody.populations.distributions import PowerLaw
 
 pytest.importorskip("numba")
@@ -233,13 +233,40 @@ def test_populations_side_by_side_hold_to_the_slow_path():
     assert max(largest_error(got, want, np.ones(2, bool)).values()) <= BOUND
 
 
+def test_inputs_of_one_population_of_several_are_compiled():
+    case = contact()
+    wear = case.particles.replace(material=tb.Material(E=190e9, nu=0.3, H=1e9), areal_density=5e10)
+    both, turn = case.replace(particles=(case.particles, wear)), np.linspace(0.9, 1.1, 20)
+    vary = {"particles.0.areal_density": 2e10 * turn, "particles.1.diameter.mean": 3e-7 * turn}
+    loads = np.geomspace(1e-6, 5e-5, 20)
+    got = state_columns(both, F_star=loads, vary=vary)
+    assert set(got["engine"]) == {"compiled"}
+    some = np.array([0, 19])
+    want = slow(both, {name: values[some] for name, values in vary.items()}, loads[some])
+    got = {name: values[some] for name, values in got.items()}
+    assert max(largest_error(got, want, np.ones(2, bool)).values()) <= BOUND
+
+
+def test_the_engine_is_asked_what_is_slow():
+    sizes, body = "particles.diameter.mean", "particles.material.H"
+    deep, grit = contact("deep", "plane", "soft"), tb.Angular(roundness=0.25, angle=0.6)
+    angular = deep.replace(particles=deep.particles.replace(shape=grit))
+    both = deep.replace(particles=(deep.particles, contact().particles))
+    assert not tables_each(deep, [sizes, body, "pressure"])
+    assert not tables_each(both, ["particles.1.diameter.mean", "surfaces.first.H"])
+    assert tables_each(angular, [sizes])
+    assert not tables_each(angular, ["roughness.sigma"])
+    with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
+        assert tables_each(deep, [sizes])
+        assert tables_each(both, ["particles.1.diameter.mean"])
+
+
 def test_asperity_laws_by_numbers_of_their_own():
     case = contact().replace(particles=None)
     loads, turn = np.geomspace(1e-8, 1e-4, 4), np.linspace(0.95, 1.05, 4)
     for law, own in (
         (tb.asperity.ZMC(), {"k": 0.4 * turn, "rho": 54 * turn}),
         (tb.asperity.Hermite(), {"k": 0.4 * turn}),
-        (tb.asperity.JG(), {"hardness_ratio": 2.8 * turn}),
         (tb.asperity.KE(), {"K": 0.6 * turn}),
         (tb.asperity.CEB(), {"K": 0.6 * turn}),
         (tb.asperity.EllipticZMC(ratio=2.0), {"k": 0.4 * turn}),

@@ -6,7 +6,6 @@ import math
 
 from ..compiled.machine import apart
 from .fields import (
-    A_E,
     A_SA,
     A_SA2,
     ABOVE,
