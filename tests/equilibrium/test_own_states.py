@@ -11,7 +11,7 @@ import thirdbody as tb
 from thirdbody.contact.interface import interface
 from thirdbody.equilibrium.columns import COLUMNS
 from thirdbody.equilibrium.load_scan import load_scan
-from thirdbody.equilibrium.states import state_columns
+from thirdbody.equilibrium.states import state_columns, tables_each
 from thirdbody.errors import NotCompiled
 from thirdbody.populations.distributions import PowerLaw
 
@@ -181,6 +181,52 @@ def test_other_sizes_and_flakes(seat):
         assert max(largest_error(got, want, sure).values()) <= BOUND
 
 
+PRINTED = {
+    "as it falls": dict(preset="published"),
+    "one window": dict(preset="window", datum=0.5),
+    "by its approach": dict(preset="literal", particle_regime="split", normalise=True),
+    "by x(x - d)": dict(plastic_weight="xxd", shadow="xmin"),
+    "by the mean": dict(weight="xa2", hardness_rule="replace2", second_modulus="sa"),
+}
+
+
+@pytest.mark.parametrize("reading", PRINTED)
+@pytest.mark.parametrize("sizes", ["gaussian", "lognormal", "uniform"])
+def test_printed_integrals_hold_to_the_slow_path(reading, sizes):
+    case = contact().replace(particle_law=tb.particle.Horng2022(**PRINTED[reading]))
+    kind = {
+        "gaussian": SIZES["gaussian"],
+        "lognormal": tb.LogNormal(median=3e-7, gsd=1.3),
+        "uniform": tb.Uniform(low=1e-7, high=4e-7),
+    }[sizes]
+    base = case.replace(particles=case.particles.replace(diameter=kind))
+    vary, loads = drawn(case, 6, 8, unlike=True)
+    if sizes != "gaussian":
+        vary = {name: values for name, values in vary.items() if "diameter" not in name}
+    vary["particle_law.chi"] = np.linspace(0.01, 0.5, 6)
+    got, want = own_columns(base, vary, "F_star", loads), slow(base, vary, loads)
+    sure = got["doubt"] == ""
+    assert sure.all(), got["doubt"]
+    assert np.array_equal(got["status"] == 0, np.isfinite(want["d"]))
+    assert max(largest_error(got, want, np.isfinite(want["d"])).values()) <= BOUND
+    np.testing.assert_allclose(got["h"] - got["d"], want["h"] - want["d"], rtol=1e-9)
+
+
+def test_the_highest_of_several_separations_is_found():
+    """A window of narrow sizes: the load rises and falls, and three separations carry some."""
+    case = contact().replace(particle_law=tb.particle.Horng2022(preset="window", chi=1.0))
+    dust = tb.TruncatedGaussian(mean=3e-7, std=6e-9, n=3.0)
+    case = case.replace(particles=case.particles.replace(diameter=dust))
+    loads = np.geomspace(1e-6, 1e-3, 60)
+    several = [len(tb.roots(case, F_star=x)) > 1 for x in loads]
+    assert 3 < sum(several) < 57
+    vary = {"roughness.alpha": np.full(60, case.roughness.alpha)}
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    sure = got["doubt"] == ""
+    assert sure.mean() > 0.9
+    assert max(largest_error(got, want, sure & np.isfinite(want["d"])).values()) <= BOUND
+
+
 def test_populations_side_by_side_hold_to_the_slow_path():
     case = contact()
     wear = case.particles.replace(material=tb.Material(E=190e9, nu=0.3, H=1e9), areal_density=5e10)
@@ -189,6 +235,34 @@ def test_populations_side_by_side_hold_to_the_slow_path():
     loads = np.array([1e-6, 5e-5])
     got, want = own_columns(both, vary, "F_star", loads), slow(both, vary, loads)
     assert max(largest_error(got, want, np.ones(2, bool)).values()) <= BOUND
+
+
+def test_inputs_of_one_population_of_several_are_compiled():
+    case = contact()
+    wear = case.particles.replace(material=tb.Material(E=190e9, nu=0.3, H=1e9), areal_density=5e10)
+    both, turn = case.replace(particles=(case.particles, wear)), np.linspace(0.9, 1.1, 20)
+    vary = {"particles.0.areal_density": 2e10 * turn, "particles.1.diameter.mean": 3e-7 * turn}
+    loads = np.geomspace(1e-6, 5e-5, 20)
+    got = state_columns(both, F_star=loads, vary=vary)
+    assert set(got["engine"]) == {"compiled"}
+    some = np.array([0, 19])
+    want = slow(both, {name: values[some] for name, values in vary.items()}, loads[some])
+    got = {name: values[some] for name, values in got.items()}
+    assert max(largest_error(got, want, np.ones(2, bool)).values()) <= BOUND
+
+
+def test_the_engine_is_asked_what_is_slow():
+    sizes, body = "particles.diameter.mean", "particles.material.H"
+    deep, grit = contact("deep", "plane", "soft"), tb.Angular(roundness=0.25, angle=0.6)
+    angular = deep.replace(particles=deep.particles.replace(shape=grit))
+    both = deep.replace(particles=(deep.particles, contact().particles))
+    assert not tables_each(deep, [sizes, body, "pressure"])
+    assert not tables_each(both, ["particles.1.diameter.mean", "surfaces.first.H"])
+    assert tables_each(angular, [sizes])
+    assert not tables_each(angular, ["roughness.sigma"])
+    with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
+        assert tables_each(deep, [sizes])
+        assert tables_each(both, ["particles.1.diameter.mean"])
 
 
 def test_asperity_laws_by_numbers_of_their_own():

@@ -13,7 +13,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import singledispatch
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["ParticleSum", "particle_sum", "together_in"]
+__all__ = ["ParticleSum", "particle_sum", "printed_numbers", "together_in"]
 
 
 @singledispatch
@@ -313,6 +313,48 @@ def together_in(sums: Sequence[ParticleSum]) -> ParticleSum:
     )
 
 
+class PrintedNumbers(NamedTuple):
+    """The numbers in the printed integrals; arrays where their inputs are."""
+
+    C: Any
+    h_e: Any
+    area_factor: Any
+    pressure: Any
+    shadow_factor: Any
+
+
+def printed_numbers(
+    law: Any, surfaces: Any, roughness: Any, particles: Any, x_a: Any, mass: Any
+) -> PrintedNumbers:
+    """The numbers in the printed integrals, of a law as it is or with arrays in it.
+
+    Parameters
+    ----------
+    law, surfaces, roughness, particles
+        As for `particle_sum`, or stand-ins with arrays.
+    x_a, mass : float or array
+        Nominal diameter [m] and the mass inside the truncation [1].
+    """
+    H1, H2, Ha = surfaces.first.H, surfaces.second.H, particles.material.H
+    if law.hardness_rule == "softer":
+        H1, H2 = np.minimum(H1, Ha), np.minimum(H2, Ha)
+    elif law.hardness_rule == "replace2":
+        H2 = Ha
+    E1 = law.kappa_C * reduced_modulus(surfaces.first, particles.material)
+    second = surfaces.E_star
+    if law.second_modulus == "sa":
+        second = reduced_modulus(surfaces.second, particles.material)
+    C = 9 * math.pi**2 / 4 * ((H1 / E1) ** 2 + (H2 / (law.kappa_C * second)) ** 2)
+    h_e = law.h_e_sigma * roughness.sigma + law.h_e_diameter * x_a
+    if law.h_e_rule == "approach":
+        h_e = C * x_a / 2
+    eta = law.chi * particles.areal_density * (1.0 if law.normalise else mass)
+    shadow_factor = math.pi * eta * H1 / (H1 + H2)
+    if law.hardness_rule == "sum":
+        return PrintedNumbers(C, h_e, math.pi * eta * Ha / (H1 + Ha), H1 + Ha, shadow_factor)
+    return PrintedNumbers(C, h_e, math.pi * eta * H2 / (H1 + H2), H1, shadow_factor)
+
+
 class PrintedIntegrals(ParticleSum):
     """The printed integrals in closed form, as functions of d."""
 
@@ -322,33 +364,10 @@ class PrintedIntegrals(ParticleSum):
         self, law: Horng2022, surfaces: MaterialPair, roughness: Roughness, particles: Particles
     ):
         self.law, self.sizes = law, particles.diameter
-        H1, H2, Ha = surfaces.first.H, surfaces.second.H, particles.material.H
-        if law.hardness_rule == "softer":
-            H1, H2 = min(H1, Ha), min(H2, Ha)
-        elif law.hardness_rule == "replace2":
-            H2 = Ha
-        E1 = law.kappa_C * reduced_modulus(surfaces.first, particles.material)
-        second = (
-            surfaces.E_star
-            if law.second_modulus == "ss"
-            else reduced_modulus(surfaces.second, particles.material)
-        )
-        self.C = 9 * math.pi**2 / 4 * ((H1 / E1) ** 2 + (H2 / (law.kappa_C * second)) ** 2)
         self.x_a = nominal_diameter(self.sizes)
-        if law.h_e_rule == "approach":
-            self.h_e = self.C * self.x_a / 2
-        else:
-            self.h_e = law.h_e_sigma * roughness.sigma + law.h_e_diameter * self.x_a
-        eta = law.chi * particles.areal_density
-        if not law.normalise:
-            eta *= self.sizes.retained_mass
-        if law.hardness_rule == "sum":
-            self.area_factor = math.pi * eta * Ha / (H1 + Ha)
-            self.pressure = H1 + Ha
-        else:
-            self.area_factor = math.pi * eta * H2 / (H1 + H2)
-            self.pressure = H1
-        self.shadow_factor = math.pi * eta * H1 / (H1 + H2)
+        self.C, self.h_e, self.area_factor, self.pressure, self.shadow_factor = printed_numbers(
+            law, surfaces, roughness, particles, self.x_a, self.sizes.retained_mass
+        )
         low, high = self.sizes.support
         self.reach = high + self.h_e
         pieces = np.asarray(self.sizes.pieces)

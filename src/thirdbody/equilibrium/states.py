@@ -22,7 +22,8 @@ from ..quantities.value import warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
 from .crowding import crowded
-from .engine.run import DOUBTS, knows_own, own_columns
+from .engine.columns import Numbers
+from .engine.run import DOUBTS, own_columns
 from .solve import SOLVER, given_load, solve_untold
 from .status import SENTENCES, Status
 
@@ -191,6 +192,7 @@ def _columns(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.floa
 DENSITY = "particles.areal_density"
 ABSENT = ("particles.diameter.mean", DENSITY)
 """Inputs that are zero where there are no particles."""
+LOADS = ("pressure", "F_star", "d")
 DEMANDING = (
     *("asperity_law.", "particle_law.law.", "particles.diameter.", engine.SHAPES),
     *engine.MATERIALS,
@@ -281,11 +283,11 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
             pass
         odd = np.zeros(len(loads), bool)
         for name, values in numbers.items():
-            if name.startswith(DEMANDING):
+            if _unnumbered(name).startswith(DEMANDING):
                 odd |= values != _own(contact, name)
     parts = []
     if len(even := np.flatnonzero(~odd)):
-        plain = {k: v[even] for k, v in numbers.items() if not k.startswith(DEMANDING)}
+        plain = {k: v[even] for k, v in numbers.items() if not _unnumbered(k).startswith(DEMANDING)}
         try:
             parts.append((even, _by_nodes(contact, plain, load, loads[even])))
         except NotCompiled as error:
@@ -299,25 +301,53 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
 
 def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
     """Whether states that differ in these inputs each need tables of their own: 0.1 s a state."""
-    names = list(vary)
-    if not any(name.startswith(DEMANDING) for name in names):
+    names = [name for name in vary if name not in LOADS]
+    if not any(_unnumbered(name).startswith(DEMANDING) for name in names):
+        return False
+    if solves_each(contact, names):
         return False
     populations = contact.populations
     shaped = any(isinstance(each.shape, Angular) for each in populations)
-    if len(populations) <= 1 and not shaped and not engine.squashed(contact, {}, 1).any():
+    breaks = any(each.strength is not None for each in populations)
+    squashed = len(populations) > 1 or bool(engine.squashed(contact, {}, 1).any())
+    return squashed or shaped or breaks
+
+
+def solves_each(contact: Contact, vary: Iterable[str]) -> bool:
+    """Whether the compiled engine solves states of this contact by laws of their own.
+
+    Asked of the engine itself: it lays out one state, and refuses models that it does not know.
+
+    Parameters
+    ----------
+    contact : Contact
+    vary : iterable of str
+        Dotted names of the inputs in which the states differ.
+    """
+    if not engine.available():
         return False
-    own = {name: _own(contact, name) for name in names}
-    if not (engine.available() and all(isinstance(value, (int, float)) for value in own.values())):
-        return True
-    return not knows_own(contact, {name: np.array([float(v)]) for name, v in own.items()})
+    try:
+        values = {name: np.full(1, float(_own(contact, name))) for name in vary}
+        Numbers(contact.replace(outputs=()), values, 1)
+    except (NotCompiled, InvalidValue, TypeError, ValueError):  # no number, or no such input
+        return False
+    return True
 
 
 def _own(contact: Contact, name: str) -> Any:
     """The value of an input in the contact itself."""
     value: Any = contact
     for part in name.split("."):
-        value = getattr(value, part, None)
+        if isinstance(value, tuple) and part.isdigit() and int(part) < len(value):
+            value = value[int(part)]
+        else:
+            value = getattr(value, part, None)
     return np.nan if value is None else value
+
+
+def _unnumbered(name: str) -> str:
+    """The name of an input without the number of its population."""
+    return ".".join(part for part in name.split(".") if not part.isdigit())
 
 
 def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:

@@ -353,6 +353,9 @@ class Value:
             now[head] = values
         for head, deeper in inner.items():
             part = getattr(self, head)
+            if isinstance(part, tuple) and all(isinstance(each, Value) for each in part):
+                now[head] = _each_with_arrays(part, deeper, f"{type(self).__name__}.{head}")
+                continue
             if not isinstance(part, Value):
                 raise NotCompiled(f"{type(self).__name__}.{head} has no fields of its own")
             now[head] = part.with_arrays(deeper)
@@ -375,6 +378,19 @@ class Value:
         if kind not in Value._classes:
             raise InvalidValue(f"type = {kind!r} is not a class of this library")
         return Value._classes[kind](**{k: _revive(v) for k, v in data.items() if k != "type"})
+
+
+def _each_with_arrays(
+    parts: tuple[Value, ...], changes: Mapping[str, NDArray[np.float64]], name: str
+) -> tuple[Any, ...]:
+    """Stand-ins of the numbered parts that change, beside the others."""
+    own: dict[int, dict[str, Any]] = {}
+    for key, values in changes.items():
+        number, _, rest = key.partition(".")
+        if not number.isdigit() or int(number) >= len(parts) or not rest:
+            raise NotCompiled(f"{name} has no number {number}")
+        own.setdefault(int(number), {})[rest] = values
+    return tuple(part.with_arrays(own[i]) if i in own else part for i, part in enumerate(parts))
 
 
 def _taker(member: Any) -> Any:

@@ -11,7 +11,7 @@ import numpy as np
 from ...contact.contact import Contact
 from ...equilibrium.columns import COLUMNS, about
 from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, load_falls
-from ...equilibrium.states import carries, state_columns, tables_each
+from ...equilibrium.states import carries, solves_each, state_columns, tables_each
 from ...equilibrium.status import MOST_AREA
 from ...errors import InvalidValue
 from ...numerics.sampling import sobol
@@ -61,9 +61,10 @@ def costly(contact: Contact, vary: Iterable[str]) -> bool:
     names = [part for label in vary for part in label.split("+") if carries(part)]
     if not names:
         return False
-    return any(each.strength is not None for each in contact.populations) or tables_each(
-        contact, names
-    )
+    breaks = any(each.strength is not None for each in contact.populations)
+    if breaks and not solves_each(contact, names):
+        return True
+    return tables_each(contact, names)
 
 
 def about_result(name: str) -> dict[str, str]:

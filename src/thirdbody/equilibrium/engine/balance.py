@@ -12,6 +12,7 @@ from ..compiled.machine import apart
 from .fields import (
     A_E,
     A_SA,
+    BEYOND,
     BREADTH,
     COVERAGE,
     F_SA,
@@ -23,6 +24,7 @@ from .fields import (
     NOT_RESOLVED,
     OFFSET,
     OK,
+    PRINTED,
     PROJECTED,
     ROUGH,
     RULE,
@@ -45,6 +47,7 @@ from .fields import (
     UNSOLVED,
     WIDTH,
 )  # fmt: skip
+from .printed import add_printed, only_falls, printed_bound
 from .sides import scalar
 from .squeeze import EDGE, MOST_PANELS, PANEL, SHARE, TO, lay_panels, particle_at
 from .sums import (
@@ -77,6 +80,8 @@ SEARCHED, POLISHED = 80, 14
 """Evaluations at most, by few nodes and by all."""
 BALANCED, ULPS = 9e-13, 4e-16
 """ln of load over target of a solved state, unless so much of the separation explains it."""
+STEPS, RESOLVED = 2000, 1e-3
+"""Coming down to a load, and the step [σ_s] from which on it need not be proven."""
 RISE = 1e-6
 """Rise of the load with the separation that does not count."""
 
@@ -95,6 +100,10 @@ def total(given, skin, work, laid, rules, level, h, out):
     good = True
     for p in range(last):
         own = laid[p, level]
+        if given[p, SEAT] == PRINTED:
+            gap = d + given[p, OFFSET]
+            add_printed(given, p, gap, rules[level, RULE], rules[level, RULE + 1], nodes, out)
+            continue
         good &= add_part(
             given, sides, panels, p, own[COUNT], grid, own[GRID], own[GRID_END],
             sizes, own[SIZED], own[SIZED_END], d, rules[level, RULE], rules[level, RULE + 1],
@@ -144,7 +153,7 @@ def top_of(given, skin):
     apart()
     top = HIGHEST
     for p in range(len(given)):
-        reach = given[p, HIGH] - given[p, OFFSET] + 9.5 * given[p, WIDTH]
+        reach = given[p, HIGH] + given[p, BEYOND] - given[p, OFFSET] + 9.5 * given[p, WIDTH]
         top = max(top, reach / skin[0, SIGMA_S])
     return top
 
@@ -256,8 +265,8 @@ def _widest(given, work, laid, p):
 
 
 @scalar
-def _falls(given, work, laid, bound, sigma_s):
-    """Whether no larger separation can carry the load, of which asperities take ``bound`` [Pa].
+def _falls(given, work, laid, bound, d, sigma_s):
+    """Whether no separation above d can carry the load, of which asperities take ``bound`` [Pa].
 
     Either a particle gains by each squeeze what it takes from the asperities, the bound times its
     shadow, or the shadow of all grows more slowly with the approach than the asperities' load:
@@ -267,6 +276,10 @@ def _falls(given, work, laid, bound, sigma_s):
     apart()
     steepest = covered = 0.0
     for p in range(len(given)):
+        if given[p, SEAT] == PRINTED:
+            if not only_falls(given, p, d, bound):
+                return False
+            continue
         shadow = given[p, SHADOW]
         if shadow != FOOTPRINT and shadow != PROJECTED:
             continue
@@ -287,6 +300,53 @@ def _falls(given, work, laid, bound, sigma_s):
 
 
 @scalar
+def _come_down(given, skin, work, laid, rules, target, out):
+    """First separation from above at which printed sums carry the target, and a slope of ln F.
+
+    Steps over which the load provably stays below it; NaN where none is found, and −∞ where
+    there is none.
+    """
+    apart()
+    every = laid.shape[1] - 1
+    sigma_s, nodes = skin[0, SIGMA_S], int(rules[every, 0, NODES])
+    high = top_of(given, skin)
+    for p in range(len(given)):
+        if given[p, SEAT] != PRINTED:
+            return math.nan, 0.0
+    step = 0.25 * (high - LOWEST)
+    for _ in range(STEPS):
+        if high <= LOWEST:
+            return -math.inf, 0.0
+        low = max(high - step, LOWEST)
+        load = total(given, skin, work, laid, rules, every, low, out)
+        dark = most = 0.0
+        for p in range(len(given)):
+            one, shadow = printed_bound(
+                given, p, low * sigma_s, high * sigma_s, rules[every, RULE],
+                rules[every, RULE + 1], nodes,
+            )  # fmt: skip
+            most += one
+            dark += shadow
+        most += (1 - min(dark, 1.0)) * out[F_SS]
+        if most < target * (1 - 1e-9):
+            high, step = low, min(2 * step, 1.0)
+        elif step > RESOLVED:
+            step *= 0.5
+        elif load >= target:
+            above = total(given, skin, work, laid, rules, every, high, out)
+            f, f_above = _imbalance(load, target), _imbalance(above, target)
+            if not f > f_above:
+                return math.nan, 0.0
+            slope = (f_above - f) / (high - low)
+            return low - f / slope, slope
+        elif load < target * (1 - 1e-3 * RESOLVED):
+            high = low
+        else:
+            return math.nan, 0.0
+    return math.nan, 0.0
+
+
+@scalar
 def estimate(given, skin, work, laid, rules, h, slope, row, out):
     """Error of the columns at h, from what few nodes give there, over what is asked of each."""
     apart()
@@ -304,6 +364,8 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
             worst = max(worst, abs(out[k] - row[k]) / unit)
     error = SAFE * worst * worst
     for p in range(len(given)):  # shares of unlike sides are corrected once
+        if given[p, SEAT] == PRINTED:
+            continue
         off = work[2][p, laid[p, few, COUNT], SHARE]
         error = max(error, SAFE * off * off)
     if slope < 0:
@@ -312,11 +374,38 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
 
 
 @scalar
+def _root(given, skin, work, laid, rules, target, row, out):
+    """The highest separation that carries the target, the slope there, evaluations and fate."""
+    apart()
+    every, sigma_s = laid.shape[1] - 1, skin[0, SIGMA_S]
+    h, slope, count = search(given, skin, work, laid, rules, target, out)
+    if h == -math.inf:
+        total(given, skin, work, laid, rules, every, LOWEST, row)
+        if _falls(given, work, laid, row[F_SS], LOWEST * sigma_s, sigma_s):
+            return h, slope, count, TOO_MUCH
+    else:
+        h, slope, n = polish(given, skin, work, laid, rules, target, h, slope, row)
+        count += n
+        if math.isfinite(h) and _falls(given, work, laid, row[F_SS], h * sigma_s, sigma_s):
+            return h, slope, count, OK
+    first, slope = _come_down(given, skin, work, laid, rules, target, out)
+    if not math.isfinite(first):
+        unsolved = UNSOLVED if h != h else NOT_MONOTONE
+        return h, slope, count, TOO_MUCH if first == -math.inf else unsolved
+    h, slope, n = polish(given, skin, work, laid, rules, target, first, slope, row)
+    good = abs(h - first) <= RESOLVED
+    return h, slope, count + n, OK if good else NOT_MONOTONE
+
+
+@scalar
 def _own_state(given, skin, work, laid, rules, target, h, row, out):
     """Separation, evaluations, fate and error of one state; its columns into ``row``."""
     apart()
     last, few = len(given), laid.shape[1] - 2
     for p in range(last):
+        laid[p, COARSE, COUNT] = 0
+        if given[p, SEAT] == PRINTED:
+            continue
         count = lay_panels(given, work[1], work[2], p, rules[0, SERIES:])
         laid[p, COARSE, COUNT] = count
         if count < 0:
@@ -329,16 +418,10 @@ def _own_state(given, skin, work, laid, rules, target, h, row, out):
         ):
             return h, count, TOO_LONG, math.inf
         if target > 0:
-            h, slope, n = search(given, skin, work, laid, own, target, out)
+            h, slope, n, fate = _root(given, skin, work, laid, own, target, row, out)
             count += n
-            if h == -math.inf:
-                total(given, skin, work, laid, own, few + 1, LOWEST, row)
-                sure = _falls(given, work, laid, row[F_SS], skin[0, SIGMA_S])
-                return h, count, TOO_MUCH if sure else NOT_MONOTONE, 0.0
-            h, slope, n = polish(given, skin, work, laid, own, target, h, slope, row)
-            count += n
-            if not math.isfinite(h):
-                return h, count, UNSOLVED, math.inf
+            if fate != OK:
+                return h, count, fate, 0.0 if fate == TOO_MUCH else math.inf
         else:
             count += 1
             if not total(given, skin, work, laid, own, few + 1, h, row) >= 0:
@@ -348,8 +431,6 @@ def _own_state(given, skin, work, laid, rules, target, h, row, out):
             break
     if not error <= ASKED:
         return h, count, NOT_RESOLVED, error
-    if target > 0 and not _falls(given, work, laid, row[F_SS], skin[0, SIGMA_S]):
-        return h, count, NOT_MONOTONE, error
     return h, count, OK, error
 
 

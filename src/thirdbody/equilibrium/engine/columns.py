@@ -12,6 +12,7 @@ import numpy as np
 from scipy import special
 
 from ...contact.contact import Contact
+from ...contact.particle_sums import printed_numbers
 from ...errors import NotCompiled
 from ...laws import asperity, particle
 from ...laws.asperity.elliptic import elliptic_hertz
@@ -166,6 +167,10 @@ class Numbers:
         self._add_asperities()
         bare = contact.two_body and "particles.areal_density" not in arrays
         found = [] if bare else self._populations()
+        self.centre = 0.0
+        """Mean asperity height over the datum of d [m]."""
+        if found:
+            self.centre = found[0][3].centre * self.varied.roughness.sigma
         self.parts = np.zeros((count, len(found), f.OF_PARTICLES))
         self.bodies = np.zeros((count, 2 * len(found), f.OF_SIDE))
         for p, each in enumerate(found):
@@ -217,6 +222,9 @@ class Numbers:
         share: float,
         section: Any,
     ) -> None:
+        if type(law) is particle.Horng2022:
+            self._add_printed(self.parts[:, p], one.diameter, changed, varied)
+            return
         if type(law) not in (particle.Series, particle.Flakes) or law.onset != "hermite":
             raise NotCompiled("particles that are not Series")
         if one.strength is not None:
@@ -229,7 +237,8 @@ class Numbers:
             rows,
             {
                 **{f.SEAT: f.ROUGH if law.seat == "rough" else f.PLANE, f.WIDTH: width},
-                **{f.OFFSET: varied.seat_offset(rough), f.SHADOW: SHADOWS[law.shadow]},
+                f.OFFSET: varied.seat_offset(rough) + self.centre,
+                **{f.SHADOW: SHADOWS[law.shadow]},
                 **{f.DENSITY: changed.areal_density * share, f.BREADTH: 2 * varied.tip_radius},
             },
         )
@@ -244,6 +253,33 @@ class Numbers:
         (E, H), (E_2, H_2) = sides
         rows[:, f.STIFFEST], rows[:, f.SOFTEST] = np.minimum(E, E_2), np.minimum(H, H_2)
         rows[:, f.EQUAL] = np.all(self.bodies[:, 2 * p] == self.bodies[:, 2 * p + 1], axis=1)
+
+    def _add_printed(self, rows: Array, one: Any, changed: Any, law: Any) -> None:
+        """Fill in the numbers of particles whose sum is printed."""
+        if type(one) not in (sizes.TruncatedGaussian, sizes.LogNormal, sizes.Uniform):
+            raise NotCompiled("printed integrals over sizes of other kinds")
+        self._add_sizes(rows, one, changed.diameter)
+        x_a, mass = rows[:, f.SIZE_1], 1.0
+        if type(one) is sizes.TruncatedGaussian:
+            mass = 1 / (math.sqrt(2 * math.pi) * rows[:, f.SIZE_2] * rows[:, f.NORM])
+        elif type(one) is sizes.LogNormal:
+            x_a = x_a * np.exp(0.5 * rows[:, f.SIZE_2] ** 2)
+        else:
+            x_a = 0.5 * (rows[:, f.LOW] + rows[:, f.HIGH])
+        rough = self.varied.roughness
+        found = printed_numbers(law, self.varied.surfaces, rough, changed, x_a, mass)
+        above = f.BY_APPROACH if law.plastic_weight == "xxd" else f.AS_FIRST
+        _filled(
+            rows,
+            {
+                **{f.SEAT: f.PRINTED, f.SHADOW: f.NOTHING, f.OFFSET: self.centre},
+                **{f.BEYOND: found.h_e, f.TAKES: found.area_factor, f.BEARS: found.pressure},
+                **{f.WINDOW: found.C, f.FIXED: x_a if law.weight == "xa2" else 0.0},
+                **{f.ABOVE: above if law.plastic else f.NEVER},
+                **{f.SHADES: 0.0 if law.shadow == "none" else found.shadow_factor},
+                **{f.DARK: float(law.shadow == "xmin"), f.SPLIT: law.particle_regime == "split"},
+            },
+        )
 
     def _side(self, rows: Array, surface: Any, body: Any, law: Any, varied: Any) -> tuple[Any, Any]:
         """Fill in the rows of a side; its E* and H."""

@@ -8,7 +8,8 @@ SPHERE, SQUASHED, DEEP, FACED = range(4)
 """What a side of a particle is."""
 ONE_SIZE, GAUSSIAN, LOGNORMAL, UNIFORM, POWER = range(5)
 """Kinds of sizes."""
-PLANE, ROUGH = range(2)
+PLANE, ROUGH, PRINTED = range(3)
+"""Where particles rest, or that their sum over sizes is one of closed formulas."""
 FOOTPRINT, PROJECTED, COVERED, NOTHING = range(4)
 """What the shadow is."""
 
@@ -45,7 +46,12 @@ DENSITY, OFFSET, WIDTH, BREADTH, COVERAGE = range(9, 14)
 area."""
 STIFFEST, SOFTEST = 14, 15
 """Least E* and least H of both sides [Pa]."""
-OF_PARTICLES = 16
+BEYOND, TAKES, BEARS, WINDOW, FIXED, ABOVE, SHADES, DARK, SPLIT = range(16, 25)
+"""Of printed sums: h_e [m], area over Σ, pressure [Pa], C, x_a [m] where it stands for x, weight
+of the second integral, shadow over it and where that begins, and whether areas are split."""
+NEVER, AS_FIRST, BY_APPROACH = range(3)
+"""What the second integral weighs: nothing, what the first does, x(x − d)."""
+OF_PARTICLES = 25
 
 # ------------------------------------------------------------------ found, of a state
 COLUMNS = ("F", "A_e", "A_ep", "A_p", "F_sa", "A_sa_e", "A_sa_ep", "A_sa_p", "A_sa2", "shadow")

@@ -11,7 +11,6 @@ import numpy as np
 from ...contact.asperity_sums import ReducedSum
 from ...contact.contact import Contact
 from ...contact.interface import together
-from ...errors import NotCompiled
 from ..columns import as_columns
 from ..compiled.batch import NOT_BALANCED, NOT_MONOTONE
 from ..load_scan import RESIDUAL
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["DOUBTS", "knows_own", "own_columns"]
+__all__ = ["DOUBTS", "own_columns"]
 
 AT_ONCE = 256
 """States handed to a thread at a time."""
@@ -39,15 +38,6 @@ CODES = {
     f.NOT_RESOLVED: NOT_RESOLVED,
     f.TOO_LONG: TOO_LONG,
 }
-
-
-def knows_own(contact: Contact, arrays: Mapping[str, Array]) -> bool:
-    """Whether the kernel knows the models of states that differ in these inputs."""
-    try:
-        Numbers(contact, arrays, 1)
-    except NotCompiled:
-        return False
-    return True
 
 
 def own_columns(
@@ -68,7 +58,7 @@ def own_columns(
     E, rough = numbers.varied.E_ss, numbers.varied.roughness
     sigma_s = np.broadcast_to(rough.sigma_s, count)
     target = None if load == "d" else loads * E if load == "F_star" else loads
-    given = np.full(count, np.nan) if target is not None else loads / sigma_s
+    given = np.full(count, np.nan) if target is not None else (loads - numbers.centre) / sigma_s
     h, evaluations, fate, error, rows = solve(numbers, target, given, threads)
     if target is None:
         deep = given < -ReducedSum.DEEPEST
@@ -81,9 +71,11 @@ def own_columns(
     part = dict(zip(names, columns[4:], strict=True))
     part["shadow"] = np.minimum(part["shadow"], 1.0)
     raw = together(columns[0], list(columns[1:4]), part)
-    d = np.where(bad, np.nan, loads) if target is None else sigma_s * h
+    d = np.where(bad, np.nan, loads) if target is None else numbers.centre + sigma_s * h
     star = loads if load == "F_star" else None
-    found = as_columns(raw, d, rough.y_s, rough.sigma, E, target=target, F_star=star)
+    found = as_columns(
+        raw, d, rough.y_s - numbers.centre, rough.sigma, E, target=target, F_star=star
+    )
     doubt = np.full(count, "", dtype=object)
     for code, why in CODES.items():
         doubt[fate == code] = why
