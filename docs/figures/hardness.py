@@ -10,7 +10,9 @@ import thirdbody as tb
 
 STEEL = tb.Material(E=206e9, nu=0.3, H=5e9)
 PAIR = tb.MaterialPair(STEEL, STEEL)
-RATIOS = np.unique(np.concatenate([np.geomspace(0.5, 5, 121), [0.9999, 1.0001]]))
+COMPUTED = (0.5, 0.7, 1, 1.4, 2, 3, 5)
+"""Where flow was computed; between these the table is interpolated."""
+RATIOS = np.unique(np.concatenate([np.geomspace(0.5, 5, 121), [0.9999, 1.0001], COMPUTED]))
 SQUEEZES = (0.2, 0.4, 0.6, 0.8)
 COLOURS = ("#0072B2", "#009E73", "#E69F00", "#D55E00")
 
@@ -46,6 +48,9 @@ def main() -> None:
                 label = f"ε = {squeeze:g}" if deep == "table" else None
                 width = 1.6 if deep == "table" else 0.9
                 axes.plot(RATIOS, found[:, k, i], line, color=colour, lw=width, label=label)
+                if deep == "table":
+                    at = np.isin(RATIOS, COMPUTED)
+                    axes.plot(RATIOS[at], found[at, k, i], ".", color=colour, markersize=6)
             axes.set(xscale="log", xlabel="hardness, grain over surface", ylabel=name)
             axes.set_xticks([0.5, 1, 2, 3, 5], ["0.5", "1", "2", "3", "5"], minor=False)
             axes.minorticks_off()

@@ -13,7 +13,7 @@ import typer
 
 from ..errors import InvalidValue
 from ..quantities.installed import offers
-from .streams import warn
+from .streams import remark, warn
 
 if TYPE_CHECKING:
     from ..study import Study
@@ -108,9 +108,17 @@ def read_study(
     asked = load_study(file, settings or ())
     if any(writes):
         refuse_clashes(writes, files_of(file, settings or ()))
-    for sentence in asked.notes:
-        warn(sentence)
+    tell_notes(asked)
     return asked
+
+
+def tell_notes(asked: Study) -> None:
+    """Say what was taken for what a drawing says, and warn of what looks like a slip."""
+    for sentence in asked.notes:
+        if sentence in asked.assumed:
+            remark(sentence)
+        else:
+            warn(sentence)
 
 
 def not_a_folder(out: Path | None) -> list[str]:

@@ -103,6 +103,11 @@ def warn(message: Warning | str, *_: Any, **__: Any) -> None:
     print(f"warning: {' '.join(str(message).split())}", file=sys.stderr)
 
 
+def remark(sentence: str) -> None:
+    """What was done, in one line: nothing is doubted by it."""
+    print(f"note: {' '.join(sentence.split())}", file=sys.stderr)
+
+
 class TableFiles(NamedTuple):
     """Files that a table is written to; None for those not asked for."""
 

@@ -206,8 +206,8 @@ def needs_process(faces: Sequence[Finish]) -> str:
     )
 
 
-def sentences(faces: Sequence[Finish], used: dict[str, float]) -> list[str]:
-    """What was assumed on the way from the drawing to the numbers used, one sentence each."""
+def assumed(faces: Sequence[Finish], used: dict[str, float]) -> str:
+    """The sentence that says what was taken on the way from the drawing to the numbers used."""
     found, tables = drawing(faces), _tables()
     stated = "; ".join(face.words for face in faces)
     how = []
@@ -220,7 +220,7 @@ def sentences(faces: Sequence[Finish], used: dict[str, float]) -> list[str]:
         how.append("faces added as squares")
     else:
         how.append("one face, or the pair as a whole, against a smooth one")
-    out = [f"{stated}: sigma = {_ranged(found.sigma, 'm')} ({'; '.join(how)})"]
+    out = f"{stated}: sigma = {_ranged(found.sigma, 'm')} ({'; '.join(how)})"
     if found.R is None:
         return out
     parts = [
@@ -229,9 +229,9 @@ def sentences(faces: Sequence[Finish], used: dict[str, float]) -> list[str]:
         if used.get(name) == getattr(found, name)[1]
     ]
     if parts:
-        out.append(
-            f"{', '.join(parts)} follow from the process, its slopes {tables['slopes']['standing']}"
-            ": not measured; assess carries the ranges"
+        out += (
+            f"; {', '.join(parts)} follow from the process, its slopes "
+            f"{tables['slopes']['standing']}: not measured; assess carries the ranges"
         )
     return out
 

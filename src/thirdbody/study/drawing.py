@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import InvalidValue
-from ..populations.finish import STATED, Finish, processes, sentences
+from ..populations.finish import STATED, Finish, assumed, processes
 from ..populations.roughness import Roughness
 from ..quantities.units import say
 from .fields import about_of
@@ -81,7 +81,7 @@ def drawn(reader: Reader, path: str, data: dict[str, Any]) -> Any:
             missing = f"{path}.R is missing: " if "R" not in values else ""
             raise InvalidValue(*(f"{missing}{text}" for text in error.problems)) from None
         used = {name: getattr(found, name) for name in KNOWN_BETTER}
-        reader.notes += [f"{path}: {text}" for text in sentences(faces, used)]
+        reader.assumed.append(f"{path}: {assumed(faces, used)}")
         return found
 
     return reader.table(path, keys, build)

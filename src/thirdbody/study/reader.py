@@ -104,6 +104,8 @@ class Reader:
         """Mistakes that concern several keys at once."""
         self.notes: list[str] = []
         """What is allowed but looks like a slip."""
+        self.assumed: list[str] = []
+        """What numbers were taken for what a drawing says."""
         self.faces: list[Topography] = []
         """The measured surfaces that stand in [roughness]."""
         self.known = Known()

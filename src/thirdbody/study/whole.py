@@ -50,7 +50,8 @@ class Study:
     values : array (N,)
         Its values: F* [1], p [Pa] or d [m].
     notes : tuple of str
-        What is allowed but looks like a slip, one sentence each.
+        What numbers were taken for what a drawing says, and what is allowed but looks like a
+        slip; one sentence each.
     sweep : Plan, optional
         The states of the table [sweep].
     uncertainty : Uncertainty, optional
@@ -69,6 +70,8 @@ class Study:
         What the table [body] says that a force presses together.
     forces : array (M,), optional
         Forces on the body [N]; ``values`` are then the mean and the largest pressure of each.
+    assumed : tuple of str
+        Those of the ``notes`` that say what numbers were taken for what a drawing says.
     """
 
     title: str
@@ -85,6 +88,7 @@ class Study:
     own_load: bool = True
     body: Body | None = None
     forces: np.ndarray | None = None
+    assumed: tuple[str, ...] = ()
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -220,7 +224,8 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         contact=contact,
         load=load,
         values=loads,
-        notes=tuple(dict.fromkeys(reader.notes)),
+        notes=tuple(dict.fromkeys([*reader.assumed, *reader.notes])),
+        assumed=tuple(dict.fromkeys(reader.assumed)),
         sweep=states,
         uncertainty=own.get("uncertainty"),
         design=own.get("design"),

@@ -10,7 +10,7 @@ import typer
 
 from ...errors import InvalidValue, NoEquilibrium
 from ..interrupt import Interrupted
-from ..options import Settings
+from ..options import Settings, tell_notes
 from ..streams import warn
 
 if TYPE_CHECKING:
@@ -115,8 +115,7 @@ def _read_plan(study: Path, settings: Settings, format: str, workers: int) -> Pl
         problems += error.problems
     if problems:
         raise InvalidValue(*problems)
-    for sentence in asked.notes:
-        warn(sentence)
+    tell_notes(asked)
     assert asked.sweep is not None
     return asked.sweep
 

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -301,9 +302,9 @@ def figure(points: tuple[Point, ...]) -> Figure:
                 if point.case.words == words and point.bounded and point.bounds[0] > 0:
                     ends = [point.statistical / each for each in point.bounds]
                     ax.plot([point.F_star * beside] * 2, ends, color=ink, marker="_", linewidth=1.0)
-        ax.set_title(title, fontsize="small", loc="left")
+        ax.set_title(fill(title, 48), fontsize="small", loc="left")
         loads = sorted({point.F_star for point in mine})
-        if loads and loads[-1] < 10 * loads[0]:
+        if loads and loads[-1] < 11 * loads[0]:
             ax.set_xticks(loads, [f"{load:g}" for load in loads])
             ax.xaxis.set_minor_formatter(NullFormatter())
         if names:

@@ -14,10 +14,16 @@ DENSITIES = (0.0, 1e9, 1e10, 1e11)
 PRESSURES = (5e6, 100e6)
 SHEARED = (30e6, 100e6, 300e6)
 """Shear strength of asperities and of particles [Pa]."""
+OTHERS = (("off", "zmc"), ("table", "field"), ("off", "field"))
+"""Laws beside those that are the default: of particles, and of asperities."""
 
 
-def friction(density: float, sheared: float = 100e6) -> tuple[float, float]:
+def friction(
+    density: float, sheared: float = 100e6, laws: tuple[str, str] = ("table", "zmc")
+) -> tuple[float, float]:
     """Coefficient of friction at both of ``PRESSURES`` with so many particles [1/m²].
+
+    ``laws``: ``deep`` of the particles, and the law of the asperities.
 
     Examples
     --------
@@ -32,7 +38,10 @@ def friction(density: float, sheared: float = 100e6) -> tuple[float, float]:
         areal_density=density or 1.0,
         diameter=tb.TruncatedGaussian(mean=1e-6, std=2e-7),
     )
+    deep, name = laws
     contact = tb.Contact(
+        asperity_law=tb.asperity.REGISTRY[name](),
+        particle_law=tb.particle.Series(deep=deep),
         surfaces=tb.MaterialPair(tool, strip),
         roughness=tb.Roughness(sigma=0.5e-6, R=10e-6),
         particles=particles if density > 0 else None,
@@ -48,7 +57,12 @@ def _change() -> Band:
         for density in DENSITIES
     }
     words = ", ".join(f"{density:g} per m²: {Band.of(one).text}" for density, one in ratios.items())
-    return Band.of(list(ratios.values()), words)
+    others = []
+    for laws in OTHERS:
+        found = [friction(density, tau, laws) for density in DENSITIES for tau in SHEARED]
+        one = Band.of([heavy / light for light, heavy in found])
+        others.append(f'deep = "{laws[0]}" with {laws[1]}: {one.text}')
+    return Band.of(list(ratios.values()), "; ".join([words, *others]))
 
 
 ROW = Row(
@@ -72,7 +86,9 @@ ROW = Row(
             "friction at 100 MPa over that at 5 MPa",
             {"kind": "below", "value": 1.0},
             _change,
-            remark="Their own particles come from wear and change with pressure",
+            remark="Lost with every law here, so it is not a matter of the law of a particle or of "
+            "crowded asperities. Missing: particles that wear makes, more of them the higher the "
+            "pressure, until they part the surfaces; here their number is given",
         ),
     ),
     "Whether friction falls or rises with pressure depends on how many particles there are.",

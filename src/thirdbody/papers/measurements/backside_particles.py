@@ -14,8 +14,12 @@ SIZES = (1e-6, 5e-6, 10e-6, 20e-6)
 PARTICLES = ("SiO2", "Al2O3")
 
 
-def chuck(thickness: float = 725e-6, pressure: float = 1e5) -> PlateOverParticle:
+def chuck(
+    thickness: float = 725e-6, pressure: float = 1e5, deep: str = "table"
+) -> PlateOverParticle:
     """A silicon wafer of this thickness [m] under this pressure [Pa] on steel.
+
+    ``deep`` is that of the particles' law.
 
     Examples
     --------
@@ -27,6 +31,7 @@ def chuck(thickness: float = 725e-6, pressure: float = 1e5) -> PlateOverParticle
         flat=tb.materials["S45C"],
         thickness=thickness,
         pressure=pressure,
+        law=tb.particle.Series(deep=deep),
     )
 
 
@@ -35,16 +40,18 @@ def _width() -> Band:
 
 
 def _height() -> Band:
-    return Band.of(
-        [
-            chuck(t, p).over(x, tb.materials[name]).height / x
-            for t in THICKNESSES
-            for p in PRESSURES
-            for x in SIZES
-            for name in PARTICLES
-        ],
-        "particles of 1 to 20 µm",
-    )
+    off = Band.of(_heights("off"))
+    return Band.of(_heights("table"), f'particles of 1 to 20 µm; deep = "off": {off.text}')
+
+
+def _heights(deep: str) -> list[float]:
+    return [
+        chuck(t, p, deep).over(x, tb.materials[name]).height / x
+        for t in THICKNESSES
+        for p in PRESSURES
+        for x in SIZES
+        for name in PARTICLES
+    ]
 
 
 ROW = Row(

@@ -13,7 +13,7 @@ from ...quantities.say import number
 from ..panels import Line, Panel
 from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
 
-__all__ = ["ROW", "worn"]
+__all__ = ["ROW", "turning", "worn"]
 
 Array = NDArray[np.float64]
 
@@ -92,19 +92,43 @@ def _rolling() -> Band:
     return Band.of([each["rolling"][-1] - each["rolling"][0] for each in _every()])
 
 
+def turning(pressure: float, coefficients: tuple[float, float, float]) -> tuple[float, float]:
+    """Particles per area [1/m²] at which a tenth of them rolls, and their share of the load there.
+
+    Between `DENSITIES` by a monotone cubic.
+
+    Parameters
+    ----------
+    pressure : float
+        Nominal pressure [Pa].
+    coefficients : tuple of float
+        f_ab, f_roll, K_ss [1].
+
+    Examples
+    --------
+    >>> light, heavy = (turning(p, (0.1, 0.001, 1e-5)) for p in PRESSURES)
+    >>> bool(light[1] < heavy[1])
+    True
+    """
+    from scipy.interpolate import PchipInterpolator
+    from scipy.optimize import brentq
+
+    found, places = worn(pressure, coefficients), np.log(DENSITIES)
+    rolling = PchipInterpolator(places, found["rolling"])
+    first = int(np.argmax(found["rolling"] > 0.1))
+    at = brentq(lambda x: float(rolling(x)) - 0.1, places[first - 1], places[first])
+    return float(np.exp(at)), float(PchipInterpolator(places, found["share"])(at))
+
+
 def _line() -> Band:
     """Load over density where a tenth rolls: at the highest pressure over the lowest."""
-    found = []
+    ratios, particles = [], []
     for given in COEFFICIENTS:
-        ratios = []
-        for pressure in PRESSURES:
-            rolling = worn(pressure, given)["rolling"]
-            first = int(np.argmax(rolling > 0.1))
-            ends = slice(first - 1, first + 1)
-            at = np.exp(np.interp(0.1, rolling[ends], np.log(DENSITIES[ends])))
-            ratios.append(pressure / float(at))
-        found.append(ratios[1] / ratios[0])
-    return Band.of(found)
+        (one, share), (other, most) = (turning(pressure, given) for pressure in PRESSURES)
+        ratios.append(PRESSURES[1] / other / (PRESSURES[0] / one))
+        particles.append(ratios[-1] * most / share)
+    told = Band.of(particles).text
+    return Band.of(ratios, f"{told} of the load that is on particles; asperities carry the rest")
 
 
 def _panel() -> Panel:

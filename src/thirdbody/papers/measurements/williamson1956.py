@@ -26,9 +26,11 @@ LOADS = np.geomspace(0.1, 8, 121)
 """Loads over that of a fully embedded particle."""
 LEVELS = (1e-6, 1e-5, 1e-4)
 """F*."""
+OTHERS = (("off", "zmc"), ("table", "field"))
+"""Laws beside those that are the default: of particles, and of asperities."""
 
 
-def closing(number: float, spread: float = 1.0) -> ContactProbability:
+def closing(number: float, spread: float = 1.0, deep: str = "table") -> ContactProbability:
     """Dust of which so many particles are in the way on average.
 
     Parameters
@@ -37,6 +39,8 @@ def closing(number: float, spread: float = 1.0) -> ContactProbability:
         N [1].
     spread : float, optional
         Geometric standard deviation of the diameters [1]; their mean is 10 µm.
+    deep : {"table", "off"}, optional
+        Of the law of the particles.
 
     Examples
     --------
@@ -52,6 +56,7 @@ def closing(number: float, spread: float = 1.0) -> ContactProbability:
     return ContactProbability(
         radius=radius,
         surfaces=PAIR,
+        law=tb.particle.Series(deep=deep),
         particles=tb.Particles(
             material=tb.materials["Al2O3"],
             diameter=sizes,
@@ -61,27 +66,37 @@ def closing(number: float, spread: float = 1.0) -> ContactProbability:
 
 
 @cache
-def _curve(number: float, spread: float) -> Array:
-    found = closing(number, spread)
+def _curve(number: float, spread: float, deep: str = "table") -> Array:
+    found = closing(number, spread, deep)
     out: Array = found.probability(LOADS * found.threshold)
     return out
 
 
 def _sharpest() -> Band:
     """Area W/H over πx²/4 where the probability changes most with ln W."""
+    off = Band.of(_sharpest_areas("off"))
+    return Band.of(
+        _sharpest_areas("table"),
+        'N of 0.25 to 3, equal sizes to a geometric deviation of 1.2; deep = "off": ' + off.text,
+    )
+
+
+def _sharpest_areas(deep: str) -> list[float]:
     found = []
     for spread in SPREADS:
         for number in NUMBERS:
-            steps = np.diff(_curve(number, spread))
+            steps = np.diff(_curve(number, spread, deep))
             most = int(np.argmax(steps))
-            dust = closing(number, spread)
+            dust = closing(number, spread, deep)
             load = float(np.sqrt(LOADS[most] * LOADS[most + 1])) * dust.threshold
             found.append(load / STEEL.H / (np.pi * SIZE**2 / 4))
-    return Band.of(found, "N of 0.25 to 3, equal sizes to a geometric deviation of 1.2")
+    return found
 
 
-def share(level: float, ratio: Array) -> Array:
+def share(level: float, ratio: Array, laws: tuple[str, str] = ("table", "zmc")) -> Array:
     """Share of the load on hard particles at F* = ``level`` over x/σ.
+
+    ``laws``: ``deep`` of the particles, and the law of the asperities.
 
     Examples
     --------
@@ -90,6 +105,8 @@ def share(level: float, ratio: Array) -> Array:
     """
     sigma = 0.3e-6
     contact = tb.Contact(
+        asperity_law=tb.asperity.REGISTRY[laws[1]](),
+        particle_law=tb.particle.Series(deep=laws[0]),
         surfaces=PAIR,
         roughness=tb.Roughness(sigma=sigma, R=3e-6, alpha=5.0, eta_R_sigma=0.045),
         particles=tb.Particles(
@@ -104,13 +121,20 @@ def share(level: float, ratio: Array) -> Array:
 
 def _roughness() -> Band:
     """σ/x at which the particles' share falls most with ln σ."""
+    others = [
+        f'deep = "{laws[0]}" with {laws[1]}: {Band.of(_steepest(laws)).text}' for laws in OTHERS
+    ]
+    return Band.of(_steepest(("table", "zmc")), "; ".join(["F* of 1e-6 to 1e-4", *others]))
+
+
+def _steepest(laws: tuple[str, str]) -> list[float]:
     ratio = np.geomspace(0.3, 6.0, 61)
     found = []
     for level in LEVELS:
-        fall = np.diff(share(level, ratio))
+        fall = np.diff(share(level, ratio, laws))
         most = int(np.argmax(fall))
         found.append(1 / float(np.sqrt(ratio[most] * ratio[most + 1])))
-    return Band.of(found, "F* of 1e-6 to 1e-4")
+    return found
 
 
 def _panel() -> Panel:

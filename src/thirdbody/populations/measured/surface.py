@@ -52,6 +52,8 @@ RESOLVED = 8
 """Points per wave from which m4 by second differences is right within 10 %: sinc⁴(1/8) = 0.90."""
 LONGEST = 5
 """The longest cut-off of a curve is the shorter side divided by this."""
+MOST_MISSING = 0.01
+"""Part of the points without a datum from which on there is a warning."""
 PER_OCTAVE = 0.1
 """Relative change of an answer, when the cut-off doubles, above which there is a warning."""
 
@@ -483,7 +485,7 @@ class Topography:
                 f"{at} is below the recommended cut-off of {value_of(least, 'm')}: "
                 f"{self.recommended[1]}"
             )
-        if self.missing > 0:
+        if self.missing > MOST_MISSING:
             out.append(
                 f"{percent(self.missing, digits=2)} of the points have no datum; the filter and "
                 "the differences pass over them, the spectrum has them filled harmonically"
@@ -504,7 +506,8 @@ class Topography:
             error = percent(1 / math.sqrt(max(count, 1)), digits=2)
             out.append(
                 f"{count} summits on the map at a cut-off {self._at()}: "
-                f"their mean numbers are uncertain by some {error}"
+                f"their mean numbers are uncertain by some {error}; a larger map, or several, "
+                "make them surer"
             )
         if abs(self.skewness) > 0.5 or abs(self.kurtosis - 3) > 1:
             out.append(
