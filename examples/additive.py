@@ -97,6 +97,6 @@ assert friction < thin < clean
 print(
     f"Order silica of {low * 1e9:.0f} to {high * 1e9:.0f} nm and put in {weight:.2%} by weight: "
     f"friction falls from {clean:.3f} to {friction:.3f}. There is no margin: with 5 % more powder "
-    f"{too_plastic:.2f} of the area is plastic at 10 MPa ({limit:g} allowed), with a third of it "
+    f"{too_plastic:.2f} of the area is plastic at 1 MPa ({limit:g} allowed), with a third of it "
     f"friction is {thin:.3f}; and surfaces that rub below {friction:.2f} anyway gain nothing."
 )

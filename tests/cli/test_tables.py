@@ -138,14 +138,15 @@ def test_outputs_at_every_load():
         assert len(re.findall(rf"^ *{load} ", part, re.MULTILINE)) == part.count(" pressure ") + 1
 
 
-OFF = "particle_law={name = 'series', deep = 'off'}"
-"""The law under which the example has its best size inside the range."""
+OFF = [
+    "--set=particle_law={name = 'series', deep = 'off'}",
+    '--set=design.limits=[{ of = "plastic_share", most = 0.2 }]',
+]
+"""The law and the limit under which the example has its best size inside the range."""
 
 
 def test_design_speaks_the_units_of_its_file():
-    done = CliRunner().invoke(
-        cli.app, ["design", str(ADDITIVE), "--set", OFF], env={"COLUMNS": "80"}
-    )
+    done = CliRunner().invoke(cli.app, ["design", str(ADDITIVE), *OFF], env={"COLUMNS": "80"})
     text = " ".join(done.stdout.split())
     assert re.search(r"88\d nm", text)
     assert "0.7 wt %" in text

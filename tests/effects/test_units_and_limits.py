@@ -103,7 +103,7 @@ def rounding(name):
     return 1e-3 if name.startswith("dent_") and ("_p95" in name or "_max" in name) else 1e-6
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=5, deadline=None)
 @given(
     scales=st.tuples(ratios, ratios, ratios, ratios, ratios),
     pressure=st.floats(6, 7.7).map(lambda power: 10.0**power),
@@ -144,7 +144,7 @@ def swapped(name):
     return name
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=4, deadline=None)
 @given(
     pressure=st.floats(6, 7.7).map(lambda power: 10.0**power),
     x_a=st.floats(150e-9, 500e-9),

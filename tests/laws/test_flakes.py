@@ -173,8 +173,8 @@ def test_round_trip_and_name():
 
 def test_states_of_several_aspects():
     """Flakes of other aspects are other particles: one contact after another."""
-    aspects = np.linspace(1.5, 4.0, 30)
+    aspects = np.linspace(1.5, 4.0, 6)
     states = state_columns(contact(Flakes()), pressure=1e7, vary={"particle_law.aspect": aspects})
-    for i in (0, 29):
+    for i in (0, 5):
         alone = tb.solve(contact(Flakes(aspect=aspects[i])), pressure=1e7)
         assert_allclose(states["d"][i], alone.d, rtol=1e-10)
