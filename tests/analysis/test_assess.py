@@ -358,14 +358,16 @@ def test_what_loads_have_in_common_is_found_once(monkeypatch):
         assert replace(alone, title=study.title).to_dict() == page.to_dict()
 
 
+@pytest.mark.slow
 def test_outputs_have_their_bands_at_each_of_several_loads():
     loads = 'load.pressure=["0.5 MPa", "50 MPa"]'
     study = load_study(EXAMPLE, ["uncertainty.samples=64", loads, "outputs.dents={}"])
     for page in assess_study(study).pages:
         found, inputs = page.propagation, study.uncertainty.inputs
         alone = tb.propagate(study.contact, pressure=found.loads, vary=inputs, samples=64)
-        for name in ("n_dents_1", "dent_depth_1", "embedded_2"):
-            assert found.bands[name] == pytest.approx(alone.bands[name], rel=1e-7), name
+        # a few of a million are embedded: as exact as percentiles are
+        for name, rel in (("n_dents_1", 1e-7), ("dent_depth_1", 1e-7), ("embedded_2", 2e-3)):
+            assert found.bands[name] == pytest.approx(alone.bands[name], rel=rel), name
             assert found.nominal[name] == alone.nominal[name]
 
 

@@ -36,6 +36,8 @@ __all__ = ["Dents"]
 ONE = 1.0
 """Dents in A_n on average below which most areas have none."""
 P95 = 0.05
+RARE = 1e-2
+"""Part of the particles below which those that are embedded are counted gap by gap."""
 FEW = 14
 """Dents in an area below which its deepest one is a matter of chance: of ln 2/0.05 dents and fewer
 the deepest is shallower than what 5 % exceed, in half of all cases."""
@@ -228,6 +230,7 @@ class Dents(AbstractOutput):
         names = ("n", "known", "unknown", "depth", "width", "volume", "embedded")
         sums: dict[str, Array] = dict.fromkeys(names, np.zeros_like(state.d))
         dents: list[tuple[Any, ...]] = []
+        sinks: list[tuple[Any, ...]] = []
         for spots in groups:
             dent = self._left(spots, side, state.contact)
             deep = self._sunk(spots, side)
@@ -247,6 +250,11 @@ class Dents(AbstractOutput):
                 ("embedded", (known & (2 * deep > spots.half)).astype(float)),
             ):
                 sums[name] = sums[name] + spots.total(q)
+            sinks.append((spots, np.where(known, 2 * deep / spots.half, 0.0), np.ones(())))
+        rare = sums["embedded"] < RARE * sums["known"]  # too few for sums over classes
+        if np.any(rare):
+            exact = number_above(sinks, 1.0, states=len(state.d))
+            sums["embedded"] = np.where(rare, exact, sums["embedded"])
         return self._columns(sums, dents, side)
 
     def _columns(
