@@ -95,8 +95,10 @@ def _sum(d: Array, groups: Sequence[Any], q: Callable[[Any], Any]) -> Array:
 def bodies_of(contact: Contact) -> dict[str, Material]:
     """The two surfaces and every population's material by what a message calls them."""
     out = {"surface 1": contact.surfaces.first, "surface 2": contact.surfaces.second}
-    for place, each in enumerate(contact.populations):
-        out[f"the particles {each.name or place + 1}"] = each.material
+    several = len(contact.populations) > 1
+    for place, each in enumerate(contact.populations, 1):
+        which = each.name or (place if several else "")
+        out[f"the particles {which}".rstrip()] = each.material
     return out
 
 
