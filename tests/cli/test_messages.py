@@ -1,6 +1,7 @@
 """Messages of the command line: in words of the study file, as wide as the terminal."""
 
 import ast
+import json
 import re
 from pathlib import Path
 
@@ -93,3 +94,43 @@ def test_one_way_of_writing_stresses():
     done = run("solve", DUSTY, "--set", "load.pressure=1.87e9")
     assert "1.87 GPa" in done.stderr + done.stdout
     assert not re.search(r"\d(e[+-]?\d+)? Pa\b", done.stderr), done.stderr
+
+
+RARE = """[surfaces]
+first = "CuSn8"
+second = "CuSn8"
+[roughness]
+sigma = "100 nm"
+R = "2.8 um"
+[particles]
+material = "SiO2"
+distribution = "monodisperse"
+mean = "2 um"
+areal_density = "1e8 / m^2"
+[body]
+kind = "flat"
+area = "100 um^2"
+[load]
+force = "10 uN"
+"""
+
+
+def test_a_contact_of_which_most_meet_no_particle_is_not_said_to_rest_on_particles(tmp_path):
+    """Mode of a wide surface: it stays in the data, and words do not claim it of the contact."""
+    study = tmp_path / "rare.toml"
+    study.write_text(RARE)
+    data = json.loads(run("solve", study, "--json").stdout)
+    assert data["states"]["mode"] == ["p-s"]
+    assert data["body"]["forces"][0]["particles_held"] == pytest.approx(0.01)
+    words = " ".join(run("solve", study).stdout.split())
+    *_, last = words.split("of the nominal area")[0].split("At 100 kPa")
+    assert "one contact in 100 meets a particle, and the others are as without particles" in last
+    assert "p-s" not in last
+    assert "of a wide surface" in last
+    rows = run("solve", study).stdout.splitlines()
+    (row,) = (line for line in rows if "100 kPa" in line and "mode" not in line and "%" in line)
+    assert row.split()[-1] == "rare"
+    assert "rare: less than one particle lies in a contact" in words
+    many = run("solve", study, "--set", "particles.areal_density=3e10").stdout
+    assert "rare" not in many
+    assert "real contact is on particles" in " ".join(many.split())

@@ -113,7 +113,11 @@ def _about_few(state: Solved) -> list[str]:
     def pressed(spots: Any) -> Any:
         return spots.load > 0
 
-    count = max(areas) * (state.total(pressed) + state.total_of_particles(pressed))
+    kinds = {
+        "asperities": max(areas) * state.total(pressed),
+        "particles": max(areas) * state.total_of_particles(pressed),
+    }
+    count = kinds["asperities"] + kinds["particles"]
     out = []
     if not np.all(count):
         out.append(
@@ -126,6 +130,15 @@ def _about_few(state: Solved) -> list[str]:
             f"A_n = {number(max(areas))} m² holds {number(least)} contacts on average: "
             f"{', '.join(concerned)} give the mean over many such areas, most of which hold none"
         )
+        return out
+    for kind, of_kind in kinds.items():
+        few = float(np.min(of_kind, where=of_kind > 0, initial=np.inf))
+        if few < 1:
+            out.append(
+                f"A_n = {number(max(areas))} m² holds {number(few)} {kind} in contact on average: "
+                f"what {', '.join(concerned)} say of {kind} is the mean over many such areas, most "
+                f"of which have none"
+            )
     return out
 
 
