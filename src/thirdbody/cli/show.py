@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..quantities.say import value_of
 from ..quantities.units import say
+from .streams import LEAST
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -20,8 +21,8 @@ MOST_ROWS = 20
 ALL = "--json or --csv FILE tells all"
 WHOLE = 12
 """Digits of a default, which is a short number."""
-PIPE, LEAST = 120, 40
-"""Width of a pipe that is told none, and the least that a table is fitted to."""
+PIPE = 120
+"""Width of a pipe that is told none."""
 
 
 def terminal() -> Console:

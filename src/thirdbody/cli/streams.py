@@ -11,7 +11,9 @@ import contextlib
 import importlib.util
 import io
 import os
+import shutil
 import sys
+import textwrap
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -21,6 +23,7 @@ import typer
 from typer.core import TyperGroup
 
 from ..errors import InvalidValue, NoEquilibrium, NoTransition
+from ..quantities.study_words import in_study_words
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
 __all__ = [
@@ -35,6 +38,8 @@ __all__ = [
 ]
 
 BAD_INPUT, NO_ANSWER, BROKEN_PIPE = 2, 3, 141
+LEAST = 40
+"""Width that messages are wrapped to at least."""
 
 
 class Commands(TyperGroup):
@@ -94,13 +99,31 @@ def complain(sentences: Iterable[str]) -> None:
     """Errors, a line each; the exit status tells of them where nothing can be written."""
     with contextlib.suppress(OSError):
         for sentence in sentences:
-            for line in sentence.splitlines():
-                print(f"error: {line}", file=sys.stderr)
+            for line in in_study_words(sentence).splitlines():
+                print(_wrapped(f"error: {line}"), file=sys.stderr)
 
 
 def warn(message: Warning | str, *_: Any, **__: Any) -> None:
-    """A warning, in one line."""
-    print(f"warning: {' '.join(str(message).split())}", file=sys.stderr)
+    """A warning: one line of a pipe or file, as many lines of a terminal as it takes."""
+    sentence = in_study_words(" ".join(str(message).split()))
+    print(_wrapped(f"warning: {sentence}"), file=sys.stderr)
+
+
+def _wrapped(line: str) -> str:
+    """A line as a terminal shows it whole, in words; as it is where none reads along.
+
+    ``COLUMNS`` sets the width, as of tables.
+    """
+    asked = os.environ.get("COLUMNS", "")
+    if asked.isdecimal() and int(asked) > 0:
+        width = max(int(asked), LEAST)
+    elif sys.stderr.isatty():
+        width = max(shutil.get_terminal_size().columns, LEAST)
+    else:
+        return line
+    return textwrap.fill(
+        line, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    )
 
 
 def remark(sentence: str) -> None:

@@ -95,8 +95,10 @@ def _sum(d: Array, groups: Sequence[Any], q: Callable[[Any], Any]) -> Array:
 def bodies_of(contact: Contact) -> dict[str, Material]:
     """The two surfaces and every population's material by what a message calls them."""
     out = {"surface 1": contact.surfaces.first, "surface 2": contact.surfaces.second}
-    for place, each in enumerate(contact.populations):
-        out[f"the particles {each.name or place + 1}"] = each.material
+    several = len(contact.populations) > 1
+    for place, each in enumerate(contact.populations, 1):
+        which = each.name or (place if several else "")
+        out[f"the particles {which}".rstrip()] = each.material
     return out
 
 
@@ -111,7 +113,11 @@ def _about_few(state: Solved) -> list[str]:
     def pressed(spots: Any) -> Any:
         return spots.load > 0
 
-    count = max(areas) * (state.total(pressed) + state.total_of_particles(pressed))
+    kinds = {
+        "asperities": max(areas) * state.total(pressed),
+        "particles": max(areas) * state.total_of_particles(pressed),
+    }
+    count = kinds["asperities"] + kinds["particles"]
     out = []
     if not np.all(count):
         out.append(
@@ -124,6 +130,15 @@ def _about_few(state: Solved) -> list[str]:
             f"A_n = {number(max(areas))} m² holds {number(least)} contacts on average: "
             f"{', '.join(concerned)} give the mean over many such areas, most of which hold none"
         )
+        return out
+    for kind, of_kind in kinds.items():
+        few = float(np.min(of_kind, where=of_kind > 0, initial=np.inf))
+        if few < 1:
+            out.append(
+                f"A_n = {number(max(areas))} m² holds {number(few)} {kind} in contact on average: "
+                f"what {', '.join(concerned)} say of {kind} is the mean over many such areas, most "
+                f"of which have none"
+            )
     return out
 
 

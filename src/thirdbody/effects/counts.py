@@ -36,7 +36,8 @@ class Counts(AbstractOutput):
     Parameters
     ----------
     A_n : float, optional
-        Nominal area of the contact [m²]: a warning says where it holds less than one contact.
+        Nominal area of the contact [m²]: a warning says where it holds less than one contact, or
+        less than one of asperities or of particles alone.
 
     Examples
     --------

@@ -11,6 +11,7 @@ import numpy as np
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column
 from ..populations.shape import CUTS
+from ..quantities.say import value_of
 from ..quantities.value import choice, quantity
 from .single.ploughing import coefficient, coefficient_of_faces, rear_support
 from .single.severity import severity, threshold
@@ -288,7 +289,7 @@ class Friction(AbstractOutput):
             if tau is not None and tau >= k:
                 out.append(
                     f"outputs.friction: junctions of tau_{kind} = {tau:g} Pa would grow without "
-                    f"end; with alpha_T = {self.alpha_T:g} it must be < {k:.4g} Pa"
+                    f"end; with alpha_T = {self.alpha_T:g} it must be < {value_of(k, 'Pa')}"
                 )
         return out
 

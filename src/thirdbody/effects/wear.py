@@ -12,6 +12,7 @@ from ..contact.field_sums import FieldSpots
 from ..contact.output import AbstractOutput, Column
 from ..errors import InvalidValue
 from ..laws.base import REGIMES
+from ..quantities.say import value_of
 from ..quantities.value import quantity
 from .single.ploughing import groove_of
 from .single.severity import severity, threshold
@@ -276,8 +277,8 @@ class Wear(AbstractOutput):
             if math.isfinite(length):
                 out.append(
                     "outputs.wear: without renewal the particles are frozen in their places; the "
-                    f"rates hold for about {length:.2g} m of sliding, when grooves cover the "
-                    "surface"
+                    f"rates hold for about {value_of(length, 'm', 2)} of sliding, when grooves "
+                    "cover the surface"
                 )
         if (
             (self.K_sa or 0.0) > 0

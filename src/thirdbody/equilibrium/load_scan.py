@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..contact.interface import Interface
 from ..errors import NoEquilibrium
 from ..numerics.roots import halley_root
+from ..quantities.say import value_of
 from .status import Status, Statuses
 
 Array = NDArray[np.float64]
@@ -154,23 +155,27 @@ class LoadScan:
         """Why no separation carries this load."""
         E = self.bound.contact.E_ss
         top = float(np.exp(self.log_F.max()))
+        said = f"{value_of(target, 'Pa')} (F* = {target / E:.3g})"
         if target > top:
             H = self.bound.contact.surfaces.H
-            why = f"it is above the softer body's hardness, {H:.4g} Pa; check the unit of the load"
+            why = (
+                f"it is above the softer body's hardness, {value_of(H, 'Pa')}; check the unit "
+                "of the load"
+            )
             if target <= H:
                 why = (
-                    f"it is below the hardness, {H:.4g} Pa, so its unit may be right: asperities "
-                    "alone do not carry it, they would be pressed flat; in oil a film carries it "
-                    "(thirdbody film)"
+                    f"it is below the hardness, {value_of(H, 'Pa')}, so its unit may be right: "
+                    "asperities alone do not carry it, they would be pressed flat; in oil a film "
+                    "carries it (thirdbody film)"
                 )
             return Status.TOO_MUCH, (
-                f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is beyond "
-                f"{top:.4g} Pa (F* = {top / E:.3g}), the most this model carries down to a "
-                f"separation d of {self._lowest}; {why}"
+                f"no equilibrium: the load {said} is beyond {value_of(top, 'Pa')} (F* = "
+                f"{top / E:.3g}), the most this model carries down to "
+                f"a separation d of {self._lowest}; {why}"
             )
         return Status.TOO_LITTLE, (
-            f"no equilibrium: the load {target:.4g} Pa (F* = {target / E:.3g}) is below the "
-            "smallest load this model resolves; check the unit of the load"
+            f"no equilibrium: the load {said} is below "
+            "the smallest load this model resolves; check the unit of the load"
         )
 
     # ------------------------------------------------------------------ roots
@@ -220,8 +225,9 @@ class LoadScan:
         closer = other & (~good | (np.abs(F_less - target) < np.abs(F - target)))
         E = self.bound.contact.E_ss
         jumps = {
-            int(i): f"jump: the load {target[i]:.4g} Pa (F* = {target[i] / E:.3g}) lies in a jump "
-            f"of the load from F* = {F_less[i] / E:.3g} to {F[i] / E:.3g} at d = {carries[i]:.6g} "
+            int(i): f"jump: the load {value_of(target[i], 'Pa')} (F* = {target[i] / E:.3g}) "
+            f"lies in a jump of the load from F* = {F_less[i] / E:.3g} to {F[i] / E:.3g} at d = "
+            f"{carries[i]:.6g} "
             "m, and no separation there carries it"
             for i in np.flatnonzero(~good & ~other)
         }

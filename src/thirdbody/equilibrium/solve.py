@@ -22,7 +22,7 @@ from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, tell_of_range
 from ..quantities.carried import takes_units
-from ..quantities.say import percent
+from ..quantities.say import percent, value_of
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
 from .crowding import about_area, crowded
@@ -249,7 +249,9 @@ def why_deep(contact: Contact) -> str:
             f"{-ReducedSum.DEEPEST:g} sigma_s from the mean asperity height, below which no "
             "asperity model holds"
         )
-    return f"it must be at least {deepest(contact):.4g} m, {why}; check its sign and its unit"
+    return (
+        f"it must be at least {value_of(deepest(contact), 'm')}, {why}; check its sign and its unit"
+    )
 
 
 @takes_units
@@ -477,8 +479,11 @@ def _only_carried(
         why = code.sentence + f" ({law.name}: {law.beyond})" * bool(law.beyond)
         if known[i]:
             code = Status.UNSOLVED
-            why = f"no equilibrium: {F[i]:.6g} Pa do not balance the load {load[i]:.6g} Pa"
-        status.set(where[i], code, f"{why} at d = {at[i]:.6g} m")
+            why = (
+                f"no equilibrium: {value_of(F[i], 'Pa', 6)} do not balance the load "
+                f"{value_of(load[i], 'Pa', 6)}"
+            )
+        status.set(where[i], code, f"{why} at d = {value_of(at[i], 'm', 6)}")
     d[where[~good]] = np.nan
     return d, status, {name: values[good] for name, values in raw.items()}
 

@@ -12,13 +12,17 @@ __all__ = [
     "BANDS",
     "CRITICAL",
     "MODES",
+    "MOST_MEET_NONE",
     "NO_CONTACT",
+    "RARE",
     "carried",
     "critical_load",
     "critical_name",
     "happens",
+    "is_rare",
     "load_of",
     "meets",
+    "mode_among",
     "mode_of",
     "mode_path",
     "not_met",
@@ -47,6 +51,10 @@ FEW, MANY = 0.1, 1e7
 """Share of contacts below which they are one in so many, and how many are written out."""
 BELOW, ABOVE = ("never p-s", "always s-s"), ("always p-s", "never s-s")
 """Statuses of critical loads that lie below, or above, every load searched."""
+RARE = "rare"
+"""Stands for the mode of contacts of which many meet no particle."""
+MOST_MEET_NONE = "less than one particle lies in a contact, and those without are as without any"
+"""What that means."""
 THERE = {
     ("F_cr1", BELOW): "at the least of them the mode is not p-s any more",
     ("F_cr2", BELOW): "the mode is s-s at all of them",
@@ -65,6 +73,31 @@ def mode_of(mode: str | None) -> str:
     if mode == "none":
         return "there is no equilibrium"
     return f"{MEANS[mode]} ({mode})" if mode else "there is no contact"
+
+
+def mode_among(mode: str | None, held: float) -> str:
+    """The mode of contacts that hold so many particles on average, as a clause.
+
+    A state is of a surface whose particles all share the load. Where most contacts hold none, only
+    a mode in which asperities carry is that of the contacts too.
+
+    >>> mode_among("p-s", 8.3e-5)
+    'one contact in 12 000 meets a particle, and the others are as without particles'
+    >>> mode_among("hybrid", 20.0), mode_among("s-s", 8.3e-5) == mode_of("s-s")
+    ('real contact is on particles and on asperities (hybrid)', True)
+    """
+    if is_rare(mode, held):
+        return f"{meets(held)}, and the others are as without particles"
+    return mode_of(mode)
+
+
+def is_rare(mode: str | None, held: float) -> bool:
+    """Whether a mode on particles is not that of contacts that hold so many of them.
+
+    >>> is_rare("p-s", 0.1), is_rare("p-s", 1.0), is_rare("s-s", 0.1), is_rare(None, 0.1)
+    (True, False, False, False)
+    """
+    return mode in ("p-s", "hybrid") and 0 < held < 1
 
 
 def two_bodies() -> str:

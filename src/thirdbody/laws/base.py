@@ -27,6 +27,7 @@ from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule
 from ..populations.shape import Sphere
 from ..quantities.carried import takes_units
+from ..quantities.say import value_of
 from ..quantities.value import Value, choice, quantity
 from .spots import ParticleSpots
 
@@ -573,8 +574,9 @@ class SeatedLaw(AbstractParticleLaw):
         radius = particles.diameter.mean_diameter * math.sqrt(0.25 * one.breadth)
         if self.seat == "rough" and radius > 0.5 * roughness.R:
             out.append(
-                f"mean particle radius {radius:.3g} m is not small against the asperity "
-                f"radius R = {roughness.R:.3g} m: the rough seat takes the surface under a "
-                "particle as flat"
+                f"mean particle radius {value_of(radius, 'm', 3)} is not small against the "
+                "asperity "
+                f"radius R = {value_of(roughness.R, 'm', 3)}: the rough seat takes the surface "
+                "under a particle as flat"
             )
         return out

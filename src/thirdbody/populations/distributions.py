@@ -10,6 +10,7 @@ import numpy as np
 from scipy import special
 
 from ..numerics.quadrature import gauss_legendre
+from ..quantities.say import value_of
 from ..quantities.value import quantity
 from .size_base import (
     LENGTH_HINT,
@@ -89,7 +90,7 @@ class TruncatedGaussian(Distribution):
             return []
         return [
             f"TruncatedGaussian.std = {self.std:g} m must spread the diameters by more than "
-            f"rounding around {high:g} m; for one single size use Monodisperse"
+            f"rounding around {value_of(high, 'm')}; for one single size use Monodisperse"
         ]
 
     @property

@@ -130,9 +130,9 @@ class WeibullStrength(Value):
             return cls.from_toughness(material.K_c, **options)
         missing = ", ".join(name for name, value in known.items() if value is None)
         raise InvalidValue(
-            f"the material {material.name or material!r} has no strength: it lacks {missing}, and "
-            "K_c for an estimate; give WeibullStrength(sigma_0=..., x_0=..., m=...), or "
-            "material.replace(K_c=...)"
+            f"the material {material.name or 'of these particles'} has no strength: it lacks "
+            f"{missing}, and K_c for an estimate; "
+            "give WeibullStrength(sigma_0=..., x_0=..., m=...), or material.replace(K_c=...)"
         )
 
     @classmethod

@@ -214,8 +214,8 @@ def refuse_replaced(folder: Path, texts: Mapping[str, str | None]) -> None:
     if there and not all(same):
         raise InvalidValue(
             f"{folder} holds {', '.join(there)} of another study, or of another program; "
-            "give another folder, remove what is not needed, or replace it "
-            "(--force, in Python force=True)"
+            "give another folder, remove what is not needed, or replace it (--force, in Python "
+            "force=True)"
         )
 
 

@@ -164,7 +164,7 @@ MOST_COSTLY = 256
 """Samples of a study where each takes tables of its own, a second or so."""
 TAKEN = (
     f"{MOST_COSTLY} samples of the {{asked:,}} that the study asks for, as each takes tables of "
-    "its own; `thirdbody.propagate` takes all."
+    "its own; in Python, `thirdbody.propagate` takes all."
 )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from ..quantities.value import quantity
 from ..systems.bodies import BODIES, Body, Pressed, press
 from .reader import Reader, Table
 
-__all__ = ["FORCE", "TABLE", "loads_of", "of_bodies", "pressed", "told", "told_forces"]
+__all__ = ["FORCE", "TABLE", "held_in", "loads_of", "of_bodies", "pressed", "told", "told_forces"]
 
 FORCE = quantity(
     "F", "N", "force on the bodies of [body]", gt=0, hint="kN are 5e3 or '5 kN'"
@@ -86,6 +87,16 @@ def of_bodies(result: dict[str, Any]) -> str:
         f"That is of a wide surface {pressures}whose particles all share the load; of the load "
         f"of the bodies themselves particles carry{means} {loads}."
     )
+
+
+def held_in(result: dict[str, Any], state: int) -> float:
+    """Particles that the contact of a state holds on average; infinite where nobody knows."""
+    forces = result.get("body", {}).get("forces", ())
+    if not forces:
+        return math.inf
+    each = len(result["states"]["status"]) // len(forces)
+    held = forces[state // each]["particles_held"]
+    return math.inf if held is None else float(held)
 
 
 TABLE = Table(

@@ -7,6 +7,7 @@ from typing import Any
 
 from ..errors import InvalidValue
 from ..populations.roughness import Roughness
+from ..quantities.say import value_of
 from ..quantities.units import say, to_si
 from .drawing import drawn, is_drawn
 from .reader import Reader, Table, get
@@ -38,7 +39,7 @@ def roughness(reader: Reader, path: str, data: Any) -> Any:
             if not math.isclose(kept.setdefault("R", both), both, rel_tol=0.01):
                 raise InvalidValue(
                     f"{path}.R = {say(data['R'])} must be R_first R_second/(R_first + R_second)"
-                    f" = {both:.4g} m of the ellipticity; leave it out"
+                    f" = {value_of(both, 'm')} of the ellipticity; leave it out"
                 )
         return reader.make(Roughness, path, kept)
 

@@ -24,6 +24,7 @@ from ..populations.heights import (
     JohnsonHeights,
     WeibullHeights,
 )
+from ..quantities.study_words import in_study_words
 from ..quantities.value import quantity
 
 __all__ = ["DISTRIBUTIONS", "HEIGHTS", "LOADS", "in_words", "near"]
@@ -80,7 +81,8 @@ def near(word: str, options: Iterable[str]) -> str | None:
 
 
 def in_words(sentence: str) -> str:
-    """Class names of the library in the words of study files."""
+    """Class names and calls of the library in the words of study files."""
+    sentence = in_study_words(sentence)
     for name, kind in DISTRIBUTIONS.items():
         sentence = re.sub(rf"\b{kind.__name__}\b(?!\.)", f'distribution = "{name}"', sentence)
     return sentence

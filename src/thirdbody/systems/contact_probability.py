@@ -28,6 +28,7 @@ from ..numerics.quadrature import panel_rule
 from ..populations.distributions import Monodisperse
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
+from ..quantities.say import value_of
 from ..quantities.value import Value, quantity
 
 if TYPE_CHECKING:
@@ -122,8 +123,8 @@ class ContactProbability(Value):
         largest = self.particles.diameter.support[1]
         if self.radius <= largest:
             raise InvalidValue(
-                f"radius = {self.radius:.4g} m must be above the largest particle, "
-                f"{largest:.4g} m: the sphere comes down on dust, not on a boulder"
+                f"radius = {value_of(self.radius, 'm')} must be above the largest particle, "
+                f"{value_of(largest, 'm')}: the sphere comes down on dust, not on a boulder"
             )
 
     @property

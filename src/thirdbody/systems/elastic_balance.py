@@ -16,6 +16,7 @@ from ..equilibrium.crowding import crowded_places
 from ..equilibrium.load_scan import load_scan
 from ..errors import InvalidValue, NoEquilibrium
 from ..numerics.quadrature import gauss_legendre
+from ..quantities.say import value_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -105,7 +106,7 @@ class Skin:
         if p < 0:
             raise InvalidValue(TENSILE)
         if not (p > 0 and slope < 0):
-            raise NoEquilibrium(f"no contact at a gap of {gap:.4g} m")
+            raise NoEquilibrium(f"no contact at a gap of {value_of(gap, 'm')}")
         step = low = 0.0
         high = p / -slope
         for _ in range(WIDENED):
@@ -113,8 +114,9 @@ class Skin:
                 break
             low, high = high, 1.7 * high
         else:
-            raise NoEquilibrium(f"the pressure does not end: at a gap of {gap + high:.3g} m it is "
-                                f"still that of {gap:.3g} m")  # fmt: skip
+            raise NoEquilibrium("the pressure does not end: at a gap of "
+                                f"{value_of(gap + high, 'm', 3)} it is "
+                                f"still that of {value_of(gap, 'm', 3)}")  # fmt: skip
         for _ in range(12):
             step = 0.5 * (low + high)
             low, high = (step, high) if self.one(gap + step)[0] > NEGLIGIBLE * p else (low, step)
@@ -298,7 +300,7 @@ def _newton(skin: Skin, grid: Grid, d: float, sunk: Array) -> tuple[Array, Array
         gap = trial
         if close == 2 or size == 0:
             return gap, p, slope, float(np.max(np.abs(error)))
-    raise NoEquilibrium(f"the gap equation did not converge at d = {d:.6g} m")
+    raise NoEquilibrium(f"the gap equation did not converge at d = {value_of(d, 'm', 6)}")
 
 
 def balance_at(
@@ -316,7 +318,7 @@ def balance_at(
         if np.min(p) < 0:
             raise InvalidValue(TENSILE)
         if not np.max(p) > 0:
-            raise NoEquilibrium(f"no contact at a separation of {d:.4g} m")
+            raise NoEquilibrium(f"no contact at a separation of {value_of(d, 'm')}")
         beyond = grid.x[p < NEGLIGIBLE * np.max(p)]
         if not shrunk and len(beyond) and np.min(beyond) < 0.95 * extent:
             shrunk, extent, series = True, float(np.min(beyond)), np.zeros(1)
@@ -337,7 +339,8 @@ def _deep_enough(skin: Skin, found: Balance) -> Balance:
     """The balance, unless it lies where the law of the skin ends."""
     if skin.bound is not None and np.min(found.gap) < skin.floor:
         raise NoEquilibrium(
-            f"the local gap falls to {np.min(found.gap):.4g} m, below the {skin.floor:.4g} m of "
+            f"the local gap falls to {value_of(np.min(found.gap), 'm')}, below the "
+            f"{value_of(skin.floor, 'm')} of "
             f"{skin.bound.why_lowest}"
         )
     return found

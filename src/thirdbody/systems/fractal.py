@@ -24,6 +24,7 @@ from ..populations.distributions import Monodisperse
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
 from ..populations.shape import Sphere
+from ..quantities.say import value_of
 from ..quantities.value import Value, quantity
 from .sinusoids import Convergence, Sinusoid, Stack, jackson_streator
 
@@ -477,7 +478,7 @@ class GhaedniaMultiscale(Value):
             if own is not None and not math.isclose(own, given, rel_tol=1e-6):
                 out.append(
                     f"GhaedniaMultiscale.surface.{name} = {own:g} Pa differs from that of the "
-                    f"surfaces, {given:g} Pa"
+                    f"surfaces, {value_of(given, 'Pa')}"
                 )
         if not self.law.scale_free:
             out.append(

@@ -40,6 +40,7 @@ from ..numerics.quadrature import panel_rule, subdivide
 from ..numerics.roots import halley_root
 from ..populations.heights import GaussianHeights
 from ..quantities.carried import takes_units
+from ..quantities.say import value_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -193,8 +194,8 @@ def mean_interaction(
         highest = start + compliance * bound.load(lowest)[:, 0]
         if np.any(deep := highest < lowest):
             raise NoEquilibrium(
-                f"at d_0 = {start[deep][0]:.4g} m the asperities stand below {DEEPEST:g} sigma_s, "
-                "where every one is in contact"
+                f"at d_0 = {value_of(start[deep][0], 'm')} the asperities stand below {DEEPEST:g} "
+                "sigma_s, where every one is in contact"
             )
         d, *_ = halley_root(gap, lowest, highest, lowest)
         state = solve(contact, d=float(d[0]) if scalar else d)
@@ -391,7 +392,7 @@ class _SelfLoaded:
         while excess(high) > 0:
             low, high = high, 1.15 * high
             if high > 0.3 * self.E_star:
-                raise NoEquilibrium(f"local interaction runs away at d = {d:.4g} m")
+                raise NoEquilibrium(f"local interaction runs away at d = {value_of(d, 'm')}")
         if high == low:
             return low
         return brentq(excess, low, high, xtol=1e-300, rtol=1e-14)
@@ -409,7 +410,9 @@ class _SelfLoaded:
         while excess(high) > 0:
             low, high = high, high + 2 * (high - low)
             if high > 1e6 * self.R:
-                raise NoEquilibrium(f"local interaction carries {pressure:.4g} Pa at every gap")
+                raise NoEquilibrium(
+                    f"local interaction carries {value_of(pressure, 'Pa')} at every gap"
+                )
         return brentq(excess, low, high, xtol=1e-14 * self.sigma_s, rtol=1e-15)
 
 
@@ -494,7 +497,8 @@ def local_interaction(
         )
         if scalar and np.isnan(gaps[0]):
             raise NoEquilibrium(
-                f"no equilibrium: no separation above {DEEPEST:g} sigma_s carries {loads[0]:.4g} Pa"
+                f"no equilibrium: no separation above {DEEPEST:g} sigma_s carries "
+                f"{value_of(loads[0], 'Pa')}"
             )
     rows = np.array(
         [

@@ -25,6 +25,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..errors import InvalidValue, NoEquilibrium
 from ..quantities.carried import takes_units
+from ..quantities.say import value_of
 from .elastic_balance import (
     OUT_OF_REACH,
     WIDENED,
@@ -173,7 +174,8 @@ class Histogram:
         p, slope = skin(gap)
         if not bare and skin.bound is not None and np.min(gap) < skin.floor:
             raise NoEquilibrium(
-                f"the local gap falls to {np.min(gap):.4g} m, below the {skin.floor:.4g} m of "
+                f"the local gap falls to {value_of(np.min(gap), 'm')}, below the "
+                f"{value_of(skin.floor, 'm')} of "
                 f"{skin.bound.why_lowest}"
             )
         grid = Grid(self.heights, -self.heights, np.zeros((0, 0)), self.weights)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -10,7 +11,17 @@ from nicegui import ui
 import thirdbody as tb
 
 from ...equilibrium.columns import COLUMNS
-from ...equilibrium.words import MODES, NO_CONTACT, carried, load_of, meets, mode_of, two_bodies
+from ...equilibrium.words import (
+    MODES,
+    NO_CONTACT,
+    carried,
+    is_rare,
+    load_of,
+    meets,
+    mode_among,
+    mode_of,
+    two_bodies,
+)
 from ...errors import InvalidValue
 from ...quantities.say import number, percent, value_of
 from ...study.body import told as told_of
@@ -40,7 +51,7 @@ MET = (
 )
 
 
-def headline(point: tb.Equilibrium) -> str:
+def headline(point: tb.Equilibrium, held: float = math.inf) -> str:
     """The answer as a sentence, of the clauses of the command line."""
     load = load_of(_one(point.pressure), _one(point.F_star))
     if not _one(point.A_t):
@@ -49,10 +60,14 @@ def headline(point: tb.Equilibrium) -> str:
         return f"At {load} {two_bodies()}."
     parts = {part.name: _one(part.load_share) for part in point.populations}
     share = carried(_one(point.particle_load_share), parts if len(parts) > 1 else None)
-    return f"{share[0].upper()}{share[1:]} at {load}; {mode_of(str(point.mode) or None)}."
+    mode = str(point.mode) or None
+    if is_rare(mode, held):
+        how = mode_among(mode, held)
+        return f"At {load} {how}; on a wide surface {share}."
+    return f"{share[0].upper()}{share[1:]} at {load}; {mode_of(mode)}."
 
 
-def told(point: tb.Equilibrium) -> list[tuple[str, str]]:
+def told(point: tb.Equilibrium, held: float = math.inf) -> list[tuple[str, str]]:
     """The state under the operating load, in the words of the command line."""
     at = [
         ("load", load_of(_one(point.pressure), _one(point.F_star))),
@@ -61,8 +76,9 @@ def told(point: tb.Equilibrium) -> list[tuple[str, str]]:
         ("real contact area", percent(_one(point.A_t))),
     ]
     if not point.contact.two_body:
+        mode = str(point.mode)
         at += [
-            ("mode", str(point.mode) or NO_CONTACT),
+            ("mode", meets(held) if is_rare(mode, held) else mode or NO_CONTACT),
             ("particles carry", percent(_one(point.particle_load_share))),
             ("of the real area", percent(_one(point.particle_area_share))),
         ]
@@ -227,9 +243,10 @@ def drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
     point = answer.solve(at, tb.outputs.Counts())
     if str(point.status) != "ok":
         return str(point.status), None
-    made = section(answer.contact, point, seed=seed, held=answer.held)
+    held = answer.held
+    made = section(answer.contact, point, seed=seed, held=held)
     svg = to_svg(made, title="Cross-section of the interface, to scale")
-    return "", (svg, _caption(made, answer.held), made.names, told(point), headline(point))
+    return "", (svg, _caption(made, held), made.names, told(point, held), headline(point, held))
 
 
 def _caption(drawn: Any, held: float) -> str:

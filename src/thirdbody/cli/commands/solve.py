@@ -11,10 +11,14 @@ from typing import Annotated, Any
 import typer
 
 from ...equilibrium.words import (
+    MOST_MEET_NONE,
+    RARE,
     carried,
     critical_load,
     happens,
+    is_rare,
     load_of,
+    mode_among,
     mode_of,
     mode_path,
     two_bodies,
@@ -140,7 +144,7 @@ def _show(result: dict[str, Any]) -> None:
             "A_sa": lambda i: number(states["A_sa"][i]),
             "particles' load": lambda i: percent(states["particle_load_share"][i]),
             "particles' area": lambda i: percent(states["particle_area_share"][i]),
-            "mode": lambda i: states["mode"][i] or "-",
+            "mode": lambda i: _mode(result, i),
         }
     total = len(states["status"])
     console.print(_some_states(columns, total))
@@ -158,11 +162,22 @@ def _show(result: dict[str, Any]) -> None:
     console.print(summary(result))
 
 
+def _mode(result: dict[str, Any], i: int) -> str:
+    """The mode of a state, as far as the contact itself has one."""
+    from ...study.body import held_in
+
+    mode = result["states"]["mode"][i]
+    return RARE if is_rare(mode, held_in(result, i)) else mode or "-"
+
+
 def _some_states(columns: Columns, total: int) -> Table:
     """A row a state; of many states some, evenly spread."""
-    table = Table(list(columns), right=True, drop=DROP, more=ALL, legend=MEANS)
-    for i in some(total):
-        table.add_row(*(cell(i) for cell in columns.values()))
+    rows = [[cell(i) for cell in columns.values()] for i in some(total)]
+    rare = f"; {RARE}: {MOST_MEET_NONE}" * any(RARE in row for row in rows)
+    legend = MEANS | {"mode": MEANS["mode"] + rare}
+    table = Table(list(columns), right=True, drop=DROP, more=ALL, legend=legend)
+    for row in rows:
+        table.add_row(*row)
     return table
 
 
@@ -218,7 +233,7 @@ def _transition_table(critical: dict[str, Any], E_ss: float) -> Any:
 
 def summary(result: dict[str, Any]) -> str:
     """The result in plain words."""
-    from ...study.body import of_bodies
+    from ...study.body import held_in, of_bodies
 
     states = result["states"]
     known = [i for i, status in enumerate(states["status"]) if status == "ok"]
@@ -236,7 +251,10 @@ def summary(result: dict[str, Any]) -> str:
             return f"{two_bodies()}; {gap}, {area}"
         parts = {part["name"]: part["load_share"][i] for part in result["populations"]}
         share = carried(states["particle_load_share"][i], parts)
-        return f"{mode_of(states['mode'][i])}, and {share}; {gap}, {area}"
+        mode = states["mode"][i]
+        how = mode_among(mode, held := held_in(result, i))
+        where = " of a wide surface" * is_rare(mode, held)
+        return f"{how}, and {share}{where}; {gap}, {area}"
 
     def at(i: int) -> str:
         return f"At {load_of(states['pressure'][i], states['F_star'][i])} {state(i)}."

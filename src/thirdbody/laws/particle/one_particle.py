@@ -13,6 +13,7 @@ from ...errors import InvalidValue
 from ...numerics.chebyshev import PiecewiseChebyshev
 from ...numerics.roots import bracketed_root
 from ...populations.materials import reduced_modulus
+from ...quantities.say import value_of
 from ..base import REGIMES, AbstractAsperityLaw, OneParticle, Squeezed
 
 if TYPE_CHECKING:
@@ -268,10 +269,12 @@ class SqueezedParticle(OneParticle):
                     self.let_go.append((ends[0], number, delta))
         self.kinks = np.array(sorted(kinks))
         if self.kinks[-1] > DEEPEST_SQUEEZE:
+            hardness = value_of(max(float(side.H) for side in self.sides), "Pa", 3)
+            modulus = value_of(float(min(first[0], second[0])), "Pa", 3)
             raise InvalidValue(
-                f"the hardness {max(side.H for side in self.sides):.3g} Pa is so high against the "
-                f"contact modulus {min(first[0], second[0]):.3g} Pa that a particle would stay "
-                f"elastic beyond {self.kinks[-1]:.3g} times its diameter; the contact law holds "
+                f"the hardness {hardness} is so high against the contact modulus {modulus} that a "
+                f"particle would stay elastic beyond {self.kinks[-1]:.3g} times its diameter; the "
+                "contact law holds "
                 "for small indentations only (check the units of E and H)"
             )
         self._split_table = None if self.equal else self._tabulate_split()

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...errors import InvalidValue
+from ...quantities.say import value_of
 from ..asperity.jg import JG
 from .one_particle import Side
 
@@ -91,8 +92,11 @@ class Squash:
         low, high = SOLID
         if not (low <= E_star / H <= high and self.surface / H <= high):
             raise InvalidValue(
-                f"a squashed particle of E* = {E_star:.3g} Pa and H = {H:.3g} Pa between surfaces "
-                f"of H = {self.surface:.3g} Pa is beyond the law: E*/H must be from {low:g} to "
+                f"a squashed particle of E* = {value_of(E_star, 'Pa', 3)} and H = "
+                f"{value_of(H, 'Pa', 3)} between surfaces "
+                f"of H = {value_of(float(self.surface), 'Pa', 3)} is beyond the law: E*/H must be "
+                "from "
+                f"{low:g} to "
                 f"{high:g}, and the surfaces at most {high:g} times as hard; check the units of E "
                 "and H, or use soft = 'sphere'"
             )
@@ -101,7 +105,8 @@ class Squash:
             if not low <= E_star / H <= high:
                 raise InvalidValue(
                     f"onset = 'jg' holds for E*/H from {low:g} to {high:g} of a squashed particle, "
-                    f"and here it is {E_star / H:.3g} (E* = {E_star:.3g} Pa, H = {H:.3g} Pa): "
+                    f"and here it is {E_star / H:.3g} (E* = {value_of(E_star, 'Pa', 3)}, H = "
+                    f"{value_of(H, 'Pa', 3)}): "
                     "its contact area would grow too fast; use onset = 'hermite'"
                 )
             return _OfJacksonGreen(self, JG(), E_star, H, nu, R)
@@ -176,8 +181,11 @@ class _SquashedSide(Side):
             high, low = low, low - math.log(2)
             if low < math.log(THINNEST):
                 raise InvalidValue(
-                    f"a squashed particle of H = {self.H:.3g} Pa does not reach the hardness of "
-                    f"the surfaces, {surface:.3g} Pa, before it is squashed to {THINNEST:g} of its "
+                    f"a squashed particle of H = {value_of(float(self.H), 'Pa', 3)} does not "
+                    "reach the "
+                    "hardness of "
+                    f"the surfaces, {value_of(float(surface), 'Pa', 3)}, before it is squashed to "
+                    f"{THINNEST:g} of its "
                     "size; check H and friction_factor, or use soft = 'sphere'"
                 )
         if low == high:

@@ -16,6 +16,7 @@ import numpy as np
 
 from ...errors import InvalidValue
 from ...quantities.carried import takes_units
+from ...quantities.say import value_of
 from .spectra import SpectralMoments
 from .topography import Topography
 
@@ -145,10 +146,10 @@ def from_moments(
     found = _matching(shape, 2 * moments.m2 / moments.m0, moments.alpha)
     if found is None:
         raise InvalidValue(
-            f"no spectrum on {points} x {points} points {spacing:g} m apart has α = "
+            f"no spectrum on {points} x {points} points {value_of(spacing, 'm')} apart has α = "
             f"{moments.alpha:.4g} and an RMS gradient of {moments.rms_gradient:.4g} with σ = "
-            f"{moments.sigma:.4g} m; α must be above 2, and a larger α takes more points or "
-            "another spacing"
+            f"{value_of(moments.sigma, 'm')}; α must be above 2, and a larger α takes more points "
+            "or another spacing"
         )
     grid = _wavenumbers(points, spacing)
     spectrum = np.where(grid > 0, shape.density(grid, *found), 0.0)

@@ -8,9 +8,18 @@ from collections.abc import Sequence
 from ...analysis.inputs import words_of
 from ...analysis.sensitivity import Sensitivity
 from ...equilibrium.columns import about
-from ...equilibrium.words import carried, happens, mode_of, mode_path, not_met, two_bodies
+from ...equilibrium.words import (
+    carried,
+    happens,
+    is_rare,
+    mode_among,
+    mode_of,
+    mode_path,
+    not_met,
+    two_bodies,
+)
 from ...quantities.say import listed, number, percent, signed, times, value_of
-from ...study.body import of_bodies
+from ...study.body import held_in, of_bodies
 from .found import Found
 
 MATTER = 3
@@ -76,7 +85,9 @@ class Sentences(Found):
             return two_bodies()
         parts = {part["name"]: part["load_share"][i] for part in self.result["populations"]}
         share = carried(states["particle_load_share"][i], parts)
-        return f"{mode_of(states['mode'][i])}, and {share}"
+        mode, held = states["mode"][i], held_in(self.result, i)
+        where = " of a wide surface" * is_rare(mode, held)
+        return f"{mode_among(mode, held)}, and {share}{where}"
 
     def _gap(self, i: int) -> str:
         """How far the mean planes are from each other."""
@@ -140,7 +151,10 @@ class Sentences(Found):
             f"{name} = {number(F)} ({value_of(F * self.contact.E_ss, 'Pa')}{_beyond(F, loads)})"
             for name, F in self._found("F_cr1", "F_cr2").items()
         ]
-        path = mode_path(states["mode"][i] for i in known)
+        if any(is_rare(states["mode"][i], held_in(self.result, i)) for i in known):
+            path = "Modes are those of a wide surface whose particles all share the load"
+        else:
+            path = mode_path(states["mode"][i] for i in known)
         critical = "the critical load is" if len(found) == 1 else "critical loads are"
         return f"{path}; {critical} {listed(found)}." if found else f"{path}."
 

@@ -6,8 +6,9 @@ from html import escape
 from typing import Any
 
 from ...equilibrium.columns import about
-from ...equilibrium.words import CRITICAL, critical_load, happens
+from ...equilibrium.words import CRITICAL, MOST_MEET_NONE, RARE, critical_load, happens, is_rare
 from ...quantities.say import NOT_KNOWN, percent, plural, unit_of, value_of
+from ...study.body import held_in
 from ..explicit_words import compared, headline
 from ..html import figure, section, svg_of, symbols, table, text_table, words
 from .found import Found, some_of
@@ -30,19 +31,25 @@ class Tables(Found):
         states = self.result["states"]
         names = list(STATES if self.contact.two_body else (*STATES, *SHARED))
         total = len(states["status"])
-        rows = [
-            [column_value(name, states[name][i]) for name in names]
-            for i in some_of(total, MOST_ROWS)
-        ]
+        rows = [[self._cell(name, i) for name in names] for i in some_of(total, MOST_ROWS)]
         head = [f"<th class=n>{symbols(about(name)['symbol'])}</th>" for name in names]
         cells = [[f"<td class=n>{words(cell)}</td>" for cell in row] for row in rows]
         meanings = "; ".join(f"{about(name)['symbol']}: {about(name)['meaning']}" for name in names)
         out = [table(head, cells), f"<p class=soft>{symbols(meanings)}.</p>"]
+        if any(RARE in row for row in rows):
+            out.append(f"<p class=soft>{RARE}: {MOST_MEET_NONE}.</p>")
         if total > MOST_ROWS:
             out.append(f"<p>{MOST_ROWS} of {plural(total, 'state')}, evenly spread.</p>")
         if self.result["populations"]:
             out += ["<h3>What each population carries</h3>", self._populations(total)]
         return out
+
+    def _cell(self, name: str, i: int) -> str:
+        """A number of a state; a mode as far as the contact itself has one."""
+        value = self.result["states"][name][i]
+        if name == "mode" and is_rare(value, held_in(self.result, i)):
+            return RARE
+        return column_value(name, value)
 
     def _populations(self, total: int) -> str:
         parts = self.result["populations"]

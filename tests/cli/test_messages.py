@@ -1,0 +1,136 @@
+"""Messages of the command line: in words of the study file, as wide as the terminal."""
+
+import ast
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+import thirdbody
+from thirdbody.cli.streams import warn
+from thirdbody.quantities.study_words import ADVICE, in_study_words
+
+from .test_cli import DUSTY, run
+
+CALL = re.compile(r"\w\(\.\.\.|\.replace\(|\b[A-Z][A-Za-z]+\([a-z_]*=?|\b(particle|outputs)\.[A-Z]")
+"""A call or a class of Python."""
+BARE = [
+    "--set", 'surfaces.first={E="205 GPa", nu=0.29, H="5 GPa"}',
+    "--set", 'surfaces.second={E="205 GPa", nu=0.29, H="5 GPa"}',
+    "--set", 'particles.material={E="70 GPa", nu=0.17, H="9 GPa"}',
+]  # fmt: skip
+"""Bodies of which no more is known."""
+
+
+@pytest.mark.parametrize(
+    ("setting", "said"),
+    [
+        (
+            "outputs.electrical_conductance={}",
+            "surfaces.first = { E = ..., nu = ..., H = ..., resi",
+        ),
+        ("outputs.thermal_conductance={}", "thermal_conductivity of the particles: particles.mat"),
+        ("outputs.flash_temperature={v=1, A_n=1e-6}", "density of surface 2: surfaces.second = {"),
+        ("outputs.crushing={}", 'particles.strength = "material"'),
+        ('particles.strength="material"', "particles.strength"),
+        ('particle_law={name="series", law="coated"}', ""),
+    ],
+)
+def test_advice_is_in_the_words_of_the_study_file(setting, said):
+    done = run("solve", DUSTY, *BARE, "--set", setting)
+    assert done.exit_code == 2, done.output
+    assert said in done.stderr
+    assert not CALL.search(done.stderr), done.stderr
+
+
+def test_every_advice_is_what_the_library_says():
+    """A sentence that was put otherwise since would reach a user in Python again."""
+    code = " ".join(_texts(Path(thirdbody.__file__).parent))
+    assert [python for python in ADVICE if python not in code] == []
+
+
+def _texts(root):
+    """Every text of the code but the table itself, formatted ones with their gaps."""
+    for file in sorted(root.rglob("*.py")):
+        if file.name == "study_words.py":
+            continue
+        for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+            if isinstance(node, ast.JoinedStr):
+                yield "".join(
+                    each.value if isinstance(each, ast.Constant) else "{}" for each in node.values
+                )
+            elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                yield node.value
+
+
+def test_a_sentence_without_python_stays():
+    sentence = "A_t reaches 0.2 at chi = H/(E* g) = 0.31 (g: RMS slope)"
+    assert in_study_words(sentence) == sentence
+
+
+@pytest.mark.parametrize("width", [40, 80, 132])
+def test_errors_and_warnings_are_as_wide_as_the_terminal(monkeypatch, capsys, width):
+    monkeypatch.setenv("COLUMNS", str(width))
+    sentence = "the load of the particles is on those that are squeezed by more than a half " * 3
+    warn(sentence)
+    lines = capsys.readouterr().err.splitlines()
+    assert max(map(len, lines)) <= width
+    assert len(lines) > 1
+    assert " ".join(line.strip() for line in lines) == f"warning: {sentence.strip()}"
+    done = run("solve", DUSTY, "--set", "roughness.sigma=300 GPa", "--set", "particles.std=1 kg")
+    lines = done.stderr.splitlines()
+    assert max(map(len, lines)) <= width
+    assert done.stderr.count("error: ") == 2
+
+
+def test_a_pipe_has_a_line_a_message(monkeypatch, capsys):
+    monkeypatch.delenv("COLUMNS", raising=False)
+    warn("word " * 100)
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_one_way_of_writing_stresses():
+    done = run("solve", DUSTY, "--set", "load.pressure=1.87e9")
+    assert "1.87 GPa" in done.stderr + done.stdout
+    assert not re.search(r"\d(e[+-]?\d+)? Pa\b", done.stderr), done.stderr
+
+
+RARE = """[surfaces]
+first = "CuSn8"
+second = "CuSn8"
+[roughness]
+sigma = "100 nm"
+R = "2.8 um"
+[particles]
+material = "SiO2"
+distribution = "monodisperse"
+mean = "2 um"
+areal_density = "1e8 / m^2"
+[body]
+kind = "flat"
+area = "100 um^2"
+[load]
+force = "10 uN"
+"""
+
+
+def test_a_contact_of_which_most_meet_no_particle_is_not_said_to_rest_on_particles(tmp_path):
+    """Mode of a wide surface: it stays in the data, and words do not claim it of the contact."""
+    study = tmp_path / "rare.toml"
+    study.write_text(RARE)
+    data = json.loads(run("solve", study, "--json").stdout)
+    assert data["states"]["mode"] == ["p-s"]
+    assert data["body"]["forces"][0]["particles_held"] == pytest.approx(0.01)
+    words = " ".join(run("solve", study).stdout.split())
+    *_, last = words.split("of the nominal area")[0].split("At 100 kPa")
+    assert "one contact in 100 meets a particle, and the others are as without particles" in last
+    assert "p-s" not in last
+    assert "of a wide surface" in last
+    rows = run("solve", study).stdout.splitlines()
+    (row,) = (line for line in rows if "100 kPa" in line and "mode" not in line and "%" in line)
+    assert row.split()[-1] == "rare"
+    assert "rare: less than one particle lies in a contact" in words
+    many = run("solve", study, "--set", "particles.areal_density=3e10").stdout
+    assert "rare" not in many
+    assert "real contact is on particles" in " ".join(many.split())
