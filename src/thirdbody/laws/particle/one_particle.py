@@ -230,11 +230,11 @@ class SqueezedParticle(OneParticle):
         self.key = (law, first, second, R, forms, shape)
         self.equal = first == second and forms[0] == forms[1]
 
-        def side(body: Body, form: SideForm | None) -> Side:
+        def contact(body: Body, form: SideForm | None) -> Side:
             return (form and form.side(law, *body, R)) or Side(law, *body, R)
 
-        upper = side(first, forms[0])
-        self.sides = (upper, upper if self.equal else side(second, forms[1]))
+        upper = contact(first, forms[0])
+        self.sides = (upper, upper if self.equal else contact(second, forms[1]))
         self.tip_radius, self.breadth, self.shape = R, 2 * R, shape
         if shape is not None:
             self.breadth = shape.breadth

@@ -40,7 +40,7 @@ def friction(
     )
     deep, name = laws
     contact = tb.Contact(
-        asperity_law=tb.asperity.REGISTRY[name](),
+        asperity_law=tb.asperity.Field() if name == "field" else tb.asperity.ZMC(),
         particle_law=tb.particle.Series(deep=deep),
         surfaces=tb.MaterialPair(tool, strip),
         roughness=tb.Roughness(sigma=0.5e-6, R=10e-6),

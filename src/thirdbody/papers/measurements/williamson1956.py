@@ -105,7 +105,7 @@ def share(level: float, ratio: Array, laws: tuple[str, str] = ("table", "zmc")) 
     """
     sigma = 0.3e-6
     contact = tb.Contact(
-        asperity_law=tb.asperity.REGISTRY[laws[1]](),
+        asperity_law=tb.asperity.Field() if laws[1] == "field" else tb.asperity.ZMC(),
         particle_law=tb.particle.Series(deep=laws[0]),
         surfaces=PAIR,
         roughness=tb.Roughness(sigma=sigma, R=3e-6, alpha=5.0, eta_R_sigma=0.045),
