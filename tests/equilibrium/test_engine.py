@@ -484,7 +484,6 @@ OTHERS = {
     "jkr": lambda: default().replace(asperity_law=tb.asperity.JKR(w=0.05)),
     "jkr apart": lambda: default().replace(asperity_law=tb.asperity.JKR(w=0.05, unloading=True)),
     "dmt": lambda: default().replace(asperity_law=tb.asperity.DMT(w=0.05)),
-    "horng": lambda: default("plane").replace(particle_law=tb.particle.Horng2022()),
     "ellipticity": mixed_tips,
 }
 
