@@ -28,9 +28,14 @@ __all__ = ["Cached"]
 COMPILE = (
     "import base64, importlib, pickle, sys; "
     "module, name, signature = sys.argv[1:]; "
-    "function = getattr(importlib.import_module(module), name).function; "
-    "function.compile(pickle.loads(base64.b64decode(signature)))"
+    "function = getattr(importlib.import_module(module), name); "
+    "function.compile_whole(pickle.loads(base64.b64decode(signature)))"
 )
+PARTS = (
+    *(("_optimize_final_module", None), ("_finalize_specific", None)),
+    ("get_pointer_to_function", 0),
+)
+"""What numba does with the code of every function, and what it gives."""
 PATIENCE = 600
 """Seconds after which this process compiles for itself."""
 
@@ -73,6 +78,24 @@ class Cached:
             self._prepared.add(kinds)
         return self.function(*args)
 
+    def compile_whole(self, signature: tuple[Any, ...]) -> None:
+        """Compile for these types, in a process of its own: functions that it calls with it.
+
+        numba optimises every function together with all that it calls, and turns it into machine
+        code, again for each function above it. What is called from here alone needs that once.
+        """
+        with contextlib.suppress(ImportError, AttributeError):  # numba's own; without it, as ever
+            from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
+
+            name = self.function.py_func.__qualname__
+            for step, result in PARTS:
+                setattr(JITCodeLibrary, step, _of_one(getattr(JITCodeLibrary, step), name, result))
+            set_env = JITCPUCodegen.set_env
+            JITCPUCodegen.set_env = lambda codegen, place, env: (
+                set_env(codegen, place, env) if f"{len(name)}{name}" in place else None
+            )
+        self.function.compile(signature)
+
     @staticmethod
     def _signature(args: tuple[Any, ...]) -> tuple[Any, ...]:
         from numba import typeof
@@ -110,6 +133,15 @@ class Cached:
             )
         except (OSError, subprocess.TimeoutExpired):
             return  # compiled here instead, by the call
+
+
+def _of_one(step: Callable[..., Any], name: str, result: Any) -> Callable[..., Any]:
+    """A step of numba's that is taken for the code of one function alone."""
+
+    def taken(library: Any, *args: Any) -> Any:
+        return step(library, *args) if library.name == name else result
+
+    return taken
 
 
 def _kind(value: Any) -> Any:

@@ -259,8 +259,7 @@ class Numbers:
         if type(one) not in (sizes.TruncatedGaussian, sizes.LogNormal, sizes.Uniform):
             raise NotCompiled("printed integrals over sizes of other kinds")
         self._add_sizes(rows, one, changed.diameter)
-        x_a: Array = rows[:, f.SIZE_1]
-        mass: Array | float = 1.0
+        x_a, mass = rows[:, f.SIZE_1], np.ones(self.count)
         if type(one) is sizes.TruncatedGaussian:
             mass = 1 / (math.sqrt(2 * math.pi) * rows[:, f.SIZE_2] * rows[:, f.NORM])
         elif type(one) is sizes.LogNormal:

@@ -47,8 +47,19 @@ def _mass(A, B):
 
 
 @scalar
+def _power(x, n):
+    """xⁿ for n = 0, 1 and 2."""
+    if n == 0:
+        return 1.0
+    return x if n == 1 else x * x
+
+
+@scalar
 def moment(given, p, n, a, b, gauss, weights, nodes):
-    """∫ xⁿ φ dx from a to b, of the part inside the support."""
+    """∫ xⁿ φ dx from a to b, of the part inside the support; n is no whole number to numba.
+
+    For each whole number that stands in a call numba would compile it again.
+    """
     apart()
     a, b = max(a, given[p, LOW]), min(b, given[p, HIGH])
     if not a < b:
@@ -71,11 +82,11 @@ def moment(given, p, n, a, b, gauss, weights, nodes):
         shift = n * s
         A, B = math.log(a / middle) / s - shift, math.log(b / middle) / s - shift
         if (B - A) * max(1.0, abs(A)) >= 0.5:
-            return middle**n * math.exp(0.5 * shift * shift) * _mass(A, B)
+            return _power(middle, n) * math.exp(0.5 * shift * shift) * _mass(A, B)
     half, total = 0.5 * (b - a), 0.0
     for j in range(nodes):
         x = a + half * (1 + gauss[j])
-        total += weights[j] * x**n * density(given, p, x)
+        total += weights[j] * _power(x, n) * density(given, p, x)
     return half * total
 
 
@@ -85,8 +96,8 @@ def _weighed(given, p, a, b, gauss, weights, nodes):
     apart()
     x_a = given[p, FIXED]
     if x_a > 0:
-        return x_a * x_a * moment(given, p, 0, a, b, gauss, weights, nodes)
-    return moment(given, p, 2, a, b, gauss, weights, nodes)
+        return x_a * x_a * moment(given, p, 0.0, a, b, gauss, weights, nodes)
+    return moment(given, p, 2.0, a, b, gauss, weights, nodes)
 
 
 @scalar
@@ -97,8 +108,8 @@ def _above(given, p, d, gauss, weights, nodes):
     if given[p, ABOVE] == NEVER:
         return 0.0
     if given[p, ABOVE] == BY_APPROACH:
-        squared = moment(given, p, 2, d, high, gauss, weights, nodes)
-        return squared - d * moment(given, p, 1, d, high, gauss, weights, nodes)
+        squared = moment(given, p, 2.0, d, high, gauss, weights, nodes)
+        return squared - d * moment(given, p, 1.0, d, high, gauss, weights, nodes)
     return _weighed(given, p, d, high, gauss, weights, nodes)
 
 

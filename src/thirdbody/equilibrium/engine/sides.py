@@ -58,12 +58,15 @@ plastic_ceb = scalar(formulas.plastic_ceb)
 kogut = scalar(formulas.kogut)
 green_middle = scalar(formulas.green_middle)
 HALVINGS, STEEPEST = 60, 1e-15
+OF_CAP, OF_WIDTH, OF_PRESSURE = 0.0, 1.0, 2.0
+"""Kinks of a row. No whole numbers, for each of which numba would compile what takes them."""
 LAW_ENDS, TABLE_BEGINS, TABLE_ENDS, SPLITS = (
     deep.LAW_ENDS,
     deep.TABLE_BEGINS,
     deep.TABLE_ENDS,
     deep.SPLITS,
 )
+FIRST, LAST = math.log(LAW_ENDS / (1 - LAW_ENDS)), math.log(TABLE_ENDS / (1 - TABLE_ENDS))
 THINNEST = math.exp(deep.THINNEST)
 GRADING = 4.0
 """Ratio of heights left at neighbouring kinks of a disc."""
@@ -169,12 +172,12 @@ def law_at(rows, i, y):
 
 @scalar
 def _excess(rows, i, y, what):
-    """What is zero at a kink of a row, rising with y: 0 the cap, 1 the width, 2 the pressure."""
+    """What is zero at a kink of a row, rising with y: of the cap, the width, or the pressure."""
     apart()
-    if what == 0:
+    if what == OF_CAP:
         return law_at(rows, i, y)[1] - rows[i, FULL]
     load, area = _squashed_at(rows, i, y)
-    if what == 1:
+    if what == OF_WIDTH:
         return 4 * rows[i, TIP] * rows[i, DELTA_1] * area - 1
     return load - rows[i, HARDER] * area
 
@@ -238,7 +241,7 @@ def _cap(rows, i):
                 low = y
             elif under >= full:
                 high = below
-    return _crossing(rows, i, low, high, 0)
+    return _crossing(rows, i, low, high, OF_CAP)
 
 
 @scalar
@@ -256,19 +259,21 @@ def _squashed_at(rows, i, y):
 
 
 @scalar
-def _series(rows, i, begin, x):
-    """A Chebyshev series of a row at x, from −1 to 1."""
-    b, c = 0.0, 0.0
+def _table_at(rows, i, x):
+    """Load and area by both Chebyshev series of a row at x, from −1 to 1, side by side."""
+    apart()
+    b_1, c_1, b_2, c_2, twice = 0.0, 0.0, 0.0, 0.0, 2 * x
     for k in range(TABLE_TERMS - 1, 0, -1):
-        b, c = rows[i, begin + k] + 2 * x * b - c, b
-    return rows[i, begin] + x * b - c
+        b_1, c_1 = rows[i, TABLE_LOAD + k] + twice * b_1 - c_1, b_1
+        b_2, c_2 = rows[i, TABLE_AREA + k] + twice * b_2 - c_2, b_2
+    load, area = rows[i, TABLE_LOAD] + x * b_1 - c_1, rows[i, TABLE_AREA] + x * b_2 - c_2
+    return math.exp(load), math.exp(area)
 
 
 @scalar
 def _disc_at(rows, i, left):
     """Load over πR²H and area over πR² of a disc beyond the table, of a height left."""
-    load = math.exp(_series(rows, i, TABLE_LOAD, 1.0))
-    area = math.exp(_series(rows, i, TABLE_AREA, 1.0))
+    load, area = _table_at(rows, i, 1.0)
     thick = 1 - TABLE_ENDS
     wide, hill = area * thick / left, rows[i, HILL]
     rise = (1 + hill * math.sqrt(wide) / left) / (1 + hill * math.sqrt(area) / thick)
@@ -285,10 +290,8 @@ def _deep_at(rows, i, eps):
     if eps <= LAW_ENDS:
         load, area = law_at(rows, i, eps / thin)
         return thin * load, thin * area
-    first, last = math.log(LAW_ENDS / (1 - LAW_ENDS)), math.log(TABLE_ENDS / (1 - TABLE_ENDS))
-    place = (2 * math.log(eps / (1 - eps)) - first - last) / (last - first)
-    table_load = math.exp(_series(rows, i, TABLE_LOAD, place))
-    table_area = math.exp(_series(rows, i, TABLE_AREA, place))
+    place = (2 * math.log(eps / (1 - eps)) - FIRST - LAST) / (LAST - FIRST)
+    table_load, table_area = _table_at(rows, i, place)
     if eps >= TABLE_BEGINS:
         return table_load, table_area
     load, area = law_at(rows, i, eps / thin)
@@ -398,21 +401,22 @@ def _prepare_disc(rows, i):
     delta_1, cap = rows[i, DELTA_1], rows[i, CAP]
     top = 0.5 * (1 - 1e-6) / delta_1
     rows[i, WIDE] = cap
-    if cap < top and abs(_excess(rows, i, cap, 1)) > 1e-9:
-        low, high = (1e-9 * cap, cap) if _excess(rows, i, cap, 1) > 0 else (cap, top)
-        rows[i, WIDE] = _crossing(rows, i, low, high, 1)
+    if cap < top and abs(_excess(rows, i, cap, OF_WIDTH)) > 1e-9:
+        low, high = (1e-9 * cap, cap) if _excess(rows, i, cap, OF_WIDTH) > 0 else (cap, top)
+        rows[i, WIDE] = _crossing(rows, i, low, high, OF_WIDTH)
     begin = max(rows[i, WIDE], cap)
     high, left = begin, 1 - 2 * delta_1 * begin
     if not left > 0:
         return False
-    while _excess(rows, i, high, 2) < 0:
+    while _excess(rows, i, high, OF_PRESSURE) < 0:
         left *= 0.5
         if left < 1e-9:
             return False
         high = 0.5 * (1 - left) / delta_1
     rows[i, END] = begin
     if high > begin:
-        rows[i, END] = _crossing(rows, i, max(begin, 0.5 * (1 - 2 * left) / delta_1), high, 2)
+        low = max(begin, 0.5 * (1 - 2 * left) / delta_1)
+        rows[i, END] = _crossing(rows, i, low, high, OF_PRESSURE)
     end = rows[i, END]
     for n in range(breaks(rows, i)):
         if break_at(rows, i, n) < end:

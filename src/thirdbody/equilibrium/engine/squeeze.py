@@ -157,7 +157,7 @@ def _kinks(given, sides, panels, p):
     """Kinks in ε as ends of panels after 0; how many ends, or −1 where a load jumps."""
     apart()
     panels[p, 0, EDGE] = 0.0
-    count = 1
+    count = 1 + int(panels[p, 0, EDGE])  # no constant, for which numba would compile twice
     equal = given[p, EQUAL] == 1
     for i in range(1 if equal else 2):
         own, other = 2 * p + i, 2 * p + 1 - i
@@ -207,7 +207,7 @@ def _share_out(sides, panels, p, count, rule):
     How many panels there are then, and the largest last term of a series.
     """
     apart()
-    low, n, worst = 0.0, 0, 0.0
+    low, n, worst = 0.0, int(panels[p, 0, EDGE]), 0.0  # 0, and no constant
     while n < count:
         a, b = panels[p, n, EDGE], panels[p, n, TO]
         high = split(sides, 2 * p, b, low, min(b, low + b - a), low + 0.5 * (b - a))
@@ -247,7 +247,7 @@ def _crossing(given, sides, panels, p, n, low, high):
 def _cut_at_crossings(given, sides, panels, p, count):
     """Panels cut where the larger of the two areas changes; their number."""
     apart()
-    n = 0
+    n = int(panels[p, 0, EDGE])  # 0, and no constant
     while n < count and count < MOST_PANELS - 2:
         a, b = panels[p, n, EDGE], panels[p, n, TO]
         before, place = 0.0, a

@@ -68,7 +68,7 @@ def lay_skin(skin, heights, count, gauss, weights, nodes):
     row = len(skin) - 1  # a number and no constant, for which numba would compile twice
     w = skin[row, W]
     end = (DEEPEST + math.sqrt(DEEPEST**2 + 100.0)) / w
-    number = breaks(skin, 0)
+    number = breaks(skin, row)
     a = 0.0
     while a < end:
         b = 0.3 / w if a == 0 else min(a * 4.0, a + 2.5 / w)
