@@ -73,10 +73,6 @@ RECORD = {
 """What files of surfaces say that earlier versions kept, without a digest."""
 
 
-MOST = 1_000_000
-"""Synthetic surfaces that one run presses."""
-
-
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Ensemble:
     """Explicit surfaces against the statistical model; made by `ensemble`.
@@ -335,8 +331,10 @@ def _counted(
 ) -> tuple[Sequence[Topography] | None, int]:
     """The surfaces that are given, None for synthetic ones, and how many there are."""
     if isinstance(surfaces, int):
-        if isinstance(surfaces, bool) or not 1 <= surfaces <= MOST:
-            raise InvalidValue(f"surfaces = {surfaces!r} must be a whole number from 1 to {MOST:,}")
+        if isinstance(surfaces, bool) or not 1 <= surfaces <= 10**6:
+            raise InvalidValue(
+                f"surfaces = {surfaces!r} must be a whole number from 1 to 1,000,000"
+            )
         return None, surfaces
     if not isinstance(surfaces, Sequence) or not surfaces:
         raise InvalidValue("surfaces must be a number of them or a list of Topography")
