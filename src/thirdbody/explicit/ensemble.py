@@ -331,8 +331,10 @@ def _counted(
 ) -> tuple[Sequence[Topography] | None, int]:
     """The surfaces that are given, None for synthetic ones, and how many there are."""
     if isinstance(surfaces, int):
-        if isinstance(surfaces, bool) or surfaces < 1:
-            raise InvalidValue(f"surfaces = {surfaces!r} must be a whole number, at least 1")
+        if isinstance(surfaces, bool) or not 1 <= surfaces <= 10**6:
+            raise InvalidValue(
+                f"surfaces = {surfaces!r} must be a whole number from 1 to 1,000,000"
+            )
         return None, surfaces
     if not isinstance(surfaces, Sequence) or not surfaces:
         raise InvalidValue("surfaces must be a number of them or a list of Topography")

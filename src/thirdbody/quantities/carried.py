@@ -15,6 +15,7 @@ from __future__ import annotations
 import inspect
 import math
 import re
+import sys
 from collections.abc import Callable, Iterator, Mapping
 from decimal import Decimal
 from functools import cache, wraps
@@ -256,12 +257,16 @@ def takes_units(function: F) -> F:
 
 
 def _may_be_none(value: Any) -> bool:
-    """Whether an argument has to be looked at: masked numbers, or truth values for numbers."""
+    """Whether an argument is to be looked at: masked or huge numbers, truth values for numbers."""
     kind = type(value)
     if kind is bool or kind is np.bool_:
         return True
+    if kind is int:
+        return bool(huge_words(value))
     if kind is np.ndarray:
-        return value.dtype.kind == "b"
+        return value.dtype.kind == "b" or (
+            value.dtype.kind == "O" and any(map(huge_words, value.flat))
+        )
     if kind is dict:
         return any(map(_may_be_none, value.values()))
     if kind in (list, tuple):
@@ -271,6 +276,22 @@ def _may_be_none(value: Any) -> bool:
 
 LOOKED_AT = 1000
 """Longest list in which each item is looked at, for a truth value among numbers."""
+
+
+def huge_words(value: Any) -> str:
+    """Why a whole number is beyond every float; "" where it is not, or is no such number.
+
+    It is not written out: Python refuses to write more than 4300 digits.
+
+    >>> huge_words(10**400), huge_words(10**300), huge_words(1e300)
+    ('is a whole number of 401 digits; it must be at most 1e40 in size; check its exponent', '', '')
+    """
+    if type(value) is not int or value.bit_length() <= sys.float_info.max_exp:
+        return ""
+    digits = math.floor(math.log10(abs(value))) + 1  # of any size, as `math` takes its bits
+    return (
+        f"is a whole number of {digits} digits; it must be at most 1e40 in size; check its exponent"
+    )
 
 
 def masked_words(value: Any) -> str:
@@ -291,7 +312,7 @@ def masked_words(value: Any) -> str:
 def _refuse_no_numbers(
     function: Callable[..., Any], args: tuple[Any, ...], named: dict[str, Any]
 ) -> None:
-    """Refuse masked values, and truth values where a number with a unit is needed."""
+    """Refuse masked and huge values, and truth values where a number with a unit is needed."""
     given = inspect.signature(function).bind_partial(*args, **named).arguments
     owner: type = type(args[0]) if args else object
     units = units_of(function, owner)
@@ -299,6 +320,11 @@ def _refuse_no_numbers(
     for name, value in given.items():
         for key, each in value.items() if isinstance(value, dict) else [(name, value)]:
             some = each if type(each) in (list, tuple) and len(each) <= LOOKED_AT else [each]
+            if isinstance(each, np.ndarray) and each.dtype.kind == "O":
+                some = list(each.flat)
+            if why := next(filter(None, map(huge_words, some)), ""):
+                problems.append(f"{key} {why}")
+                continue
             if why := next(filter(None, map(masked_words, some)), ""):
                 problems.append(f"{key} {why}")
             elif units.get(key) is not None and any(map(_is_truth, some)):

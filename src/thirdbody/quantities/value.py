@@ -18,7 +18,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from ..errors import InvalidValue, NotCompiled, tell_of_range
-from .carried import carries_unit, in_si, masked_words, takes_units
+from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 
 if TYPE_CHECKING:
     import numpy as np
@@ -239,7 +239,7 @@ class Value:
         for name, about, words in _declared(type(self)):  # type: ignore[arg-type]
             value = getattr(self, name)
             why = None
-            if type(value) is not float and (told := masked_words(value)):
+            if type(value) is not float and (told := masked_words(value) or huge_words(value)):
                 problems.append(f"{type(self).__name__}.{name} {told}")
                 continue
             if type(value) is not float and carries_unit(value):
@@ -440,7 +440,8 @@ def sequences(value: Value, *names: str) -> None:
         given = getattr(value, name)
         if given is None and type(value).__dataclass_fields__[name].default is None:  # type: ignore[attr-defined]
             continue
-        told = masked_words(given)
+        some = given if type(given) in (list, tuple) else ()
+        told = masked_words(given) or next(filter(None, map(huge_words, some)), "")
         if told:
             told = f"{type(value).__name__}.{name} {told}"
         elif carries_unit(given):
