@@ -96,7 +96,7 @@ def test_a_file_that_fails_leaves_the_older_one(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(pandas.DataFrame, "to_parquet", full)
-    done = run("surface", "example", "--parquet", older)
+    done = run("surface", "example", "--parquet", older, "--force")
     assert done.exit_code == 2
     assert "no space left" in done.stderr.lower()
     assert older.read_bytes() == b"older"

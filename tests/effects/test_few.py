@@ -193,6 +193,20 @@ def test_heat_and_counts_say_it():
     assert not at(OPEN, tb.outputs.Counts())[1]
 
 
+@pytest.mark.parametrize(("x", "eta", "heard"), [(4e-6, 5e8, True), (5e-7, 3e8, False)])
+def test_few_particles_among_many_asperities_are_told_where_they_carry(x, eta, heard):
+    """Half a particle on average among several asperities; those that carry 0.04 % do not matter."""
+    case = dusty(eta, x).replace(outputs=(tb.outputs.Counts(A_n=1e-9),))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        state = tb.solve(case, pressure=1e8)
+    assert state.outputs["n_ss"] * 1e-9 > 2
+    assert 0 < state.outputs["n_sa"] * 1e-9 < 1
+    assert (state.particle_load_share > 0.01) == heard
+    said = any("particles in contact on average" in str(each.message) for each in caught)
+    assert said == heard
+
+
 def test_the_template_is_open_at_its_smallest_force():
     """0.1 N on 1 mm² rest on dust: no metal touches, and no 7 GΩ is given."""
     path = resources.files("thirdbody").joinpath("data/studies/electrical.toml")

@@ -851,7 +851,7 @@ def test_mistakes_in_a_strength(problems, line, sentence):
 
 def test_strength_of_a_material_that_has_none(problems):
     found = problems(('material = "SiO2"', 'material = "MoS2"\nstrength = "material"'))
-    only(found, "particles.strength: the material 'MoS2' has no strength: it lacks sigma_0")
+    only(found, "particles.strength: the material MoS2 has no strength: it lacks sigma_0")
 
 
 def test_toughness_in_a_file(write, problems):

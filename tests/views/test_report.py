@@ -465,7 +465,7 @@ def test_mistakes_are_those_of_solve(tmp_path):
 def test_without_equilibrium_there_is_no_page(tmp_path):
     file = written(tmp_path, TWO_BODY.replace('"5 MPa"', "1e13"))
     out = written(tmp_path, "what was here", "page.html")
-    done, solved = run("report", file, "--out", out), run("solve", file)
+    done, solved = run("report", file, "--out", out, "--force"), run("solve", file)
     assert done.exit_code == solved.exit_code == 3
     assert done.stderr.splitlines()[-1] == solved.stderr.splitlines()[-1]
     assert out.read_text("utf-8") == "what was here"

@@ -102,6 +102,14 @@ def bodies_of(contact: Contact) -> dict[str, Material]:
     return out
 
 
+UNHEARD = 0.01
+"""Share of the load up to which few contacts of a kind do not matter to the sums."""
+
+
+def _load(spots: Any) -> Any:
+    return spots.load
+
+
 def _about_few(state: Solved) -> list[str]:
     """Where the area that is asked about holds less than one contact: what the outputs are then."""
     outputs = state.contact.outputs
@@ -131,8 +139,10 @@ def _about_few(state: Solved) -> list[str]:
             f"{', '.join(concerned)} give the mean over many such areas, most of which hold none"
         )
         return out
-    for kind, of_kind in kinds.items():
-        few = float(np.min(of_kind, where=of_kind > 0, initial=np.inf))
+    loads = [state.total(_load), state.total_of_particles(_load)]
+    for (kind, of_kind), load in zip(kinds.items(), loads, strict=True):
+        heard = (of_kind > 0) & (load > UNHEARD * sum(loads))
+        few = float(np.min(of_kind, where=heard, initial=np.inf))
         if few < 1:
             out.append(
                 f"A_n = {number(max(areas))} m² holds {number(few)} {kind} in contact on average: "

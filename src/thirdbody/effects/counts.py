@@ -37,7 +37,7 @@ class Counts(AbstractOutput):
     ----------
     A_n : float, optional
         Nominal area of the contact [m²]: a warning says where it holds less than one contact, or
-        less than one of asperities or of particles alone.
+        less than one of asperities or of particles alone that carry more than 1 % of the load.
 
     Examples
     --------
