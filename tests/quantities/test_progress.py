@@ -136,6 +136,20 @@ def test_parts_of_a_work_tell_what_is_done_of_each(monkeypatch, capsys):
     ]
 
 
+def test_what_is_compiled_before_is_no_cost_of_a_contact(monkeypatch, capsys):
+    monkeypatch.setattr(progress, "time", clock := Clock(0.0))
+    monkeypatch.setattr(progress, "_terminal", lambda: False)
+    with progress.stages("assess", 1) as work:
+        work("samples")
+        work.expect(4000)
+        clock.now += 60.0
+        with progress.counted(30, work.within):
+            for _ in range(30):
+                clock.now += 0.1
+                progress.advance()
+    assert "about 4,000 contacts, 0.1 s each: some 7 minutes" in capsys.readouterr().err
+
+
 def test_what_is_quick_says_nothing(monkeypatch, capsys):
     monkeypatch.setattr(progress, "time", Clock(0.0))
     monkeypatch.setattr(progress, "_terminal", lambda: False)

@@ -210,8 +210,9 @@ class _Work:
         self.tell: Callable[[str], None] = lambda sentence: None
         if isinstance(progress, Stages):
             self.within = progress.within
-            progress.expect(count + self.ends + self.ways)
-            if costly(contact, vary):
+            alone = costly(contact, vary)
+            progress.expect((count if alone else 0) + self.ends + self.ways)
+            if alone:
                 self.tell = progress.tell
 
     def part(self, expected: int) -> AbstractContextManager[None]:

@@ -119,8 +119,9 @@ class Stages:
     def __init__(self, title: str):
         self.title, self.name, self.begun = title, "", -1
         self.expected, self.said = 0, False
-        self.seen = self.start = time.monotonic()
-        """When something was shown last, and when the work began that takes so long."""
+        self.seen = self.start = self.one_done = time.monotonic()
+        """When something was shown last, the work began that takes so long, and the first contact of
+        the present part was done: before that, something may have been compiled."""
 
     def __call__(self, name: str) -> None:
         self.name, self.begun = name, self.begun + 1
@@ -135,9 +136,11 @@ class Stages:
 
     def within(self, done: int, total: int) -> None:
         """So many contacts of the present part are done, of about so many."""
+        if done == 1:
+            self.one_done = time.monotonic()
         if self.expected and not self.said and done >= MEASURED:
             self.said = True
-            each = (time.monotonic() - self.start) / done
+            each = (time.monotonic() - self.one_done) / (done - 1)
             if each * self.expected > LONG:
                 self.tell(
                     f"about {self.expected:,} contacts, {each:.2g} s each: some "
