@@ -120,8 +120,8 @@ class Stages:
         self.title, self.name, self.begun = title, "", -1
         self.expected, self.said = 0, False
         self.seen = self.start = self.one_done = time.monotonic()
-        """When something was shown last, the work began that takes so long, and the first contact of
-        the present part was done: before that, something may have been compiled."""
+        """When something was shown last, the work began that takes so long, and the first contact
+        of the present part was done: before that, something may have been compiled."""
 
     def __call__(self, name: str) -> None:
         self.name, self.begun = name, self.begun + 1
