@@ -370,3 +370,41 @@ def test_percentile_of_sizes_is_that_of_their_integral(seat):
         assert found[0] == pytest.approx(
             squeeze[int(part * 2**18)], rel=1e-2 if part < 1e-2 else 3e-3
         )
+
+
+# ---------------------------------------------------------------- sizes and states at the edge
+@pytest.mark.parametrize("gap", [-2e-7, 5e-7])
+def test_sizes_from_zero_are_the_limit_of_small_ones(gap):
+    """A particle of no size leaves no dent, in a gap that is closed too."""
+    found = []
+    for low in (0.0, 1e-12):
+        grains = tb.Particles(
+            material=tb.materials["SiC"],
+            areal_density=1e10,
+            diameter=tb.Uniform(low=low, high=2e-6),
+        )
+        rough = tb.Roughness(sigma=1e-6, R=1e-5)
+        case = tb.Contact(
+            surfaces=tb.MaterialPair(STEEL, STEEL), roughness=rough, particles=grains,
+            outputs=Dents(),
+        )  # fmt: skip
+        found.append(tb.solve(case, d=gap).outputs)
+    for name, value in found[0].items():
+        assert np.isfinite(value), name
+        assert value == pytest.approx(found[1][name], rel=5e-3), name
+
+
+def test_a_population_that_nothing_presses_adds_nothing():
+    def case(*grains):
+        return tb.Contact(
+            surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=1e-7, R=1e-5),
+            particles=grains if len(grains) > 1 else grains[0],
+            particle_law=Series(seat="plane"), outputs=Dents(),
+        )  # fmt: skip
+
+    sizes = tb.TruncatedGaussian(mean=2e-6, std=2e-7)
+    large = tb.Particles(material=tb.materials["SiC"], areal_density=1e10, diameter=sizes)
+    small = large.replace(diameter=tb.Monodisperse(mean=1e-9))
+    alone, beside = (tb.solve(each, d=1e-6).outputs for each in (case(large), case(large, small)))
+    for name, value in alone.items():
+        assert beside[name] == pytest.approx(value, rel=1e-12), name

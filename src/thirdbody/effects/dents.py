@@ -239,18 +239,20 @@ class Dents(AbstractOutput):
             there = dent.diameter > 0
             known: Any = there & told & (depth >= self.shallowest)
             counts: Any = known | (there & ~told)
-            dents.append((spots, depth, dent.diameter * counts))
+            width = np.where(counts, dent.diameter, 0.0)
+            dents.append((spots, depth, width))
             for name, q in (
                 ("n", counts.astype(float)),
                 ("known", known.astype(float)),
                 ("unknown", (there & ~told).astype(float)),
                 ("depth", known * depth),
-                ("width", counts * dent.diameter),
+                ("width", width),
                 ("volume", known * volume),
                 ("embedded", (known & (2 * deep > spots.half)).astype(float)),
             ):
                 sums[name] = sums[name] + spots.total(q)
-            sinks.append((spots, np.where(known, 2 * deep / spots.half, 0.0), np.ones(())))
+            share = np.divide(2 * deep, spots.half, out=np.zeros_like(depth), where=known)
+            sinks.append((spots, share, np.ones(())))
         rare = sums["embedded"] < RARE * sums["known"]  # too few for sums over classes
         if np.any(rare):
             exact = number_above(sinks, 1.0, states=len(state.d))

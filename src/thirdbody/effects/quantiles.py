@@ -93,7 +93,11 @@ def _largest(groups: Sequence[tuple[ParticleSpots, Array, Array]]) -> float:
 def _above(
     groups: Sequence[tuple[ParticleSpots, Array, Array]], top: float
 ) -> Callable[[Array], Array]:
-    tails = [_tail(spots, values, weight, top) for spots, values, weight in groups]
+    tails = [
+        _tail(spots, values, weight, top)
+        for spots, values, weight in groups
+        if np.size(values)  # a population may have no spot in any state
+    ]
 
     def above(values: Array) -> Array:
         return np.sum([tail.above(values) for tail in tails], axis=0)
