@@ -54,7 +54,7 @@ def test_numbers_beyond_computing_are_refused_by_name(kind, number):
     needed = [p.name for p in inspect.signature(kind).parameters.values() if p.default is p.empty]
     with pytest.raises(tb.InvalidValue) as told:
         kind(**dict.fromkeys(needed, number))
-    assert told.value.problems[0].startswith(f"{kind.__name__}.{needed[0]} = ")
+    assert told.value.problems[0].startswith(f"{kind.__name__}.{needed[0]} ")
 
 
 @pytest.mark.parametrize("number", HUGE)
@@ -66,7 +66,7 @@ def test_numbers_beyond_computing_are_refused_in_lists(number):
 @pytest.mark.parametrize("load", ["pressure", "F_star", "d"])
 def test_loads_beyond_a_double_are_refused_by_name(load):
     for number in (10**400, math.inf, math.nan):
-        with pytest.raises(tb.InvalidValue, match=f"^{load} = "):
+        with pytest.raises(tb.InvalidValue, match=f"^{load} "):
             tb.solve(CONTACT, **{load: number})
 
 

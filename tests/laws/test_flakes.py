@@ -161,7 +161,7 @@ def test_refusals_and_warnings():
         tb.solve(contact(Flakes(aspect=40.0)), pressure=1e7)
     assert not Flakes(aspect=3.0).warnings(SURFACES, ROUGH, FLAKES)
     (told,) = Flakes(aspect=40.0).warnings(SURFACES, ROUGH, FLAKES)
-    assert "1.6e-06 m" in told
+    assert "1.6 µm" in told
 
 
 def test_round_trip_and_name():

@@ -478,7 +478,7 @@ def test_two_faces_give_the_radius(R):
         ({"first": 4, "second": 2, "angle": 0, "R_first": "4 um"}, ["one face only"]),
         (
             {"first": 4, "second": 2, "angle": 0, "R_first": "4 um", "R_second": "6 um"},
-            ['roughness.R = "2.8 um"', "= 2.4e-06 m", "leave it out"],
+            ['roughness.R = "2.8 um"', "= 2.4 µm", "leave it out"],
         ),
         (
             {"first": 1e5, "second": 1e5, "angle": "random"},

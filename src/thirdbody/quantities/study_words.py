@@ -59,8 +59,8 @@ def in_study_words(sentence: str) -> str:
     >>> in_study_words("Particles.shape: use particle.Series, or remove shape")
     'Particles.shape: use particle_law.name = "series", or remove shape'
     >>> in_study_words("outputs.wear needs density of surface 2; give it with the material, "
-    ...                "e.g. material.replace(density=...)")[48:]
-    ' surfaces.second = { E = ..., nu = ..., H = ..., density = ... }'
+    ...                "e.g. material.replace(density=...)").partition(": ")[2]
+    'surfaces.second = { E = ..., nu = ..., H = ..., density = ... }'
     """
     sentence = _MATERIAL.sub(_key_of_material, sentence)
     for python, study in ADVICE.items():
