@@ -293,11 +293,11 @@ def test_the_map_can_be_cancelled_and_a_click_goes_there(visit):
     when(page, "document.querySelector('[data-figure=map]').data[0].x.length === 60")
     stale.wait_for(state="hidden")
     looked_at(page, "map")
-    box = page.locator('[data-figure="map"] .nsewdrag').first.bounding_box()
-    there = box["x"] + 0.7 * box["width"], box["y"] + 0.3 * box["height"]
     # as a user sees it, who moves on where a figure that is drawn again took the words away
     for nudge in range(PATIENCE // 500):
-        page.mouse.move(there[0] + nudge % 2, there[1])
+        box = page.locator('[data-figure="map"] .nsewdrag').first.bounding_box()
+        there = box["x"] + 0.7 * box["width"] + nudge % 2, box["y"] + 0.3 * box["height"]
+        page.mouse.move(*there)
         page.wait_for_timeout(500)
         if page.locator('[data-figure="map"] .hovertext').first.is_visible():
             break
