@@ -35,7 +35,7 @@ from thirdbody.app.sliders import at_position, position_of
 from thirdbody.app.state import State
 from thirdbody.app.tabs.error_bars import _ranges, tornado_figure
 from thirdbody.app.tabs.interface import drawn as section_drawn
-from thirdbody.app.tabs.interface import headline, told
+from thirdbody.app.tabs.interface import facts_of, headline
 from thirdbody.app.tabs.outputs import output_figures
 from thirdbody.app.uploads import harmless
 from thirdbody.equilibrium.words import two_bodies
@@ -450,7 +450,7 @@ def test_a_load_of_the_interface_is_solved_once(state, monkeypatch):
     monkeypatch.setattr(tb, "solve", counting)
     _, found = section_drawn(answer, at, 0)
     assert len(asked) == 1
-    assert found[3] == told(answer.solve(at))
+    assert found[3] == facts_of(answer.solve(at))
     assert any(name == "particles loaded" for name, _ in found[3])
 
 
@@ -958,7 +958,7 @@ def test_pieces_are_no_part_of_the_particles_that_came(fragments, part):
     )  # fmt: skip
     point = tb.solve(contact, pressure=5e6)
     each = point.outputs["n_sa"] / 1e8
-    found = dict(told(point))
+    found = dict(facts_of(point))
     if part:
         assert found["particles loaded"] == percent(each)
         assert each <= 1

@@ -118,9 +118,16 @@ def test_derivatives_that_take_long_say_so(slow):
     assert bool(told) == slow
 
 
-def test_parts_of_a_work_tell_what_is_done_of_each(monkeypatch, capsys):
-    monkeypatch.setattr(progress, "time", clock := Clock(0.0))
+@pytest.fixture
+def clock(monkeypatch):
+    """The time of a work in a pipe, which passes where a test says so."""
+    made = Clock(0.0)
+    monkeypatch.setattr(progress, "time", made)
     monkeypatch.setattr(progress, "_terminal", lambda: False)
+    return made
+
+
+def test_parts_of_a_work_tell_what_is_done_of_each(clock, capsys):
     with progress.stages("assess", 2) as work:
         work("samples")
         work.expect(40)
@@ -136,9 +143,7 @@ def test_parts_of_a_work_tell_what_is_done_of_each(monkeypatch, capsys):
     ]
 
 
-def test_what_is_compiled_before_is_no_cost_of_a_contact(monkeypatch, capsys):
-    monkeypatch.setattr(progress, "time", clock := Clock(0.0))
-    monkeypatch.setattr(progress, "_terminal", lambda: False)
+def test_what_is_compiled_before_is_no_cost_of_a_contact(clock, capsys):
     with progress.stages("assess", 1) as work:
         work("samples")
         work.expect(4000)
@@ -150,9 +155,8 @@ def test_what_is_compiled_before_is_no_cost_of_a_contact(monkeypatch, capsys):
     assert "about 4,000 contacts, 0.1 s each: some 7 minutes" in capsys.readouterr().err
 
 
-def test_what_is_quick_says_nothing(monkeypatch, capsys):
-    monkeypatch.setattr(progress, "time", Clock(0.0))
-    monkeypatch.setattr(progress, "_terminal", lambda: False)
+@pytest.mark.usefixtures("clock")
+def test_what_is_quick_says_nothing(capsys):
     with progress.stages("assess", 1) as work:
         work("samples")
         work.expect(40)

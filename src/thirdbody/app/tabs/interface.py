@@ -31,7 +31,7 @@ from ..cross_section import section, to_svg
 from ..state import Answer, State
 from ..widgets import Facts
 
-__all__ = ["TITLE", "abouts", "build", "drawn", "headline", "swatch", "told"]
+__all__ = ["TITLE", "abouts", "build", "drawn", "facts_of", "headline", "swatch"]
 
 TITLE = "Interface"
 LETTERS = {"h": "h", "d": "d", "F*": "F_star"}
@@ -67,7 +67,7 @@ def headline(point: tb.Equilibrium, held: float = math.inf) -> str:
     return f"{share[0].upper()}{share[1:]} at {load}; {mode_of(mode)}."
 
 
-def told(point: tb.Equilibrium, held: float = math.inf) -> list[tuple[str, str]]:
+def facts_of(point: tb.Equilibrium, held: float = math.inf) -> list[tuple[str, str]]:
     """The state under the operating load, in the words of the command line."""
     at = [
         ("load", load_of(_one(point.pressure), _one(point.F_star))),
@@ -246,7 +246,7 @@ def drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
     held = answer.held
     made = section(answer.contact, point, seed=seed, held=held)
     svg = to_svg(made, title="Cross-section of the interface, to scale")
-    return "", (svg, _caption(made, held), made.names, told(point, held), headline(point, held))
+    return "", (svg, _caption(made, held), made.names, facts_of(point, held), headline(point, held))
 
 
 def _caption(drawn: Any, held: float) -> str:
