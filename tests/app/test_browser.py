@@ -615,10 +615,14 @@ def test_a_late_answer_moves_no_slider_back(browser, address):
         page.evaluate("new Promise(done => requestAnimationFrame(() => setTimeout(done)))")
         return int(slider.get_attribute("aria-valuenow"))
 
+    def words_of(messages):
+        sent = "".join(str(message) for _, message in messages)
+        return {word for word in (load_at(start + 1), "headline") if word in sent}
+
     def patiently(condition):
         deadline = time.monotonic() + PATIENCE / 1000
         while not condition():
-            assert time.monotonic() < deadline
+            assert time.monotonic() < deadline, "did not come in time"
             page.wait_for_timeout(10)
 
     try:
@@ -627,9 +631,11 @@ def test_a_late_answer_moves_no_slider_back(browser, address):
         page.wait_for_selector('[data-figure="section"] svg')
         slider = page.locator('[data-slider="load"]')
         start = value()
+        load_stands(page, start)  # nothing of the first visit is still on its way
         holds = True
         moved(page, "load", 1)
-        patiently(lambda: any("headline" in str(m) for _, m in held))  # all of the first answer
+        # the answer to the first press: its load, and the headline, which comes last
+        patiently(lambda: {load_at(start + 1), "headline"} <= words_of(held))
         moved(page, "load", 2)
         first, held[:] = held[:], []
         for socket, message in first:
