@@ -59,6 +59,7 @@ def test_every_row_has_its_name(run, monkeypatch):
     floor, outputs = map(importlib.import_module, ("floor", "outputs"))
     assert len(list(run.own_inputs(floor.nanoseconds(), COUNT))) == 6
     monkeypatch.setattr(outputs, "REPEATS", 1)
+    monkeypatch.setattr(outputs, "LOADS", outputs.LOADS[::40])
     *_, every = outputs.costs()
     assert every.what == "all of them"
 
