@@ -284,6 +284,34 @@ def test_asperity_laws_by_numbers_of_their_own():
         assert max(largest_error(got, want, np.ones(4, bool)).values()) <= BOUND, law.name
 
 
+HEIGHTS = {
+    "exponential": tb.heights.ExponentialHeights(),
+    "weibull": tb.heights.WeibullHeights(shape=1.3),
+    "narrow": tb.heights.WeibullHeights(shape=8.0),
+}
+
+
+@pytest.mark.parametrize("kind", HEIGHTS)
+def test_other_heights_hold_to_the_slow_path(kind):
+    """From light loads to separations below the lowest asperity, alone and with particles."""
+    base = contact("hermite", "plane", "hard")
+    case = base.replace(roughness=base.roughness.replace(heights=HEIGHTS[kind]))
+    bare, turn = case.replace(particles=None), np.linspace(0.95, 1.05, 4)
+    vary = {"surfaces.first.H": STEEL.H * turn}
+    loads = np.geomspace(1e-9, 1e-4, 4)
+    for every in (bare, case):
+        got, want = own_columns(every, vary, "F_star", loads), slow(every, vary, loads)
+        assert set(got["doubt"]) == {""}
+        assert max(largest_error(got, want, np.ones(4, bool)).values()) <= BOUND
+    d = np.array([-4.5, -1.05, -0.95, 0.5]) * 100e-9
+    got = own_columns(bare, vary, "d", d)
+    with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
+        want = state_columns(bare, d=d, vary=vary)
+    assert set(got["doubt"]) == {""}
+    for name in ("F_star", "A_e", "A_ep", "A_p"):
+        np.testing.assert_allclose(got[name], want[name], rtol=1e-9, atol=1e-9 * want["A_t"][3])
+
+
 def test_a_law_whose_fits_end_is_for_the_numpy_engine():
     bare = contact().replace(particles=None, asperity_law=tb.asperity.JG())
     with pytest.raises(NotCompiled, match="jg"):

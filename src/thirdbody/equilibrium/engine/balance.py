@@ -46,6 +46,7 @@ from .fields import (
     TOO_MUCH,
     UNSOLVED,
     WIDTH,
+    W,
 )  # fmt: skip
 from .printed import add_printed, only_falls, printed_bound
 from .sides import scalar
@@ -54,6 +55,7 @@ from .sums import (
     MOST_HEIGHTS,
     MOST_NODES,
     MOST_SIZES,
+    NEAREST,
     add_part,
     add_skin,
     lay_nodes,
@@ -94,10 +96,12 @@ def total(given, skin, work, laid, rules, level, h, out):
     for k in range(10):
         out[k] = 0.0
     last = len(given)
-    add_skin(skin, heights, laid[last, level, GRID], laid[last, level, GRID_END], h, out)
     nodes, span = int(rules[level, 0, NODES]), rules[level, 0, SPAN]
+    good = add_skin(
+        skin, heights, laid[last, level, GRID], laid[last, level, GRID_END],
+        rules[level, RULE], rules[level, RULE + 1], nodes, h, out,
+    )  # fmt: skip
     d = h * skin[0, SIGMA_S]
-    good = True
     for p in range(last):
         own = laid[p, level]
         if given[p, SEAT] == PRINTED:
@@ -128,7 +132,10 @@ def lay(given, skin, work, laid, rules, level):
         if last > 0:
             place, size = laid[last - 1, COARSE, GRID_END], laid[last - 1, COARSE, SIZED_END]
     laid[last, level, GRID] = begin
-    begin = laid[last, level, GRID_END] = lay_skin(skin, heights, begin, gauss, weights, nodes)
+    begin = laid[last, level, GRID_END] = lay_skin(
+        skin, heights, begin, MOST_HEIGHTS, gauss, weights, nodes,
+        0.0 * span, NEAREST / skin[0, W],
+    )  # fmt: skip
     good &= begin >= 0
     for p in range(last):
         own = laid[p, level]
@@ -271,7 +278,8 @@ def _falls(given, work, laid, bound, d, sigma_s):
     Either a particle gains by each squeeze what it takes from the asperities, the bound times its
     shadow, or the shadow of all grows more slowly with the approach than the asperities' load:
     that of a Gaussian seat of a width s, up to c in all, by c/(s √(2π)) at most, and their load by
-    0.3/σ_s of itself at least.
+    0.3/σ_s of itself at least: by one over the mean excess of the heights or more, which falls
+    with the separation for all heights that the kernel knows, and is 3 σ_s at its lowest.
     """
     apart()
     steepest = covered = 0.0
@@ -445,7 +453,7 @@ def solve_own(skins, parts, bodies, rules, target, h, count, fate, error, rows):
     most = parts.shape[1]
     sides = np.zeros((2 * most, SIDE))
     work = (
-        np.empty((5, MOST_HEIGHTS)),
+        np.zeros((5, 2 * MOST_HEIGHTS)),
         sides,
         np.empty((most, MOST_PANELS, PANEL)),
         np.empty((7, MOST_NODES)),

@@ -19,7 +19,7 @@ from ...laws.asperity.elliptic import elliptic_hertz
 from ...laws.particle.deep import curve_rows
 from ...numerics.quadrature import gauss_legendre
 from ...populations import distributions as sizes
-from ...populations.heights import GaussianHeights
+from ...populations.heights import COMPLETE, ExponentialHeights, GaussianHeights, WeibullHeights
 from ...populations.materials import reduced_modulus
 from ...populations.particles import Particles
 from ...populations.shape import Sphere
@@ -38,7 +38,8 @@ SHADOWS = {
     "covered": f.COVERED,
     "none": f.NOTHING,
 }
-TERMS = 12
+TERMS, DEEPEST = 12, 5.0
+"""Of a Chebyshev series; lowest separation [σ_s] that may be given, down."""
 NODES = (((6, 3.0, 10, 6.5), (12, 4.0, 16, 6.5)), ((12, 2.0, 16, 4.0), (24, 2.0, 24, 4.0)))
 """Of each level, few and all: nodes of a panel and how many widths of a density it covers, then
 the same of sizes on a rough seat."""
@@ -99,6 +100,26 @@ def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[An
 def _filled(rows: Array, values: Mapping[int, Any]) -> None:
     for column, value in values.items():
         rows[:, column] = value
+
+
+def _heights(heights: Any) -> dict[int, Any]:
+    """Numbers of the heights of asperities [σ_s]."""
+    kind: Any = type(heights)
+    if kind is GaussianHeights:
+        last = DEEPEST + math.sqrt(DEEPEST**2 + 100.0)
+        own = {f.HEIGHTS: f.GAUSSIAN_HEIGHTS, f.LAID_FROM: -math.inf}
+        return {**own, f.STEP: 2.5, f.LAST: last}
+    if kind is ExponentialHeights:  # without its end, one exponential at every separation
+        own = {f.HEIGHTS: f.EXPONENTIAL, f.LOWEST_HEIGHT: -1.0, f.LAID_FROM: -1.0}
+        return {**own, f.STEP: 4.0, f.LAST: COMPLETE}
+    if kind is WeibullHeights:
+        shape = heights.shape
+        first, second = (special.gamma(1 + j / shape) for j in (1, 2))
+        spread = np.sqrt(second - first**2)
+        own = {f.HEIGHTS: f.WEIBULL, f.SHAPE: shape, f.MIDDLE: first, f.SPREAD: spread}
+        ends = {f.LOWEST_HEIGHT: -first / spread, f.LAID_FROM: 1 - first / spread}
+        return {**own, **ends, f.STEP: 1.5, f.LAST: COMPLETE ** (1 / shape) / spread}
+    raise NotCompiled("heights of a kind that the kernel does not know")
 
 
 def _softer(first: Any, second: Any) -> tuple[Any, Any]:
@@ -178,8 +199,8 @@ class Numbers:
 
     def _add_asperities(self) -> None:
         rough, surfaces, law = self.varied.roughness, self.varied.surfaces, self.varied.asperity_law
-        if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity:
-            raise NotCompiled("heights that are not Gaussian, or asperities of several shapes")
+        if rough.ellipticity:
+            raise NotCompiled("asperities of several shapes")
         if type(self.contact.asperity_law) is asperity.JG:
             raise NotCompiled("the law jg, whose fits end, to the NumPy engine alone")
         E, (H, nu) = surfaces.E_star, _softer(surfaces.first, surfaces.second)
@@ -191,6 +212,7 @@ class Numbers:
             {
                 **{f.W: omega_1 / rough.sigma_s, f.FORCE: area * H, f.AREA: area},
                 **{f.SIGMA_S: rough.sigma_s, f.SIGMA: rough.sigma},
+                **_heights(rough.heights),
             },
         )
         if self.skins[:, f.W].min() < 1e-9 or self.skins[:, f.W].max() > 1e9:

@@ -8,6 +8,8 @@ SPHERE, SQUASHED, DEEP, FACED = range(4)
 """What a side of a particle is."""
 ONE_SIZE, GAUSSIAN, LOGNORMAL, UNIFORM, POWER = range(5)
 """Kinds of sizes."""
+GAUSSIAN_HEIGHTS, EXPONENTIAL, WEIBULL = range(3)
+"""Kinds of heights of asperities."""
 PLANE, ROUGH, PRINTED = range(3)
 """Where particles rest, or that their sum over sizes is one of closed formulas."""
 FOOTPRINT, PROJECTED, COVERED, NOTHING = range(4)
@@ -19,7 +21,10 @@ CODE, LAW_1, LAW_2, LAW_3, LAW_4 = range(5)
 # ------------------------------------------------------------------ given, of the asperities
 W, FORCE, AREA, SIGMA_S, SIGMA = range(5, 10)
 """ω_1/σ_s, the units of load [Pa] and area, σ_s and σ [m]."""
-OF_ASPERITIES = 10
+HEIGHTS, SHAPE, MIDDLE, SPREAD, LOWEST_HEIGHT, LAID_FROM, STEP, LAST = range(10, 18)
+"""Kind of heights, shape, and mean and standard deviation of the plain variable; lower end; the
+separation below which it shows in the nodes; width of a panel over t = ω/σ_s, and where t ends."""
+OF_ASPERITIES = 18
 
 # ------------------------------------------------------------------ given, of a side
 FORM, DELTA_1, UNIT, FULL, TIP, HILL, HARDER = range(5, 12)
