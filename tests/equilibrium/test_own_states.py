@@ -31,6 +31,14 @@ LAWS = {
     "projected": SERIES(deep="off", shadow="projected"),
     "deep": SERIES(deep="table"),
 }
+JUMPING = {
+    "ke": SERIES(deep="off", soft="sphere", law=tb.asperity.KE(K=0.577)),
+    "ke, deep": SERIES(deep="table", law=tb.asperity.KE(K=0.577)),
+    "ceb": SERIES(deep="off", law=tb.asperity.CEB()),
+    "jg": SERIES(deep="off", law=tb.asperity.JG()),
+    "gw": SERIES(deep="off", law=tb.asperity.GW()),
+}
+"""Laws whose load jumps, up or down, or that never become plastic."""
 SEATS = ("rough", "plane")
 BODIES = {"hard": (72e9, 7.7e9), "soft": (190e9, 1e9)}
 SIZES = {
@@ -47,7 +55,7 @@ def contact(law="hermite", seat="rough", body="hard", sizes="gaussian", other=ST
         particles=tb.Particles(
             material=tb.Material(E=E, nu=0.2, H=H), areal_density=1e11, diameter=SIZES[sizes]
         ),
-        particle_law=LAWS[law].replace(seat=seat),
+        particle_law={**LAWS, **JUMPING}[law].replace(seat=seat),
         **more,
     )
 
@@ -117,6 +125,22 @@ def test_like_sides_hold_to_the_slow_path(seat, body):
 )
 def test_laws_hold_to_the_slow_path(law, seat):
     hold(contact(law, seat, "soft"), 2, 2)
+
+
+@pytest.mark.parametrize(
+    ("law", "seat", "body", "unlike"),
+    [
+        ("ke", "rough", "hard", True),
+        ("ke", "plane", "hard", False),
+        ("ke, deep", "rough", "hard", True),
+        ("ceb", "rough", "hard", True),
+        ("jg", "rough", "soft", True),  # its load falls at its jump where ν is above 0.32
+        ("jg", "plane", "soft", False),
+        ("gw", "plane", "hard", True),
+    ],
+)
+def test_loads_that_jump_hold_to_the_slow_path(law, seat, body, unlike):
+    hold(contact(law, seat, body), 3, 2, unlike)
 
 
 CLASSES = {
@@ -273,6 +297,7 @@ def test_asperity_laws_by_numbers_of_their_own():
         (tb.asperity.Hermite(), {"k": 0.4 * turn}),
         (tb.asperity.KE(), {"K": 0.6 * turn}),
         (tb.asperity.CEB(), {"K": 0.6 * turn}),
+        (tb.asperity.JG(), {"hardness_ratio": 2.8 * turn}),
         (tb.asperity.EllipticZMC(ratio=2.0), {"k": 0.4 * turn}),
         (tb.asperity.GW(), {}),
     ):
@@ -312,10 +337,13 @@ def test_other_heights_hold_to_the_slow_path(kind):
         np.testing.assert_allclose(got[name], want[name], rtol=1e-9, atol=1e-9 * want["A_t"][3])
 
 
-def test_a_law_whose_fits_end_is_for_the_numpy_engine():
-    bare = contact().replace(particles=None, asperity_law=tb.asperity.JG())
+def test_laws_beyond_what_was_shown_are_for_the_numpy_engine():
+    bare = contact().replace(particles=None, asperity_law=tb.asperity.JG(hardness_ratio=0.4))
     with pytest.raises(NotCompiled, match="jg"):
         own_columns(bare, {"surfaces.first.H": STEEL.H * np.ones(4)}, "F_star", np.full(4, 1e-6))
+    falls = contact("ke").replace(**{"particle_law.law": tb.asperity.KE(K=0.65)})
+    with pytest.raises(NotCompiled, match="ke"):
+        own_columns(falls, {"surfaces.first.H": STEEL.H * np.ones(4)}, "F_star", np.full(4, 1e-6))
 
 
 @pytest.mark.parametrize("body", BODIES)
@@ -387,6 +415,14 @@ def test_the_slow_rows_are_told_of_as_compiled():
     got = state_columns(case, F_star=loads, vary=vary)
     assert np.mean(got["engine"] == "compiled") > 0.8
     assert all(each == "compiled" or each.startswith("numpy: ") for each in got["engine"])
+
+
+@pytest.mark.check
+@pytest.mark.parametrize("unlike", [False, True])
+@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("law", [name for name in JUMPING if name != "ceb"])
+def test_many_random_states_of_loads_that_jump(law, body, unlike):
+    hold(contact(law, "rough", body), 20, 8, unlike)
 
 
 @pytest.mark.check

@@ -14,11 +14,13 @@ from .fields import (
     A_SA,
     BEYOND,
     BREADTH,
+    CODE,
     COVERAGE,
     F_SA,
     F_SS,
     FOOTPRINT,
     HIGH,
+    JG,
     NODES,
     NOT_MONOTONE,
     NOT_RESOLVED,
@@ -272,16 +274,19 @@ def _widest(given, work, laid, p):
 
 
 @scalar
-def _falls(given, work, laid, bound, d, sigma_s):
+def _falls(given, skin, work, laid, bound, h):
     """Whether no separation above d can carry the load, of which asperities take ``bound`` [Pa].
 
     Either a particle gains by each squeeze what it takes from the asperities, the bound times its
     shadow, or the shadow of all grows more slowly with the approach than the asperities' load:
     that of a Gaussian seat of a width s, up to c in all, by c/(s √(2π)) at most, and their load by
     0.3/σ_s of itself at least: by one over the mean excess of the heights or more, which falls
-    with the separation for all heights that the kernel knows, and is 3 σ_s at its lowest.
+    with the separation for all heights that the kernel knows, and is 3 σ_s at its lowest; a fifth
+    as much by the law of Jackson and Green, whose load may grow like the sixth root of ω only.
     """
     apart()
+    sigma_s, least = skin[0, SIGMA_S], 0.05 if skin[0, CODE] == JG else 0.3
+    d = h * sigma_s
     steepest = covered = 0.0
     for p in range(len(given)):
         if given[p, SEAT] == PRINTED:
@@ -304,7 +309,7 @@ def _falls(given, work, laid, bound, d, sigma_s):
             widest = _widest(given, work, laid, p)
             steepest += widest / (2.5 * given[p, WIDTH])
             covered += widest
-    return steepest * sigma_s <= 0.3 * (1 - covered)
+    return steepest * sigma_s <= least * (1 - covered)
 
 
 @scalar
@@ -385,16 +390,16 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
 def _root(given, skin, work, laid, rules, target, row, out):
     """The highest separation that carries the target, the slope there, evaluations and fate."""
     apart()
-    every, sigma_s = laid.shape[1] - 1, skin[0, SIGMA_S]
+    every = laid.shape[1] - 1
     h, slope, count = search(given, skin, work, laid, rules, target, out)
     if h == -math.inf:
         total(given, skin, work, laid, rules, every, LOWEST, row)
-        if _falls(given, work, laid, row[F_SS], LOWEST * sigma_s, sigma_s):
+        if _falls(given, skin, work, laid, row[F_SS], LOWEST):
             return h, slope, count, TOO_MUCH
     else:
         h, slope, n = polish(given, skin, work, laid, rules, target, h, slope, row)
         count += n
-        if math.isfinite(h) and _falls(given, work, laid, row[F_SS], h * sigma_s, sigma_s):
+        if math.isfinite(h) and _falls(given, skin, work, laid, row[F_SS], h):
             return h, slope, count, OK
     first, slope = _come_down(given, skin, work, laid, rules, target, out)
     if not math.isfinite(first):

@@ -40,13 +40,18 @@ SHADOWS = {
 }
 TERMS, DEEPEST = 12, 5.0
 """Of a Chebyshev series; lowest separation [σ_s] that may be given, down."""
-NODES = (((6, 3.0, 10, 6.5), (12, 4.0, 16, 6.5)), ((12, 2.0, 16, 4.0), (24, 2.0, 24, 4.0)))
+NODES = (((6, 3.0, 10, 6.5), (12, 3.0, 16, 6.5)), ((12, 2.0, 16, 4.0), (24, 2.0, 24, 4.0)))
 """Of each level, few and all: nodes of a panel and how many widths of a density it covers, then
 the same of sizes on a rough seat."""
 MOST_SECTIONS = 40
 """Classes of size of a population: each costs as much as a population of its own."""
 WIDEST = math.log(2.5)
 """Standard deviation of ln x up to which log-normal sizes were held to the slow path at 1e-9."""
+MOST_STRAIN = 0.1
+"""S_y/E* up to which the law of Jackson and Green was held to the slow path: its fits end at 0.007,
+and the power of its area is an exponential of it."""
+MOST_K = 3 / 1.4 * 110**-0.263
+"""K of Kogut and Etsion above which the load falls at their last step (ν > 0.41)."""
 NARROWEST = 1e-5
 """Width of sizes over their middle below which differences of sizes keep too few digits."""
 
@@ -92,6 +97,8 @@ def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[An
     if kind is a.JG:
         C = 1.295 * np.exp(0.736 * (nu if law.nu is None else law.nu))
         strain = H / (law.hardness_ratio * E)
+        if np.any(strain > MOST_STRAIN):
+            raise NotCompiled("the law jg, far beyond its fits")
         over_R = (math.pi * C * strain / 2) ** 2
         return [f.JG, C, 0.14 * np.exp(23 * strain), over_R, law.hardness_ratio], over_R * R
     raise NotCompiled(f"the law {law.name} is known to the NumPy engine alone")
@@ -201,8 +208,6 @@ class Numbers:
         rough, surfaces, law = self.varied.roughness, self.varied.surfaces, self.varied.asperity_law
         if rough.ellipticity:
             raise NotCompiled("asperities of several shapes")
-        if type(self.contact.asperity_law) is asperity.JG:
-            raise NotCompiled("the law jg, whose fits end, to the NumPy engine alone")
         E, (H, nu) = surfaces.E_star, _softer(surfaces.first, surfaces.second)
         numbers, omega_1 = _law(type(self.contact.asperity_law), law, rough.R, E, H, nu)
         area = rough.density * math.pi * rough.R * omega_1
@@ -316,7 +321,8 @@ class Numbers:
         ratio = np.broadcast_to(E / H, self.count)
         if np.any(soft & ((ratio < 1e-6) | (ratio > 1e9) | (surface.H / H > 1e9))):
             raise NotCompiled("squashed particles beyond the law")
-        if type(law.law) not in (asperity.Hermite, asperity.ZMC):
+        falls = type(law.law) is asperity.KE and np.any(numbers[1] > MOST_K)
+        if hasattr(law.law, "ratio") or falls:
             raise NotCompiled(f"the law {law.law.name} of particles, to the NumPy engine alone")
         if law.deep == "table" and law.soft == "squashed" and yields:
             return self._add_deep(rows, surface.H, body.H, E, H, delta_1, varied)

@@ -40,7 +40,10 @@ CAP, WIDE, END, PLATEAU, LIMIT, COUNT, KINKS = range(OF_SIDE, OF_SIDE + 7)
 """Reduced indentation at the cap; where it is as wide as the sphere; where it sinks in; whether
 it goes on; the most load; how many kinks, and where they begin [x]."""
 MOST_KINKS = 40
-SIDE = KINKS + MOST_KINKS
+MOST_JUMPS = 4
+JUMPS = KINKS + MOST_KINKS
+"""How many jumps its load has, and of each where [x] and the loads before and behind it."""
+SIDE = JUMPS + 1 + 3 * MOST_JUMPS
 
 # ------------------------------------------------------------------ given, of particles
 SEAT, SHADOW, EQUAL, KIND, SIZE_1, SIZE_2, NORM, LOW, HIGH = range(9)

@@ -228,6 +228,8 @@ def _cap(rows, i):
     if code != JG and 0.5 * full >= last:
         return 0.5 * full
     low, high = 0.4 * full, max(full, 1.0)
+    if law_at(rows, i, low)[1] >= full:  # the area of a power above one
+        low = break_at(rows, i, 0)
     while law_at(rows, i, high)[1] < full:
         high *= 2
     for n in range(count):  # a jump of the area over the great circle

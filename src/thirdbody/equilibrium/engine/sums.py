@@ -16,6 +16,7 @@ from .fields import (
     COVERAGE,
     COVERED,
     DENSITY,
+    EQUAL,
     EXPONENTIAL,
     F_SA,
     F_SS,
@@ -28,6 +29,7 @@ from .fields import (
     KIND,
     LAID_FROM,
     LAST,
+    LIMIT,
     LOGNORMAL,
     LOW,
     LOWEST_HEIGHT,
@@ -360,7 +362,10 @@ def _add_last(given, sides, panels, p, count, squared, out):
     """What particles beyond the last panel carry, by the sum of their sizes squared."""
     apart()
     edge = panels[p, count - 1, TO]
-    load, one, two = particle_at(given, sides, panels, p, count - 1, edge)
+    _, one, two = particle_at(given, sides, panels, p, count - 1, edge)
+    load = sides[2 * p, LIMIT]  # the load may jump at the end
+    if given[p, EQUAL] != 1:
+        load = min(load, sides[2 * p + 1, LIMIT])
     out[F_SA] += squared * load
     out[A_SA + int(panels[p, count, REGIME])] += squared * one
     out[A_SA2] += squared * two
