@@ -143,6 +143,38 @@ def test_loads_that_jump_hold_to_the_slow_path(law, seat, body, unlike):
     hold(contact(law, seat, body), 3, 2, unlike)
 
 
+GRIT = {
+    "faces": tb.Angular(roundness=0.25, angle=0.6),
+    "blunt": tb.Angular(roundness=0.5, angle=0.2, flatness=1.4),
+    "round": tb.Angular(roundness=0.9, angle=1.3),
+}
+
+
+@pytest.mark.parametrize(
+    ("shape", "law", "seat", "body", "unlike"),
+    [
+        ("faces", "hermite", "rough", "hard", True),
+        ("faces", "ke", "plane", "soft", False),
+        ("blunt", "hermite", "plane", "hard", True),
+        ("blunt", "hermite", "rough", "soft", False),
+        ("round", "ke", "rough", "hard", True),  # the area jumps past the great circle
+    ],
+)
+def test_angular_particles_hold_to_the_slow_path(shape, law, seat, body, unlike):
+    case = contact(law, seat, body)
+    case = case.replace(particles=case.particles.replace(shape=GRIT[shape]))
+    vary, loads = drawn(case, 3, 7, unlike)
+    turn = np.linspace(0.9, 1.1, 3)
+    vary["particles.shape.angle"] = GRIT[shape].angle * turn
+    vary["particles.shape.roundness"] = GRIT[shape].roundness * turn
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    sure = got["doubt"] == ""
+    assert sure.sum() >= 2
+    assert np.array_equal(got["status"][sure] == 0, np.isfinite(want["d"])[sure])
+    known = sure & np.isfinite(want["d"])
+    assert max(largest_error(got, want, known).values()) <= BOUND
+
+
 CLASSES = {
     "bins": tb.Histogram(edges=(0.0, 3e-7, 5e-7, 8e-7), counts=(410, 0, 90)),
     "powers": PowerLaw(edges=(1e-7, 2e-7, 4e-7, 14e-7), counts=(9, 3, 1), slopes=(3.4, 2.0, -1)),
@@ -282,8 +314,13 @@ def test_the_engine_is_asked_what_is_slow():
     both = deep.replace(particles=(deep.particles, contact().particles))
     assert not tables_each(deep, [sizes, body, "pressure"])
     assert not tables_each(both, ["particles.1.diameter.mean", "surfaces.first.H"])
-    assert tables_each(angular, [sizes])
-    assert not tables_each(angular, ["roughness.sigma"])
+    assert not tables_each(angular, [sizes])
+    strong = deep.particles.replace(
+        strength=tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
+    )
+    breaks = deep.replace(particles=strong)
+    assert tables_each(breaks, [sizes])
+    assert not tables_each(breaks, ["roughness.sigma"])
     with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
         assert tables_each(deep, [sizes])
         assert tables_each(both, ["particles.1.diameter.mean"])

@@ -256,9 +256,11 @@ class Numbers:
             raise NotCompiled("particles that are not Series")
         if one.strength is not None:
             raise NotCompiled("particles that break")
-        if not isinstance(one.shape, Sphere):
-            raise NotCompiled("angular particles")
+        grit = None if isinstance(one.shape, Sphere) else changed.shape
+        if grit is not None and type(law) is not particle.Series:
+            raise NotCompiled("angular flakes")
         rows, rough = self.parts[:, p], self.varied.roughness
+        breadth = 2 * varied.tip_radius if grit is None else grit.flatness**2
         width = varied.zeta_std * rough.sigma if law.seat == "rough" else 0.0
         _filled(
             rows,
@@ -266,7 +268,7 @@ class Numbers:
                 **{f.SEAT: f.ROUGH if law.seat == "rough" else f.PLANE, f.WIDTH: width},
                 f.OFFSET: varied.seat_offset(rough) + self.centre,
                 **{f.SHADOW: SHADOWS[law.shadow]},
-                **{f.DENSITY: changed.areal_density * share, f.BREADTH: 2 * varied.tip_radius},
+                **{f.DENSITY: changed.areal_density * share, f.BREADTH: breadth},
             },
         )
         second = self._add_sizes(rows, *section)
@@ -274,7 +276,7 @@ class Numbers:
         if np.any(rows[:, f.COVERAGE] >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
         sides = [
-            self._side(self.bodies[:, 2 * p + i], surface, changed.material, law, varied)
+            self._side(self.bodies[:, 2 * p + i], surface, changed.material, law, varied, grit)
             for i, surface in enumerate((self.varied.surfaces.first, self.varied.surfaces.second))
         ]
         (E, H), (E_2, H_2) = sides
@@ -308,12 +310,20 @@ class Numbers:
             },
         )
 
-    def _side(self, rows: Array, surface: Any, body: Any, law: Any, varied: Any) -> tuple[Any, Any]:
-        """Fill in the rows of a side; its E* and H."""
-        R = varied.tip_radius
+    def _side(
+        self, rows: Array, surface: Any, body: Any, law: Any, varied: Any, grit: Any
+    ) -> tuple[Any, Any]:
+        """Fill in the rows of a side, of angular particles if ``grit`` is a shape; its E* and H."""
+        R = varied.tip_radius if grit is None else 0.5 * grit.roundness
         E, (H, nu) = reduced_modulus(surface, body), _softer(surface, body)
         numbers, delta_1 = _law(type(law.law), varied.law, R, E, H, nu)
         _filled(rows, dict(enumerate(numbers)))
+        falls = type(law.law) is asperity.KE and np.any(numbers[1] > MOST_K)
+        if hasattr(law.law, "ratio") or falls:
+            raise NotCompiled(f"the law {law.law.name} of particles, to the NumPy engine alone")
+        if grit is not None:
+            self._add_grit(rows, H, delta_1, R, grit)
+            return E, H
         soft = np.broadcast_to(body.H < surface.H, self.count)
         yields = type(law.law) not in (asperity.GW, asperity.JG)
         if law.soft != "squashed" or not yields:
@@ -321,9 +331,6 @@ class Numbers:
         ratio = np.broadcast_to(E / H, self.count)
         if np.any(soft & ((ratio < 1e-6) | (ratio > 1e9) | (surface.H / H > 1e9))):
             raise NotCompiled("squashed particles beyond the law")
-        falls = type(law.law) is asperity.KE and np.any(numbers[1] > MOST_K)
-        if hasattr(law.law, "ratio") or falls:
-            raise NotCompiled(f"the law {law.law.name} of particles, to the NumPy engine alone")
         if law.deep == "table" and law.soft == "squashed" and yields:
             return self._add_deep(rows, surface.H, body.H, E, H, delta_1, varied)
         full = np.where(soft, 1 / (6 * R * delta_1), 0.5 / delta_1)
@@ -337,6 +344,20 @@ class Numbers:
             },
         )
         return E, H
+
+    def _add_grit(self, rows: Array, H: Any, delta_1: Any, R: Any, grit: Any) -> None:
+        """Fill in the rows of a side that is a tip, or a tip and faces."""
+        edge = R * np.tan(grit.angle)
+        faced = edge < 0.5 * grit.flatness * (1 - 1e-12)
+        _filled(
+            rows,
+            {
+                **{f.FORM: np.where(faced, f.FACED, f.SPHERE), f.DELTA_1: delta_1, f.TIP: R},
+                f.UNIT: R * math.pi * delta_1 * H,
+                f.FULL: 0.25 * grit.flatness**2 / (R * delta_1),
+                **{f.FACE_AREA: edge**2 / (R * delta_1), f.FACE_TAN: np.tan(grit.angle)},
+            },
+        )
 
     def _add_deep(
         self, rows: Array, surface: Any, body: Any, E: Any, H: Any, delta_1: Any, varied: Any

@@ -35,6 +35,10 @@ TABLE_LOAD = 12
 TABLE_AREA = TABLE_LOAD + TABLE_TERMS
 """Series of ln of load and of area of a side by the table of deep squeezes."""
 OF_SIDE = TABLE_AREA + TABLE_TERMS
+FACE_AREA, FACE_TAN, JOINT, FACE_PRESSURE, FACE_START, FACE_RATE = range(TABLE_LOAD, TABLE_LOAD + 6)
+"""Of an angular side instead: reduced area where its faces begin and tan β; once a state the
+reduced indentation there, their pressure over H, and the root of their reduced area and its slope.
+"""
 # found once a state
 CAP, WIDE, END, PLATEAU, LIMIT, COUNT, KINKS = range(OF_SIDE, OF_SIDE + 7)
 """Reduced indentation at the cap; where it is as wide as the sphere; where it sinks in; whether

@@ -406,8 +406,8 @@ def lay_panels(given, sides, panels, p, rule):
     equal, worst = given[p, EQUAL] == 1, 0.0
     if not equal and not prepare(sides, 2 * p + 1):
         return -1
+    note_jumps(sides, 2 * p)
     if not equal:
-        note_jumps(sides, 2 * p)
         note_jumps(sides, 2 * p + 1)
     count = _kinks(given, sides, panels, p)
     if count < 2 or panels[p, count - 1, EDGE] > DEEPEST:
@@ -436,7 +436,8 @@ def lay_panels(given, sides, panels, p, rule):
     eps = panels[p, count - 1, TO]
     one = 0.5 * eps if equal else first_at(panels, p, count - 1, eps)
     deeper = equal or sides[2 * p, LIMIT] <= sides[2 * p + 1, LIMIT] * (1 + CLOSE)
-    deeper |= sides[2 * p, JUMPS] + sides[2 * p + 1, JUMPS] > 0  # a last kink of either
+    if sides[2 * p, JUMPS] + sides[2 * p + 1, JUMPS] > 0:  # a last kink of either
+        deeper |= panels[p, count - 1, HELD] <= 0
     panels[p, count, SHARE] = 0.0 if equal else worst
     panels[p, count, REGIME] = regime_of(sides, 2 * p, one * (1 + 1e-9 * (1 if deeper else -1)))
     return count

@@ -13,6 +13,7 @@ from .fields import (
     A_SA2,
     AREA,
     BREADTH,
+    COUNT,
     COVERAGE,
     COVERED,
     DENSITY,
@@ -27,6 +28,7 @@ from .fields import (
     HEIGHTS,
     HIGH,
     KIND,
+    KINKS,
     LAID_FROM,
     LAST,
     LIMIT,
@@ -51,8 +53,8 @@ from .fields import (
     WIDTH,
     W,
 )  # fmt: skip
-from .sides import branch_of, break_at, breaks, law_at, regime_of_branch, scalar
-from .squeeze import EDGE, REGIME, TO, particle_at
+from .sides import branch_of, break_at, breaks, law_at, regime_of_branch, scalar, side_at
+from .squeeze import CLOSE, EDGE, REGIME, TO, particle_at
 
 __all__ = [
     "MOST_HEIGHTS",
@@ -358,6 +360,13 @@ def _add_rough(given, sides, panels, p, count, grid, begin, end, sizes, first, l
 
 
 @scalar
+def widest_of(sides, i):
+    """Area over x² of a side beyond its last kink."""
+    apart()
+    return side_at(sides, i, 2 * sides[i, KINKS + int(sides[i, COUNT]) - 1])[1]
+
+
+@scalar
 def _add_last(given, sides, panels, p, count, squared, out):
     """What particles beyond the last panel carry, by the sum of their sizes squared."""
     apart()
@@ -366,6 +375,12 @@ def _add_last(given, sides, panels, p, count, squared, out):
     load = sides[2 * p, LIMIT]  # the load may jump at the end
     if given[p, EQUAL] != 1:
         load = min(load, sides[2 * p + 1, LIMIT])
+        if sides[2 * p + 1, LIMIT] <= load * (1 + CLOSE):
+            two = widest_of(sides, 2 * p + 1)
+    if sides[2 * p, LIMIT] <= load * (1 + CLOSE):
+        one = widest_of(sides, 2 * p)
+        if given[p, EQUAL] == 1:
+            two = one
     out[F_SA] += squared * load
     out[A_SA + int(panels[p, count, REGIME])] += squared * one
     out[A_SA2] += squared * two
