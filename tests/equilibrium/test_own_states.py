@@ -31,6 +31,14 @@ LAWS = {
     "projected": SERIES(deep="off", shadow="projected"),
     "deep": SERIES(deep="table"),
 }
+JUMPING = {
+    "ke": SERIES(deep="off", soft="sphere", law=tb.asperity.KE(K=0.577)),
+    "ke, deep": SERIES(deep="table", law=tb.asperity.KE(K=0.577)),
+    "ceb": SERIES(deep="off", law=tb.asperity.CEB()),
+    "jg": SERIES(deep="off", law=tb.asperity.JG()),
+    "gw": SERIES(deep="off", law=tb.asperity.GW()),
+}
+"""Laws whose load jumps, up or down, or that never become plastic."""
 SEATS = ("rough", "plane")
 BODIES = {"hard": (72e9, 7.7e9), "soft": (190e9, 1e9)}
 SIZES = {
@@ -47,7 +55,7 @@ def contact(law="hermite", seat="rough", body="hard", sizes="gaussian", other=ST
         particles=tb.Particles(
             material=tb.Material(E=E, nu=0.2, H=H), areal_density=1e11, diameter=SIZES[sizes]
         ),
-        particle_law=LAWS[law].replace(seat=seat),
+        particle_law={**LAWS, **JUMPING}[law].replace(seat=seat),
         **more,
     )
 
@@ -117,6 +125,54 @@ def test_like_sides_hold_to_the_slow_path(seat, body):
 )
 def test_laws_hold_to_the_slow_path(law, seat):
     hold(contact(law, seat, "soft"), 2, 2)
+
+
+@pytest.mark.parametrize(
+    ("law", "seat", "body", "unlike"),
+    [
+        ("ke", "rough", "hard", True),
+        ("ke", "plane", "hard", False),
+        ("ke, deep", "rough", "hard", True),
+        ("ceb", "rough", "hard", True),
+        ("jg", "rough", "soft", True),  # its load falls at its jump where ν is above 0.32
+        ("jg", "plane", "soft", False),
+        ("gw", "plane", "hard", True),
+    ],
+)
+def test_loads_that_jump_hold_to_the_slow_path(law, seat, body, unlike):
+    hold(contact(law, seat, body), 3, 2, unlike)
+
+
+GRIT = {
+    "faces": tb.Angular(roundness=0.25, angle=0.6),
+    "blunt": tb.Angular(roundness=0.5, angle=0.2, flatness=1.4),
+    "round": tb.Angular(roundness=0.9, angle=1.3),
+}
+
+
+@pytest.mark.parametrize(
+    ("shape", "law", "seat", "body", "unlike"),
+    [
+        ("faces", "hermite", "rough", "hard", True),
+        ("faces", "ke", "plane", "soft", False),
+        ("blunt", "hermite", "plane", "hard", True),
+        ("blunt", "hermite", "rough", "soft", False),
+        ("round", "ke", "rough", "hard", True),  # the area jumps past the great circle
+    ],
+)
+def test_angular_particles_hold_to_the_slow_path(shape, law, seat, body, unlike):
+    case = contact(law, seat, body)
+    case = case.replace(particles=case.particles.replace(shape=GRIT[shape]))
+    vary, loads = drawn(case, 3, 7, unlike)
+    turn = np.linspace(0.9, 1.1, 3)
+    vary["particles.shape.angle"] = GRIT[shape].angle * turn
+    vary["particles.shape.roundness"] = GRIT[shape].roundness * turn
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    sure = got["doubt"] == ""
+    assert sure.sum() >= 2
+    assert np.array_equal(got["status"][sure] == 0, np.isfinite(want["d"])[sure])
+    known = sure & np.isfinite(want["d"])
+    assert max(largest_error(got, want, known).values()) <= BOUND
 
 
 CLASSES = {
@@ -258,8 +314,13 @@ def test_the_engine_is_asked_what_is_slow():
     both = deep.replace(particles=(deep.particles, contact().particles))
     assert not tables_each(deep, [sizes, body, "pressure"])
     assert not tables_each(both, ["particles.1.diameter.mean", "surfaces.first.H"])
-    assert tables_each(angular, [sizes])
-    assert not tables_each(angular, ["roughness.sigma"])
+    assert not tables_each(angular, [sizes])
+    strong = deep.particles.replace(
+        strength=tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
+    )
+    breaks = deep.replace(particles=strong)
+    assert tables_each(breaks, [sizes])
+    assert not tables_each(breaks, ["roughness.sigma"])
     with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
         assert tables_each(deep, [sizes])
         assert tables_each(both, ["particles.1.diameter.mean"])
@@ -273,6 +334,7 @@ def test_asperity_laws_by_numbers_of_their_own():
         (tb.asperity.Hermite(), {"k": 0.4 * turn}),
         (tb.asperity.KE(), {"K": 0.6 * turn}),
         (tb.asperity.CEB(), {"K": 0.6 * turn}),
+        (tb.asperity.JG(), {"hardness_ratio": 2.8 * turn}),
         (tb.asperity.EllipticZMC(ratio=2.0), {"k": 0.4 * turn}),
         (tb.asperity.GW(), {}),
     ):
@@ -284,10 +346,41 @@ def test_asperity_laws_by_numbers_of_their_own():
         assert max(largest_error(got, want, np.ones(4, bool)).values()) <= BOUND, law.name
 
 
-def test_a_law_whose_fits_end_is_for_the_numpy_engine():
-    bare = contact().replace(particles=None, asperity_law=tb.asperity.JG())
+HEIGHTS = {
+    "exponential": tb.heights.ExponentialHeights(),
+    "weibull": tb.heights.WeibullHeights(shape=1.3),
+    "narrow": tb.heights.WeibullHeights(shape=8.0),
+}
+
+
+@pytest.mark.parametrize("kind", HEIGHTS)
+def test_other_heights_hold_to_the_slow_path(kind):
+    """From light loads to separations below the lowest asperity, alone and with particles."""
+    base = contact("hermite", "plane", "hard")
+    case = base.replace(roughness=base.roughness.replace(heights=HEIGHTS[kind]))
+    bare, turn = case.replace(particles=None), np.linspace(0.95, 1.05, 4)
+    vary = {"surfaces.first.H": STEEL.H * turn}
+    loads = np.geomspace(1e-9, 1e-4, 4)
+    for every in (bare, case):
+        got, want = own_columns(every, vary, "F_star", loads), slow(every, vary, loads)
+        assert set(got["doubt"]) == {""}
+        assert max(largest_error(got, want, np.ones(4, bool)).values()) <= BOUND
+    d = np.array([-4.5, -1.05, -0.95, 0.5]) * 100e-9
+    got = own_columns(bare, vary, "d", d)
+    with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
+        want = state_columns(bare, d=d, vary=vary)
+    assert set(got["doubt"]) == {""}
+    for name in ("F_star", "A_e", "A_ep", "A_p"):
+        np.testing.assert_allclose(got[name], want[name], rtol=1e-9, atol=1e-9 * want["A_t"][3])
+
+
+def test_laws_beyond_what_was_shown_are_for_the_numpy_engine():
+    bare = contact().replace(particles=None, asperity_law=tb.asperity.JG(hardness_ratio=0.4))
     with pytest.raises(NotCompiled, match="jg"):
         own_columns(bare, {"surfaces.first.H": STEEL.H * np.ones(4)}, "F_star", np.full(4, 1e-6))
+    falls = contact("ke").replace(**{"particle_law.law": tb.asperity.KE(K=0.65)})
+    with pytest.raises(NotCompiled, match="ke"):
+        own_columns(falls, {"surfaces.first.H": STEEL.H * np.ones(4)}, "F_star", np.full(4, 1e-6))
 
 
 @pytest.mark.parametrize("body", BODIES)
@@ -359,6 +452,14 @@ def test_the_slow_rows_are_told_of_as_compiled():
     got = state_columns(case, F_star=loads, vary=vary)
     assert np.mean(got["engine"] == "compiled") > 0.8
     assert all(each == "compiled" or each.startswith("numpy: ") for each in got["engine"])
+
+
+@pytest.mark.check
+@pytest.mark.parametrize("unlike", [False, True])
+@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("law", [name for name in JUMPING if name != "ceb"])
+def test_many_random_states_of_loads_that_jump(law, body, unlike):
+    hold(contact(law, "rough", body), 20, 8, unlike)
 
 
 @pytest.mark.check

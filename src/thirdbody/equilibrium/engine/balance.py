@@ -14,11 +14,13 @@ from .fields import (
     A_SA,
     BEYOND,
     BREADTH,
+    CODE,
     COVERAGE,
     F_SA,
     F_SS,
     FOOTPRINT,
     HIGH,
+    JG,
     NODES,
     NOT_MONOTONE,
     NOT_RESOLVED,
@@ -46,6 +48,7 @@ from .fields import (
     TOO_MUCH,
     UNSOLVED,
     WIDTH,
+    W,
 )  # fmt: skip
 from .printed import add_printed, only_falls, printed_bound
 from .sides import scalar
@@ -54,6 +57,7 @@ from .sums import (
     MOST_HEIGHTS,
     MOST_NODES,
     MOST_SIZES,
+    NEAREST,
     add_part,
     add_skin,
     lay_nodes,
@@ -94,10 +98,12 @@ def total(given, skin, work, laid, rules, level, h, out):
     for k in range(10):
         out[k] = 0.0
     last = len(given)
-    add_skin(skin, heights, laid[last, level, GRID], laid[last, level, GRID_END], h, out)
     nodes, span = int(rules[level, 0, NODES]), rules[level, 0, SPAN]
+    good = add_skin(
+        skin, heights, laid[last, level, GRID], laid[last, level, GRID_END],
+        rules[level, RULE], rules[level, RULE + 1], nodes, h, out,
+    )  # fmt: skip
     d = h * skin[0, SIGMA_S]
-    good = True
     for p in range(last):
         own = laid[p, level]
         if given[p, SEAT] == PRINTED:
@@ -128,7 +134,10 @@ def lay(given, skin, work, laid, rules, level):
         if last > 0:
             place, size = laid[last - 1, COARSE, GRID_END], laid[last - 1, COARSE, SIZED_END]
     laid[last, level, GRID] = begin
-    begin = laid[last, level, GRID_END] = lay_skin(skin, heights, begin, gauss, weights, nodes)
+    begin = laid[last, level, GRID_END] = lay_skin(
+        skin, heights, begin, MOST_HEIGHTS, gauss, weights, nodes,
+        0.0 * span, NEAREST / skin[0, W],
+    )  # fmt: skip
     good &= begin >= 0
     for p in range(last):
         own = laid[p, level]
@@ -265,15 +274,19 @@ def _widest(given, work, laid, p):
 
 
 @scalar
-def _falls(given, work, laid, bound, d, sigma_s):
+def _falls(given, skin, work, laid, bound, h):
     """Whether no separation above d can carry the load, of which asperities take ``bound`` [Pa].
 
     Either a particle gains by each squeeze what it takes from the asperities, the bound times its
     shadow, or the shadow of all grows more slowly with the approach than the asperities' load:
     that of a Gaussian seat of a width s, up to c in all, by c/(s √(2π)) at most, and their load by
-    0.3/σ_s of itself at least.
+    0.3/σ_s of itself at least: by one over the mean excess of the heights or more, which falls
+    with the separation for all heights that the kernel knows, and is 3 σ_s at its lowest; a fifth
+    as much by the law of Jackson and Green, whose load may grow like the sixth root of ω only.
     """
     apart()
+    sigma_s, least = skin[0, SIGMA_S], 0.05 if skin[0, CODE] == JG else 0.3
+    d = h * sigma_s
     steepest = covered = 0.0
     for p in range(len(given)):
         if given[p, SEAT] == PRINTED:
@@ -296,7 +309,7 @@ def _falls(given, work, laid, bound, d, sigma_s):
             widest = _widest(given, work, laid, p)
             steepest += widest / (2.5 * given[p, WIDTH])
             covered += widest
-    return steepest * sigma_s <= 0.3 * (1 - covered)
+    return steepest * sigma_s <= least * (1 - covered)
 
 
 @scalar
@@ -377,16 +390,16 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
 def _root(given, skin, work, laid, rules, target, row, out):
     """The highest separation that carries the target, the slope there, evaluations and fate."""
     apart()
-    every, sigma_s = laid.shape[1] - 1, skin[0, SIGMA_S]
+    every = laid.shape[1] - 1
     h, slope, count = search(given, skin, work, laid, rules, target, out)
     if h == -math.inf:
         total(given, skin, work, laid, rules, every, LOWEST, row)
-        if _falls(given, work, laid, row[F_SS], LOWEST * sigma_s, sigma_s):
+        if _falls(given, skin, work, laid, row[F_SS], LOWEST):
             return h, slope, count, TOO_MUCH
     else:
         h, slope, n = polish(given, skin, work, laid, rules, target, h, slope, row)
         count += n
-        if math.isfinite(h) and _falls(given, work, laid, row[F_SS], h * sigma_s, sigma_s):
+        if math.isfinite(h) and _falls(given, skin, work, laid, row[F_SS], h):
             return h, slope, count, OK
     first, slope = _come_down(given, skin, work, laid, rules, target, out)
     if not math.isfinite(first):
@@ -445,7 +458,7 @@ def solve_own(skins, parts, bodies, rules, target, h, count, fate, error, rows):
     most = parts.shape[1]
     sides = np.zeros((2 * most, SIDE))
     work = (
-        np.empty((5, MOST_HEIGHTS)),
+        np.zeros((5, 2 * MOST_HEIGHTS)),
         sides,
         np.empty((most, MOST_PANELS, PANEL)),
         np.empty((7, MOST_NODES)),

@@ -19,7 +19,7 @@ from ...laws.asperity.elliptic import elliptic_hertz
 from ...laws.particle.deep import curve_rows
 from ...numerics.quadrature import gauss_legendre
 from ...populations import distributions as sizes
-from ...populations.heights import GaussianHeights
+from ...populations.heights import COMPLETE, ExponentialHeights, GaussianHeights, WeibullHeights
 from ...populations.materials import reduced_modulus
 from ...populations.particles import Particles
 from ...populations.shape import Sphere
@@ -38,14 +38,20 @@ SHADOWS = {
     "covered": f.COVERED,
     "none": f.NOTHING,
 }
-TERMS = 12
-NODES = (((6, 3.0, 10, 6.5), (12, 4.0, 16, 6.5)), ((12, 2.0, 16, 4.0), (24, 2.0, 24, 4.0)))
+TERMS, DEEPEST = 12, 5.0
+"""Of a Chebyshev series; lowest separation [σ_s] that may be given, down."""
+NODES = (((6, 3.0, 10, 6.5), (12, 3.0, 16, 6.5)), ((12, 2.0, 16, 4.0), (24, 2.0, 24, 4.0)))
 """Of each level, few and all: nodes of a panel and how many widths of a density it covers, then
 the same of sizes on a rough seat."""
 MOST_SECTIONS = 40
 """Classes of size of a population: each costs as much as a population of its own."""
 WIDEST = math.log(2.5)
 """Standard deviation of ln x up to which log-normal sizes were held to the slow path at 1e-9."""
+MOST_STRAIN = 0.1
+"""S_y/E* up to which the law of Jackson and Green was held to the slow path: its fits end at 0.007,
+and the power of its area is an exponential of it."""
+MOST_K = 3 / 1.4 * 110**-0.263
+"""K of Kogut and Etsion above which the load falls at their last step (ν > 0.41)."""
 NARROWEST = 1e-5
 """Width of sizes over their middle below which differences of sizes keep too few digits."""
 
@@ -91,6 +97,8 @@ def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[An
     if kind is a.JG:
         C = 1.295 * np.exp(0.736 * (nu if law.nu is None else law.nu))
         strain = H / (law.hardness_ratio * E)
+        if np.any(strain > MOST_STRAIN):
+            raise NotCompiled("the law jg, far beyond its fits")
         over_R = (math.pi * C * strain / 2) ** 2
         return [f.JG, C, 0.14 * np.exp(23 * strain), over_R, law.hardness_ratio], over_R * R
     raise NotCompiled(f"the law {law.name} is known to the NumPy engine alone")
@@ -99,6 +107,26 @@ def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[An
 def _filled(rows: Array, values: Mapping[int, Any]) -> None:
     for column, value in values.items():
         rows[:, column] = value
+
+
+def _heights(heights: Any) -> dict[int, Any]:
+    """Numbers of the heights of asperities [σ_s]."""
+    kind: Any = type(heights)
+    if kind is GaussianHeights:
+        last = DEEPEST + math.sqrt(DEEPEST**2 + 100.0)
+        own = {f.HEIGHTS: f.GAUSSIAN_HEIGHTS, f.LAID_FROM: -math.inf}
+        return {**own, f.STEP: 2.5, f.LAST: last}
+    if kind is ExponentialHeights:  # without its end, one exponential at every separation
+        own = {f.HEIGHTS: f.EXPONENTIAL, f.LOWEST_HEIGHT: -1.0, f.LAID_FROM: -1.0}
+        return {**own, f.STEP: 4.0, f.LAST: COMPLETE}
+    if kind is WeibullHeights:
+        shape = heights.shape
+        first, second = (special.gamma(1 + j / shape) for j in (1, 2))
+        spread = np.sqrt(second - first**2)
+        own = {f.HEIGHTS: f.WEIBULL, f.SHAPE: shape, f.MIDDLE: first, f.SPREAD: spread}
+        ends = {f.LOWEST_HEIGHT: -first / spread, f.LAID_FROM: 1 - first / spread}
+        return {**own, **ends, f.STEP: 1.5, f.LAST: COMPLETE ** (1 / shape) / spread}
+    raise NotCompiled("heights of a kind that the kernel does not know")
 
 
 def _softer(first: Any, second: Any) -> tuple[Any, Any]:
@@ -178,10 +206,8 @@ class Numbers:
 
     def _add_asperities(self) -> None:
         rough, surfaces, law = self.varied.roughness, self.varied.surfaces, self.varied.asperity_law
-        if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity:
-            raise NotCompiled("heights that are not Gaussian, or asperities of several shapes")
-        if type(self.contact.asperity_law) is asperity.JG:
-            raise NotCompiled("the law jg, whose fits end, to the NumPy engine alone")
+        if rough.ellipticity:
+            raise NotCompiled("asperities of several shapes")
         E, (H, nu) = surfaces.E_star, _softer(surfaces.first, surfaces.second)
         numbers, omega_1 = _law(type(self.contact.asperity_law), law, rough.R, E, H, nu)
         area = rough.density * math.pi * rough.R * omega_1
@@ -191,6 +217,7 @@ class Numbers:
             {
                 **{f.W: omega_1 / rough.sigma_s, f.FORCE: area * H, f.AREA: area},
                 **{f.SIGMA_S: rough.sigma_s, f.SIGMA: rough.sigma},
+                **_heights(rough.heights),
             },
         )
         if self.skins[:, f.W].min() < 1e-9 or self.skins[:, f.W].max() > 1e9:
@@ -229,9 +256,11 @@ class Numbers:
             raise NotCompiled("particles that are not Series")
         if one.strength is not None:
             raise NotCompiled("particles that break")
-        if not isinstance(one.shape, Sphere):
-            raise NotCompiled("angular particles")
+        grit = None if isinstance(one.shape, Sphere) else changed.shape
+        if grit is not None and type(law) is not particle.Series:
+            raise NotCompiled("angular flakes")
         rows, rough = self.parts[:, p], self.varied.roughness
+        breadth = 2 * varied.tip_radius if grit is None else grit.flatness**2
         width = varied.zeta_std * rough.sigma if law.seat == "rough" else 0.0
         _filled(
             rows,
@@ -239,7 +268,7 @@ class Numbers:
                 **{f.SEAT: f.ROUGH if law.seat == "rough" else f.PLANE, f.WIDTH: width},
                 f.OFFSET: varied.seat_offset(rough) + self.centre,
                 **{f.SHADOW: SHADOWS[law.shadow]},
-                **{f.DENSITY: changed.areal_density * share, f.BREADTH: 2 * varied.tip_radius},
+                **{f.DENSITY: changed.areal_density * share, f.BREADTH: breadth},
             },
         )
         second = self._add_sizes(rows, *section)
@@ -247,7 +276,7 @@ class Numbers:
         if np.any(rows[:, f.COVERAGE] >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
         sides = [
-            self._side(self.bodies[:, 2 * p + i], surface, changed.material, law, varied)
+            self._side(self.bodies[:, 2 * p + i], surface, changed.material, law, varied, grit)
             for i, surface in enumerate((self.varied.surfaces.first, self.varied.surfaces.second))
         ]
         (E, H), (E_2, H_2) = sides
@@ -281,12 +310,20 @@ class Numbers:
             },
         )
 
-    def _side(self, rows: Array, surface: Any, body: Any, law: Any, varied: Any) -> tuple[Any, Any]:
-        """Fill in the rows of a side; its E* and H."""
-        R = varied.tip_radius
+    def _side(
+        self, rows: Array, surface: Any, body: Any, law: Any, varied: Any, grit: Any
+    ) -> tuple[Any, Any]:
+        """Fill in the rows of a side, of angular particles if ``grit`` is a shape; its E* and H."""
+        R = varied.tip_radius if grit is None else 0.5 * grit.roundness
         E, (H, nu) = reduced_modulus(surface, body), _softer(surface, body)
         numbers, delta_1 = _law(type(law.law), varied.law, R, E, H, nu)
         _filled(rows, dict(enumerate(numbers)))
+        falls = type(law.law) is asperity.KE and np.any(numbers[1] > MOST_K)
+        if hasattr(law.law, "ratio") or falls:
+            raise NotCompiled(f"the law {law.law.name} of particles, to the NumPy engine alone")
+        if grit is not None:
+            self._add_grit(rows, H, delta_1, R, grit)
+            return E, H
         soft = np.broadcast_to(body.H < surface.H, self.count)
         yields = type(law.law) not in (asperity.GW, asperity.JG)
         if law.soft != "squashed" or not yields:
@@ -294,8 +331,6 @@ class Numbers:
         ratio = np.broadcast_to(E / H, self.count)
         if np.any(soft & ((ratio < 1e-6) | (ratio > 1e9) | (surface.H / H > 1e9))):
             raise NotCompiled("squashed particles beyond the law")
-        if type(law.law) not in (asperity.Hermite, asperity.ZMC):
-            raise NotCompiled(f"the law {law.law.name} of particles, to the NumPy engine alone")
         if law.deep == "table" and law.soft == "squashed" and yields:
             return self._add_deep(rows, surface.H, body.H, E, H, delta_1, varied)
         full = np.where(soft, 1 / (6 * R * delta_1), 0.5 / delta_1)
@@ -309,6 +344,20 @@ class Numbers:
             },
         )
         return E, H
+
+    def _add_grit(self, rows: Array, H: Any, delta_1: Any, R: Any, grit: Any) -> None:
+        """Fill in the rows of a side that is a tip, or a tip and faces."""
+        edge = R * np.tan(grit.angle)
+        faced = edge < 0.5 * grit.flatness * (1 - 1e-12)
+        _filled(
+            rows,
+            {
+                **{f.FORM: np.where(faced, f.FACED, f.SPHERE), f.DELTA_1: delta_1, f.TIP: R},
+                f.UNIT: R * math.pi * delta_1 * H,
+                f.FULL: 0.25 * grit.flatness**2 / (R * delta_1),
+                **{f.FACE_AREA: edge**2 / (R * delta_1), f.FACE_TAN: np.tan(grit.angle)},
+            },
+        )
 
     def _add_deep(
         self, rows: Array, surface: Any, body: Any, E: Any, H: Any, delta_1: Any, varied: Any

@@ -8,6 +8,8 @@ SPHERE, SQUASHED, DEEP, FACED = range(4)
 """What a side of a particle is."""
 ONE_SIZE, GAUSSIAN, LOGNORMAL, UNIFORM, POWER = range(5)
 """Kinds of sizes."""
+GAUSSIAN_HEIGHTS, EXPONENTIAL, WEIBULL = range(3)
+"""Kinds of heights of asperities."""
 PLANE, ROUGH, PRINTED = range(3)
 """Where particles rest, or that their sum over sizes is one of closed formulas."""
 FOOTPRINT, PROJECTED, COVERED, NOTHING = range(4)
@@ -19,7 +21,10 @@ CODE, LAW_1, LAW_2, LAW_3, LAW_4 = range(5)
 # ------------------------------------------------------------------ given, of the asperities
 W, FORCE, AREA, SIGMA_S, SIGMA = range(5, 10)
 """ω_1/σ_s, the units of load [Pa] and area, σ_s and σ [m]."""
-OF_ASPERITIES = 10
+HEIGHTS, SHAPE, MIDDLE, SPREAD, LOWEST_HEIGHT, LAID_FROM, STEP, LAST = range(10, 18)
+"""Kind of heights, shape, and mean and standard deviation of the plain variable; lower end; the
+separation below which it shows in the nodes; width of a panel over t = ω/σ_s, and where t ends."""
+OF_ASPERITIES = 18
 
 # ------------------------------------------------------------------ given, of a side
 FORM, DELTA_1, UNIT, FULL, TIP, HILL, HARDER = range(5, 12)
@@ -30,12 +35,19 @@ TABLE_LOAD = 12
 TABLE_AREA = TABLE_LOAD + TABLE_TERMS
 """Series of ln of load and of area of a side by the table of deep squeezes."""
 OF_SIDE = TABLE_AREA + TABLE_TERMS
+FACE_AREA, FACE_TAN, JOINT, FACE_PRESSURE, FACE_START, FACE_RATE = range(TABLE_LOAD, TABLE_LOAD + 6)
+"""Of an angular side instead: reduced area where its faces begin and tan β; once a state the
+reduced indentation there, their pressure over H, and the root of their reduced area and its slope.
+"""
 # found once a state
 CAP, WIDE, END, PLATEAU, LIMIT, COUNT, KINKS = range(OF_SIDE, OF_SIDE + 7)
 """Reduced indentation at the cap; where it is as wide as the sphere; where it sinks in; whether
 it goes on; the most load; how many kinks, and where they begin [x]."""
 MOST_KINKS = 40
-SIDE = KINKS + MOST_KINKS
+MOST_JUMPS = 4
+JUMPS = KINKS + MOST_KINKS
+"""How many jumps its load has, and of each where [x] and the loads before and behind it."""
+SIDE = JUMPS + 1 + 3 * MOST_JUMPS
 
 # ------------------------------------------------------------------ given, of particles
 SEAT, SHADOW, EQUAL, KIND, SIZE_1, SIZE_2, NORM, LOW, HIGH = range(9)

@@ -20,6 +20,12 @@ from .fields import (
     DEEP,
     DELTA_1,
     END,
+    FACE_AREA,
+    FACE_PRESSURE,
+    FACE_RATE,
+    FACE_START,
+    FACE_TAN,
+    FACED,
     FORM,
     FULL,
     GW,
@@ -27,6 +33,7 @@ from .fields import (
     HERMITE,
     HILL,
     JG,
+    JOINT,
     KE,
     KINKS,
     LAW_1,
@@ -228,6 +235,8 @@ def _cap(rows, i):
     if code != JG and 0.5 * full >= last:
         return 0.5 * full
     low, high = 0.4 * full, max(full, 1.0)
+    if law_at(rows, i, low)[1] >= full:  # the area of a power above one
+        low = break_at(rows, i, 0)
     while law_at(rows, i, high)[1] < full:
         high *= 2
     for n in range(count):  # a jump of the area over the great circle
@@ -354,6 +363,10 @@ def side_at(rows, i, delta):
         thin = delta_1 / rows[i, TIP]
         load, area = _deep_at(rows, i, min(y, rows[i, END]) * thin)
         load, area = load / thin, area / thin
+    elif rows[i, FORM] == FACED and y >= rows[i, JOINT]:
+        root = rows[i, FACE_START] + rows[i, FACE_RATE] * (min(y, rows[i, CAP]) - rows[i, JOINT])
+        area = min(root * root, rows[i, FULL])
+        load = rows[i, FACE_PRESSURE] * area
     else:
         cap, full = rows[i, CAP], rows[i, FULL]
         if rows[i, PLATEAU] == 0 and y > cap:
@@ -372,6 +385,8 @@ def regime_of(rows, i, delta):
     y = delta / rows[i, DELTA_1]
     if y >= rows[i, CAP] and rows[i, PLATEAU] == 1:
         return 2
+    if rows[i, FORM] == FACED:
+        y = min(y, rows[i, JOINT])
     return regime_of_branch(rows, i, branch_of(rows, i, y))
 
 
@@ -434,6 +449,26 @@ def _prepare_disc(rows, i):
 
 
 @scalar
+def _prepare_faces(rows, i):
+    """Where the faces of an angular side begin and end, and what they carry."""
+    apart()
+    full, edge = rows[i, FULL], rows[i, FACE_AREA]
+    rows[i, FULL] = edge
+    joint = rows[i, JOINT] = _cap(rows, i)
+    rows[i, FULL] = full
+    load, area = law_at(rows, i, joint)
+    rows[i, FACE_PRESSURE], rows[i, FACE_START] = load / area, math.sqrt(edge)
+    deeper = 1 + (math.pi / 2 - 1) * (2 * joint / edge - 1)
+    rate = math.sqrt(rows[i, DELTA_1] / rows[i, TIP]) / (rows[i, FACE_TAN] * deeper)
+    rows[i, FACE_RATE], rows[i, CAP] = rate, joint + (math.sqrt(full) - math.sqrt(edge)) / rate
+    for n in range(breaks(rows, i)):
+        if break_at(rows, i, n) < joint:
+            _add_kink(rows, i, break_at(rows, i, n))
+    _add_kink(rows, i, joint)
+    _add_kink(rows, i, rows[i, CAP])
+
+
+@scalar
 def prepare(rows, i):
     """Find the kinks of a side; False where its formulas do not cover it."""
     apart()
@@ -446,11 +481,15 @@ def prepare(rows, i):
         last = rows[i, KINKS + int(rows[i, COUNT]) - 1]
         rows[i, LIMIT] = side_at(rows, i, last)[0]
         return rows[i, COUNT] < MOST_KINKS
-    cap = rows[i, CAP] = _cap(rows, i)
+    if rows[i, FORM] == FACED:
+        _prepare_faces(rows, i)
+    else:
+        rows[i, CAP] = _cap(rows, i)
+    cap = rows[i, CAP]
     if rows[i, FORM] == SQUASHED:
         if not _prepare_disc(rows, i):
             return False
-    else:
+    elif rows[i, FORM] != FACED:
         for n in range(breaks(rows, i)):
             y = break_at(rows, i, n)
             if rows[i, PLATEAU] == 1 or y < cap:

@@ -5,19 +5,59 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart
-from .fields import COUNT, EQUAL, KINKS, LIMIT
+from .fields import CEB, CODE, COUNT, EQUAL, JG, JUMPS, KINKS, LIMIT, MOST_JUMPS
 from .sides import prepare, regime_of, scalar, side_at
 
 __all__ = ["EDGE", "MOST_PANELS", "PANEL", "REGIME", "TERMS", "lay_panels", "particle_at"]
 
 MOST_PANELS, TERMS = 160, 12
-EDGE, TO, REGIME, FROM, UNTIL, SHARE = range(6)
-"""Of a panel: its ends in ε, the regime of side 1; ends and coefficients of the share of side 1."""
+EDGE, TO, REGIME, HELD, FROM, UNTIL, SHARE = range(7)
+"""Of a panel: its ends in ε, the regime of side 1, the indentation at which a jump of its load
+holds side 1 (side 2 if negative, none if 0); ends and coefficients of the share of side 1."""
 PANEL = SHARE + TERMS
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
 CLOSE, BALANCED, RESOLVED = 1e-12, 1e-13, 1e-6
+JUMP, BESIDE = 1e-9, 1e-14
+"""Of a load at a kink, at least, and where its sides are looked at; both relative."""
 DEEPEST = 1e3
+
+
+@scalar
+def note_jumps(sides, i):
+    """Write down where the load of a side jumps."""
+    apart()
+    sides[i, JUMPS] = 0
+    if not CEB <= sides[i, CODE] <= JG:
+        return
+    for k in range(int(sides[i, COUNT])):
+        delta, n = sides[i, KINKS + k], int(sides[i, JUMPS])
+        below = side_at(sides, i, delta * (1 - BESIDE))[0]
+        at = side_at(sides, i, delta * (1 + BESIDE))[0]
+        if abs(at - below) > JUMP * at and n < MOST_JUMPS:
+            place = JUMPS + 1 + 3 * n
+            sides[i, place], sides[i, place + 1], sides[i, place + 2] = delta, below, at
+            sides[i, JUMPS] = n + 1
+
+
+@scalar
+def jump_of(sides, i, n):
+    """Where the n-th jump of a side is, and the loads before and behind it."""
+    place = JUMPS + 1 + 3 * n
+    return sides[i, place], sides[i, place + 1], sides[i, place + 2]
+
+
+@scalar
+def around(sides, i, k):
+    """Loads before and behind kink k of a side; equal ones where the load does not jump."""
+    apart()
+    delta = sides[i, KINKS + k]
+    for n in range(int(sides[i, JUMPS])):
+        at_jump, below, at = jump_of(sides, i, n)
+        if at_jump == delta:
+            return below, at
+    load = side_at(sides, i, delta)[0]
+    return load, load
 
 
 @scalar
@@ -26,11 +66,19 @@ def inverse(sides, i, load):
     apart()
     count = int(sides[i, COUNT])
     n = 0
-    while n < count and side_at(sides, i, sides[i, KINKS + n])[0] < load:
+    below = at = 0.0
+    while n < count:
+        below, at = around(sides, i, n)
+        if max(below, at) >= load:
+            break
         n += 1
     if n == count:
         return sides[i, KINKS + count - 1]
     top = sides[i, KINKS + n]
+    if below != at:
+        if below < load:
+            return top
+        top *= 1 - BESIDE
     high = math.log(top)
     f_high = math.log(side_at(sides, i, top)[0] / load)
     if n == 0:
@@ -41,7 +89,7 @@ def inverse(sides, i, load):
             f_low = math.log(side_at(sides, i, math.exp(low))[0] / load)
     else:
         low = math.log(sides[i, KINKS + n - 1])
-        f_low = math.log(side_at(sides, i, sides[i, KINKS + n - 1])[0] / load)
+        f_low = math.log(around(sides, i, n - 1)[1] / load)
     if f_low >= 0:
         return math.exp(low)
     last = 0
@@ -113,15 +161,26 @@ def share_at(panels, p, n, eps):
 
 
 @scalar
+def first_at(panels, p, n, eps):
+    """Indentation over x of side 1 at a squeeze ε on panel n."""
+    held = panels[p, n, HELD]
+    if held != 0:
+        return held if held > 0 else eps + held
+    return eps * share_at(panels, p, n, eps)
+
+
+@scalar
 def particle_at(given, sides, panels, p, n, eps):
     """Load over x² [Pa] and areas over x² on both surfaces, of ε on panel n of part p."""
     apart()
     if given[p, EQUAL] == 1:
         load, area = side_at(sides, 2 * p, 0.5 * eps)
         return load, area, area
-    one = eps * share_at(panels, p, n, eps)
+    one, held = first_at(panels, p, n, eps), panels[p, n, HELD]
     load, first = side_at(sides, 2 * p, one)
     other, second = side_at(sides, 2 * p + 1, eps - one)
+    if held != 0:
+        return other if held > 0 else load, first, second
     off = other / load - 1
     if abs(off) > BALANCED:
         # along the line from here to a point that is closer, with an error of its square
@@ -154,7 +213,7 @@ def _lay(panels, p, count, eps):
 
 @scalar
 def _kinks(given, sides, panels, p):
-    """Kinks in ε as ends of panels after 0; how many ends, or −1 where a load jumps."""
+    """Kinks in ε as ends of panels after 0; how many ends."""
     apart()
     panels[p, 0, EDGE] = 0.0
     count = 1 + int(panels[p, 0, EDGE])  # no constant, for which numba would compile twice
@@ -166,25 +225,81 @@ def _kinks(given, sides, panels, p):
             if equal:
                 count = _lay(panels, p, count, 2 * delta)
                 continue
-            load = side_at(sides, own, delta)[0]
-            below = side_at(sides, own, delta * (1 - 1e-13))[0]
-            if abs(load - below) > 1e-9 * load:
-                return -1
+            below, at = around(sides, own, k)
             limit = sides[other, LIMIT]
-            if load < limit * (1 - CLOSE):
-                count = _lay(panels, p, count, delta + inverse(sides, other, load))
-            elif load < limit * (1 + CLOSE):
-                last = sides[other, KINKS + int(sides[other, COUNT]) - 1]
-                count = _lay(panels, p, count, delta + last)
+            for n in range(1 if at <= below else 2):
+                load = below if n == 0 else at
+                if load < limit * (1 - CLOSE):
+                    count = _lay(panels, p, count, delta + inverse(sides, other, load))
+                elif load < limit * (1 + CLOSE):
+                    last = sides[other, KINKS + int(sides[other, COUNT]) - 1]
+                    count = _lay(panels, p, count, delta + last)
     return count
 
 
 @scalar
+def _held(sides, p, eps):
+    """As `HELD`: where a jump up of its load holds a side at a squeeze ε, or 0."""
+    apart()
+    for i in range(2):
+        own, other = 2 * p + i, 2 * p + 1 - i
+        for n in range(int(sides[own, JUMPS])):
+            delta, below, at = jump_of(sides, own, n)
+            if delta < eps and below < at and below < side_at(sides, other, eps - delta)[0] < at:
+                return delta * (1 - BESIDE) * (1 - 2 * i)
+    return 0.0
+
+
+@scalar
+def _lets_go(sides, p):
+    """Whether the load of a side falls at a jump."""
+    for own in range(2 * p, 2 * p + 2):
+        for n in range(int(sides[own, JUMPS])):
+            _, below, at = jump_of(sides, own, n)
+            if at < below:
+                return True
+    return False
+
+
+@scalar
+def _allowed(sides, p, eps):
+    """Between which indentations side 1 is at ε.
+
+    A side whose load falls at a jump lets go where loading first reaches it.
+    """
+    apart()
+    low, high = 0.0, eps
+    for i in range(2):
+        own, other = 2 * p + i, 2 * p + 1 - i
+        for n in range(int(sides[own, JUMPS])):
+            delta, below, at = jump_of(sides, own, n)
+            if at >= below or below >= sides[other, LIMIT] * (1 - CLOSE):
+                continue
+            past = eps > delta + inverse(sides, other, below)
+            delta *= 1 + BESIDE if past else 1 - BESIDE
+            if i == 0 and past:
+                low = max(low, delta)
+            elif i == 0:
+                high = min(high, delta)
+            elif past:
+                high = min(high, eps - delta)
+            else:
+                low = max(low, eps - delta)
+    if low < high:
+        return low, high
+    return 0.0, eps
+
+
+@scalar
 def _fill_share(sides, panels, p, n, rule, low, high):
-    """Series of the share of side 1 on panel n, which lies between two indentations of it."""
+    """Series of the share of side 1 on panel n, which lies between two indentations of it.
+
+    Where a side may let go, they say nothing.
+    """
     apart()
     first, last = panels[p, n, EDGE], panels[p, n, TO]
     panels[p, n, FROM], panels[p, n, UNTIL] = first, last
+    free = _lets_go(sides, p)
     for k in range(TERMS):
         panels[p, n, SHARE + k] = 0.0
     share = 0.0
@@ -194,7 +309,10 @@ def _fill_share(sides, panels, p, n, rule, low, high):
         if first > 0:
             eps = first * math.exp(0.5 * (x + 1) * math.log(last / first))
         guess = share * eps if j > 0 else high * eps / last
-        delta = split(sides, 2 * p, eps, max(low, eps - (last - high)), min(high, eps), guess)
+        least, most = max(low, eps - (last - high)), min(high, eps)
+        if free:
+            least, most = _allowed(sides, p, eps)
+        delta = split(sides, 2 * p, eps, least, most, guess)
         share = delta / eps
         for k in range(TERMS):
             panels[p, n, SHARE + k] += rule[1 + k, j] * share
@@ -208,12 +326,20 @@ def _share_out(sides, panels, p, count, rule):
     """
     apart()
     low, n, worst = 0.0, int(panels[p, 0, EDGE]), 0.0  # 0, and no constant
+    free = _lets_go(sides, p)
     while n < count:
         a, b = panels[p, n, EDGE], panels[p, n, TO]
-        high = split(sides, 2 * p, b, low, min(b, low + b - a), low + 0.5 * (b - a))
+        held = panels[p, n, HELD] = _held(sides, p, 0.5 * (a + b))
+        high = 0.5 * b
+        if held != 0:
+            low = held if held > 0 else b + held
+            n += 1
+            continue
+        if not free:
+            high = split(sides, 2 * p, b, low, min(b, low + b - a), low + 0.5 * (b - a))
         _fill_share(sides, panels, p, n, rule, low, high)
         tail = abs(panels[p, n, SHARE + TERMS - 1]) + abs(panels[p, n, SHARE + TERMS - 2])
-        if tail > RESOLVED and b > a * 1.02 and count < MOST_PANELS - 2:
+        if tail > RESOLVED and b > a * 1.001 and count < MOST_PANELS - 2:
             for m in range(count, n, -1):
                 panels[p, m, EDGE], panels[p, m, TO] = panels[p, m - 1, EDGE], panels[p, m - 1, TO]
             panels[p, n, TO] = panels[p, n + 1, EDGE] = math.sqrt(a * b) if a > 0 else 0.25 * b
@@ -280,6 +406,9 @@ def lay_panels(given, sides, panels, p, rule):
     equal, worst = given[p, EQUAL] == 1, 0.0
     if not equal and not prepare(sides, 2 * p + 1):
         return -1
+    note_jumps(sides, 2 * p)
+    if not equal:
+        note_jumps(sides, 2 * p + 1)
     count = _kinks(given, sides, panels, p)
     if count < 2 or panels[p, count - 1, EDGE] > DEEPEST:
         return -1
@@ -301,12 +430,14 @@ def lay_panels(given, sides, panels, p, rule):
         count = _cut_at_crossings(given, sides, panels, p, count)
     for n in range(count):
         eps = 0.5 * (panels[p, n, EDGE] + panels[p, n, TO])
-        one = 0.5 * eps if equal else eps * share_at(panels, p, n, eps)
+        one = 0.5 * eps if equal else first_at(panels, p, n, eps)
         panels[p, n, REGIME] = regime_of(sides, 2 * p, one)
     # beyond the last the weaker side takes the rest
     eps = panels[p, count - 1, TO]
-    one = 0.5 * eps if equal else eps * share_at(panels, p, count - 1, eps)
+    one = 0.5 * eps if equal else first_at(panels, p, count - 1, eps)
     deeper = equal or sides[2 * p, LIMIT] <= sides[2 * p + 1, LIMIT] * (1 + CLOSE)
+    if sides[2 * p, JUMPS] + sides[2 * p + 1, JUMPS] > 0:  # a last kink of either
+        deeper |= panels[p, count - 1, HELD] <= 0
     panels[p, count, SHARE] = 0.0 if equal else worst
     panels[p, count, REGIME] = regime_of(sides, 2 * p, one * (1 + 1e-9 * (1 if deeper else -1)))
     return count

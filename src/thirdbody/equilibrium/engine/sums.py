@@ -13,18 +13,29 @@ from .fields import (
     A_SA2,
     AREA,
     BREADTH,
+    COUNT,
     COVERAGE,
     COVERED,
     DENSITY,
+    EQUAL,
+    EXPONENTIAL,
     F_SA,
     F_SS,
     FOOTPRINT,
     FORCE,
     GAUSSIAN,
+    GAUSSIAN_HEIGHTS,
+    HEIGHTS,
     HIGH,
     KIND,
+    KINKS,
+    LAID_FROM,
+    LAST,
+    LIMIT,
     LOGNORMAL,
     LOW,
+    LOWEST_HEIGHT,
+    MIDDLE,
     NORM,
     OFFSET,
     ONE_SIZE,
@@ -34,25 +45,40 @@ from .fields import (
     SEAT,
     SHADE,
     SHADOW,
+    SHAPE,
     SIZE_1,
     SIZE_2,
+    SPREAD,
+    STEP,
     WIDTH,
     W,
 )  # fmt: skip
-from .sides import branch_of, break_at, breaks, law_at, regime_of_branch, scalar
-from .squeeze import EDGE, REGIME, TO, particle_at
+from .sides import branch_of, break_at, breaks, law_at, regime_of_branch, scalar, side_at
+from .squeeze import CLOSE, EDGE, REGIME, TO, particle_at
 
-__all__ = ["MOST_NODES", "MOST_SIZES", "add_part", "add_skin", "lay_nodes", "lay_skin"]
+__all__ = [
+    "MOST_HEIGHTS",
+    "MOST_NODES",
+    "MOST_SIZES",
+    "NEAREST",
+    "add_part",
+    "add_skin",
+    "lay_nodes",
+    "lay_sizes",
+    "lay_skin",
+]
 
-MOST_NODES, MOST_SIZES, MOST_HEIGHTS = 16_384, 2048, 1024
+MOST_NODES, MOST_SIZES, MOST_HEIGHTS = 16_384, 2048, 1536
 EPS, LOAD, FIRST, SECOND, LARGER, KEPT, SUM = range(7)
 """Rows of the nodes over ε: ε, weighted load, areas on both surfaces, the larger of the areas,
 regime, and the sum over sizes."""
 T, OF_LOAD, OF_AREA, ITS_REGIME = range(4)
 """Rows of the nodes over heights: t = ω/σ_s, weighted load and area, regime."""
 ROOT_2PI = math.sqrt(2 * math.pi)
-REACH, DEEPEST = 9.5, 5.0
-"""Widths of a seat beyond which nothing is summed; lowest separation [σ_s], down."""
+REACH = 9.5
+"""Widths of a seat beyond which nothing is summed."""
+NEAREST, CLOSEST = 0.3, 1e-5
+"""First panel over heights [σ_s], and over the distance to the lower end of the heights."""
 WIDE_SPAN = 2.5
 """Widths of a panel from which on it may be as wide as the sizes spread."""
 
@@ -62,30 +88,37 @@ exact = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
 
 # ------------------------------------------------------------------------------ asperities
 @scalar
-def lay_skin(skin, heights, count, gauss, weights, nodes):
-    """Nodes over the interference of asperities: t, weighted load and area; where they end."""
+def lay_skin(skin, heights, count, until, gauss, weights, nodes, start, first):
+    """Nodes over the interference of asperities: t, weighted load and area; where they end.
+
+    From a reduced interference ``start`` on, with a first panel of a width ``first``, to the end of
+    the heights there; −1 if they would take more than ``until`` nodes.
+    """
     apart()
     row = len(skin) - 1  # a number and no constant, for which numba would compile twice
     w = skin[row, W]
-    end = (DEEPEST + math.sqrt(DEEPEST**2 + 100.0)) / w
+    step, end = skin[row, STEP] / w, start + skin[row, LAST] / w
     number = breaks(skin, row)
-    a = 0.0
+    a = start
     while a < end:
-        b = 0.3 / w if a == 0 else min(a * 4.0, a + 2.5 / w)
+        b = a + first if a == start else min(start + (a - start) * 4.0, a + step)
+        if a > 0:
+            b = min(b, 4.0 * a)
         for n in range(number):
             y = break_at(skin, row, n)
             if a < y * (1 - 1e-12) and y < b:
                 b = y
-        if b > 0.9 * end:
+        if b - start > 0.9 * (end - start):
             b = end
-        if count + nodes > MOST_HEIGHTS:
+        if count + nodes > until:
             return -1
         regime = regime_of_branch(skin, row, branch_of(skin, row, 0.5 * (a + b)))
-        first, half = (0.0, 0.5 * math.sqrt(b)) if a == 0 else (a, 0.5 * (b - a))
+        rooted = a == start
+        low, half = (0.0, 0.5 * math.sqrt(b - a)) if rooted else (a, 0.5 * (b - a))
         for j in range(nodes):
-            y, weight = first + half * (1 + gauss[j]), half * weights[j]
-            if a == 0:
-                y, weight = y * y, 2 * y * weight
+            y, weight = low + half * (1 + gauss[j]), half * weights[j]
+            if rooted:
+                y, weight = start + y * y, 2 * y * weight
             load, area = law_at(skin, row, y)
             weight *= w / ROOT_2PI
             heights[T, count] = w * y
@@ -99,18 +132,51 @@ def lay_skin(skin, heights, count, gauss, weights, nodes):
 
 @exact
 def _weigh(heights, begin, end, h):
-    """Densities of the heights at the nodes, without exp(−h²/2)."""
+    """Densities of Gaussian heights at the nodes, without exp(−h²/2)."""
     apart()
     for j in range(begin, end):
         t = heights[T, j]
         heights[4, j] = exp(max(-t * (h + 0.5 * t), -700.0))
 
 
-@scalar
-def add_skin(skin, heights, begin, end, h, out):
-    """Load and areas of the asperities at h [σ_s], into the first four columns."""
+@exact
+def _weigh_other(skin, heights, begin, end, h):
+    """Densities of other heights at the nodes without a factor, and that factor times √(2π)."""
     apart()
-    _weigh(heights, begin, end, h)
+    if skin[0, HEIGHTS] == EXPONENTIAL:
+        for j in range(begin, end):
+            heights[4, j] = exp(max(-heights[T, j], -700.0))
+        return ROOT_2PI * math.exp(-(h + 1))
+    shape, middle, spread = skin[0, SHAPE], skin[0, MIDDLE], skin[0, SPREAD]
+    here = max(middle + spread * h, 0.0) ** shape
+    for j in range(begin, end):
+        x = max(middle + spread * (h + heights[T, j]), 1e-300)
+        power = math.exp(shape * math.log(x))
+        heights[4, j] = power / x * math.exp(max(here - power, -700.0))
+    return ROOT_2PI * spread * shape * math.exp(-here)
+
+
+@scalar
+def add_skin(skin, heights, begin, end, gauss, weights, nodes, h, out):
+    """Load and areas of the asperities at h [σ_s], into the first four columns.
+
+    Where the lower end of the heights lies among the nodes, or close to them, they are laid anew.
+    """
+    apart()
+    if h < skin[0, LAID_FROM]:
+        w, off = skin[0, W], skin[0, LOWEST_HEIGHT] - h
+        begin = int(heights[T, 0] * 0) + MOST_HEIGHTS  # no constant, for numba
+        start, first = max(off, 0.0) / w, NEAREST * min(max(-off, CLOSEST), 1.0) / w
+        end = lay_skin(
+            skin, heights, begin, begin + MOST_HEIGHTS, gauss, weights, nodes, start, first
+        )
+        if end < 0:
+            return False
+    if skin[0, HEIGHTS] == GAUSSIAN_HEIGHTS:
+        _weigh(heights, begin, end, h)
+        factor = math.exp(-0.5 * h * h)
+    else:
+        factor = _weigh_other(skin, heights, begin, end, h)
     load, elastic, middle, plastic = 0.0, 0.0, 0.0, 0.0
     for j in range(begin, end):
         share = heights[4, j]
@@ -123,10 +189,10 @@ def add_skin(skin, heights, begin, end, h, out):
             middle += area
         else:
             plastic += area
-    factor = math.exp(-0.5 * h * h)
     out[F_SS] = skin[0, FORCE] * factor * load
     factor *= skin[0, AREA]
     out[A_E], out[A_E + 1], out[A_E + 2] = factor * elastic, factor * middle, factor * plastic
+    return True
 
 
 # ------------------------------------------------------------------------------ sizes
@@ -294,11 +360,27 @@ def _add_rough(given, sides, panels, p, count, grid, begin, end, sizes, first, l
 
 
 @scalar
+def widest_of(sides, i):
+    """Area over x² of a side beyond its last kink."""
+    apart()
+    return side_at(sides, i, 2 * sides[i, KINKS + int(sides[i, COUNT]) - 1])[1]
+
+
+@scalar
 def _add_last(given, sides, panels, p, count, squared, out):
     """What particles beyond the last panel carry, by the sum of their sizes squared."""
     apart()
     edge = panels[p, count - 1, TO]
-    load, one, two = particle_at(given, sides, panels, p, count - 1, edge)
+    _, one, two = particle_at(given, sides, panels, p, count - 1, edge)
+    load = sides[2 * p, LIMIT]  # the load may jump at the end
+    if given[p, EQUAL] != 1:
+        load = min(load, sides[2 * p + 1, LIMIT])
+        if sides[2 * p + 1, LIMIT] <= load * (1 + CLOSE):
+            two = widest_of(sides, 2 * p + 1)
+    if sides[2 * p, LIMIT] <= load * (1 + CLOSE):
+        one = widest_of(sides, 2 * p)
+        if given[p, EQUAL] == 1:
+            two = one
     out[F_SA] += squared * load
     out[A_SA + int(panels[p, count, REGIME])] += squared * one
     out[A_SA2] += squared * two

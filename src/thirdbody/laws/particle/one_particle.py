@@ -122,6 +122,8 @@ class Side:
                 )
             found = bracketed_root(excess, low, high, (full[rest],))
             y[rest] = np.where(excess(high, full[rest]) <= 0, high, found)
+        for point in self.law.breakpoints:  # where the area jumps past what is asked for
+            y = np.where(np.abs(y - point) <= 1e-13 * point, point, y)
         return y
 
     @staticmethod
@@ -137,7 +139,7 @@ class Side:
         if not self.plateau:
             y = np.minimum(y, self.cap)
         force = self.law.reduced("force", y)
-        over = y > self.cap
+        over = y >= self.cap  # there the area of the law may jump past the great circle
         if np.any(over):
             full = np.broadcast_to(self.full, y.shape)[over]
             force[over] *= full / self.law.reduced("area", y[over])
