@@ -425,6 +425,8 @@ def test_a_crowd_on_a_rough_seat_is_left_to_the_scan_of_the_load():
 def test_company_order_and_threads_change_no_bit(seat):
     case = contact("hermite", seat, "soft")
     vary, loads = drawn(case, 600, 4, unlike=False)
+    # neighbours of one contact share what is laid for it, which others do not
+    vary = {name: np.repeat(values[::3], 3) for name, values in vary.items()}
     whole = own_columns(case, vary, "F_star", loads)
     order = np.random.default_rng(5).permutation(600)
     mixed = {name: values[order] for name, values in vary.items()}

@@ -71,6 +71,7 @@ __all__ = ["LEVELS", "solve_own"]
 LOWEST, HIGHEST = -3.0, 37.0
 """Separations searched [σ_s]; particles may reach higher."""
 COARSE, FINE, LEVELS = 0, 1, 2
+NOTHING = -1
 """Few nodes, to search with; all; and how often both are made finer. They are handed on as `few`
 and `every`, numbers and no constants, for which numba would compile what takes them twice."""
 COUNT, GRID, GRID_END, SIZED, SIZED_END = range(5)
@@ -411,25 +412,33 @@ def _root(given, skin, work, laid, rules, target, row, out):
 
 
 @scalar
-def _own_state(given, skin, work, laid, rules, target, h, row, out):
-    """Separation, evaluations, fate and error of one state; its columns into ``row``."""
+def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
+    """Separation, evaluations, fate and error of one state; its columns into ``row``.
+
+    ``ready`` (1,) is the level whose nodes are laid for this contact, or `NOTHING`.
+    """
     apart()
     last, few = len(given), laid.shape[1] - 2
-    for p in range(last):
-        laid[p, COARSE, COUNT] = 0
-        if given[p, SEAT] == PRINTED:
-            continue
-        count = lay_panels(given, work[1], work[2], p, rules[0, SERIES:])
-        laid[p, COARSE, COUNT] = count
-        if count < 0:
-            return h, 0, TOO_LONG, math.inf
+    if ready[0] == NOTHING:
+        for p in range(last):
+            laid[p, COARSE, COUNT] = 0
+            if given[p, SEAT] == PRINTED:
+                continue
+            count = lay_panels(given, work[1], work[2], p, rules[0, SERIES:])
+            laid[p, COARSE, COUNT] = count
+            if count < 0:
+                return h, 0, TOO_LONG, math.inf
     count, slope, error = 0, 0.0, math.inf
     for level in range(LEVELS):
         own = rules[2 * level :]
-        if not (
-            lay(given, skin, work, laid, own, few) and lay(given, skin, work, laid, own, few + 1)
-        ):
-            return h, count, TOO_LONG, math.inf
+        if ready[0] != level:
+            ready[0] = NOTHING
+            if not (
+                lay(given, skin, work, laid, own, few)
+                and lay(given, skin, work, laid, own, few + 1)
+            ):
+                return h, count, TOO_LONG, math.inf
+            ready[0] = level
         if target > 0:
             h, slope, n, fate = _root(given, skin, work, laid, own, target, row, out)
             count += n
@@ -445,6 +454,15 @@ def _own_state(given, skin, work, laid, rules, target, h, row, out):
     if not error <= ASKED:
         return h, count, NOT_RESOLVED, error
     return h, count, OK, error
+
+
+@scalar
+def _alike(numbers, others):
+    """Whether two rows of numbers are equal; one with NaN equals none."""
+    for k in range(len(numbers)):  # noqa: SIM110
+        if numbers[k] != others[k]:
+            return False
+    return True
 
 
 @Cached
@@ -465,11 +483,18 @@ def solve_own(skins, parts, bodies, rules, target, h, count, fate, error, rows):
         np.empty((2, MOST_SIZES)),
     )
     laid = np.zeros((most + 1, 2, 5), np.int64)
+    ready = np.full(1, NOTHING)
     out = np.empty(10)
     for i in range(len(target)):
-        for s in range(2 * most):
-            for k in range(bodies.shape[2]):
-                sides[s, k] = bodies[i, s, k]
+        if i == 0 or not (
+            _alike(skins[i], skins[i - 1])
+            and _alike(parts[i].ravel(), parts[i - 1].ravel())
+            and _alike(bodies[i].ravel(), bodies[i - 1].ravel())
+        ):
+            ready[0] = NOTHING
+            for s in range(2 * most):
+                for k in range(bodies.shape[2]):
+                    sides[s, k] = bodies[i, s, k]
         h[i], count[i], fate[i], error[i] = _own_state(
-            parts[i], skins[i : i + 1], work, laid, rules, target[i], h[i], rows[i], out
+            parts[i], skins[i : i + 1], work, laid, rules, ready, target[i], h[i], rows[i], out
         )

@@ -312,9 +312,25 @@ def _sum_sizes(grid, begin, end, sizes, first, last, gap, width):
         x = sizes[0, j]
         c = sizes[1, j] * x * x * x / (ROOT_2PI * width)
         start, rate = (gap - x) / width, x / width
-        for i in range(begin, end):
+        if rate <= 0:
+            continue
+        nearest = _first_from(grid, begin, end, (-REACH - start) / rate)
+        for i in range(nearest, _first_from(grid, nearest, end, (REACH - start) / rate)):
             z = start + rate * grid[EPS, i]
-            grid[SUM, i] += c * exp(max(-0.5 * z * z, -700.0))
+            grid[SUM, i] += c * exp(-0.5 * z * z)
+
+
+@scalar
+def _first_from(grid, begin, end, eps):
+    """The first of the nodes from ``begin`` to ``end`` that is squeezed by so much."""
+    apart()
+    while begin < end:
+        middle = (begin + end) // 2
+        if grid[EPS, middle] < eps:
+            begin = middle + 1
+        else:
+            end = middle
+    return begin
 
 
 @scalar
