@@ -351,7 +351,8 @@ def test_percentile_of_sizes_is_that_of_their_integral(seat):
     """Lognormal sizes: half a million places by Sobol numbers, the rarest 2 % among them."""
     from scipy.stats import norm, qmc
 
-    from thirdbody.effects.quantiles import exceeded
+    from thirdbody.effects.curves import Curve
+    from thirdbody.effects.quantiles import Values, exceeded
 
     sizes = tb.LogNormal(median=300e-9, gsd=1.4)
     dust = tb.Particles(material=SILICA, areal_density=1e10, diameter=sizes)
@@ -365,8 +366,9 @@ def test_percentile_of_sizes_is_that_of_their_integral(seat):
     gap = state.h - ROUGH.sigma * norm.ppf(seats) if seat == "asperity" else state.d
     squeeze = np.sort(np.maximum(sizes.ppf(rank) - gap, 0.0))[::-1]
     values = spots.depths[0] + spots.depths[1]
+    curve = Curve(lambda eps: eps, [])
     for part in (0.05, 1e-2, 1e-3):
-        (found,) = exceeded([(spots, values, np.ones(()))], [np.array([part * 1e10])])
+        (found,) = exceeded([Values(spots, values, curve=curve)], [np.array([part * 1e10])])
         assert found[0] == pytest.approx(
             squeeze[int(part * 2**18)], rel=1e-2 if part < 1e-2 else 3e-3
         )

@@ -11,7 +11,7 @@ import numpy as np
 from ..contact.output import AbstractOutput, Column
 from ..laws.particle.breakage import Breakage, crush_embed_size
 from ..quantities.value import quantity
-from .quantiles import exceeded
+from .quantiles import Values, exceeded
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -121,8 +121,8 @@ class Crushing(AbstractOutput):
             ):
                 each = np.sum(q, axis=-1)
                 sums[name] = sums[name] + (each if spots.share is None else spots.share @ each)
-            sizes.append((counted, bears * spots.x, bears.astype(float)))
-            fragments.append((counted, (piece > 0) * spots.x, piece * mass))
+            sizes.append(Values(counted, bears * spots.x, bears.astype(float)))
+            fragments.append(Values(counted, (piece > 0) * spots.x, piece * mass))
         (median,) = exceeded(fragments, [0.5 * sums["pieces"]])
         (largest,) = exceeded(sizes, [nothing + math.log(2) / self.A_n])
         with np.errstate(invalid="ignore", divide="ignore"):
