@@ -107,9 +107,7 @@ class Curve:
         return out
 
 
-def _tabulated(
-    f: Callable[[Array], Array], a: float, b: float, top: float
-) -> tuple[Array, Array]:
+def _tabulated(f: Callable[[Array], Array], a: float, b: float, top: float) -> tuple[Array, Array]:
     """Squeezes between a and b, dense where f bends, and f there."""
     step = np.geomspace(NEAR, 0.5, 28) * (b - a)
     eps = np.unique(np.concatenate([a + step, b - step, np.geomspace(a, b, 16)[1:-1]]))
@@ -153,7 +151,7 @@ def _read_between(eps: Array, roots: Array, at: NDArray[np.intp], wanted: Array)
     return _horner(_cubics(roots[start], eps[start], at - start[:, 0]), roots, at, wanted)
 
 
-def _cubics(roots: Array, eps: Array, place: Array) -> Array:
+def _cubics(roots: Array, eps: Array, place: NDArray[np.intp]) -> Array:
     """Coefficients (n, 4) of ε over the way from node ``place`` of four (n, 4) to the next.
 
     Where the four are no increasing row, of the straight line between the two.

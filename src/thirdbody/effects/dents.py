@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from ..laws.base import AbstractParticleLaw
     from ..laws.spots import ParticleSpots
     from ..populations.materials import Material, MaterialPair
-    from ..populations.particles import Particles
     from .single.dent import Dent
 
     Array = NDArray[np.float64]
@@ -82,9 +81,10 @@ class Dents(AbstractOutput):
     Notes
     -----
     These are the dents of one placement of the particles; every fresh set of particles adds its
-    own (`thirdbody.effects.single.dent.dents_after`). Percentiles and the largest of whole
-    particles and of brittle ones are within 1e-6 of their exact values; those of particles with a
-    strength are read from counts of classes, within a few percent. Depths
+    own (`thirdbody.effects.single.dent.dents_after`). Numbers, percentiles and the largest of
+    whole particles and of brittle ones are within 1e-6 of their exact values, means of fragments
+    within 1e-3; percentiles and the largest of particles with a strength are read from counts of
+    classes, within a few percent. Depths
     are at full load with a gap that does not give way, the recovery fit is one for spheres (from
     memory, see `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half the
     radius of the particle are counted besides as embedded: such particles may stay (assumption).
@@ -334,12 +334,14 @@ class Dents(AbstractOutput):
         """The columns of a surface, from sums over its dents, and depths and widths that count."""
         n, known, unknown = (sums[name] for name in ("n", "known", "unknown"))
         depths, widths = ([pair[i] for pair in dents] for i in (0, 1))
+        if self.debris == "brittle":  # no class ends where a fragment begins to leave a dent
+            n, known = (number_above(values, 0.0, states=len(n)) for values in (widths, depths))
         deep = known
         if self.shallowest > 0:  # whether marks of unknown depth are so deep is not known either
             deep = number_above(depths, self.shallowest, states=len(n))
             n = np.where(unknown > 0, np.nan, deep)
         out = {f"n_dents_{side + 1}": n}
-        of_all = (("depth", deep, known, depths), ("width", n, sums["n"], widths))
+        of_all = (("depth", deep, sums["known"], depths), ("width", n, sums["n"], widths))
         for name, count, classes, values in of_all:
             few = np.nan_to_num(count)
             largest = np.log(2 / (1 + np.exp(-few * self.A_n))) / self.A_n

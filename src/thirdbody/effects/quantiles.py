@@ -15,6 +15,7 @@ count a class as a whole, in or out, which is far too coarse for the rare ones.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -37,12 +38,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Values", "exceeded", "number_above"]
 
-LOWEST = 1e-4
-"""The lowest level at which classes are counted, over the largest value."""
-LEVELS = 240
-"""Values at which pieces are counted, evenly over their logarithm."""
-RANGE = 1e-10
-"""The smallest value that is looked for, over the largest."""
+PER_DECADE = 60
+"""Levels at which pieces are counted, evenly over their logarithm."""
+RANGE = 1e-40
+"""The smallest value that is looked for, over the largest; that of any class, if it is larger."""
 TOLERANCE = 1e-11
 """Of the logarithm of a value."""
 PARTS = (1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.15, 0.3, 0.5)
@@ -84,31 +83,39 @@ def exceeded(groups: Sequence[Values], counts: Sequence[Array]) -> list[Array]:
     Returns
     -------
     list of array (N,)
-        Within 1e-7 for whole particles with a curve. Others are counted class by class, at 240
-        levels: within a few percent.
+        Within 1e-7 for whole particles with a curve. Others are counted class by class, at 60
+        levels a decade: within a few percent.
     """
     top = _largest(groups)
     if top == 0:
         return [np.zeros_like(count) for count in counts]
-    above = _above(groups, top)
+    above, low = _above(groups, top), 0.5 * min(_least(group, top) for group in groups)
     out = []
     for count in counts:
-        value, low = np.zeros(len(count)), RANGE * top
-        every = np.arange(len(count))
-        more = above(np.full(len(count), low), every)
+        value = np.zeros(len(count))
+        more = above(np.full(len(count), low), np.arange(len(count)))
         some = np.flatnonzero(more > count)
         if len(some):
-
-            def excess(place: Array, row: Array, count: Array = count) -> Array:
-                at = row.astype(np.intp)
-                return above(low * np.exp(place - 1.0), at) - count[at]
-
-            ends = np.full(len(some), 1.0), np.full(len(some), 1.0 - np.log(RANGE))
-            found = bracketed_root(excess, *ends, (some.astype(float),), xrtol=TOLERANCE)
-            # where all of the largest value are more than that many, it is that
-            value[some] = np.where(np.isnan(found), top, low * np.exp(found - 1.0))
+            found = _where_so_many(above, count, (low, top), some)
+            # where more than that many have the largest value, it is that
+            value[some] = np.where(np.isnan(found), top, found)
         out.append(value)
     return out
+
+
+def _where_so_many(
+    above: Callable[[Array, Rows], Array], count: Array, between: tuple[float, float], rows: Rows
+) -> Array:
+    """The value between two that so many exceed in some states; NaN where it is not there."""
+    low, top = between
+
+    def excess(place: Array, row: Array) -> Array:
+        at = row.astype(np.intp)
+        return above(low * np.exp(place - 1.0), at) - count[at]
+
+    ends = np.full(len(rows), 1.0), np.full(len(rows), 1.0 + math.log(top / low))
+    found = bracketed_root(excess, *ends, (rows.astype(float),), xrtol=TOLERANCE)
+    return low * np.exp(found - 1.0)
 
 
 def number_above(groups: Sequence[Values], value: float, *, states: int) -> Array:
@@ -134,6 +141,13 @@ def _most(group: Values) -> float:
     if layout.fragment is not None:
         size = min(size, layout.fragment)
     return curve.top * size**curve.power
+
+
+def _least(group: Values, top: float) -> float:
+    """The smallest value of any class that there are any of."""
+    values = np.broadcast_to(group.values, group.spots.number.shape)
+    there = (values > RANGE * top) & (group.spots.number > 0)
+    return float(np.min(values, where=there, initial=top))
 
 
 def _above(groups: Sequence[Values], top: float) -> Callable[[Array, Rows], Array]:
@@ -318,15 +332,17 @@ class _Counted:
     """Particles class by class, each as a whole."""
 
     def __init__(self, group: Values, top: float):
-        self.levels = top * np.geomspace(LOWEST, 1.0, LEVELS)
         values = np.broadcast_to(group.values, group.spots.number.shape)
+        decades = -math.log10(min(_least(group, top) / top, 0.1)) + 0.1
+        self.levels = top * np.geomspace(10**-decades, 1.0, math.ceil(PER_DECADE * decades))
         self.counts = group.spots.above(values, self.levels, group.weight)
 
     def above(self, values: Array, rows: Rows) -> Array:
         """Linear in the logarithm of the level: (N,) for (N,)."""
         with np.errstate(divide="ignore"):
             wanted = np.log(values)
-        place = np.interp(wanted, np.log(self.levels), np.arange(LEVELS, dtype=float))
-        at = np.minimum(place.astype(int), LEVELS - 2)
+        count = len(self.levels)
+        place = np.interp(wanted, np.log(self.levels), np.arange(count, dtype=float))
+        at = np.minimum(place.astype(int), count - 2)
         more, less = self.counts[rows, at], self.counts[rows, at + 1]
         return more + (place - at) * (less - more)
