@@ -227,7 +227,7 @@ class Dents(AbstractOutput):
         held = np.where(np.isnan(dent.depth), widest * spots.x, math.inf)
         return dent._replace(diameter=np.minimum(dent.diameter, held))
 
-    def one_by_size(
+    def _of_one(
         self,
         name: str,
         side: int,
@@ -477,7 +477,7 @@ def _curve(
     surfaces: MaterialPair,
     particle: Material,
 ) -> Curve:
-    return dents.one_by_size(name, side, law, surfaces, particle)
+    return dents._of_one(name, side, law, surfaces, particle)
 
 
 def _squashed(
