@@ -42,14 +42,18 @@ PER_DECADE = 60
 """Levels at which pieces are counted, evenly over their logarithm."""
 RANGE = 1e-40
 """The smallest value that is looked for, over the largest; that of any class, if it is larger."""
-TOLERANCE = 1e-11
-"""Of the logarithm of a value."""
+TOLERANCE = 1e-10
+"""Of the logarithm of a value, over the logarithm of the range."""
+FEWEST = 1e-30
+"""Part of what is wanted that is as good as none."""
 PARTS = (1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.15, 0.3, 0.5)
 """Parts of the particles up to sizes where panels end, from either side."""
 WIDTHS = (-12.0, -8.0, -6.0, -4.5, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0)
 """In widths of the seat about the size that has the value in the mean gap: panels end there."""
-HALVINGS = 30
-"""Of the sizes in search of that one; more of them on planes, where it is the answer."""
+SCAN, SCANS, SMALLEST = 25, 4, 1e-9
+"""Sizes that are tried together for that one, how often, and the smallest over the largest."""
+HALVINGS = 60
+"""Of sizes on a plane."""
 TINY = 1e-200
 """A size [m] in place of none."""
 NODES = 10
@@ -90,31 +94,31 @@ def exceeded(groups: Sequence[Values], counts: Sequence[Array]) -> list[Array]:
     if top == 0:
         return [np.zeros_like(count) for count in counts]
     above, low = _above(groups, top), 0.5 * min(_least(group, top) for group in groups)
-    out = []
-    for count in counts:
-        value = np.zeros(len(count))
-        more = above(np.full(len(count), low), np.arange(len(count)))
-        some = np.flatnonzero(more > count)
-        if len(some):
-            found = _where_so_many(above, count, (low, top), some)
-            # where more than that many have the largest value, it is that
-            value[some] = np.where(np.isnan(found), top, found)
-        out.append(value)
-    return out
+    wanted = np.concatenate([*counts, np.zeros(0)])
+    rows = np.tile(np.arange(len(wanted) // max(len(counts), 1)), len(counts))
+    out = np.zeros(len(wanted))
+    some = np.flatnonzero(above(np.full(len(wanted), low), rows) > wanted)
+    if len(some):
+        found = _where_so_many(above, wanted[some], (low, top), rows[some])
+        # where more than that many have the largest value, it is that
+        out[some] = np.where(np.isnan(found), top, found)
+    return np.split(out, len(counts))
 
 
 def _where_so_many(
     above: Callable[[Array, Rows], Array], count: Array, between: tuple[float, float], rows: Rows
 ) -> Array:
-    """The value between two that so many exceed in some states; NaN where it is not there."""
+    """The value between two that so many exceed in these states; NaN where it is not there."""
     low, top = between
+    floor = np.maximum(FEWEST * count, 1e-300)
 
-    def excess(place: Array, row: Array) -> Array:
-        at = row.astype(np.intp)
-        return above(low * np.exp(place - 1.0), at) - count[at]
+    def excess(place: Array, index: Array) -> Array:
+        at = index.astype(np.intp)
+        number = above(low * np.exp(place - 1.0), rows[at])
+        return np.log(np.maximum(number, floor[at]) / np.maximum(count[at], floor[at]))
 
     ends = np.full(len(rows), 1.0), np.full(len(rows), 1.0 + math.log(top / low))
-    found = bracketed_root(excess, *ends, (rows.astype(float),), xrtol=TOLERANCE)
+    found = bracketed_root(excess, *ends, (np.arange(len(rows), dtype=float),), xrtol=TOLERANCE)
     return low * np.exp(found - 1.0)
 
 
@@ -236,19 +240,19 @@ class _OnSeats(_Whole):
         return out
 
     def _turn(self, values: Array, means: Array, low: float, high: float) -> Array:
-        """The size that has the value in the mean gap (N,), and how fast that gap grows with it."""
-
-        def gap(x: Array) -> Array:
-            x = np.maximum(x, TINY)
-            begin = np.min([a for a, b in self.squeezes(values, x)], axis=0)
-            return np.where(np.isfinite(begin), x * (1 - begin), -np.inf)
-
-        a, b = np.full(len(values), low), np.full(len(values), high)
-        for _ in range(HALVINGS):
-            middle = 0.5 * (a + b)
-            less = gap(middle) < means
-            a, b = np.where(less, middle, a), np.where(less, b, middle)
-        return 0.5 * (a + b)
+        """The size that has the value in the mean gap (N,), close enough for ends of panels."""
+        least = max(low, SMALLEST * high)
+        steps = np.broadcast_to(np.geomspace(least, high, SCAN), (len(values), SCAN))
+        row = np.arange(len(values))
+        for _ in range(SCANS):
+            begin = np.full(steps.shape, np.inf)
+            for a, b in self.squeezes(values[:, None], steps):
+                begin = np.where(a < b, np.minimum(begin, a), begin)
+            less = np.where(np.isfinite(begin), steps * (1 - begin), -np.inf) < means[:, None]
+            at = np.clip(np.sum(less, axis=1), 1, SCAN - 1)
+            a, b = steps[row, at - 1, None], steps[row, at, None]
+            steps = a + (b - a) * np.linspace(0.0, 1.0, SCAN)
+        return np.where(np.all(less, axis=1), high, steps[:, SCAN // 2])
 
     def above(self, values: Array, rows: Rows) -> Array:
         layout = self.layout
@@ -307,7 +311,7 @@ class _OnPlane(_Whole):
         inside = self._exceeds(values[:, None], ends, gaps[:, None])
         row, at = np.nonzero(np.diff(inside, axis=1))
         a, b, first = ends[row, at], ends[row, at + 1], inside[row, at]
-        for _ in range(2 * HALVINGS):
+        for _ in range(HALVINGS):
             middle = 0.5 * (a + b)
             same = self._exceeds(values[row], middle, gaps[row]) == first
             a, b = np.where(same, middle, a), np.where(same, b, middle)
