@@ -351,7 +351,8 @@ def test_percentile_of_sizes_is_that_of_their_integral(seat):
     """Lognormal sizes: half a million places by Sobol numbers, the rarest 2 % among them."""
     from scipy.stats import norm, qmc
 
-    from thirdbody.effects.quantiles import exceeded
+    from thirdbody.effects.curves import Curve
+    from thirdbody.effects.quantiles import Values, exceeded
 
     sizes = tb.LogNormal(median=300e-9, gsd=1.4)
     dust = tb.Particles(material=SILICA, areal_density=1e10, diameter=sizes)
@@ -365,8 +366,9 @@ def test_percentile_of_sizes_is_that_of_their_integral(seat):
     gap = state.h - ROUGH.sigma * norm.ppf(seats) if seat == "asperity" else state.d
     squeeze = np.sort(np.maximum(sizes.ppf(rank) - gap, 0.0))[::-1]
     values = spots.depths[0] + spots.depths[1]
+    curve = Curve(lambda eps: eps, [])
     for part in (0.05, 1e-2, 1e-3):
-        (found,) = exceeded([(spots, values, np.ones(()))], [np.array([part * 1e10])])
+        (found,) = exceeded([Values(spots, values, curve=curve)], [np.array([part * 1e10])])
         assert found[0] == pytest.approx(
             squeeze[int(part * 2**18)], rel=1e-2 if part < 1e-2 else 3e-3
         )
@@ -408,3 +410,87 @@ def test_a_population_that_nothing_presses_adds_nothing():
     alone, beside = (tb.solve(each, d=1e-6).outputs for each in (case(large), case(large, small)))
     for name, value in alone.items():
         assert beside[name] == pytest.approx(value, rel=1e-12), name
+
+
+# ---------------------------------------------------------------- against an integral by hand
+def _depth_by_hand(squeeze, first):
+    """Residual depth over the size x, of ε, half of it into either of two equal surfaces."""
+    s = squeeze / 2 / first
+    return squeeze / 2 * (1 - s**-0.28) * (1 - s**-0.69) if s > 1 else 0.0
+
+
+def _number_by_hand(value, sizes, *, mean_gap, width, first, cut=math.inf):
+    """Part of particles (or their fragments) with deeper dents than this, by adaptive quadrature.
+
+    On plane seats the width is 0.
+    """
+    from scipy import integrate, optimize
+    from scipy.stats import norm
+
+    def closest(x):
+        """The widest gap in which a particle of this size leaves a dent so deep."""
+        if value == 0:
+            return x * (1 - 2 * first)
+        if x * _depth_by_hand(4.0, first) <= value:
+            return -math.inf
+        eps = optimize.brentq(
+            lambda e: x * _depth_by_hand(e, first) - value, 2 * first, 4.0, xtol=1e-16, rtol=1e-15
+        )
+        return x * (1 - eps)
+
+    def part(x):
+        if width == 0:
+            return float(closest(x) > mean_gap)
+        return float(norm.cdf((closest(x) - mean_gap) / width))
+
+    def whole(x):
+        return float(sizes.pdf(x)) * part(x)
+
+    low, high = (float(sizes.ppf(q)) for q in (1e-13, 1 - 1e-13))
+    top = min(high, cut)
+    ends = [low, *(float(sizes.ppf(q)) for q in np.linspace(0.02, 0.98, 33)), top]
+    if width == 0 and closest(low) < mean_gap < closest(top):
+        edge = optimize.brentq(
+            lambda x: max(closest(x), -1.0) - mean_gap, low, top, xtol=1e-18, rtol=1e-14
+        )
+        ends.append(edge)
+    ends = sorted(x for x in ends if low <= x <= top)
+    total = sum(
+        integrate.quad(whole, a, b, epsabs=0, epsrel=1e-9, limit=200)[0]
+        for a, b in zip(ends, ends[1:], strict=False)
+    )
+    if cut < high:
+        mass = integrate.quad(
+            lambda t: math.exp(4 * t) * float(sizes.pdf(math.exp(t))), math.log(max(cut, low)),
+            math.log(high), epsabs=0, epsrel=1e-12, limit=500,
+        )[0]  # fmt: skip
+        total += mass / cut**3 * part(cut)
+    return total
+
+
+@pytest.mark.parametrize("seat", ["rough", "plane"])
+@pytest.mark.parametrize("cut", [math.inf, 450e-9])
+def test_percentile_and_deepest_are_those_of_an_integral_by_hand(seat, cut):
+    """Whole particles and fragments of brittle ones: numbers, 5 % and deepest, to 1e-6."""
+    sizes = tb.LogNormal(median=400e-9, gsd=1.3)
+    dust = tb.Particles(material=SILICA, areal_density=1e10, diameter=sizes)
+    law = Series(seat=seat, deep="off")
+    brittle = {} if cut == math.inf else {"debris": "brittle", "fragment": cut}
+    case = contact(second=STEEL, law=law, dents=Dents(A_n=1e-6, **brittle)).replace(particles=dust)
+    first = co.squeezed_particle(
+        law.law, *co.contact_sides(case.surfaces, SILICA), 0.5
+    ).yields[0]  # fmt: skip
+    state = tb.solve(case, d=300e-9)
+    width = ROUGH.sigma if seat == "rough" else 0.0
+    where = {"mean_gap": state.h if width else float(state.d), "width": width, "first": first}
+
+    def number(value):
+        return 1e10 * _number_by_hand(value, sizes, cut=cut, **where)
+
+    found = state.outputs
+    n = number(0.0)
+    assert found["n_dents_1"] == pytest.approx(n, rel=1e-6)
+    p95, most = found["dent_depth_p95_1"], found["dent_depth_max_1"]
+    for value, count in ((p95, 0.05 * n), (most, math.log(2 / (1 + math.exp(-n * 1e-6))) * 1e6)):
+        # the exact value lies between two that differ by 2e-6
+        assert number(value * (1 - 1e-6)) >= count >= number(value * (1 + 1e-6))

@@ -247,15 +247,18 @@ def evaluate(
         for output in contact.outputs:
             with np.errstate(all="ignore"):  # a spot without a load has no number of its own
                 found = output.of(state)
+                said = output.warnings(state, found)
             for name, value in found.items():
                 values[name][part] = value
-            for note in output.warnings(state, found):
+            for note in said:
                 notes.setdefault(NUMBERS.sub("", note), note)
         for population, own in zip(contact.populations, parts, strict=False):
             mine = [spots for spots in particles if spots.population is population]
             alone = replace(state, asperities=[], particles=mine)
             for output in contact.outputs:
-                for name, value in (output.of(alone) if output.by_population else {}).items():
+                with np.errstate(all="ignore"):
+                    found = output.of(alone) if output.by_population else {}
+                for name, value in found.items():
                     own.setdefault(name, np.full(len(columns["d"]), np.nan))[part] = value
         for note in _about_few(state):
             notes.setdefault(NUMBERS.sub("", note), note)

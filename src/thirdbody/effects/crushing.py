@@ -11,7 +11,7 @@ import numpy as np
 from ..contact.output import AbstractOutput, Column
 from ..laws.particle.breakage import Breakage, crush_embed_size
 from ..quantities.value import quantity
-from .quantiles import exceeded
+from .quantiles import Values, exceeded
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -96,7 +96,17 @@ class Crushing(AbstractOutput):
     def of(self, state: Solved) -> dict[str, Array]:
         nothing = np.zeros_like(state.d)
         sums = dict.fromkeys(
-            ("caught", "broken", "mass", "broken mass", "pieces", "bearing", "load", "whole"),
+            (
+                "caught",
+                "broken",
+                "mass",
+                "broken mass",
+                "pieces",
+                "bearing",
+                "borne",
+                "load",
+                "whole",
+            ),
             nothing,
         )
         sizes, fragments = [], []
@@ -116,13 +126,15 @@ class Crushing(AbstractOutput):
                 ("broken mass", broken * mass),
                 ("pieces", piece * spots.number * mass),
                 ("bearing", bears * spots.number),
+                ("borne", bears * spots.number * mass),
                 ("load", spots.load * spots.number),
                 ("whole", spots.load * was),
             ):
                 each = np.sum(q, axis=-1)
                 sums[name] = sums[name] + (each if spots.share is None else spots.share @ each)
-            sizes.append((counted, bears * spots.x, bears.astype(float)))
-            fragments.append((counted, (piece > 0) * spots.x, piece * mass))
+            sizes.append(Values(counted, bears * spots.x, bears.astype(float)))
+            fragments.append(Values(counted, (piece > 0) * spots.x, piece * mass))
+        pieces = sums["pieces"] > ROUNDING * sums["borne"]
         (median,) = exceeded(fragments, [0.5 * sums["pieces"]])
         (largest,) = exceeded(sizes, [nothing + math.log(2) / self.A_n])
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -130,9 +142,10 @@ class Crushing(AbstractOutput):
                 "broken_share": sums["broken"] / sums["caught"],
                 "broken_mass_share": sums["broken mass"] / sums["mass"],
                 "x_star": nothing + _x_star(state.contact),
-                "fragment_size": np.where(sums["pieces"] > 0, median, np.nan),
+                "fragment_size": np.where(pieces, median, np.nan),
                 "n_bearing": sums["bearing"],
-                "survivor_max": largest,
+                # less than one bears in most areas: no largest one has a median
+                "survivor_max": np.where(largest > 0, largest, np.nan),
                 "load_if_whole": sums["whole"] / sums["load"],
             }
 

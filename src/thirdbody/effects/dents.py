@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,8 @@ from ..laws.particle.squashed import widest_disc
 from ..populations.materials import softer_hardness
 from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
-from .quantiles import exceeded, number_above
+from .curves import Curve
+from .quantiles import Values, exceeded, number_above
 from .single.dent import dent_of, fragments, sink, sunk
 
 if TYPE_CHECKING:
@@ -25,8 +27,9 @@ if TYPE_CHECKING:
     from ..contact.contact import Contact
     from ..contact.evaluation import Solved
     from ..contact.output import Probe
+    from ..laws.base import AbstractParticleLaw
     from ..laws.spots import ParticleSpots
-    from ..populations.particles import Particles
+    from ..populations.materials import Material, MaterialPair
     from .single.dent import Dent
 
     Array = NDArray[np.float64]
@@ -37,7 +40,7 @@ ONE = 1.0
 """Dents in A_n on average below which most areas have none."""
 P95 = 0.05
 RARE = 1e-2
-"""Part of the particles below which those that are embedded are counted gap by gap."""
+"""Part of the broken particles below which those that are embedded are counted by levels."""
 FEW = 14
 """Dents in an area below which its deepest one is a matter of chance: of ln 2/0.05 dents and fewer
 the deepest is shallower than what 5 % exceed, in half of all cases."""
@@ -78,9 +81,10 @@ class Dents(AbstractOutput):
     Notes
     -----
     These are the dents of one placement of the particles; every fresh set of particles adds its
-    own (`thirdbody.effects.single.dent.dents_after`). Percentiles and the largest of whole
-    particles are within 0.3 % of their exact values (for lognormal sizes 1 %); those of particles
-    with a strength and of fragments are read from counts of classes, within a few percent. Depths
+    own (`thirdbody.effects.single.dent.dents_after`). Numbers, percentiles and the largest of
+    whole particles and of brittle ones are within 1e-6 of their exact values, means of fragments
+    within 1e-3; percentiles and the largest of particles with a strength are read from counts of
+    classes, within a few percent. Depths
     are at full load with a gap that does not give way, the recovery fit is one for spheres (from
     memory, see `thirdbody.effects.single.ploughing.residual_depth`). Dents deeper than half the
     radius of the particle are counted besides as embedded: such particles may stay (assumption).
@@ -171,7 +175,7 @@ class Dents(AbstractOutput):
         names = [
             each.name or each.material.name or "particles"
             for each in contact.populations
-            if any(_squashed(contact, each))
+            if any(_squashed(contact.law_of(each), contact.surfaces, each.material))
         ]
         return [
             f"outputs.dents: debris = 'hard' says that {name} keep their shape, and their law "
@@ -198,15 +202,72 @@ class Dents(AbstractOutput):
     def _left(self, spots: ParticleSpots, side: int, contact: Contact) -> Dent:
         population = spots.population
         assert population is not None
+        law = contact.law_of(population)
+        return self._dent(spots, side, law, contact.surfaces, population.material)
+
+    def _dent(
+        self,
+        spots: ParticleSpots,
+        side: int,
+        law: AbstractParticleLaw,
+        surfaces: MaterialPair,
+        particle: Material,
+    ) -> Dent:
+        """What spots of particles of a law leave in a surface."""
         dent = dent_of(
             spots,
             side=side,
-            particle=population.material,
+            particle=particle,
             debris=self.debris,
-            squashed=_squashed(contact, population)[side],
+            squashed=_squashed(law, surfaces, particle)[side],
         )
-        widest = np.where(np.isnan(dent.depth), _widest(contact, population, side), math.inf)
-        return dent._replace(diameter=np.minimum(dent.diameter, widest * spots.x))
+        widest = _widest(law, surfaces, particle, side)
+        if math.isinf(widest):
+            return dent
+        held = np.where(np.isnan(dent.depth), widest * spots.x, math.inf)
+        return dent._replace(diameter=np.minimum(dent.diameter, held))
+
+    def _of_one(
+        self,
+        name: str,
+        side: int,
+        law: AbstractParticleLaw,
+        surfaces: MaterialPair,
+        particle: Material,
+    ) -> Curve:
+        """Depth, width or "sunk" of the dents of one particle over its size, by its squeeze."""
+
+        def value(eps: Array) -> Array:
+            spots = law.probe(eps, surfaces=surfaces, particle=particle)
+            with np.errstate(all="ignore"):  # as where all of them are asked
+                dent = self._dent(spots, side, law, surfaces, particle)
+                if name == "width":
+                    return dent.diameter[:, 0]
+                depth = np.nan_to_num(dent.depth)
+                if name == "depth":
+                    return depth[:, 0]
+                deep = sunk(spots, side=side, particle=particle, debris=self.debris)
+                return np.where(depth > 0, 2 * deep / spots.half, 0.0)[:, 0]
+
+        kinks = [*law.one(surfaces=surfaces, particle=particle).kinks]
+        return Curve(value, kinks, power=0 if name == "sunk" else 1)
+
+    def _values(
+        self, spots: ParticleSpots, values: Array, name: str, side: int, contact: Contact
+    ) -> Values:
+        """One group of dents, those of whole particles with what one of them leaves."""
+        population = spots.population
+        assert population is not None
+        if spots.layout is None:
+            return Values(spots, values)
+        plain = self if self.shallowest == 0 else self.replace(shallowest=0.0)
+        who = (side, contact.law_of(population), contact.surfaces, population.material)
+        curve, least = _curve(plain, name, *who), None
+        if self.shallowest > 0 and name != "depth":
+            depth = _curve(plain, "depth", *who)
+            if depth.top > 0:
+                least = (depth, self.shallowest)
+        return Values(spots, values, curve=curve, least=least)
 
     def _groups(self, state: Solved) -> list[ParticleSpots]:
         """The particles that leave dents, or what they break into."""
@@ -229,8 +290,8 @@ class Dents(AbstractOutput):
     def _side(self, state: Solved, groups: Sequence[ParticleSpots], side: int) -> dict[str, Array]:
         names = ("n", "known", "unknown", "depth", "width", "volume", "embedded")
         sums: dict[str, Array] = dict.fromkeys(names, np.zeros_like(state.d))
-        dents: list[tuple[Any, ...]] = []
-        sinks: list[tuple[Any, ...]] = []
+        dents: list[tuple[Values, Values]] = []
+        sinks: list[Values] = []
         for spots in groups:
             dent = self._left(spots, side, state.contact)
             deep = self._sunk(spots, side)
@@ -240,7 +301,6 @@ class Dents(AbstractOutput):
             known: Any = there & told & (depth >= self.shallowest)
             counts: Any = known | (there & ~told)
             width = np.where(counts, dent.diameter, 0.0)
-            dents.append((spots, depth, width))
             for name, q in (
                 ("n", counts.astype(float)),
                 ("known", known.astype(float)),
@@ -252,27 +312,36 @@ class Dents(AbstractOutput):
             ):
                 sums[name] = sums[name] + spots.total(q)
             share = np.divide(2 * deep, spots.half, out=np.zeros_like(depth), where=known)
-            sinks.append((spots, share, np.ones(())))
+            who = (side, state.contact)
+            dents.append(
+                (
+                    self._values(spots, depth, "depth", *who),
+                    self._values(spots, width, "width", *who),
+                )
+            )
+            sinks.append(self._values(spots, share, "sunk", *who))
         rare = sums["embedded"] < RARE * sums["known"]  # too few for sums over classes
+        if all(each.curve is not None for each in sinks):
+            rare[:] = True
         if np.any(rare):
             exact = number_above(sinks, 1.0, states=len(state.d))
             sums["embedded"] = np.where(rare, exact, sums["embedded"])
         return self._columns(sums, dents, side)
 
     def _columns(
-        self, sums: dict[str, Array], dents: Sequence[tuple[Any, ...]], side: int
+        self, sums: dict[str, Array], dents: Sequence[tuple[Values, Values]], side: int
     ) -> dict[str, Array]:
         """The columns of a surface, from sums over its dents, and depths and widths that count."""
         n, known, unknown = (sums[name] for name in ("n", "known", "unknown"))
-        one: Any = np.ones(())
-        depths = [(spots, depth, one) for spots, depth, _ in dents]
-        widths = [(spots, width, one) for spots, _, width in dents]
+        depths, widths = ([pair[i] for pair in dents] for i in (0, 1))
+        if self.debris == "brittle":  # no class ends where a fragment begins to leave a dent
+            n, known = (number_above(values, 0.0, states=len(n)) for values in (widths, depths))
         deep = known
         if self.shallowest > 0:  # whether marks of unknown depth are so deep is not known either
             deep = number_above(depths, self.shallowest, states=len(n))
             n = np.where(unknown > 0, np.nan, deep)
         out = {f"n_dents_{side + 1}": n}
-        of_all = (("depth", deep, known, depths), ("width", n, sums["n"], widths))
+        of_all = (("depth", deep, sums["known"], depths), ("width", n, sums["n"], widths))
         for name, count, classes, values in of_all:
             few = np.nan_to_num(count)
             largest = np.log(2 / (1 + np.exp(-few * self.A_n))) / self.A_n
@@ -305,11 +374,13 @@ class Dents(AbstractOutput):
             shares = [self._share_held(mine, side, state.contact) for side in (0, 1)]
             share, side = max((share, side) for side, share in enumerate(shares))
             if share > 0:
+                law, pair = state.contact.law_of(each), state.contact.surfaces
+                widest = _widest(law, pair, each.material, side)
                 out.append(
                     f"outputs.dents: {percent(share, digits=2)} of the marks of "
                     f"{each.name or each.material.name or 'particles'} are of discs that would "
                     "press harder than the surface is: such a disc sinks in, and its mark is held "
-                    f"to {number(_widest(state.contact, each, side), 3)} times the particle's size"
+                    f"to {number(widest, 3)} times the particle's size"
                 )
         return out
 
@@ -320,7 +391,8 @@ class Dents(AbstractOutput):
         for spots in groups:
             population = spots.population
             assert population is not None
-            widest = _widest(contact, population, side)
+            law, own = contact.law_of(population), population.material
+            widest = _widest(law, contact.surfaces, own, side)
             dent = self._left(spots, side, contact)
             flat: Any = np.isnan(dent.depth) & (dent.diameter > 0)
             marks = marks + spots.total(flat.astype(float))
@@ -396,25 +468,38 @@ class Dents(AbstractOutput):
         ]
 
 
-def _squashed(contact: Contact, population: Particles) -> tuple[bool, ...]:
-    """Whether the law of a population squashes it against each surface."""
-    law = contact.law_of(population)
+@lru_cache(maxsize=256)
+def _curve(
+    dents: Dents,
+    name: str,
+    side: int,
+    law: AbstractParticleLaw,
+    surfaces: MaterialPair,
+    particle: Material,
+) -> Curve:
+    return dents._of_one(name, side, law, surfaces, particle)
+
+
+def _squashed(
+    law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+) -> tuple[bool, ...]:
+    """Whether the law of a particle squashes it against each surface."""
     if not isinstance(law, Series):
         return (False, False)
-    pair = (contact.surfaces.first, contact.surfaces.second)
-    forms = law.forms(contact.surfaces, population.material)
+    forms = law.forms(surfaces, particle)
     return tuple(
-        form is not None and (not law.follows_table or population.material.H <= body.H)
-        for form, body in zip(forms, pair, strict=True)
+        form is not None and (not law.follows_table or particle.H <= body.H)
+        for form, body in zip(forms, (surfaces.first, surfaces.second), strict=True)
     )
 
 
-def _widest(contact: Contact, population: Particles, side: int) -> float:
+def _widest(
+    law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material, side: int
+) -> float:
     """Largest mark of a flattened particle over its size; infinite where its law bounds it."""
-    if _squashed(contact, population)[side]:
+    if _squashed(law, surfaces, particle)[side]:
         return math.inf
-    law = contact.law_of(population)
     friction = (law if isinstance(law, Series) else Series()).friction_factor
-    H = (contact.surfaces.first, contact.surfaces.second)[side].H
+    H = (surfaces.first, surfaces.second)[side].H
     # one that is flattened is not harder, whatever its material says
-    return widest_disc(min(population.material.H, H), H, friction_factor=friction)
+    return widest_disc(min(particle.H, H), H, friction_factor=friction)

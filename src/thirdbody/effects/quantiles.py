@@ -1,23 +1,29 @@
 r"""The value that so many particles per area exceed: percentiles and extremes of an output.
 
-A value v that grows with the squeeze is exceeded by the particles of size x that sit in gaps
-narrower than :math:`g^*(x, v)`. On seats of a Gaussian height these are
+A particle of size x has a larger value than v between squeezes that its `Curve` knows, so between
+gaps :math:`g = x(1-\varepsilon)`. On seats of a Gaussian height, in gaps of mean :math:`\bar g`
+and standard deviation σ, these are
 
-.. math:: N(>v) = \eta_a\int \varphi_a(x)\,
-          \Phi\!\left(\frac{g^*(x,v)-\bar g}{\sigma}\right)dx ,
+.. math:: N(>v) = \eta_a\int \varphi_a(x) \sum \left[
+          \Phi\!\left(\frac{x(1-\varepsilon_i)-\bar g}{\sigma}\right)
+          -\Phi\!\left(\frac{x(1-\varepsilon'_i)-\bar g}{\sigma}\right)\right] dx ,
 
-on plane seats :math:`\eta_a` times the part of the sizes larger than the one whose value is v.
-Sums over the classes of an output count a class as a whole, in or out, which is far too coarse for
-the rare ones: here only :math:`g^*` is interpolated between classes, and the number is exact.
+on plane seats :math:`\eta_a` times the part of the sizes that have it in the one gap. The integral
+is a Gauss rule over panels that end where its integrand bends. Sums over the classes of an output
+count a class as a whole, in or out, which is far too coarse for the rare ones.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy import special
+
+from ..numerics.quadrature import panel_rule
+from ..numerics.roots import bracketed_root
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -25,255 +31,322 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..laws.spots import Layout, ParticleSpots
+    from .curves import Curve
 
     Array = NDArray[np.float64]
+    Rows = NDArray[np.intp]
 
-__all__ = ["exceeded", "number_above"]
+__all__ = ["Values", "exceeded", "number_above"]
 
-LOWEST = 1e-4
-"""The smallest value that is looked for, over the largest."""
-HALVINGS = 44
-"""Of the logarithm of the range: 1e-12 of the value."""
-LEVELS = 240
-"""Values at which pieces are counted, evenly over their logarithm."""
-SAME = 1e-9
-"""By so much of the largest a value may fall, by rounding, as a gap closes."""
-NEVER = -40.0
-"""In widths of the seat: where nobody sits."""
+PER_DECADE = 60
+"""Levels at which pieces are counted, evenly over their logarithm."""
+RANGE = 1e-40
+"""The smallest value that is looked for, over the largest; that of any class, if it is larger."""
+TOLERANCE = 1e-10
+"""Of the logarithm of a value, over the logarithm of the range."""
+FEWEST = 1e-30
+"""Part of what is wanted that is as good as none."""
+PARTS = (1e-12, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.15, 0.3, 0.5)
+"""Parts of the particles up to sizes where panels end, from either side."""
+WIDTHS = (-12.0, -8.0, -6.0, -4.5, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.5, 6.0, 8.0)
+"""In widths of the seat about the size that has the value in the mean gap: panels end there."""
+SCAN, SCANS, SMALLEST = 25, 4, 1e-9
+"""Sizes that are tried together for that one, how often, and the smallest over the largest."""
+HALVINGS = 60
+"""Of sizes on a plane."""
+TINY = 1e-200
+"""A size [m] in place of none."""
+NODES = 10
+AT_ONCE = 400_000
+"""Nodes that are summed together."""
 
 
-def exceeded(
-    groups: Sequence[tuple[ParticleSpots, Array, Array]], counts: Sequence[Array]
-) -> list[Array]:
+class Values(NamedTuple):
+    """An output of one group of particles."""
+
+    spots: ParticleSpots
+    values: Array
+    """Of every class (M, n); 0 for those that do not count."""
+    weight: Array | float = 1.0
+    """How often each counts."""
+    curve: Curve | None = None
+    """The same of one particle; without it classes are counted."""
+    least: tuple[Curve, float] | None = None
+    """Another value of a particle that counts, and what it exceeds."""
+
+
+def exceeded(groups: Sequence[Values], counts: Sequence[Array]) -> list[Array]:
     """The value that so many (N,) spots per area exceed; 0 where fewer have any value.
 
     Parameters
     ----------
-    groups : sequence of (ParticleSpots, values, weight)
-        Values (M, n) of every class, 0 for those that do not count; and how often each counts.
+    groups : sequence of Values
     counts : sequence of array (N,)
         Numbers per nominal area [1/m²].
 
     Returns
     -------
     list of array (N,)
-        Against exact integrals within 2e-3 of the value, for whole particles of any sizes on any
-        seats. Particles that break are counted class by class, at 240 levels.
+        Within 1e-7 for whole particles with a curve. Others are counted class by class, at 60
+        levels a decade: within a few percent.
     """
     top = _largest(groups)
     if top == 0:
         return [np.zeros_like(count) for count in counts]
-    above = _above(groups, top)
-    out = []
-    for count in counts:
-        low, high = np.full(len(count), LOWEST * top), np.full(len(count), top)
-        some = above(low) > count
-        for _ in range(HALVINGS):
-            middle = np.sqrt(low * high)
-            more = above(middle) > count
-            low, high = np.where(more, middle, low), np.where(more, high, middle)
-        out.append(np.where(some, high, 0.0))
-    return out
+    above, low = _above(groups, top), 0.5 * min(_least(group, top) for group in groups)
+    wanted = np.concatenate([*counts, np.zeros(0)])
+    rows = np.tile(np.arange(len(wanted) // max(len(counts), 1)), len(counts))
+    out = np.zeros(len(wanted))
+    some = np.flatnonzero(above(np.full(len(wanted), low), rows) > wanted)
+    if len(some):
+        found = _where_so_many(above, wanted[some], (low, top), rows[some])
+        # where more than that many have the largest value, it is that
+        out[some] = np.where(np.isnan(found), top, found)
+    return np.split(out, len(counts))
 
 
-def number_above(
-    groups: Sequence[tuple[ParticleSpots, Array, Array]], value: float, *, states: int
+def _where_so_many(
+    above: Callable[[Array, Rows], Array], count: Array, between: tuple[float, float], rows: Rows
 ) -> Array:
-    """Spots per area whose value exceeds this one, above 0: (N,), as exact as `exceeded`."""
+    """The value between two that so many exceed in these states; NaN where it is not there."""
+    low, top = between
+    floor = np.maximum(FEWEST * count, 1e-300)
+
+    def excess(place: Array, index: Array) -> Array:
+        at = index.astype(np.intp)
+        number = above(low * np.exp(place - 1.0), rows[at])
+        return np.log(np.maximum(number, floor[at]) / np.maximum(count[at], floor[at]))
+
+    ends = np.full(len(rows), 1.0), np.full(len(rows), 1.0 + math.log(top / low))
+    found = bracketed_root(excess, *ends, (np.arange(len(rows), dtype=float),), xrtol=TOLERANCE)
+    return low * np.exp(found - 1.0)
+
+
+def number_above(groups: Sequence[Values], value: float, *, states: int) -> Array:
+    """Spots per area whose value exceeds this one, 0 or more: (N,), as exact as `exceeded`."""
     top = _largest(groups)
     if top <= value:
         return np.zeros(states)
-    return _above(groups, top)(np.full(states, value))
+    return _above(groups, top)(np.full(states, value), np.arange(states))
 
 
-def _largest(groups: Sequence[tuple[ParticleSpots, Array, Array]]) -> float:
-    return max((float(np.max(values, initial=0.0)) for _, values, _ in groups), default=0.0)
+def _largest(groups: Sequence[Values]) -> float:
+    return max((_most(group) for group in groups), default=0.0)
 
 
-def _above(
-    groups: Sequence[tuple[ParticleSpots, Array, Array]], top: float
-) -> Callable[[Array], Array]:
-    tails = [
-        _tail(spots, values, weight, top)
-        for spots, values, weight in groups
-        if np.size(values)  # a population may have no spot in any state
-    ]
+def _most(group: Values) -> float:
+    """The largest value that a particle of a group may have."""
+    if not np.size(group.values):  # a population may have no spot in any state
+        return 0.0
+    layout, curve = group.spots.layout, group.curve
+    if layout is None or curve is None:
+        return float(np.max(group.values, initial=0.0))
+    size = layout.scale * layout.sizes.support[1]
+    if layout.fragment is not None:
+        size = min(size, layout.fragment)
+    return curve.top * size**curve.power
 
-    def above(values: Array) -> Array:
-        return np.sum([tail.above(values) for tail in tails], axis=0)
+
+def _least(group: Values, top: float) -> float:
+    """The smallest value of any class that there are any of."""
+    values = np.broadcast_to(group.values, group.spots.number.shape)
+    there = (values > RANGE * top) & (group.spots.number > 0)
+    return float(np.min(values, where=there, initial=top))
+
+
+def _above(groups: Sequence[Values], top: float) -> Callable[[Array, Rows], Array]:
+    tails = [_tail(group, top) for group in groups if _most(group) > 0]
+
+    def above(values: Array, rows: Rows) -> Array:
+        return sum((tail.above(values, rows) for tail in tails), np.zeros(len(values)))
 
     return above
 
 
-def _tail(
-    spots: ParticleSpots, values: Array, weight: Array, top: float
-) -> _OnSeats | _OnPlane | _Counted:
+def _tail(group: Values, top: float) -> _OnSeats | _OnPlane | _Counted:
     """How many particles of a group exceed a value, by the best way that there is."""
-    layout = spots.layout
-    values = np.broadcast_to(values, spots.number.shape)
-    if layout is not None and np.all((weight == 1) | (values == 0)):
-        found = _Columns.from_layout(layout, values)
-        if found is not None:
-            return found.tail()
-    return _Counted(spots, values, weight, top)
+    layout, curve = group.spots.layout, group.curve
+    if layout is None or curve is None:
+        return _Counted(group, top)
+    kind = _OnPlane if layout.means is None else _OnSeats
+    return kind(layout, curve, group.least)
 
 
 @dataclass(frozen=True, eq=False)
-class _Columns:
-    """Values of sizes x (K,) in gaps (M,): (M, K), rising with x and with closing gaps."""
+class _Whole:
+    """Whole particles, or the fragments of one size of larger ones."""
 
     layout: Layout
-    x: Array
-    values: Array
+    curve: Curve
+    least: tuple[Curve, float] | None
 
-    @classmethod
-    def from_layout(cls, layout: Layout, values: Array) -> _Columns | None:
-        """The values at the same sizes in every gap; None where they do not rise."""
-        low, high = layout.sizes.support
-        if low == high:
-            x, columns = np.array([layout.scale * high]), values.max(axis=1, keepdims=True)
-        else:
-            x = layout.scale * _edges(layout)
-            columns = np.array(
-                [_row(x, *row) for row in zip(layout.x, values, layout.gaps, strict=True)]
-            )
-        slack = SAME * columns.max()
-        falls = np.diff(columns, axis=1).min(initial=0.0) < -slack
-        if layout.means is not None:
-            falls |= np.diff(columns, axis=0).max(initial=0.0) > slack
-        return None if falls else cls(layout, x, columns)
+    @property
+    def density(self) -> Array:
+        layout = self.layout
+        states = len(layout.gaps if layout.means is None else layout.means)
+        return np.broadcast_to(np.asarray(layout.density, dtype=float), (states,))
 
-    def tail(self) -> _OnSeats | _OnPlane:
-        if self.layout.means is None:
-            return _OnPlane(self)
-        return _OnSeats(self)
+    def sizes(self) -> tuple[Array, float]:
+        """Sizes [m] where panels end, and how many fragments a particle gives on average."""
+        layout, sizes = self.layout, self.layout.sizes
+        parts = np.array(PARTS)
+        edges = np.concatenate([sizes.pieces, sizes.kinks, sizes.ppf([*parts, *(1 - parts)])])
+        low, high = sizes.support
+        if layout.fragment is None:
+            return layout.scale * np.unique(np.clip(edges, low, high)), 0.0
+        cut = layout.fragment / layout.scale
+        pieces = float(sizes.partial_moment(3, max(low, cut), high)) / cut**3 if cut < high else 0.0
+        if cut <= low:
+            return np.empty(0), pieces
+        return layout.scale * np.unique(np.clip(edges, low, min(cut, high))), pieces
 
+    def density_of(self, x: Array) -> Array:
+        """φ_a(x) [1/m]."""
+        return self.layout.sizes.pdf(x / self.layout.scale) / self.layout.scale
 
-def _edges(layout: Layout) -> Array:
-    """Sizes between which there are few particles: fine among the rare large ones."""
-    sizes = layout.sizes
-    rare = np.geomspace(1e-12, 0.01, 41)
-    part = np.unique(np.concatenate([[0.0, 1e-4], np.linspace(0.01, 0.99, 65), 1 - rare, [1.0]]))
-    edges = np.concatenate([sizes.ppf(part), sizes.pieces, sizes.kinks])
-    if layout.fragment is not None:
-        edges = np.append(edges, layout.fragment / layout.scale)
-    return np.unique(np.clip(edges, *sizes.support))
+    def squeezes(self, values: Array, x: Array) -> list[tuple[Array, Array]]:
+        """Between which ε particles of sizes x exceed these values: lower and upper ends."""
+        found = list(self.curve.stretches(values / x**self.curve.power))
+        if self.least is not None:
+            other, value = self.least
+            begin = other.first(value / x**other.power)
+            found = [(np.maximum(a, begin), np.maximum(b, begin)) for a, b in found]
+        shape = np.broadcast(values, x).shape
+        return [(np.broadcast_to(a, shape), np.broadcast_to(b, shape)) for a, b in found]
 
-
-def _row(x: Array, sizes: Array, values: Array, gap: float) -> Array:
-    """The values of sizes x in one gap, in which the sizes of the classes have theirs."""
-    at = np.flatnonzero(np.diff(sizes, prepend=min(gap, sizes[0]) - 1.0) > 0)
-    known, found = sizes[at], values[at]
-    if gap < known[0]:  # what just fits is not squeezed
-        known, found = np.append(gap, known), np.append(0.0, found)
-    out = np.interp(x, known, found, left=0.0 if gap >= 0 else None)
-    if len(at) > 1:  # the largest sizes lie beyond the last class
-        slope = (found[-1] - found[-2]) / (known[-1] - known[-2])
-        out = np.where(x > known[-1], found[-1] + slope * (x - known[-1]), out)
-    return out
+    def bends(self, values: Array) -> Array:
+        """Sizes (N, k) at which the squeezes of these values jump or bend."""
+        out = []
+        if self.curve.power:
+            out.append(values[:, None] / self.curve.seams)
+        if self.least is not None:
+            other, value = self.least
+            out.append(np.broadcast_to(value / other.seams, (len(values), len(other.seams))))
+        return np.concatenate(out, axis=1) if out else np.empty((len(values), 0))
 
 
-class _OnSeats:
+class _OnSeats(_Whole):
     """Particles on seats of Gaussian height."""
 
-    def __init__(self, columns: _Columns):
-        layout = columns.layout
+    def _part(self, values: Array, x: Array, means: Array) -> Array:
+        """Part of the particles of sizes x that exceed the values."""
+        width = self.layout.width
+        out, x = np.zeros(np.broadcast(values, x).shape), np.maximum(x, TINY)
+        for begin, end in self.squeezes(values, x):
+            there = end > begin
+            upper = np.where(there, x * (1 - np.where(there, begin, 0.0)) - means, -np.inf)
+            lower = np.where(there, x * (1 - end) - means, -np.inf)
+            out += special.ndtr(upper / width) - special.ndtr(lower / width)
+        return out
+
+    def _turn(self, values: Array, means: Array, low: float, high: float) -> Array:
+        """The size that has the value in the mean gap (N,), close enough for ends of panels."""
+        least = max(low, SMALLEST * high)
+        steps = np.broadcast_to(np.geomspace(least, high, SCAN), (len(values), SCAN))
+        row = np.arange(len(values))
+        for _ in range(SCANS):
+            begin = np.full(steps.shape, np.inf)
+            for a, b in self.squeezes(values[:, None], steps):
+                begin = np.where(a < b, np.minimum(begin, a), begin)
+            less = np.where(np.isfinite(begin), steps * (1 - begin), -np.inf) < means[:, None]
+            at = np.clip(np.sum(less, axis=1), 1, SCAN - 1)
+            a, b = steps[row, at - 1, None], steps[row, at, None]
+            steps = a + (b - a) * np.linspace(0.0, 1.0, SCAN)
+        return np.where(np.all(less, axis=1), high, steps[:, SCAN // 2])
+
+    def above(self, values: Array, rows: Rows) -> Array:
+        layout = self.layout
         assert layout.means is not None
-        self.means, self.width, self.density = layout.means, layout.width, layout.density
-        self.gap_of = [_GapOf(layout.gaps, column) for column in columns.values.T]
-        self.one = len(columns.x) == 1
-        larger = layout.larger(np.zeros(1) if self.one else columns.x)
-        self.share = larger if self.one else -np.diff(larger)
-        self.lean = np.zeros_like(self.share) if self.one else _lean(layout, columns.x)
+        edges, pieces = self.sizes()
+        count = max(1, AT_ONCE // (NODES * (len(edges) + 40)))
+        out = np.empty(len(values))
+        for start in range(0, len(values), count):
+            part = slice(start, start + count)
+            means = layout.means[rows[part]]
+            out[part] = self._sum(values[part], means, edges)
+            if pieces:
+                x = np.full(len(means), float(layout.fragment or 0.0))
+                out[part] += pieces * self._part(values[part], x, means)
+        return self.density[rows] * out
 
-    def above(self, values: Array) -> Array:
-        gaps = np.array([gap_of(values) for gap_of in self.gap_of])
-        u = np.maximum((gaps - self.means) / self.width, NEVER)
-        part = special.ndtr(u)
-        if not self.one:  # a density that rises from one end to the other weighs that end more
-            part = _mean_normal(u[:-1], u[1:]) + 0.5 * self.lean[:, None] * np.diff(part, axis=0)
-        return self.density * (self.share @ part)
-
-
-def _lean(layout: Layout, x: Array) -> Array:
-    """Mean size between neighbours less their middle, over half of their distance."""
-    if layout.fragment is not None:
-        return np.zeros(len(x) - 1)
-    a, b = x[:-1] / layout.scale, x[1:] / layout.scale
-    number, sum_of = (layout.sizes.partial_moment(n, a, b) for n in (0, 1))
-    mean = np.divide(sum_of, number, out=0.5 * (a + b), where=number > 0)
-    return np.clip((2 * mean - a - b) / (b - a), -1.0, 1.0)
-
-
-class _GapOf:
-    """The gap g* in which a particle has a value, from the values (M,) that it has in some gaps.
-
-    Interpolated in √v, which rises about evenly as the gap closes, from the widest gap with a
-    value on; between that one and the next wider one straight.
-    """
-
-    def __init__(self, gaps: Array, values: Array):
-        from scipy.interpolate import PchipInterpolator
-
-        order = np.argsort(-gaps)
-        gaps, values = gaps[order], np.maximum.accumulate(values[order])
-        first = int(np.argmax(values > 0))
-        self.rise, at = np.unique(np.sqrt(values[first:]), return_index=True)
-        self.gaps, self.beyond = gaps[first:][at], gaps[max(first - 1, 0)]
-        self.line = PchipInterpolator(self.rise, self.gaps) if len(at) > 1 else None
-
-    def __call__(self, values: Array) -> Array:
-        low, high = self.rise[[0, -1]]
-        if high == 0:
-            return np.full_like(values, -np.inf)
-        rise = np.sqrt(values)
-        out = self.beyond + (self.gaps[0] - self.beyond) * (rise / low)
-        if self.line is not None:
-            out = np.where(rise > low, self.line(np.clip(rise, low, high)), out)
-        return np.where(rise < high, out, -np.inf)
+    def _sum(self, values: Array, means: Array, edges: Array) -> Array:
+        if not len(edges):
+            return np.zeros(len(values))
+        low, high = float(edges[0]), float(edges[-1])
+        if low == high:
+            return self._part(values, np.full(len(values), high), means)
+        turn = self._turn(values, means, low, high)
+        more = turn[:, None] + self.layout.width * np.array(WIDTHS)
+        fixed = np.broadcast_to(edges, (len(values), len(edges)))
+        ends = np.concatenate([fixed, more, self.bends(values)], axis=1)
+        ends = np.sort(np.clip(ends, low, high), axis=1)
+        x, weight = panel_rule(ends, NODES)
+        part = self._part(values[:, None], x, means[:, None])
+        density = np.where(weight > 0, self.density_of(np.maximum(x, TINY)), 0.0)
+        return np.sum(weight * density * part, axis=1)
 
 
-def _mean_normal(a: Array, b: Array) -> Array:
-    r"""The mean of Φ between a and b: [G(b) − G(a)]/(b − a) with G = uΦ + φ."""
-    far = np.abs(b - a) > 1e-4
-    step = np.where(far, b - a, 1.0)
-
-    def integral(u: Array) -> Array:
-        return u * special.ndtr(u) + np.exp(-0.5 * u * u) / np.sqrt(2 * np.pi)
-
-    return np.where(far, (integral(b) - integral(a)) / step, special.ndtr(0.5 * (a + b)))
-
-
-class _OnPlane:
+class _OnPlane(_Whole):
     """Particles on plane seats: a state is a row."""
 
-    def __init__(self, columns: _Columns):
-        self.layout, self.x, self.values = columns.layout, columns.x, columns.values
+    def above(self, values: Array, rows: Rows) -> Array:
+        layout, gaps = self.layout, self.layout.gaps[rows]
+        edges, pieces = self.sizes()
+        out = np.zeros(len(values))
+        if pieces:
+            x = np.full(len(values), float(layout.fragment or 0.0))
+            out += pieces * self._exceeds(values, x, gaps)
+        if not len(edges):
+            return self.density[rows] * out
+        low, high = float(edges[0]), float(edges[-1])
+        if low == high:
+            out += self._exceeds(values, np.full(len(values), high), gaps)
+            return self.density[rows] * out
+        # between sizes so close that at most one of the bounds is crossed
+        more = np.linspace(low, high, 400)
+        fixed = np.broadcast_to(np.unique([*edges, *more]), (len(values), len({*edges, *more})))
+        starts = gaps[:, None] * np.array([1.0, 1 + 1e-9, 1 + 1e-6, 1 + 1e-4, 1.01])
+        ends = np.concatenate([fixed, starts, self.bends(values)], axis=1)
+        ends = np.sort(np.clip(ends, low, high), axis=1)
+        inside = self._exceeds(values[:, None], ends, gaps[:, None])
+        row, at = np.nonzero(np.diff(inside, axis=1))
+        a, b, first = ends[row, at], ends[row, at + 1], inside[row, at]
+        for _ in range(HALVINGS):
+            middle = 0.5 * (a + b)
+            same = self._exceeds(values[row], middle, gaps[row]) == first
+            a, b = np.where(same, middle, a), np.where(same, b, middle)
+        larger = self.layout.sizes.partial_moment(0, 0.5 * (a + b) / layout.scale,
+                                                  high / layout.scale)  # fmt: skip
+        top = inside[:, -1] * 0.0
+        np.add.at(top, row, np.where(first > 0, -larger, larger))
+        everything = self.layout.sizes.partial_moment(0, -1.0, high / layout.scale)
+        return self.density[rows] * (out + top + inside[:, 0] * everything)
 
-    def above(self, values: Array) -> Array:
-        if len(self.x) == 1:
-            return (
-                self.layout.density * self.layout.larger(np.zeros(1)) * (self.values[:, 0] > values)
-            )
-        at = [
-            np.interp(value, np.maximum.accumulate(row), self.x)
-            for value, row in zip(values, self.values, strict=True)
-        ]
-        over = self.layout.larger(np.array(at))
-        return self.layout.density * np.where(values < self.values.max(axis=1), over, 0.0)
+    def _exceeds(self, values: Array, x: Array, gaps: Array) -> Array:
+        """1 where particles of sizes x exceed the values, else 0."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            eps = np.where(x > 0, 1 - gaps / x, 0.0)
+        out = np.zeros(np.broadcast(values, x).shape, dtype=bool)
+        for begin, end in self.squeezes(values, np.where(x > 0, x, 1.0)):
+            out |= (eps > begin) & (eps <= end) & (x > 0)
+        return out.astype(float)
 
 
 class _Counted:
     """Particles class by class, each as a whole."""
 
-    def __init__(self, spots: ParticleSpots, values: Array, weight: Array, top: float):
-        self.levels = top * np.geomspace(LOWEST, 1.0, LEVELS)
-        self.counts = spots.above(values, self.levels, weight)
+    def __init__(self, group: Values, top: float):
+        values = np.broadcast_to(group.values, group.spots.number.shape)
+        decades = -math.log10(min(_least(group, top) / top, 0.1)) + 0.1
+        self.levels = top * np.geomspace(10**-decades, 1.0, math.ceil(PER_DECADE * decades))
+        self.counts = group.spots.above(values, self.levels, group.weight)
 
-    def above(self, values: Array) -> Array:
+    def above(self, values: Array, rows: Rows) -> Array:
         """Linear in the logarithm of the level: (N,) for (N,)."""
-        place = np.interp(np.log(values), np.log(self.levels), np.arange(LEVELS, dtype=float))
-        at = np.minimum(place.astype(int), LEVELS - 2)
-        row = np.arange(len(values))
-        more, less = self.counts[row, at], self.counts[row, at + 1]
+        with np.errstate(divide="ignore"):
+            wanted = np.log(values)
+        count = len(self.levels)
+        place = np.interp(wanted, np.log(self.levels), np.arange(count, dtype=float))
+        at = np.minimum(place.astype(int), count - 2)
+        more, less = self.counts[rows, at], self.counts[rows, at + 1]
         return more + (place - at) * (less - more)

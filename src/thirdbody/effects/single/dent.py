@@ -109,8 +109,10 @@ def flattened_diameter(x: ArrayLike, *, gap: ArrayLike) -> Array:
     >>> float(flattened_diameter(6.0, gap=1.0))
     12.0
     """
-    x = np.asarray(x, dtype=float)
-    return x * np.sqrt(np.maximum(2 * x / (3 * np.asarray(gap)), 1.0))
+    x, gap = np.asarray(x, dtype=float), np.asarray(gap, dtype=float)
+    # of no size nothing is flattened, in no gap either
+    ratio = np.divide(2 * x, 3 * gap, out=np.zeros(np.broadcast(x, gap).shape), where=x > 0)
+    return x * np.sqrt(np.maximum(ratio, 1.0))
 
 
 @takes_units
