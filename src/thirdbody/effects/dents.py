@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from ..laws.particle.squashed import widest_disc
 from ..populations.materials import softer_hardness
 from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
-from .quantiles import exceeded, number_above
+from .quantiles import exceeded, number_above, number_squeezed
 from .single.dent import dent_of, fragments, sink, sunk
 
 if TYPE_CHECKING:
@@ -25,7 +26,9 @@ if TYPE_CHECKING:
     from ..contact.contact import Contact
     from ..contact.evaluation import Solved
     from ..contact.output import Probe
+    from ..laws.base import AbstractParticleLaw
     from ..laws.spots import ParticleSpots
+    from ..populations.materials import Material, MaterialPair
     from ..populations.particles import Particles
     from .single.dent import Dent
 
@@ -253,11 +256,31 @@ class Dents(AbstractOutput):
                 sums[name] = sums[name] + spots.total(q)
             share = np.divide(2 * deep, spots.half, out=np.zeros_like(depth), where=known)
             sinks.append((spots, share, np.ones(())))
+        exact = self._embedded(state, groups, side)
+        if exact is not None and not np.any(sums["unknown"]):
+            sums["embedded"] = exact
+            return self._columns(sums, dents, side)
         rare = sums["embedded"] < RARE * sums["known"]  # too few for sums over classes
         if np.any(rare):
-            exact = number_above(sinks, 1.0, states=len(state.d))
-            sums["embedded"] = np.where(rare, exact, sums["embedded"])
+            found = number_above(sinks, 1.0, states=len(state.d))
+            sums["embedded"] = np.where(rare, found, sums["embedded"])
         return self._columns(sums, dents, side)
+
+    def _embedded(self, state: Solved, groups: Sequence[ParticleSpots], side: int) -> Array | None:
+        """Embedded particles per area, by the squeeze from which they are; None where unknown."""
+        out = np.zeros(len(state.d))
+        if self.shallowest > 0 or not groups:
+            return None
+        for spots in groups:
+            assert spots.population is not None
+            law, hard = state.contact.law_of(spots.population), self.debris == "hard"
+            eps = _embeds(law, state.contact.surfaces, spots.population.material, side, hard)
+            if eps < math.inf:
+                found = number_squeezed(spots, eps)
+                if found is None:
+                    return None
+                out = out + found
+        return out
 
     def _columns(
         self, sums: dict[str, Array], dents: Sequence[tuple[Any, ...]], side: int
@@ -382,18 +405,33 @@ class Dents(AbstractOutput):
 
     def splits(self, probe: Probe) -> Sequence[float]:
         """Squeezes at which a side reaches half the radius."""
-        from scipy.optimize import brentq
+        found = [_half_sunk(probe, side, hard=self.debris == "hard") for side in (0, 1)]
+        return [eps for eps in found if eps < math.inf]
 
-        def half(eps: float, side: int) -> float:
-            spots = probe(np.array([eps]))
-            deep = spots.depths if self.debris == "hard" else spots.sinks
-            return float((2 * deep[side] - spots.half)[0, 0])
 
-        return [
-            float(brentq(half, 1e-9, 3.0, args=(side,), xtol=1e-15))
-            for side in (0, 1)
-            if half(3.0, side) > 0
-        ]
+def _half_sunk(probe: Probe, side: int, *, hard: bool) -> float:
+    """Squeeze over its size at which a particle is embedded in a side; inf if it never is."""
+    from scipy.optimize import brentq
+
+    def half(eps: float) -> float:
+        spots = probe(np.array([eps]))
+        deep = spots.depths if hard else spots.sinks
+        return float((2 * deep[side] - spots.half)[0, 0])
+
+    return float(brentq(half, 1e-9, 3.0, xtol=1e-15)) if half(3.0) > 0 else math.inf
+
+
+@lru_cache(maxsize=256)
+def _embeds(
+    law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material, side: int, hard: bool
+) -> float:
+    """The same, of particles of one material between two surfaces."""
+
+    def probe(eps: Array) -> ParticleSpots:
+        found = law.probe(eps, surfaces=surfaces, particle=particle)
+        return replace(found, material=particle)
+
+    return _half_sunk(probe, side, hard=hard)
 
 
 def _squashed(contact: Contact, population: Particles) -> tuple[bool, ...]:

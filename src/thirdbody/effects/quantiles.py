@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["exceeded", "number_above"]
+__all__ = ["exceeded", "number_above", "number_squeezed"]
 
 LOWEST = 1e-4
 """The smallest value that is looked for, over the largest."""
@@ -84,6 +84,23 @@ def number_above(
     if top <= value:
         return np.zeros(states)
     return _above(groups, top)(np.full(states, value))
+
+
+def number_squeezed(spots: ParticleSpots, eps: float) -> Array | None:
+    r"""Whole particles per area squeezed by more than ε of their size: (N,); None where unknown.
+
+    .. math:: n = \eta_a\int\varphi_a(x)\,\Phi\!\left(\frac{(1-\varepsilon)x - \bar g}{w}\right)dx
+
+    on seats of Gaussian height, whose gaps have the mean g and the width w.
+    """
+    layout = spots.layout
+    if layout is None or layout.fragment is not None:
+        return None
+    if layout.means is None:
+        return layout.density * layout.larger(layout.gaps / (1 - eps)) if eps < 1 else None
+    low, high = layout.sizes.support
+    x = layout.scale * (np.array([high]) if low == high else _edges(layout))
+    return _on_seats(layout, x, np.multiply.outer((1 - eps) * x, np.ones(len(layout.means))))
 
 
 def _largest(groups: Sequence[tuple[ParticleSpots, Array, Array]]) -> float:
@@ -179,20 +196,24 @@ class _OnSeats:
     def __init__(self, columns: _Columns):
         layout = columns.layout
         assert layout.means is not None
-        self.means, self.width, self.density = layout.means, layout.width, layout.density
+        self.layout, self.x = layout, columns.x
         self.gap_of = [_GapOf(layout.gaps, column) for column in columns.values.T]
-        self.one = len(columns.x) == 1
-        larger = layout.larger(np.zeros(1) if self.one else columns.x)
-        self.share = larger if self.one else -np.diff(larger)
-        self.lean = np.zeros_like(self.share) if self.one else _lean(layout, columns.x)
 
     def above(self, values: Array) -> Array:
-        gaps = np.array([gap_of(values) for gap_of in self.gap_of])
-        u = np.maximum((gaps - self.means) / self.width, NEVER)
-        part = special.ndtr(u)
-        if not self.one:  # a density that rises from one end to the other weighs that end more
-            part = _mean_normal(u[:-1], u[1:]) + 0.5 * self.lean[:, None] * np.diff(part, axis=0)
-        return self.density * (self.share @ part)
+        return _on_seats(self.layout, self.x, np.array([gap_of(values) for gap_of in self.gap_of]))
+
+
+def _on_seats(layout: Layout, x: Array, gaps: Array) -> Array:
+    """Particles per area in gaps narrower than those (K, N) of each size x (K,): (N,)."""
+    one = len(x) == 1
+    larger = layout.larger(np.zeros(1) if one else x)
+    u = np.maximum((gaps - layout.means) / layout.width, NEVER)
+    part = special.ndtr(u)
+    if one:
+        return layout.density * (larger @ part)
+    # a density that rises from one end to the other weighs that end more
+    part = _mean_normal(u[:-1], u[1:]) + 0.5 * _lean(layout, x)[:, None] * np.diff(part, axis=0)
+    return layout.density * (-np.diff(larger) @ part)
 
 
 def _lean(layout: Layout, x: Array) -> Array:
