@@ -205,6 +205,7 @@ class _OnSeats:
 
 def _on_seats(layout: Layout, x: Array, gaps: Array) -> Array:
     """Particles per area in gaps narrower than those (K, N) of each size x (K,): (N,)."""
+    assert layout.means is not None
     one = len(x) == 1
     larger = layout.larger(np.zeros(1) if one else x)
     u = np.maximum((gaps - layout.means) / layout.width, NEVER)
