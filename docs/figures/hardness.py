@@ -15,15 +15,24 @@ COMPUTED = (0.5, 0.7, 1, 1.4, 2, 3, 5)
 RATIOS = np.unique(np.concatenate([np.geomspace(0.5, 5, 121), [0.9999, 1.0001], COMPUTED]))
 SQUEEZES = (0.2, 0.4, 0.6, 0.8)
 COLOURS = ("#0072B2", "#009E73", "#E69F00", "#D55E00")
+CURVES = (0.5, 1, 1.4, 2, 3, 5)
+"""Hardness ratios of the curves over the squeeze."""
+SHADES = ("#440154", "#414487", "#2a788e", "#22a884", "#7ad151", "#d4b400")
+EPSILON = np.linspace(0.02, 0.95, 187)
+NAMES = (
+    "load over $\\pi R^2 H$ of the surface",
+    "sink over squeeze",
+    "contact area over $\\pi R^2$",
+)
 
 
-def over_hardness(deep: str) -> np.ndarray:
+def values(deep: str, ratios: np.ndarray, squeezes: np.ndarray) -> np.ndarray:
     """Load over πR²H of the surface, sink over the squeeze, area over πR²: (ratios, 3, ε)."""
     law, found = tb.particle.Series(deep=deep), []
-    for ratio in RATIOS:
-        grain = STEEL.replace(H=ratio * STEEL.H)
-        spots = law.probe(np.array(SQUEEZES), surfaces=PAIR, particle=grain)
-        circle, squeeze = np.pi / 4, np.array(SQUEEZES) / 2
+    for ratio in ratios:
+        grain = STEEL.replace(H=float(ratio) * STEEL.H)
+        spots = law.probe(np.array(squeezes), surfaces=PAIR, particle=grain)
+        circle, squeeze = np.pi / 4, np.array(squeezes) / 2
         sink = spots.sinks[0][:, 0] / squeeze
         if deep == "off" and ratio < 1:
             sink = np.full_like(sink, np.nan)  # not known there
@@ -32,18 +41,11 @@ def over_hardness(deep: str) -> np.ndarray:
     return np.array(found)
 
 
-def main() -> None:
+def draw_over_hardness(panels: np.ndarray) -> None:
     """Three panels over the hardness ratio."""
-    figure = Figure(figsize=(9.6, 3.3), layout="constrained")
-    panels = figure.subplots(1, 3)
-    names = (
-        "load over $\\pi R^2 H$ of the surface",
-        "sink over squeeze",
-        "contact area over $\\pi R^2$",
-    )
     for deep, line in (("off", "--"), ("table", "-")):
-        found = over_hardness(deep)
-        for k, (axes, name) in enumerate(zip(panels, names, strict=True)):
+        found = values(deep, RATIOS, SQUEEZES)
+        for k, axes in enumerate(panels):
             for i, (squeeze, colour) in enumerate(zip(SQUEEZES, COLOURS, strict=True)):
                 label = f"ε = {squeeze:g}" if deep == "table" else None
                 width = 1.6 if deep == "table" else 0.9
@@ -51,13 +53,33 @@ def main() -> None:
                 if deep == "table":
                     at = np.isin(RATIOS, COMPUTED)
                     axes.plot(RATIOS[at], found[at, k, i], ".", color=colour, markersize=6)
-            axes.set(xscale="log", xlabel="hardness, grain over surface", ylabel=name)
+            axes.set(xscale="log", xlabel="hardness, grain over surface", ylabel=NAMES[k])
             axes.set_xticks([0.5, 1, 2, 3, 5], ["0.5", "1", "2", "3", "5"], minor=False)
             axes.minorticks_off()
             axes.axvline(1, color="0.8", lw=0.8, zorder=0)
-    panels[0].set_yscale("log")
-    panels[0].legend(frameon=False, fontsize=8)
-    panels[1].set_ylim(-0.02, 1.05)
+
+
+def draw_over_squeeze(panels: np.ndarray) -> None:
+    """Three panels over the squeeze, one curve a hardness ratio."""
+    found = values("table", CURVES, EPSILON)
+    for k, axes in enumerate(panels):
+        for row, ratio, colour in zip(found, CURVES, SHADES, strict=True):
+            axes.plot(EPSILON, row[k], color=colour, lw=1.4, label=f"ρ = {ratio:g}")
+        axes.set(xlabel="squeeze ε of each half", ylabel=NAMES[k], xlim=(0, 0.95))
+
+
+def main() -> None:
+    """Load, sink and area over the hardness ratio, and over the squeeze."""
+    figure = Figure(figsize=(9.6, 6.4), layout="constrained")
+    panels = figure.subplots(2, 3)
+    draw_over_hardness(panels[0])
+    draw_over_squeeze(panels[1])
+    for row in panels:
+        row[0].set_yscale("log")
+        row[0].legend(frameon=False, fontsize=8)
+        row[1].set_ylim(-0.02, 1.05)
+    panels[1, 0].set_ylim(3e-2, 5)
+    panels[1, 2].set_ylim(0, 4)
     path = Path(__file__).with_name("hardness.png")
     figure.savefig(path, dpi=110)
     Image.open(path).convert("RGB").quantize(128).save(path, optimize=True)

@@ -361,16 +361,17 @@ def test_what_loads_have_in_common_is_found_once(monkeypatch):
 
 
 @pytest.mark.slow
-def test_outputs_have_their_bands_at_each_of_several_loads():
+def test_outputs_have_their_bands_at_each_of_several_loads(monkeypatch):
+    monkeypatch.setattr(samples, "LEAST", 8)
     loads = 'load.pressure=["0.5 MPa", "50 MPa"]'
-    law = ['particle_law.name="series"', 'particle_law.deep="off"']
-    study = load_study(EXAMPLE, ["uncertainty.samples=64", loads, "outputs.dents={}", *law])
+    study = load_study(EXAMPLE, [loads, "outputs.dents={}"])
+    # fewer than a study may ask for: what is compared are the same samples, solved twice
+    study = replace(study, uncertainty=replace(study.uncertainty, samples=8))
     for page in assess_study(study).pages:
         found, inputs = page.propagation, study.uncertainty.inputs
-        alone = tb.propagate(study.contact, pressure=found.loads, vary=inputs, samples=64)
-        # a few of a million are embedded: as exact as percentiles are
-        for name, rel in (("n_dents_1", 1e-7), ("dent_depth_1", 1e-7), ("embedded_2", 2e-3)):
-            assert found.bands[name] == pytest.approx(alone.bands[name], rel=rel), name
+        alone = tb.propagate(study.contact, pressure=found.loads, vary=inputs, samples=8)
+        for name in ("n_dents_1", "dent_depth_1", "embedded_2"):
+            assert found.bands[name] == pytest.approx(alone.bands[name], rel=1e-7), name
             assert found.nominal[name] == alone.nominal[name]
 
 

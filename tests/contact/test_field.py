@@ -219,12 +219,42 @@ def test_what_it_does_not_know_is_refused(changes, words):
 
 
 def test_where_its_table_ends():
-    with pytest.raises(NoEquilibrium, match=r"h = 0\.2 sigma, where its table ends"):
+    with pytest.raises(NoEquilibrium, match=r"h = 0\.2 sigma, where the table of the law field"):
         solved(contact(0.5, density=0), F_star=0.3)
     with pytest.raises(InvalidValue, match="where the table of the law field ends"):
         solved(contact(density=0), d=-5 * SIGMA)
     soft = solved(contact(0.02, density=0), F_star=0.013)
     assert -1 < soft.h / SIGMA < 0
+
+
+def test_debris_that_covers_the_surface_is_solved_above_that():
+    """Soft wide grains that spread: their ground has no answer down to the end of the table."""
+    steel = tb.Material(E=100e9, nu=0.3, H=4.2e9)
+    rough = tb.Roughness(sigma=177e-9, R=8.16e-6, alpha=17.0)
+    grains = tb.Particles(
+        material=steel.replace(H=1.27e9),
+        areal_density=1.55e11,
+        diameter=tb.LogNormal(median=621e-9, gsd=1.33),
+    )
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=rough,
+        asperity_law=tb.asperity.Field(),
+        particles=grains,
+        particle_law=tb.particle.Series(friction_factor=0.05),
+    )
+    bound = interface(case)
+    ground = bound.asperities.ground
+    # short steps from nothing lead to the same ground, but for the lowest, where they creep
+    state = np.zeros((len(ground.h), 14))
+    for _ in range(400):
+        found, u = ground._round(ground.h, state)
+        state += 0.1 * (found - state)
+    np.testing.assert_allclose(u[1:], ground.u[1:], atol=1e-6)
+    low = solved(case, d=(ground.lowest + 1e-9) * rough.sigma - rough.y_s)
+    assert low.shadow < 1
+    with pytest.raises(NoEquilibrium, match="particles cover too much of the area"):
+        solved(case, pressure=1e9)
 
 
 def test_one_warning_for_crowded_contacts():

@@ -1,11 +1,16 @@
 """Particles pressed beyond the laws of one contact are told of, once, wherever states are told."""
 
+import json
+from dataclasses import replace
+from importlib import resources
+
 import numpy as np
 import pytest
 
 import thirdbody as tb
 from thirdbody.contact import pressed
 from thirdbody.contact.pressed import about_pressed
+from thirdbody.laws.particle.deep import DeepSqueeze
 
 STEEL = tb.materials["S45C"]
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
@@ -163,3 +168,22 @@ def test_angular_grains_still_end_with_the_law_of_one_contact():
     state = tb.solve(case.replace(particles=grains, surfaces=soft), d=0.1e-6)
     assert any("laws of one contact end" in text for text in state.warnings)
     assert not any("held to a computation" in text for text in state.warnings)
+
+
+def test_the_worth_of_friction_is_that_of_the_computed_loads():
+    """What is told for hard grains lies between the loads that were computed, ε from 0.15 to 0.7."""
+    table = json.loads(
+        resources.files("thirdbody").joinpath("data/deep_squeeze.json").read_text("utf-8")
+    )
+    loads = {
+        curve["m"]: np.array(curve["F"]) * (1 - np.array(curve["collar"]))
+        for curve in table["curves"]
+        if (curve["rho"], curve["E_over_Y"], curve["surfaces"]) == ("inf", "inf", 2)
+    }
+    early = slice(table["eps"].index(0.15), table["eps"].index(0.7) + 1)
+    form = DeepSqueeze(50.0, 0.2)
+    for friction in (0.2, 1.0):
+        side = replace(form, friction=friction).side(tb.asperity.Hermite(), 1e15, 1e9, 0.3, 0.5)
+        low, high = side.friction_band
+        assert low == pytest.approx(np.min((loads[0] / loads[friction])[early]) - 1, abs=0.02)
+        assert high == pytest.approx(np.max((loads[1] / loads[friction])[early]) - 1, abs=0.02)

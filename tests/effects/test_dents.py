@@ -494,3 +494,40 @@ def test_percentile_and_deepest_are_those_of_an_integral_by_hand(seat, cut):
     for value, count in ((p95, 0.05 * n), (most, math.log(2 / (1 + math.exp(-n * 1e-6))) * 1e6)):
         # the exact value lies between two that differ by 2e-6
         assert number(value * (1 - 1e-6)) >= count >= number(value * (1 + 1e-6))
+
+
+def test_the_few_embedded_are_counted_exactly():
+    """By quadrature over the sizes, and the same among other loads; a few of a million."""
+    from scipy import integrate, stats
+
+    steel = tb.materials["S45C"]
+    rough = tb.Roughness(sigma=100e-9, R=2.8e-6)
+    law = tb.particle.Series()
+    dust = tb.Particles(
+        material=steel.replace(H=1.55 * steel.H),
+        areal_density=1e11,
+        diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
+    )
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=rough,
+        particles=dust,
+        particle_law=law,
+        outputs=[tb.outputs.Dents()],
+    )
+    # the first squeeze at which a particle has sunk by half of its radius
+    eps = np.linspace(0.0, 1.9, 200_001)
+    sinks = law.probe(eps, surfaces=case.surfaces, particle=dust.material).sinks[0]
+    embeds = eps[np.argmax(np.ravel(sinks) > 0.25)]
+    together = tb.solve(case, pressure=np.array([0.5e6, 5e6, 50e6]))
+    for i, pressure in enumerate([0.5e6, 5e6, 50e6]):
+        alone = tb.solve(case, pressure=pressure)
+
+        def narrow(x, h=alone.h):
+            gap = (1 - embeds) * x
+            return dust.diameter.pdf(np.array([x]))[0] * stats.norm.cdf(gap, h, rough.sigma)
+
+        low, high = dust.diameter.support
+        wanted = 1e11 * integrate.quad(narrow, low, high, epsrel=1e-10, limit=200)[0]
+        assert alone.outputs["embedded_1"] == pytest.approx(wanted, rel=2e-4)
+        assert together.outputs["embedded_1"][i] == pytest.approx(wanted, rel=2e-4)

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -66,6 +66,8 @@ NODES = 12
 TERMS = 16
 """Of k_n over τ."""
 TINY = 1e-250
+FEWEST = 12
+"""Separations that a table must keep."""
 
 
 def heights(u: Array, zeta: Array) -> tuple[Array, Array]:
@@ -163,11 +165,13 @@ class Ground:
         Hermite moments of the particles' ground over σ.
     w : array (M,)
         Lift of the asperities' ground over σ.
+    cut : bool
+        Whether nothing was found at the lowest separations of the field, which are left out.
     """
 
     def __init__(self, field: FieldSum, seats: Sequence[Seat], apart: float, shadow: str):
         self.field, self.seats, self.shadow = field, list(seats), shadow
-        self.coverage = 0.0
+        self.coverage, self.cut = 0.0, False
         spectrum = field.surface.spectrum
         self.twice = 2 * math.sqrt(2) * spectrum.steeper
         x, transform = chebyshev_transform(TERMS)
@@ -225,10 +229,21 @@ class Ground:
         return w
 
     def _solved(self) -> tuple[Array, Array]:
-        """Iteration after Anderson, all separations at once, each until it is found."""
-        u, w = np.zeros((len(self.h), MOMENTS + 1)), np.zeros(len(self.h))
-        rest = np.arange(len(self.h))
-        state = np.zeros((len(rest), MOMENTS + 2))
+        """All separations at once; those not found so from the ones above, one by one."""
+        count = len(self.h)
+        u, w, kept = (np.zeros((count, more)) for more in (MOMENTS + 1, 1, MOMENTS + 2))
+        rest = self._iterated(np.arange(count), u, w, kept)
+        for row in rest[::-1]:
+            if row + 2 >= count:
+                return self._above(count, u, w)
+            kept[row] = 2 * kept[row + 1] - kept[row + 2]
+            if len(self._iterated(np.array([row]), u, w, kept)):
+                return self._above(row + 1, u, w)
+        return u, w[:, 0]
+
+    def _iterated(self, rest: NDArray[np.intp], u: Array, w: Array, kept: Array) -> Any:
+        """Iteration after Anderson from the states kept; fills in rows, gives those not found."""
+        state = kept[rest]
         states: list[Array] = []
         misses: list[Array] = []
         for _ in range(ROUNDS):
@@ -236,24 +251,33 @@ class Ground:
             misses = [*misses, found - state][-MEMORY:]
             states = [*states, state][-MEMORY:]
             change = np.max(np.abs(now - u[rest]), axis=1)
-            u[rest] = now
-            w[rest] = self._lift(self.h[rest], state[:, :-1])
+            u[rest], kept[rest] = now, state
+            w[rest, 0] = self._lift(self.h[rest], state[:, :-1])
             more = (change >= CLOSE) | (len(states) < 2)
             rest = rest[more]
             if not len(rest):
-                return u, w
+                break
             states = [each[more] for each in states]
             misses = [each[more] for each in misses]
             state = _accelerated(states, misses)
-        raise NoEquilibrium(
-            "no equilibrium: the ground of the particles was not found at separations from "
-            f"{self.h[rest].min():.3g} to {self.h[rest].max():.3g} sigma (law field)"
-        )
+        return rest
+
+    def _above(self, first: Any, u: Array, w: Array) -> tuple[Array, Array]:
+        """The table without separations where particles, all but grown together, find no ground."""
+        if len(self.h) - first < FEWEST:
+            raise NoEquilibrium(
+                "no equilibrium: the ground of the particles was not found at separations up to "
+                f"{self.h[first - 1]:.3g} sigma (law field)"
+            )
+        self.h, self.cut = self.h[first:], True
+        return u[first:], w[first:, 0]
 
     @property
     def lowest(self) -> float:
         """Separation over σ from which asperities on lifted ground are within their table."""
-        outside = np.flatnonzero((self.w < 0) & (self.h + self.w <= self.h[0] + 1e-9))
+        outside = np.flatnonzero(
+            (self.w < 0) & (self.h + self.w <= self.field.surface.lowest + 1e-9)
+        )
         return float(
             self.h[min(int(outside[-1]) + 1, len(self.h) - 1)] if len(outside) else self.h[0]
         )
@@ -411,6 +435,8 @@ class LiftedSum(FieldSum):
         self.__dict__.update(vars(field))
         self.plain, self.ground = field, ground
         self._ends(ground.lowest)
+        if ground.cut:
+            self.ends = "below which particles cover too much of the area for the law field"
         from scipy.interpolate import make_interp_spline
 
         lift = make_interp_spline(ground.h, ground.w, k=5)

@@ -39,6 +39,9 @@ ROUNDING = 1e-12
 class FieldSum:
     """One rough surface as a field, as a function of the separation d [m]."""
 
+    ends = "where the table of the law field ends"
+    """What `deepest` is."""
+
     def __init__(self, law: Field, rough: Roughness, surfaces: MaterialPair, datum: float):
         self.law, self.rough, self.surfaces = law, rough, surfaces
         self.sigma, self.sigma_s = rough.sigma, rough.sigma_s

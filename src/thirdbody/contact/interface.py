@@ -68,7 +68,7 @@ class Interface:
         """What the lowest separation is, in words that follow a length."""
         if self.one_field:
             h = (self.lowest + self.mean_plane) / self.contact.roughness.sigma
-            return f"h = {h:.2g} sigma, where the table of the law field ends"
+            return f"h = {h:.2g} sigma, {self.asperities.ends}"
         return f"{self.asperities.searched:g} sigma_s, where every asperity is in contact"
 
     @property

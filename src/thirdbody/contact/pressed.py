@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InvalidValue
-from ..laws.particle.deep import TABLE_BEGINS
+from ..laws.particle.deep import TABLE_BEGINS, DeepSide
 from ..laws.particle.tension import tension
 from ..numerics.roots import bracketed_root
 from ..populations.strength import WeibullStrength
@@ -144,12 +144,15 @@ def _about_squashed(contact: Contact, d: Array) -> list[str]:
 def _about_computed(contact: Contact, d: Array) -> list[str]:
     """Particles that follow the computed table, and those between collars that touch."""
     total = far = collars = 0.0
+    less, more = 0.0, 0.0
     for each, response in zip(contact.populations, interface(contact).populations, strict=True):
         if each.strength is not None or not isinstance(response, SeatedParticles):
             continue
         try:
             law = contact.law_of(each)
             follows = _follows(law, contact.surfaces, each.material)
+            for low, high in _friction_bands(law, contact.surfaces, each.material):
+                less, more = min(less, low), max(more, high)
             begin, touch = _computed_squeezes(law, contact.surfaces, each.material)
         except InvalidValue:
             continue
@@ -164,9 +167,9 @@ def _about_computed(contact: Contact, d: Array) -> list[str]:
     text = (
         f"up to {percent(min(far / total, 1.0), digits=2)} of the particles' load is on particles "
         f"squeezed by more than {TABLE_BEGINS:g} of their radius a side: their law is held to a "
-        "computation there within ±10 % (friction of the grain's faces: −16 … 0 %), to no "
-        "measurement; solve again with particle_law.friction_factor = 0.05 and 1 to see what the "
-        "friction does"
+        "computation there within ±10 % (friction of the grain's faces, smooth to rough: "
+        f"{_signed(less)} … {_signed(more)} %), to no measurement; solve again with "
+        "particle_law.friction_factor = 0.05 and 1 to see what the friction does"
     )
     if min(collars / total, 1.0) > TOLD:
         text += (
@@ -198,6 +201,21 @@ def _computed_squeezes(
         return float(squeezes[int(np.argmax(found))]) if np.any(found) else math.inf
 
     return first(begins), first(touch)
+
+
+def _signed(part: float) -> str:
+    """A part of one in whole per cent with its sign."""
+    return f"{100 * part:+.0f}".replace("-", "−").replace("+0", "0").replace("−0", "0")
+
+
+@lru_cache(maxsize=512)
+def _friction_bands(
+    law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material
+) -> list[tuple[float, float]]:
+    """What friction of its faces is worth on each side that follows the computed table."""
+    one = law.one(surfaces=surfaces, particle=particle)
+    sides = getattr(one, "sides", ())
+    return [side.friction_band for side in sides if isinstance(side, DeepSide)]
 
 
 def _follows(law: AbstractParticleLaw, surfaces: MaterialPair, particle: Material) -> bool:

@@ -119,7 +119,7 @@ class LoadScan:
         asperities = self.bound.asperities
         if self.bound.one_field:
             h = (self.bound.lowest + self.bound.mean_plane) / asperities.sigma
-            return f"h = {h:.2g} sigma, where its table ends"
+            return f"h = {h:.2g} sigma, {asperities.ends}"
         return f"{asperities.searched:g} sigma_s"
 
     # ------------------------------------------------------------------ brackets

@@ -26,6 +26,8 @@ LAW_ENDS, TABLE_BEGINS = 0.05, 0.15
 """Squeezes ε up to which the law of one contact holds, and from which the table does."""
 TABLE_ENDS = 0.95
 """Largest squeeze ε of the table."""
+TOGETHER = 0.7
+"""Squeeze ε from which collars of the surfaces may touch."""
 SPLITS = (0.45, 0.75, 0.88)
 """Squeezes at which panels end, so that series of the table resolve it."""
 TERMS = 10
@@ -341,7 +343,8 @@ class DeepSide(Side):
         self.unit = R * math.pi * self.delta_1 * H
         self.plateau = True
         self.hill = form.friction / (3 * math.sqrt(3))
-        curve = squeeze_curve(form.ratio, form.friction, E_star / H)
+        self.form, self.kappa = form, E_star / H
+        curve = squeeze_curve(form.ratio, form.friction, self.kappa)
         self._table = np.stack([curve.log_load, curve.log_area], axis=-1)
         self._sunk = curve.sinks
         self._at_top = np.exp(chebval(1.0, self._table))
@@ -357,6 +360,20 @@ class DeepSide(Side):
         self.kinks = np.unique([*turns, float(self._reduced(self.end))])
         self.cap = np.array(self._reduced(TABLE_BEGINS))
         self.limit = self.unit * self.reduced_force(self.kinks[-1:])
+
+    @property
+    def friction_band(self) -> tuple[float, float]:
+        """Least and most that its load differs, over itself, with faces from smooth to welded.
+
+        At squeezes from where the table begins to 0.7, from where collars may touch.
+        """
+        faces = np.unique([*_frictions(), self.form.friction])
+        same = np.ones(len(faces))
+        load, _ = curve_rows(self.form.ratio * same, faces, self.kappa * same)
+        eps = np.linspace(TABLE_BEGINS, TOGETHER, 12)
+        log_load = chebval(place_of(eps, LAW_ENDS, TABLE_ENDS), load.T)
+        change = np.expm1(log_load - log_load[faces == self.form.friction])
+        return float(change.min()), float(change.max())
 
     def _squeeze(self, y: Any) -> Any:
         """Squeeze ε at y = δ/δ_1."""
