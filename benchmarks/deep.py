@@ -3,6 +3,7 @@
     python benchmarks/deep.py --quick           three points again, about two minutes
     python benchmarks/deep.py --runs FOLDER     all curves, one file each; those there stay
     python benchmarks/deep.py --write FOLDER    the table from these files
+    python benchmarks/deep.py --again FOLDER    other runs beside the table, and in its errors
 
 The computation is in `benchmarks/squeeze`.
 """
@@ -328,6 +329,23 @@ def table(folder: Path) -> dict:
     }
 
 
+def with_again(data: dict, folder: Path) -> dict:
+    """The table with a second computation of its curves: beside each number, and in its error."""
+    for found in data["curves"]:
+        rho, modulus = float(found["rho"]), float(found["E_over_Y"])
+        run = read(folder, Case(rho, found["m"], modulus, both=found["surfaces"] == 2))
+        if run is None:
+            continue
+        for column, key in (("F", "load"), ("A", "area"), ("sink", "sink")):
+            second = [_short(value) for value in np.maximum(at(run["rows"], key, EPSILON), 0.0)]
+            found[f"{column}_again"] = second
+            errors = found[f"{column}_error"]
+            for i, (one, two) in enumerate(zip(found[column], second, strict=True)):
+                if one is not None and two is not None:
+                    errors[i] = max(errors[i], _short(abs(two - one)) or 0.0)
+    return data
+
+
 def quick() -> int:
     """Three points again; 1 where one is outside 5 %."""
     stored = json.loads(TABLE.read_text("utf-8"))
@@ -357,6 +375,7 @@ def main() -> int:
     words.add_argument("--part", default="0/1", help="k/n: every n-th curve from the k-th")
     words.add_argument("--elastic", action="store_true")
     words.add_argument("--write", type=Path)
+    words.add_argument("--again", type=Path)
     options = words.parse_args()
     if options.runs:
         options.runs.mkdir(parents=True, exist_ok=True)
@@ -369,6 +388,9 @@ def main() -> int:
                 print(name(case), found["cpu_seconds"], found["ended"] or "", flush=True)
     if options.write:
         TABLE.write_text(json.dumps(table(options.write), indent=1) + "\n", "utf-8")
+    if options.again:
+        data = with_again(json.loads(TABLE.read_text("utf-8")), options.again)
+        TABLE.write_text(json.dumps(data, indent=1) + "\n", "utf-8")
     return quick() if options.quick else 0
 
 

@@ -133,6 +133,24 @@ def test_loads_are_those_of_an_independent_computation(table):
             assert curve["F"][table["eps"].index(epsilon)] == pytest.approx(load, rel=0.06)
 
 
+def test_a_second_run_lies_within_the_errors(table):
+    """Every rigid-plastic curve was computed again by the script as it ships."""
+    compared, loads = 0, []
+    for curve in table["curves"]:
+        if curve["E_over_Y"] != "inf":
+            continue
+        for name in ("F", "A", "sink"):
+            first, second, error = columns(curve, name, f"{name}_again", f"{name}_error")
+            both = ~np.isnan(first) & ~np.isnan(second)
+            off = np.abs(second - first)[both]
+            assert np.all(off <= error[both] + 1e-9), (curve["rho"], curve["m"], name)
+            if name == "F":
+                loads.extend(off / first[both])
+        compared += 1
+    assert compared == 28
+    assert np.quantile(loads, 0.95) < 0.007  # as the note of the table says
+
+
 def test_the_table_is_of_the_computation_that_ships(table, monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
     assert importlib.import_module("deep").source_hash() == table["provenance"]["sha256"]

@@ -92,7 +92,7 @@ def draw_map():
     ax = figure.subplots()
     for i, name in enumerate(NAMES):
         grain = tb.materials[name]
-        hardness = np.geomspace(0.5e9, min(grain.H, 12e9), 25)
+        hardness = np.geomspace(0.5e9, min(grain.H, 12e9), 121)
         breakage = Breakage.of(tb.WeibullStrength.of(grain), grain, 1.0)
         sizes = []
         for H in hardness:
@@ -108,7 +108,7 @@ def draw_map():
     ax.text(7.2, 0.12, "60 HRC", rotation=90, ha="right", va="bottom", color="0.5")
     ax.set(xlabel="hardness of the surfaces [GPa]", ylabel="size $x^*$ of the grain [µm]")
     ax.set(ylim=(0.1, 5e3))
-    ax.text(0.55, 0.15, "below its line a grain sinks in whole")
+    ax.text(0.55, 0.15, "below its line a grain stays whole")
     ax.text(11.5, 3.0e3, "above, it breaks", ha="right")
     figure.legend(fontsize="small", loc="outside right center")
     figure.savefig(Path(__file__).with_name("grain_map.png"), dpi=110)

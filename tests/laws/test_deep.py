@@ -185,6 +185,25 @@ def test_no_hardness_is_a_cliff():
         assert np.max(change) < 0.12, ratio
 
 
+def test_nothing_steps_over_hardness_stiffness_and_squeeze():
+    """A step would stay as large however near two hardness ratios, or two squeezes, are."""
+    eps = np.linspace(0.02, 0.95, 400)
+    ratios = [0.4, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 5.0, *np.exp(RNG.uniform(-1.2, 1.8, 40))]
+
+    def columns(ratio, kappa, m, eps):
+        modulus = 2 * kappa * H * min(1, ratio) * (1 - NU**2)
+        surface = tb.Material(E=modulus, nu=NU, H=H)
+        law, pair = Series(friction_factor=m), tb.MaterialPair(surface, surface)
+        spots = law.probe(eps, surfaces=pair, particle=surface.replace(H=ratio * H))
+        return np.stack([spots.load[:, 0] / H, spots.areas[0][:, 0], 0.01 + spots.sinks[0][:, 0]])
+
+    for ratio in ratios:
+        kappa, m = math.exp(RNG.uniform(math.log(8), math.log(1000))), RNG.uniform(0.02, 1.0)
+        for e in (eps, eps * (1 + 1e-8)):
+            change = columns(ratio * (1 + 1e-8), kappa, m, e) / columns(ratio, kappa, m, eps)
+            assert np.max(np.abs(np.log(change))) < 1e-5, (ratio, kappa, m)
+
+
 def test_sums_over_squeezes_meet_every_kink():
     """Between kinks load and areas are smooth: 40 terms leave nothing."""
     from thirdbody.numerics.chebyshev import chebyshev_transform
