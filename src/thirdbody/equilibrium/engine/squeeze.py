@@ -8,13 +8,25 @@ from ..compiled.machine import apart
 from .fields import CEB, CODE, COUNT, EQUAL, JG, JUMPS, KINKS, LIMIT, MOST_JUMPS
 from .sides import prepare, regime_of, scalar, side_at
 
-__all__ = ["EDGE", "MOST_PANELS", "PANEL", "REGIME", "TERMS", "lay_panels", "particle_at"]
+__all__ = [
+    "EDGE",
+    "MOST_PANELS",
+    "PANEL",
+    "PULLED",
+    "REGIME",
+    "TENSION",
+    "TERMS",
+    "lay_panels",
+    "particle_at",
+]
 
 MOST_PANELS, TERMS = 160, 12
 EDGE, TO, REGIME, HELD, FROM, UNTIL, SHARE = range(7)
 """Of a panel: its ends in ε, the regime of side 1, the indentation at which a jump of its load
 holds side 1 (side 2 if negative, none if 0); ends and coefficients of the share of side 1."""
-PANEL = SHARE + TERMS
+PULLED, TENSION = SHARE + TERMS, SHARE + TERMS + 1
+"""Tension [Pa] that holds on a panel on which less is met, or 0; series of its logarithm."""
+PANEL = TENSION + TERMS
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
 CLOSE, BALANCED, RESOLVED = 1e-12, 1e-13, 1e-6
