@@ -9,7 +9,7 @@ from numba import njit
 
 from ..compiled.cached import Cached
 from ..compiled.machine import apart
-from .breakage import lay_tension
+from .breakage import lay_tension, lay_whole
 from .fields import (
     A_E,
     A_SA,
@@ -66,7 +66,6 @@ from .sums import (
     lay_nodes,
     lay_sizes,
     lay_skin,
-    lay_whole,
     shade,
 )  # fmt: skip
 
@@ -91,7 +90,7 @@ BALANCED, ULPS = 9e-13, 4e-16
 """ln of load over target of a solved state, unless so much of the separation explains it."""
 STEPS, RESOLVED = 2000, 1e-3
 """Coming down to a load, and the step [σ_s] from which on it need not be proven."""
-BETWEEN, FALLEN = 0.2, 1e-3
+BETWEEN, FALLEN = 0.4, 0.03
 """Steps over seats [widths] at which loads of particles that break are looked at, and how far they
 must have fallen."""
 RISE = 1e-6
@@ -516,7 +515,7 @@ def solve_own(skins, parts, bodies, rules, inside, target, h, count, fate, error
         sides,
         np.empty((most, MOST_PANELS, PANEL)),
         np.empty((7, MOST_NODES)),
-        np.empty((3, MOST_SIZES)),
+        np.empty((5, MOST_SIZES)),
         np.empty(MOST_WHOLE if inside[0, 0] > 0 else 1),
         inside,
     )

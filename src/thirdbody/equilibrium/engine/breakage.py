@@ -30,20 +30,23 @@ from .squeeze import (
     MOST_PANELS,
     PANEL,
     PULLED,
+    RATE,
+    START,
     TENSION,
     TERMS,
     TO,
     particle_at,
 )
 
-__all__ = ["lay_tension", "mark_sizes", "whole"]
+__all__ = ["lay_tension", "lay_whole", "mark_sizes"]
 
 SMALL, CONFINED, BENDS, PIECES = range(4)
 """First row of what is known of G: tension of small caps, whether surfaces confine the particle,
 numbers of bends and of pieces of its series; the bends are the next row."""
 FIRST_PIECE, BEGIN, END, COEFFICIENTS = 2, 0, 1, 2
 K_FACTOR = 4
-SAMPLES, SEARCHED, RESOLVED = 24, 60, 1e-9
+MET = 6
+SAMPLES, CLOSER, SEARCHED, RESOLVED = 32, 14, 60, 1e-10
 STEEP = 6.0
 GENERATIONS = 40
 NEGLIGIBLE = 1e-15
@@ -160,8 +163,10 @@ def _find_held(given, sides, panels, p, count, inside):
         held = begin < most * (1 - 1e-12)
         panels[p, n, PULLED] = most if held else 0.0
         before, last, best = a, a, begin
-        for j in range(SAMPLES):
-            u = (j + 0.5) / SAMPLES if j < SAMPLES - 1 else 1.0
+        for j in range(SAMPLES + CLOSER + 1):
+            u = (j + 0.5) / SAMPLES
+            if j >= SAMPLES:  # before a kink it may fall a little
+                u = 1.0 if j == SAMPLES + CLOSER else 1 - 0.25 / SAMPLES * 0.5 ** (j - SAMPLES)
             eps = a + (b - a) * (u * u if a == 0 else u)
             value = tension_now(given, sides, panels, p, n, eps, inside)
             if held and value > most:
@@ -211,16 +216,14 @@ def _fill_tension(given, sides, panels, p, n, rule, inside):
 @scalar
 def met_on(panels, p, n, eps):
     """ln σ̂ at ε on panel n."""
-    held = panels[p, n, PULLED]
-    if held > 0:
-        return math.log(held)
-    first, last = panels[p, n, EDGE], panels[p, n, TO]
+    apart()
+    if panels[p, n, PULLED] > 0:
+        return panels[p, n, TENSION]
     log_eps = math.log(eps)
-    if first == 0:
-        x = 2 * math.sqrt(eps / last) - 1
+    if panels[p, n, EDGE] == 0:
+        x = 2 * math.sqrt(eps / panels[p, n, TO]) - 1
     else:
-        low = math.log(first)
-        x = 2 * (log_eps - low) / (math.log(last) - low) - 1
+        x = panels[p, n, RATE] * log_eps + panels[p, n, START]
     b, c = 0.0, 0.0
     for k in range(TERMS - 1, 0, -1):
         b, c = panels[p, n, TENSION + k] + 2 * x * b - c, b
@@ -231,9 +234,9 @@ def met_on(panels, p, n, eps):
 def met(panels, p, count, eps):
     """ln σ̂ of a particle squeezed by ε > 0; constant behind the last panel."""
     apart()
-    if eps >= panels[p, count - 1, TO]:
-        return met_on(panels, p, count - 1, panels[p, count - 1, TO])
     low, high = 0, count - 1
+    if eps >= panels[p, high, TO]:
+        eps, low = panels[p, high, TO], high
     while low < high:
         middle = (low + high) // 2
         if panels[p, middle, TO] < eps:
@@ -244,34 +247,69 @@ def met(panels, p, count, eps):
 
 
 @scalar
+def survived(power):
+    """exp(−exp(power))."""
+    if power < -40:
+        return 1.0
+    return math.exp(-math.exp(power)) if power < 6.7 else 0.0
+
+
+@scalar
 def survival(given, p, x, log_met):
     """P_s of particles of size x that have met a tension."""
     apart()
     if x <= given[p, UNBROKEN]:
         return 1.0
-    power = given[p, MODULUS] * (log_met - given[p, LN_STRENGTH] + given[p, EXPONENT] * math.log(x))
-    return math.exp(-math.exp(min(power, 7.0)))
+    return survived(
+        given[p, MODULUS] * (log_met - given[p, LN_STRENGTH] + given[p, EXPONENT] * math.log(x))
+    )
 
 
 @scalar
-def whole(given, panels, p, count, x, eps):
-    """Density of whole particles and pieces of size x squeezed by ε."""
+def lay_whole(given, panels, p, count, squeezes, begin, end, sizes, first, last, shares, place):
+    """Densities of whole particles at the nodes of ε and sizes; where they end, or −1.
+
+    Those of every size at the nodes, then those squeezed beyond the last panel. What a size and
+    its parents have in common at all nodes is made once, on the rows of ``sizes`` behind the two.
+    """
     apart()
-    gap, high, low, ratio = x * (1 - eps), given[p, HIGH], given[p, LOW], given[p, RATIO]
-    k = 0
-    if given[p, KEPT] > 0:
-        k = max(0, math.floor(math.log(x / high) / math.log(ratio) + 1e-12))
-    gain = given[p, KEPT] * ratio**-4
-    number, broken = 0.0, 0.0
-    while k >= 0:
-        y = x * ratio**-k
-        number *= gain * broken
-        if low <= y <= high:
-            number += density(given, p, y)
-        alive = survival(given, p, y, met(panels, p, count, 1 - gap / y))
-        broken = 1 - alive
-        k -= 1
-    return number * alive
+    if place + (last - first) * (end - begin + 1) > len(shares):
+        return -1
+    tail = place + (last - first) * (end - begin)
+    high, low, ratio, m = given[p, HIGH], given[p, LOW], given[p, RATIO], given[p, MODULUS]
+    gain, shrink, edge = given[p, KEPT] * ratio**-4, math.log(ratio), panels[p, count - 1, TO]
+    for i in range(begin, end):
+        squeezes[MET, i] = m * met(panels, p, count, squeezes[0, i])
+    final = m * met(panels, p, count, edge)
+    for j in range(first, last):
+        x, parents = sizes[0, j], 0
+        if given[p, KEPT] > 0:
+            parents = max(0, math.floor(math.log(x / high) / shrink + 1e-12))
+        y = x
+        for k in range(parents + 1):
+            sizes[2, k] = x / y
+            sizes[3, k] = density(given, p, y) if low <= y <= high else 0.0
+            sizes[4, k] = m * (given[p, EXPONENT] * math.log(y) - given[p, LN_STRENGTH])
+            if y <= given[p, UNBROKEN]:
+                sizes[4, k] = -math.inf
+            y /= ratio
+        for i in range(begin, end + 1):
+            left = 1 - squeezes[0, i] if i < end else 1 - edge
+            number = broken = 0.0
+            for k in range(parents, 0, -1):
+                number = gain * broken * number + sizes[3, k]
+                broken = 0.0
+                if number > 0 and sizes[4, k] > -math.inf:
+                    stress = m * met(panels, p, count, 1 - left * sizes[2, k])
+                    broken = 1 - survived(stress + sizes[4, k])
+            number = gain * broken * number + sizes[3, 0]
+            if i < end:
+                shares[place] = number * survived(squeezes[MET, i] + sizes[4, 0])
+                place += 1
+            else:
+                shares[tail] = number * survived(final + sizes[4, 0])
+                tail += 1
+    return tail
 
 
 @scalar
@@ -283,16 +321,15 @@ def lay_tension(given, sides, panels, p, count, rule, inside):
         return -1
     count = _cut_at_bends(given, sides, panels, p, count, inside)
     count = _find_held(given, sides, panels, p, count, inside)
-    # where parents of what is squeezed so reach a kink of theirs
-    known, ratio = count, given[p, RATIO]
-    if given[p, KEPT] > 0:
-        for n in range(known):
-            left = 1 - panels[p, known - 1 - n, TO]
-            while left < ratio * (1 - 1e-12) and left > 0:
-                left /= ratio
-                count = _cut(panels, p, count, 1 - left)
-            if count >= MOST_PANELS - 3:
-                return -1
+    # where parents of what is squeezed so reach a kink of theirs, and their parents
+    ratio, n = given[p, RATIO], count - 1
+    while given[p, KEPT] > 0 and n >= 0:
+        left, before = (1 - panels[p, n, TO]) / ratio, count
+        if left < 1 - 1e-12:
+            count = _cut(panels, p, count, 1 - left)
+        if count >= MOST_PANELS - 3:
+            return -1
+        n += count - before - 1
     step = 2 ** min(1.0, STEEP / given[p, MODULUS])
     n = int(panels[p, 0, EDGE])  # 0, and no constant
     while n < count:
@@ -307,6 +344,13 @@ def lay_tension(given, sides, panels, p, count, rule, inside):
             count = _cut(panels, p, count, math.sqrt(a * b) if a > 0 else 0.25 * b)
             continue
         n += 1
+    for n in range(count):
+        if panels[p, n, PULLED] > 0:
+            panels[p, n, TENSION] = math.log(panels[p, n, PULLED])
+        elif panels[p, n, EDGE] > 0:
+            low = math.log(panels[p, n, EDGE])
+            panels[p, n, RATE] = 2 / (math.log(panels[p, n, TO]) - low)
+            panels[p, n, START] = -panels[p, n, RATE] * low - 1
     _find_least(given, panels, p, count)
     return count
 

@@ -13,7 +13,9 @@ __all__ = [
     "MOST_PANELS",
     "PANEL",
     "PULLED",
+    "RATE",
     "REGIME",
+    "START",
     "TENSION",
     "TERMS",
     "lay_panels",
@@ -24,8 +26,9 @@ MOST_PANELS, TERMS = 160, 12
 EDGE, TO, REGIME, HELD, FROM, UNTIL, SHARE = range(7)
 """Of a panel: its ends in ε, the regime of side 1, the indentation at which a jump of its load
 holds side 1 (side 2 if negative, none if 0); ends and coefficients of the share of side 1."""
-PULLED, TENSION = SHARE + TERMS, SHARE + TERMS + 1
-"""Tension [Pa] that holds on a panel on which less is met, or 0; series of its logarithm."""
+PULLED, RATE, START, TENSION = range(SHARE + TERMS, SHARE + TERMS + 4)
+"""Tension [Pa] that holds on a panel on which less is met, or 0; place on the panel, as a rate of
+ln ε and where it starts; series of the logarithm of the tension."""
 PANEL = TENSION + TERMS
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""

@@ -7,7 +7,7 @@ import math
 from numba import njit
 
 from ..compiled.machine import apart, exp, normal_cdf
-from .breakage import mark_sizes, whole
+from .breakage import mark_sizes
 from .densities import density, scale_of
 from .fields import (
     A_E,
@@ -71,7 +71,6 @@ __all__ = [
     "lay_nodes",
     "lay_sizes",
     "lay_skin",
-    "lay_whole",
 ]
 
 MOST_NODES, MOST_SIZES, MOST_HEIGHTS = 16_384, 2048, 1536
@@ -227,27 +226,6 @@ def _lay_pieces(given, p, sizes, count, gauss, weights, nodes, span, low, high):
             sizes[1, count] = half * weights[j]
             count += 1
     return count
-
-
-@scalar
-def lay_whole(given, panels, p, count, grid, begin, end, sizes, first, last, shares, place):
-    """Densities of whole particles at the nodes of ε and sizes; where they end, or −1.
-
-    Those of every size at the nodes, then those squeezed beyond the last panel.
-    """
-    apart()
-    if place + (last - first) * (end - begin + 1) > len(shares):
-        return -1
-    edge = panels[p, count - 1, TO]
-    for j in range(first, last):
-        x = sizes[0, j]
-        for i in range(begin, end):
-            shares[place] = whole(given, panels, p, count, x, grid[EPS, i])
-            place += 1
-    for j in range(first, last):
-        shares[place] = whole(given, panels, p, count, sizes[0, j], edge)
-        place += 1
-    return place
 
 
 @scalar
