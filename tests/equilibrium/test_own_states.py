@@ -175,6 +175,61 @@ def test_angular_particles_hold_to_the_slow_path(shape, law, seat, body, unlike)
     assert max(largest_error(got, want, known).values()) <= BOUND
 
 
+STRENGTH = tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
+BREAKING = {
+    "plain": ("hermite", {}, {}),
+    "gone": ("deep", {"fragments": "gone"}, {}),
+    "finer": ("projected", {"fragments": "all", "ratio": 0.6}, {}),
+    "brittle": ("deep", {"m": 8.0, "sigma_0": 40e6}, {}),
+    "not confined": ("deep", {"confinement": "none"}, {}),
+    "small ones too": ("hermite", {"x_c": 0.0, "size_exponent": 0.8}, {}),
+    "wide": ("hermite", {}, {"diameter": tb.LogNormal(median=2.5e-7, gsd=1.3)}),
+    "grit": ("hermite", {}, {"shape": GRIT["faces"]}),
+}
+
+
+def hold_breaking(kind, count, unlike, seed):
+    law, strength, own = BREAKING[kind]
+    case = contact(law)
+    case = case.replace(
+        particles=case.particles.replace(strength=STRENGTH.replace(**strength), **own)
+    )
+    vary, loads = drawn(case.replace(particles=contact().particles), count, seed, unlike)
+    del vary["particles.material.nu"]
+    if "diameter" in own:
+        vary = {name: values for name, values in vary.items() if "diameter" not in name}
+    sigma_0 = case.particles.strength.sigma_0
+    vary["particles.strength.sigma_0"] = sigma_0 * np.linspace(0.6, 1.7, count)
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    sure = (got["doubt"] == "") & (got["status"] == 0)
+    assert sure.mean() > 0.8
+    assert max(largest_error(got, want, sure).values()) <= BOUND
+    assert np.all(got["error"][sure] <= 1e-10)
+
+
+@pytest.mark.parametrize(
+    ("kind", "unlike"), [("plain", True), ("gone", False), ("not confined", False)]
+)
+def test_particles_that_break_hold_to_the_slow_path(kind, unlike):
+    hold_breaking(kind, 2, unlike, 7)
+
+
+@pytest.mark.check
+@pytest.mark.parametrize("unlike", [False, True])
+@pytest.mark.parametrize("kind", BREAKING)
+def test_many_random_states_that_break(kind, unlike):
+    hold_breaking(kind, 8, unlike, 9)
+
+
+def test_breaking_that_was_not_shown_is_for_the_numpy_engine():
+    case = contact("hermite", "plane")
+    vary = {"surfaces.first.H": STEEL.H * np.ones(4)}
+    for every in (case, contact(sizes="one size")):
+        strong = every.replace(particles=every.particles.replace(strength=STRENGTH))
+        with pytest.raises(NotCompiled, match="break"):
+            own_columns(strong, vary, "F_star", np.full(4, 1e-6))
+
+
 CLASSES = {
     "bins": tb.Histogram(edges=(0.0, 3e-7, 5e-7, 8e-7), counts=(410, 0, 90)),
     "powers": PowerLaw(edges=(1e-7, 2e-7, 4e-7, 14e-7), counts=(9, 3, 1), slopes=(3.4, 2.0, -1)),

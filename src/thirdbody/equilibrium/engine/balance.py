@@ -9,11 +9,13 @@ from numba import njit
 
 from ..compiled.cached import Cached
 from ..compiled.machine import apart
+from .breakage import lay_tension, lay_whole
 from .fields import (
     A_E,
     A_SA,
     BEYOND,
     BREADTH,
+    BREAKS,
     CODE,
     COVERAGE,
     F_SA,
@@ -26,6 +28,7 @@ from .fields import (
     NOT_RESOLVED,
     OFFSET,
     OK,
+    PLANE,
     PRINTED,
     PROJECTED,
     ROUGH,
@@ -71,22 +74,27 @@ __all__ = ["LEVELS", "solve_own"]
 LOWEST, HIGHEST = -3.0, 37.0
 """Separations searched [σ_s]; particles may reach higher."""
 COARSE, FINE, LEVELS = 0, 1, 2
-NOTHING = -1
 """Few nodes, to search with; all; and how often both are made finer. They are handed on as `few`
 and `every`, numbers and no constants, for which numba would compile what takes them twice."""
-COUNT, GRID, GRID_END, SIZED, SIZED_END = range(5)
-"""What is laid of a part, a level: its panels; where nodes and sizes begin and end. The row after
-the last part is of the asperities."""
+NOTHING = -1
+"""In place of a level: nothing is laid."""
+COUNT, GRID, GRID_END, SIZED, SIZED_END, WHOLE, WHOLE_END = range(7)
+"""What is laid of a part, a level: its panels; where nodes, sizes and what is whole begin and end.
+The row after the last part is of the asperities."""
 ASKED = 1e-10
 """Error of loads, areas and the separation over σ that is asked for."""
 SAFE = 10.0
 """The error of a rule of twice the nodes is this many squares of its difference to the other."""
+MOST_WHOLE = 1_500_000
 SEARCHED, POLISHED = 80, 14
-"""Evaluations at most, by few nodes and by all."""
+"""Densities of what is whole that there is room for; evaluations at most, by few nodes and all."""
 BALANCED, ULPS = 9e-13, 4e-16
 """ln of load over target of a solved state, unless so much of the separation explains it."""
 STEPS, RESOLVED = 2000, 1e-3
 """Coming down to a load, and the step [σ_s] from which on it need not be proven."""
+BETWEEN, FALLEN = 0.4, 0.03
+"""Steps over seats [widths] at which loads of particles that break are looked at, and how far they
+must have fallen."""
 RISE = 1e-6
 """Rise of the load with the separation that does not count."""
 
@@ -95,7 +103,7 @@ RISE = 1e-6
 def total(given, skin, work, laid, rules, level, h, out):
     """Columns at h [σ_s] by the nodes of a level; the load, or NaN where formulas do not reach."""
     apart()
-    heights, sides, panels, grid, sizes = work
+    heights, sides, panels, grid, sizes, shares, _ = work
     for k in range(10):
         out[k] = 0.0
     last = len(given)
@@ -113,8 +121,8 @@ def total(given, skin, work, laid, rules, level, h, out):
             continue
         good &= add_part(
             given, sides, panels, p, own[COUNT], grid, own[GRID], own[GRID_END],
-            sizes, own[SIZED], own[SIZED_END], d, rules[level, RULE], rules[level, RULE + 1],
-            nodes, span, out,
+            sizes, own[SIZED], own[SIZED_END], shares, own[WHOLE], d,
+            rules[level, RULE], rules[level, RULE + 1], nodes, span, out,
         )  # fmt: skip
     if not good:
         return math.nan
@@ -125,14 +133,15 @@ def total(given, skin, work, laid, rules, level, h, out):
 def lay(given, skin, work, laid, rules, level):
     """Lay the nodes of one level behind those of the one before; False if there is no room."""
     apart()
-    heights, sides, panels, grid, sizes = work
+    heights, sides, panels, grid, sizes, shares, _ = work
     nodes, span = int(rules[level, 0, NODES]), rules[level, 0, SPAN]
     gauss, weights = rules[level, RULE], rules[level, RULE + 1]
     last, good = len(given), True
-    place = size = begin = 0
+    place = size = begin = kept = 0
     if level == FINE:
         begin = laid[last, COARSE, GRID_END]
         if last > 0:
+            kept = laid[last - 1, COARSE, WHOLE_END]
             place, size = laid[last - 1, COARSE, GRID_END], laid[last - 1, COARSE, SIZED_END]
     laid[last, level, GRID] = begin
     begin = laid[last, level, GRID_END] = lay_skin(
@@ -143,7 +152,7 @@ def lay(given, skin, work, laid, rules, level):
     for p in range(last):
         own = laid[p, level]
         own[COUNT] = laid[p, COARSE, COUNT]
-        own[GRID], own[SIZED] = place, size
+        own[GRID], own[SIZED], own[WHOLE] = place, size, kept
         if given[p, SEAT] == ROUGH and good:
             size = lay_sizes(
                 given, p, sizes, size, rules[level, SIZE_RULE], rules[level, SIZE_RULE + 1],
@@ -153,7 +162,13 @@ def lay(given, skin, work, laid, rules, level):
                 given, sides, panels, p, own[COUNT], grid, place, gauss, weights, nodes, span
             )
             good &= size >= 0 and place >= 0
-        own[GRID_END], own[SIZED_END] = place, size
+            if good and given[p, BREAKS] == 1:
+                kept = lay_whole(
+                    given, panels, p, own[COUNT], grid, own[GRID], place, sizes, own[SIZED], size,
+                    shares, kept,
+                )  # fmt: skip
+                good &= kept >= 0
+        own[GRID_END], own[SIZED_END], own[WHOLE_END] = place, size, kept
     return good
 
 
@@ -314,6 +329,38 @@ def _falls(given, skin, work, laid, bound, h):
 
 
 @scalar
+def _breaks_up(given):
+    """Whether particles break: the load may then rise with the separation."""
+    for p in range(len(given)):  # noqa: SIM110
+        if given[p, BREAKS] == 1:
+            return True
+    return False
+
+
+@scalar
+def _stays_below(given, skin, work, laid, rules, target, h, out):
+    """Whether the load is below the target at separations above h, a fraction of a seat apart."""
+    apart()
+    few, sigma_s, step = laid.shape[1] - 2, skin[0, SIGMA_S], BETWEEN
+    for p in range(len(given)):
+        if given[p, SEAT] == PLANE:
+            return False
+        if given[p, SEAT] == ROUGH:
+            step = min(step, BETWEEN * given[p, WIDTH] / sigma_s)
+    top = top_of(given, skin)
+    for p in range(len(given)):
+        top = min(top, (given[p, HIGH] - given[p, OFFSET] + 9.5 * given[p, WIDTH]) / sigma_s)
+    x = h
+    for _ in range(STEPS):
+        x += step
+        if x >= top:
+            return True
+        if not total(given, skin, work, laid, rules, few, x, out) < target * (1 - FALLEN):
+            return False
+    return False
+
+
+@scalar
 def _come_down(given, skin, work, laid, rules, target, out):
     """First separation from above at which printed sums carry the target, and a slope of ln F.
 
@@ -395,11 +442,14 @@ def _root(given, skin, work, laid, rules, target, row, out):
     h, slope, count = search(given, skin, work, laid, rules, target, out)
     if h == -math.inf:
         total(given, skin, work, laid, rules, every, LOWEST, row)
-        if _falls(given, skin, work, laid, row[F_SS], LOWEST):
+        if not _breaks_up(given) and _falls(given, skin, work, laid, row[F_SS], LOWEST):
             return h, slope, count, TOO_MUCH
     else:
         h, slope, n = polish(given, skin, work, laid, rules, target, h, slope, row)
         count += n
+        if math.isfinite(h) and _breaks_up(given):
+            good = _stays_below(given, skin, work, laid, rules, target, h, out)
+            return h, slope, count, OK if good else NOT_MONOTONE
         if math.isfinite(h) and _falls(given, skin, work, laid, row[F_SS], h):
             return h, slope, count, OK
     first, slope = _come_down(given, skin, work, laid, rules, target, out)
@@ -425,6 +475,9 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
             if given[p, SEAT] == PRINTED:
                 continue
             count = lay_panels(given, work[1], work[2], p, rules[0, SERIES:])
+            if count > 0 and given[p, BREAKS] == 1:
+                series = rules[0, SERIES:]
+                count = lay_tension(given, work[1], work[2], p, count, series, work[6])
             laid[p, COARSE, COUNT] = count
             if count < 0:
                 return h, 0, TOO_LONG, math.inf
@@ -467,11 +520,12 @@ def _alike(numbers, others):
 
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
-def solve_own(skins, parts, bodies, rules, target, h, count, fate, error, rows):
+def solve_own(skins, parts, bodies, rules, inside, target, h, count, fate, error, rows):
     """Solve states by their own numbers: skins (N, ...), parts (N, P, ...), bodies (N, 2P, ...).
 
-    For the loads target [Pa], or where they are zero at the separations ``h`` [σ_s]. Fills ``h``,
-    the evaluations ``count``, ``fate``, the estimated ``error`` and the columns ``rows`` (N, 10).
+    ``inside`` says what particles that break have inside. For the loads target [Pa], or where
+    they are zero at the separations ``h`` [σ_s]. Fills ``h``, the evaluations ``count``, ``fate``,
+    the estimated ``error`` and the columns ``rows`` (N, 10).
     """
     most = parts.shape[1]
     sides = np.zeros((2 * most, SIDE))
@@ -480,9 +534,11 @@ def solve_own(skins, parts, bodies, rules, target, h, count, fate, error, rows):
         sides,
         np.empty((most, MOST_PANELS, PANEL)),
         np.empty((7, MOST_NODES)),
-        np.empty((2, MOST_SIZES)),
+        np.empty((5, MOST_SIZES)),
+        np.empty(MOST_WHOLE if inside[0, 0] > 0 else 1),
+        inside,
     )
-    laid = np.zeros((most + 1, 2, 5), np.int64)
+    laid = np.zeros((most + 1, 2, 7), np.int64)
     ready = np.full(1, NOTHING)
     out = np.empty(10)
     for i in range(len(target)):

@@ -17,6 +17,7 @@ from ...errors import NotCompiled
 from ...laws import asperity, particle
 from ...laws.asperity.elliptic import elliptic_hertz
 from ...laws.particle.deep import curve_rows
+from ...laws.particle.tension import _bends, _equator
 from ...numerics.quadrature import gauss_legendre
 from ...populations import distributions as sizes
 from ...populations.heights import COMPLETE, ExponentialHeights, GaussianHeights, WeibullHeights
@@ -129,6 +130,19 @@ def _heights(heights: Any) -> dict[int, Any]:
     raise NotCompiled("heights of a kind that the kernel does not know")
 
 
+@lru_cache(maxsize=32)
+def inside_of(nu: float, confines: bool) -> Array:
+    """What the kernel knows of G, the tension inside a sphere between two caps."""
+    table, bends = _equator(nu), _bends(nu)
+    out = np.zeros((2 + len(table.half), 2 + table.coefficients.shape[1]))
+    K = (7 + 2 * nu) / (7 + 5 * nu)
+    out[0, :5] = 4 / math.pi * (1.25 * K - 0.5), confines, len(bends) * confines, len(table.half), K
+    out[1, : len(bends)] = bends
+    out[2:, 0], out[2:, 1] = table.edges[:-1], table.edges[1:]
+    out[2:, 2:] = table.coefficients[:, :, 0]
+    return out
+
+
 def _softer(first: Any, second: Any) -> tuple[Any, Any]:
     """Hardness and Poisson ratio of the softer of two bodies."""
     takes = first.H <= second.H
@@ -195,6 +209,8 @@ class Numbers:
         self._add_asperities()
         bare = contact.two_body and "particles.areal_density" not in arrays
         found = [] if bare else self._populations()
+        self.inside = np.zeros((1, 1))
+        """What particles that break have inside, if any do."""
         self.centre = 0.0
         """Mean asperity height over the datum of d [m]."""
         if found:
@@ -254,8 +270,6 @@ class Numbers:
             return
         if type(law) not in (particle.Series, particle.Flakes) or law.onset != "hermite":
             raise NotCompiled("particles that are not Series")
-        if one.strength is not None:
-            raise NotCompiled("particles that break")
         grit = None if isinstance(one.shape, Sphere) else changed.shape
         if grit is not None and type(law) is not particle.Series:
             raise NotCompiled("angular flakes")
@@ -272,6 +286,8 @@ class Numbers:
             },
         )
         second = self._add_sizes(rows, *section)
+        if one.strength is not None:
+            self._add_strength(rows, one.strength, changed, section[0], law.seat)
         rows[:, f.COVERAGE] = math.pi / 4 * rows[:, f.BREADTH] * rows[:, f.DENSITY] * second
         if np.any(rows[:, f.COVERAGE] >= 1):
             raise NotCompiled("some particles are jammed")  # said better, one contact at a time
@@ -282,6 +298,29 @@ class Numbers:
         (E, H), (E_2, H_2) = sides
         rows[:, f.STIFFEST], rows[:, f.SOFTEST] = np.minimum(E, E_2), np.minimum(H, H_2)
         rows[:, f.EQUAL] = np.all(self.bodies[:, 2 * p] == self.bodies[:, 2 * p + 1], axis=1)
+
+    def _add_strength(self, rows: Array, one: Any, changed: Any, size: Any, seat: str) -> None:
+        """Fill in how particles break."""
+        if seat != "rough" or type(size) is sizes.Monodisperse:
+            raise NotCompiled("particles that break on a plane, or that are of one size")
+        strength, body = changed.strength, changed.material
+        nu = np.unique(np.broadcast_to(body.nu, self.count))
+        confines = one.confinement == "sphere"
+        if confines and len(nu) > 1:
+            raise NotCompiled("particles that break, of different Poisson ratios")
+        inside = inside_of(float(nu[0]), confines)
+        if self.inside.shape[1] > 1 and not np.array_equal(inside, self.inside):
+            raise NotCompiled("particles that break, of different Poisson ratios")
+        self.inside = inside
+        kept = strength.kept
+        _filled(
+            rows,
+            {
+                **{f.BREAKS: 1, f.MODULUS: strength.m, f.EXPONENT: strength.b, f.KEPT: kept},
+                f.LN_STRENGTH: np.log(strength.sigma_0) + strength.b * np.log(strength.x_0),
+                **{f.UNBROKEN: strength.least(body), f.RATIO: np.where(kept, strength.ratio, 0.5)},
+            },
+        )
 
     def _add_printed(self, rows: Array, one: Any, changed: Any, law: Any) -> None:
         """Fill in the numbers of particles whose sum is printed."""

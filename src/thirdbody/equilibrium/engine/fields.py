@@ -63,7 +63,11 @@ BEYOND, TAKES, BEARS, WINDOW, FIXED, ABOVE, SHADES, DARK, SPLIT = range(16, 25)
 of the second integral, shadow over it and where that begins, and whether areas are split."""
 NEVER, AS_FIRST, BY_APPROACH = range(3)
 """What the second integral weighs: nothing, what the first does, x(x − d)."""
-OF_PARTICLES = 25
+BREAKS, LN_STRENGTH, MODULUS, EXPONENT, UNBROKEN, KEPT, RATIO, LEAST = range(25, 33)
+"""Of particles that break, if they do: ln of the strength of a size of 1 m, Weibull modulus and
+exponent of the size, size from which down nothing breaks [m], part of the volume that stays, size
+of pieces over that of their parent; once a state the smallest size [m]."""
+OF_PARTICLES = 33
 
 # ------------------------------------------------------------------ found, of a state
 COLUMNS = ("F", "A_e", "A_ep", "A_p", "F_sa", "A_sa_e", "A_sa_ep", "A_sa_p", "A_sa2", "shadow")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart
+from .densities import density
 from .fields import (
     A_SA,
     A_SA2,
@@ -33,7 +34,7 @@ from .fields import (
     WINDOW,
 )  # fmt: skip
 from .sides import scalar
-from .sums import ROOT_2PI, above, density
+from .sums import ROOT_2PI, above
 
 __all__ = ["add_printed", "only_falls", "printed_bound"]
 

@@ -8,13 +8,28 @@ from ..compiled.machine import apart
 from .fields import CEB, CODE, COUNT, EQUAL, JG, JUMPS, KINKS, LIMIT, MOST_JUMPS
 from .sides import prepare, regime_of, scalar, side_at
 
-__all__ = ["EDGE", "MOST_PANELS", "PANEL", "REGIME", "TERMS", "lay_panels", "particle_at"]
+__all__ = [
+    "EDGE",
+    "MOST_PANELS",
+    "PANEL",
+    "PULLED",
+    "RATE",
+    "REGIME",
+    "START",
+    "TENSION",
+    "TERMS",
+    "lay_panels",
+    "particle_at",
+]
 
 MOST_PANELS, TERMS = 160, 12
 EDGE, TO, REGIME, HELD, FROM, UNTIL, SHARE = range(7)
 """Of a panel: its ends in ε, the regime of side 1, the indentation at which a jump of its load
 holds side 1 (side 2 if negative, none if 0); ends and coefficients of the share of side 1."""
-PANEL = SHARE + TERMS
+PULLED, RATE, START, TENSION = range(SHARE + TERMS, SHARE + TERMS + 4)
+"""Tension [Pa] that holds on a panel on which less is met, or 0; place on the panel, as a rate of
+ln ε and where it starts; series of the logarithm of the tension."""
+PANEL = TENSION + TERMS
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
 CLOSE, BALANCED, RESOLVED = 1e-12, 1e-13, 1e-6

@@ -7,47 +7,52 @@ import math
 from numba import njit
 
 from ..compiled.machine import apart, exp, normal_cdf
+from .breakage import mark_sizes
+from .densities import density, scale_of
 from .fields import (
     A_E,
     A_SA,
     A_SA2,
     AREA,
     BREADTH,
+    BREAKS,
     COUNT,
     COVERAGE,
     COVERED,
     DENSITY,
     EQUAL,
+    EXPONENT,
     EXPONENTIAL,
     F_SA,
     F_SS,
     FOOTPRINT,
     FORCE,
-    GAUSSIAN,
     GAUSSIAN_HEIGHTS,
     HEIGHTS,
     HIGH,
+    KEPT,
     KIND,
     KINKS,
     LAID_FROM,
     LAST,
+    LEAST,
     LIMIT,
     LOGNORMAL,
     LOW,
     LOWEST_HEIGHT,
     MIDDLE,
-    NORM,
+    MODULUS,
     OFFSET,
     ONE_SIZE,
     PLANE,
     POWER,
     PROJECTED,
+    RATIO,
     SEAT,
     SHADE,
     SHADOW,
     SHAPE,
     SIZE_1,
-    SIZE_2,
     SPREAD,
     STEP,
     WIDTH,
@@ -69,7 +74,7 @@ __all__ = [
 ]
 
 MOST_NODES, MOST_SIZES, MOST_HEIGHTS = 16_384, 2048, 1536
-EPS, LOAD, FIRST, SECOND, LARGER, KEPT, SUM = range(7)
+EPS, LOAD, FIRST, SECOND, LARGER, ON, SUM = range(7)
 """Rows of the nodes over ε: ε, weighted load, areas on both surfaces, the larger of the areas,
 regime, and the sum over sizes."""
 T, OF_LOAD, OF_AREA, ITS_REGIME = range(4)
@@ -197,32 +202,30 @@ def add_skin(skin, heights, begin, end, gauss, weights, nodes, h, out):
 
 # ------------------------------------------------------------------------------ sizes
 @scalar
-def density(given, p, x):
-    """How many particles have a size x, per size."""
+def _lay_pieces(given, p, sizes, count, gauss, weights, nodes, span, low, high):
+    """Nodes over sizes between two jumps of the number of pieces; where they end, or −1."""
     apart()
-    kind, middle, width = given[p, KIND], given[p, SIZE_1], given[p, SIZE_2]
-    if kind == GAUSSIAN:
-        u = (x - middle) / width
-        return given[p, NORM] * math.exp(-0.5 * u * u)
-    if kind == LOGNORMAL:
-        u = math.log(x / middle) / width
-        return given[p, NORM] / x * math.exp(-0.5 * u * u)
-    if kind == POWER:
-        return given[p, NORM] * math.exp(-width * math.log(x / middle))
-    return given[p, NORM]
-
-
-@scalar
-def scale_of(given, p, x):
-    """Size over which the density changes near x."""
-    apart()
-    if given[p, KIND] == GAUSSIAN:
-        return given[p, SIZE_2]
-    if given[p, KIND] == LOGNORMAL:
-        return x * min(given[p, SIZE_2], 0.7)
-    if given[p, KIND] == POWER:
-        return x / max(1.0, abs(given[p, SIZE_2]))
-    return given[p, HIGH]
+    middle = math.sqrt(low * high)
+    own = middle / max(2.0, 2 * given[p, MODULUS] * given[p, EXPONENT])
+    y, ratio, shrunk = middle, given[p, RATIO], 1.0
+    while y <= given[p, HIGH]:
+        if y >= given[p, LOW]:
+            own = min(own, shrunk * scale_of(given, p, y))
+        if given[p, KEPT] == 0:
+            break
+        y /= ratio
+        shrunk *= ratio
+    step = span / math.sqrt(1 / (own * own) + 1 / given[p, WIDTH] ** 2)
+    parts = max(1, math.ceil((high - low) / step - 1e-9))
+    if count + parts * nodes > MOST_SIZES:
+        return -1
+    half = 0.5 * (high - low) / parts
+    for m in range(parts):
+        for j in range(nodes):
+            sizes[0, count] = low + half * (2 * m + 1 + gauss[j])
+            sizes[1, count] = half * weights[j]
+            count += 1
+    return count
 
 
 @scalar
@@ -234,6 +237,16 @@ def lay_sizes(given, p, sizes, begin, gauss, weights, nodes, span):
         sizes[0, begin], sizes[1, begin] = x, 1.0
         return begin + 1
     low, high, width = given[p, LOW], given[p, HIGH], given[p, WIDTH]
+    if given[p, BREAKS] == 1:
+        marked = mark_sizes(given, p, sizes[2])
+        count = begin
+        for k in range(marked - 1):
+            count = _lay_pieces(
+                given, p, sizes, count, gauss, weights, nodes, span, sizes[2, k], sizes[2, k + 1]
+            )
+            if count < 0:
+                return -1
+        return count
     a, count = low, begin
     while a < high:
         own = scale_of(given, p, a)
@@ -260,7 +273,8 @@ def lay_nodes(given, sides, panels, p, count, grid, begin, gauss, weights, nodes
     place = begin
     size, width = 0.5 * (given[p, LOW] + given[p, HIGH]), given[p, WIDTH]
     own = 0.0 if given[p, KIND] == ONE_SIZE else scale_of(given, p, size) / size
-    if span < WIDE_SPAN:  # sizes that end abruptly show in the width of the seat alone
+    # sizes that end abruptly show in the width of the seat alone
+    if span < WIDE_SPAN or given[p, BREAKS] == 1:
         own = 0.0
     for n in range(count):
         first, last = panels[p, n, EDGE], panels[p, n, TO]
@@ -284,8 +298,11 @@ def lay_nodes(given, sides, panels, p, count, grid, begin, gauss, weights, nodes
                 grid[LOAD, place] = weight * load
                 grid[FIRST, place] = weight * one
                 grid[SECOND, place] = weight * two
-                grid[LARGER, place] = weight * shade(given, p, one, two)
-                grid[KEPT, place] = panels[p, n, REGIME]
+                larger = shade(given, p, one, two)
+                if given[p, BREAKS] == 1 and given[p, SHADOW] == PROJECTED:
+                    larger += 0.25 * math.pi * given[p, BREADTH]
+                grid[LARGER, place] = weight * larger
+                grid[ON, place] = panels[p, n, REGIME]
                 place += 1
     return place
 
@@ -302,6 +319,22 @@ def shade(given, p, one, two):
 
 
 # ------------------------------------------------------------------------------ seats
+@exact
+def _sum_whole(grid, begin, end, sizes, first, last, gap, width, shares, place, step):
+    """As `_sum_sizes`, of what is whole; ``place`` of the first node, ``step`` between sizes."""
+    apart()
+    for i in range(begin, end):
+        grid[SUM, i] = 0.0
+    for j in range(first, last):
+        x = sizes[0, j]
+        c = sizes[1, j] * x * x * x / (ROOT_2PI * width)
+        start, rate = (gap - x) / width, x / width
+        for i in range(begin, end):
+            z = start + rate * grid[EPS, i]
+            grid[SUM, i] += c * shares[place + i - begin] * exp(max(-0.5 * z * z, -700.0))
+        place += step
+
+
 @exact
 def _sum_sizes(grid, begin, end, sizes, first, last, gap, width):
     """Over sizes at each node: weight x³ times the density of the seat, into the last row."""
@@ -341,13 +374,16 @@ def above(z):
 
 
 @scalar
-def _add_rough(given, sides, panels, p, count, grid, begin, end, sizes, first, last, gap, out):
+def _add_rough(
+    given, sides, panels, p, count, grid, begin, end, sizes, first, last, gap, shares, place, out
+):
     """What a part carries on a rough seat, into the columns of the particles."""
     apart()
     width = given[p, WIDTH]
     # only nodes that some seat reaches: those of x(1 − ε) within REACH widths of the gap
     most, least = gap + REACH * width, gap - REACH * width
-    smallest = max(given[p, LOW], 1e-300)
+    breaks_up = given[p, BREAKS] == 1
+    smallest = max(given[p, LEAST] if breaks_up else given[p, LOW], 1e-300)
     low = 1 - most / (smallest if most > 0 else given[p, HIGH])
     high = 1 - least / (given[p, HIGH] if least > 0 else smallest)
     a, b = begin, end
@@ -355,12 +391,17 @@ def _add_rough(given, sides, panels, p, count, grid, begin, end, sizes, first, l
         a += 1
     while b > a and grid[EPS, b - 1] > high:
         b -= 1
-    _sum_sizes(grid, a, b, sizes, first, last, gap, width)
+    if breaks_up:
+        start = place + a - begin
+        _sum_whole(grid, a, b, sizes, first, last, gap, width, shares, start, end - begin)
+        place += (last - first) * (end - begin)
+    else:
+        _sum_sizes(grid, a, b, sizes, first, last, gap, width)
     factor = given[p, DENSITY]
     for i in range(a, b):
         share = factor * grid[SUM, i]
         out[F_SA] += share * grid[LOAD, i]
-        out[A_SA + int(grid[KEPT, i])] += share * grid[FIRST, i]
+        out[A_SA + int(grid[ON, i])] += share * grid[FIRST, i]
         out[A_SA2] += share * grid[SECOND, i]
         out[SHADE] += share * grid[LARGER, i]
     edge = panels[p, count - 1, TO]
@@ -368,9 +409,13 @@ def _add_rough(given, sides, panels, p, count, grid, begin, end, sizes, first, l
     for j in range(first, last):
         x = sizes[0, j]
         weight = factor * sizes[1, j] * x * x
+        if breaks_up:
+            weight *= shares[place + j - first]
         squeezed += weight * above((x * (1 - edge) - gap) / width)
         touched += weight * above((x - gap) / width)
     _add_last(given, sides, panels, p, count, squeezed, out)
+    if breaks_up:  # what is squeezed less stands in the nodes
+        touched = squeezed
     if given[p, SHADOW] == PROJECTED:
         out[SHADE] += 0.25 * math.pi * given[p, BREADTH] * touched
 
@@ -490,8 +535,8 @@ def _add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span,
 
 
 @scalar
-def add_part(given, sides, panels, p, count, grid, begin, end, sizes, first, last, d, gauss,
-             weights, nodes, span, out):  # fmt: skip
+def add_part(given, sides, panels, p, count, grid, begin, end, sizes, first, last, shares, place,
+             d, gauss, weights, nodes, span, out):  # fmt: skip
     """What part p carries at a separation d [m]; False where its formulas do not reach."""
     apart()
     gap = d + given[p, OFFSET]
@@ -499,5 +544,8 @@ def add_part(given, sides, panels, p, count, grid, begin, end, sizes, first, las
         out[SHADE] += given[p, COVERAGE]
     if given[p, SEAT] == PLANE:
         return _add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, out)
-    _add_rough(given, sides, panels, p, count, grid, begin, end, sizes, first, last, gap, out)
+    _add_rough(
+        given, sides, panels, p, count, grid, begin, end, sizes, first, last, gap, shares, place,
+        out,
+    )  # fmt: skip
     return True

@@ -1,0 +1,403 @@
+"""Particles that break: the largest tension that each has met, and how many are whole.
+
+What is sought of a state is made once: ln of the tension on every panel of the squeeze, then the
+number of whole particles and pieces at every node of squeeze and size. The formulas stand with
+`Tension` and `BrokenAverage`.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..compiled.machine import apart
+from .densities import density
+from .fields import (
+    EQUAL,
+    EXPONENT,
+    HIGH,
+    KEPT,
+    LEAST,
+    LN_STRENGTH,
+    LOW,
+    MODULUS,
+    RATIO,
+    SIZE_1,
+    UNBROKEN,
+)
+from .sides import scalar
+from .squeeze import (
+    EDGE,
+    MOST_PANELS,
+    PANEL,
+    PULLED,
+    RATE,
+    START,
+    TENSION,
+    TERMS,
+    TO,
+    particle_at,
+)
+
+__all__ = ["lay_tension", "lay_whole", "mark_sizes"]
+
+SMALL, CONFINED, BENDS, PIECES = range(4)
+"""First row of what is known of G: tension of small caps, whether surfaces confine the particle,
+numbers of bends and of pieces of its series; the bends are the next row."""
+FIRST_PIECE, BEGIN, END, COEFFICIENTS = 2, 0, 1, 2
+K_FACTOR = 4
+MET = 6
+SAMPLES, CLOSER, SEARCHED, RESOLVED = 32, 14, 60, 1e-10
+STEEP = 6.0
+GENERATIONS = 40
+NEGLIGIBLE = 1e-15
+
+
+@scalar
+def confined(inside, s):
+    """G: the largest tension over that of small caps under the same load, of a cap s."""
+    apart()
+    q = s * s
+    c = math.sqrt(max(1 - q, 0.0))
+    centre = 4 / math.pi * (1.25 * inside[0, K_FACTOR] * c - 1 / (1 + c))
+    n, last = FIRST_PIECE, FIRST_PIECE + int(inside[0, PIECES]) - 1
+    while n < last and q > inside[n, END]:
+        n += 1
+    low, high = inside[n, BEGIN], inside[n, END]
+    x = (2 * q - low - high) / (high - low)
+    b, d = 0.0, 0.0
+    for k in range(inside.shape[1] - 1, COEFFICIENTS, -1):
+        b, d = inside[n, k] + 2 * x * b - d, b
+    equator = inside[n, COEFFICIENTS] + x * b - d
+    return max(centre, equator, 0.0) / inside[0, SMALL]
+
+
+@scalar
+def cap_of(area):
+    return min(2 * math.sqrt(area / math.pi), 1.0)
+
+
+@scalar
+def tension_now(given, sides, panels, p, n, eps, inside):
+    """σ_t of a particle squeezed by ε on panel n [Pa]."""
+    apart()
+    load, one, two = particle_at(given, sides, panels, p, n, eps)
+    if inside[0, CONFINED] == 0:
+        return load
+    first = confined(inside, cap_of(one))
+    second = first if given[p, EQUAL] == 1 else confined(inside, cap_of(two))
+    return load * 0.5 * (first + second)
+
+
+@scalar
+def _cut(panels, p, count, eps):
+    """Cut the panel in which ε lies; how many panels there are then."""
+    apart()
+    n = 0
+    while n < count and panels[p, n, TO] < eps:
+        n += 1
+    if n == count or count >= MOST_PANELS - 2:
+        return count
+    a, b = panels[p, n, EDGE], panels[p, n, TO]
+    if eps - a < 1e-12 * b or b - eps < 1e-12 * b:
+        return count
+    for m in range(count + 1, n, -1):
+        for k in range(PANEL):
+            panels[p, m, k] = panels[p, m - 1, k]
+    panels[p, n, TO] = panels[p, n + 1, EDGE] = eps
+    return count + 1
+
+
+@scalar
+def _cut_at_bends(given, sides, panels, p, count, inside):
+    """Panels cut where a cap reaches a bend of G; their number."""
+    apart()
+    for k in range(int(inside[0, BENDS])):
+        s = inside[1, k]
+        for side in range(1 if given[p, EQUAL] == 1 else 2):
+            n = 0
+            while n < count:
+                a, b = panels[p, n, EDGE], panels[p, n, TO]
+                found = particle_at(given, sides, panels, p, n, b)
+                if cap_of(found[1] if side == 0 else found[2]) >= s:
+                    for _ in range(SEARCHED):
+                        eps = 0.5 * (a + b)
+                        found = particle_at(given, sides, panels, p, n, eps)
+                        if cap_of(found[1] if side == 0 else found[2]) < s:
+                            a = eps
+                        else:
+                            b = eps
+                    count = _cut(panels, p, count, b)
+                    break
+                n += 1
+    return count
+
+
+@scalar
+def _peak(given, sides, panels, p, n, low, high, inside):
+    """ε between two at which the tension is largest, by golden sections."""
+    apart()
+    part = 0.5 * (math.sqrt(5.0) - 1)
+    a, b = high - part * (high - low), low + part * (high - low)
+    f_a = tension_now(given, sides, panels, p, n, a, inside)
+    f_b = tension_now(given, sides, panels, p, n, b, inside)
+    for _ in range(SEARCHED):
+        if f_a >= f_b:
+            high, b, f_b = b, a, f_a
+            a = high - part * (high - low)
+            f_a = tension_now(given, sides, panels, p, n, a, inside)
+        else:
+            low, a, f_a = a, b, f_b
+            b = low + part * (high - low)
+            f_b = tension_now(given, sides, panels, p, n, b, inside)
+    return 0.5 * (low + high)
+
+
+@scalar
+def _find_held(given, sides, panels, p, count, inside):
+    """Panels cut where the tension begins to fall and where it is met again; their number."""
+    apart()
+    n, most = int(panels[p, 0, EDGE]), 0.0  # 0, and no constant
+    while n < count:
+        a, b = panels[p, n, EDGE], panels[p, n, TO]
+        begin = tension_now(given, sides, panels, p, n, a + 1e-9 * (b - a), inside)
+        held = begin < most * (1 - 1e-12)
+        panels[p, n, PULLED] = most if held else 0.0
+        before, last, best = a, a, begin
+        for j in range(SAMPLES + CLOSER + 1):
+            u = (j + 0.5) / SAMPLES
+            if j >= SAMPLES:  # before a kink it may fall a little
+                u = 1.0 if j == SAMPLES + CLOSER else 1 - 0.25 / SAMPLES * 0.5 ** (j - SAMPLES)
+            eps = a + (b - a) * (u * u if a == 0 else u)
+            value = tension_now(given, sides, panels, p, n, eps, inside)
+            if held and value > most:
+                low, high = last, eps
+                for _ in range(SEARCHED):
+                    eps = 0.5 * (low + high)
+                    if tension_now(given, sides, panels, p, n, eps, inside) > most:
+                        high = eps
+                    else:
+                        low = eps
+                count = _cut(panels, p, count, high)
+                break
+            if not held and value < best * (1 - 1e-12):
+                top = _peak(given, sides, panels, p, n, before, eps, inside)
+                best = max(best, tension_now(given, sides, panels, p, n, top, inside))
+                if top - a > 1e-6 * (b - a):
+                    count = _cut(panels, p, count, top)
+                    break
+                held, most = True, max(most, best)  # it falls from the beginning
+                panels[p, n, PULLED] = most
+            before, last, best = last, eps, max(best, value)
+        if not held:
+            most = max(most, best)
+        n += 1
+    return count
+
+
+@scalar
+def _fill_tension(given, sides, panels, p, n, rule, inside):
+    """Series of ln(σ_t/ε^1.5) on panel n; the size of its last two terms."""
+    apart()
+    first, last = panels[p, n, EDGE], panels[p, n, TO]
+    for k in range(TERMS):
+        panels[p, n, TENSION + k] = 0.0
+    for j in range(TERMS):
+        x = rule[0, j]
+        eps = 0.25 * last * (x + 1) ** 2
+        if first > 0:
+            eps = first * math.exp(0.5 * (x + 1) * math.log(last / first))
+        value = tension_now(given, sides, panels, p, n, eps, inside)
+        value = math.log(max(value, 1e-300)) - 1.5 * math.log(eps)
+        for k in range(TERMS):
+            panels[p, n, TENSION + k] += rule[1 + k, j] * value
+    return abs(panels[p, n, TENSION + TERMS - 1]) + abs(panels[p, n, TENSION + TERMS - 2])
+
+
+@scalar
+def met_on(panels, p, n, eps):
+    """ln σ̂ at ε on panel n."""
+    apart()
+    if panels[p, n, PULLED] > 0:
+        return panels[p, n, TENSION]
+    log_eps = math.log(eps)
+    if panels[p, n, EDGE] == 0:
+        x = 2 * math.sqrt(eps / panels[p, n, TO]) - 1
+    else:
+        x = panels[p, n, RATE] * log_eps + panels[p, n, START]
+    b, c = 0.0, 0.0
+    for k in range(TERMS - 1, 0, -1):
+        b, c = panels[p, n, TENSION + k] + 2 * x * b - c, b
+    return panels[p, n, TENSION] + x * b - c + 1.5 * log_eps
+
+
+@scalar
+def met(panels, p, count, eps):
+    """ln σ̂ of a particle squeezed by ε > 0; constant behind the last panel."""
+    apart()
+    low, high = 0, count - 1
+    if eps >= panels[p, high, TO]:
+        eps, low = panels[p, high, TO], high
+    while low < high:
+        middle = (low + high) // 2
+        if panels[p, middle, TO] < eps:
+            low = middle + 1
+        else:
+            high = middle
+    return met_on(panels, p, low, eps)
+
+
+@scalar
+def survived(power):
+    """exp(−exp(power))."""
+    if power < -40:
+        return 1.0
+    return math.exp(-math.exp(power)) if power < 6.7 else 0.0
+
+
+@scalar
+def survival(given, p, x, log_met):
+    """P_s of particles of size x that have met a tension."""
+    apart()
+    if x <= given[p, UNBROKEN]:
+        return 1.0
+    return survived(
+        given[p, MODULUS] * (log_met - given[p, LN_STRENGTH] + given[p, EXPONENT] * math.log(x))
+    )
+
+
+@scalar
+def lay_whole(given, panels, p, count, squeezes, begin, end, sizes, first, last, shares, place):
+    """Densities of whole particles at the nodes of ε and sizes; where they end, or −1.
+
+    Those of every size at the nodes, then those squeezed beyond the last panel. What a size and
+    its parents have in common at all nodes is made once, on the rows of ``sizes`` behind the two.
+    """
+    apart()
+    if place + (last - first) * (end - begin + 1) > len(shares):
+        return -1
+    tail = place + (last - first) * (end - begin)
+    high, low, ratio, m = given[p, HIGH], given[p, LOW], given[p, RATIO], given[p, MODULUS]
+    gain, shrink, edge = given[p, KEPT] * ratio**-4, math.log(ratio), panels[p, count - 1, TO]
+    for i in range(begin, end):
+        squeezes[MET, i] = m * met(panels, p, count, squeezes[0, i])
+    final = m * met(panels, p, count, edge)
+    for j in range(first, last):
+        x, parents = sizes[0, j], 0
+        if given[p, KEPT] > 0:
+            parents = max(0, math.floor(math.log(x / high) / shrink + 1e-12))
+        y = x
+        for k in range(parents + 1):
+            sizes[2, k] = x / y
+            sizes[3, k] = density(given, p, y) if low <= y <= high else 0.0
+            sizes[4, k] = m * (given[p, EXPONENT] * math.log(y) - given[p, LN_STRENGTH])
+            if y <= given[p, UNBROKEN]:
+                sizes[4, k] = -math.inf
+            y /= ratio
+        for i in range(begin, end + 1):
+            left = 1 - squeezes[0, i] if i < end else 1 - edge
+            number = broken = 0.0
+            for k in range(parents, 0, -1):
+                number = gain * broken * number + sizes[3, k]
+                broken = 0.0
+                if number > 0 and sizes[4, k] > -math.inf:
+                    stress = m * met(panels, p, count, 1 - left * sizes[2, k])
+                    broken = 1 - survived(stress + sizes[4, k])
+            number = gain * broken * number + sizes[3, 0]
+            if i < end:
+                shares[place] = number * survived(squeezes[MET, i] + sizes[4, 0])
+                place += 1
+            else:
+                shares[tail] = number * survived(final + sizes[4, 0])
+                tail += 1
+    return tail
+
+
+@scalar
+def lay_tension(given, sides, panels, p, count, rule, inside):
+    """Panels of part p with the tension on each; how many, or −1 where that does not reach."""
+    apart()
+    last = panels[p, count - 1, TO]
+    if last >= 1:
+        return -1
+    count = _cut_at_bends(given, sides, panels, p, count, inside)
+    count = _find_held(given, sides, panels, p, count, inside)
+    # where parents of what is squeezed so reach a kink of theirs, and their parents
+    ratio, n = given[p, RATIO], count - 1
+    while given[p, KEPT] > 0 and n >= 0:
+        left, before = (1 - panels[p, n, TO]) / ratio, count
+        if left < 1 - 1e-12:
+            count = _cut(panels, p, count, 1 - left)
+        if count >= MOST_PANELS - 3:
+            return -1
+        n += count - before - 1
+    step = 2 ** min(1.0, STEEP / given[p, MODULUS])
+    n = int(panels[p, 0, EDGE])  # 0, and no constant
+    while n < count:
+        a, b = panels[p, n, EDGE], panels[p, n, TO]
+        wide = a > 0 and b > step * a * (1 + 1e-9)
+        tail = 0.0
+        if panels[p, n, PULLED] == 0 and not wide:
+            tail = _fill_tension(given, sides, panels, p, n, rule, inside)
+        if (wide or tail > RESOLVED) and b > a * (1 + 1e-6):
+            if count >= MOST_PANELS - 3:
+                return -1
+            count = _cut(panels, p, count, math.sqrt(a * b) if a > 0 else 0.25 * b)
+            continue
+        n += 1
+    for n in range(count):
+        if panels[p, n, PULLED] > 0:
+            panels[p, n, TENSION] = math.log(panels[p, n, PULLED])
+        elif panels[p, n, EDGE] > 0:
+            low = math.log(panels[p, n, EDGE])
+            panels[p, n, RATE] = 2 / (math.log(panels[p, n, TO]) - low)
+            panels[p, n, START] = -panels[p, n, RATE] * low - 1
+    _find_least(given, panels, p, count)
+    return count
+
+
+@scalar
+def _find_least(given, panels, p, count):
+    """Size below which nothing bears."""
+    apart()
+    low, ratio = max(given[p, LOW], 1e-5 * given[p, SIZE_1]), given[p, RATIO]
+    given[p, LEAST] = low
+    if given[p, KEPT] == 0:
+        return
+    greatest = met(panels, p, count, 1.0)
+    gain, x = given[p, KEPT] / ratio, low
+    share = max(gain, 1.0) ** math.ceil(math.log(low / given[p, HIGH]) / math.log(ratio))
+    for _ in range(GENERATIONS):
+        if share <= NEGLIGIBLE or x <= given[p, UNBROKEN]:
+            break
+        share *= gain * (1 - survival(given, p, x, greatest))
+        x *= ratio
+    given[p, LEAST] = min(low, max(ratio * x, ratio * given[p, UNBROKEN]))
+
+
+@scalar
+def mark_sizes(given, p, marks):
+    """Sizes at which a number of particles or pieces jumps, in increasing order; how many."""
+    apart()
+    least, high, ratio = given[p, LEAST], given[p, HIGH], given[p, RATIO]
+    marks[0], marks[1] = least, high
+    count = 2
+    for which in range(3):
+        x = given[p, LOW]
+        if which == 1:
+            x = high
+        elif which == 2:
+            x = given[p, UNBROKEN]
+        while x > least * (1 - 1e-12) and x > 0 and count < len(marks):
+            if x <= high:
+                place = count
+                while place > 0 and marks[place - 1] > x:
+                    place -= 1
+                if marks[place - 1] < x * (1 - 1e-12) and x < marks[place] * (1 - 1e-12):
+                    for j in range(count, place, -1):
+                        marks[j] = marks[j - 1]
+                    marks[place] = x
+                    count += 1
+            if given[p, KEPT] == 0:
+                break
+            x *= ratio
+    return count
