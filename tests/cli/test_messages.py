@@ -96,6 +96,7 @@ def test_one_way_of_writing_stresses():
     assert not re.search(r"\d(e[+-]?\d+)? Pa\b", done.stderr), done.stderr
 
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 RARE = """[surfaces]
 first = "CuSn8"
 second = "CuSn8"
@@ -134,3 +135,17 @@ def test_a_contact_of_which_most_meet_no_particle_is_not_said_to_rest_on_particl
     many = run("solve", study, "--set", "particles.areal_density=3e10").stdout
     assert "rare" not in many
     assert "real contact is on particles" in " ".join(many.split())
+
+
+def test_a_film_whose_bodies_hold_no_particle_mostly_is_not_said_to_rest_on_particles():
+    """Of a study with [film] the contact is that of the film's bodies, whatever the load."""
+    study = EXAMPLES / "oil_film.toml"
+    few = ("--set", "particles.areal_density=1e7/m^2", "--set", "load.pressure=1 Pa")
+    data = json.loads(run("solve", study, *few, "--json").stdout)
+    assert data["states"]["mode"] == ["p-s"]
+    assert 0 < data["particles_held"] < 1
+    film = json.loads(run("film", study, *few, "--json").stdout)
+    assert data["particles_held"] == film["particles_held"]
+    words = " ".join(run("solve", study, *few).stdout.split())
+    assert "the others are as without particles" in words
+    assert "rare: less than one particle lies in a contact" in words

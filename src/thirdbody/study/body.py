@@ -92,8 +92,9 @@ def of_bodies(result: dict[str, Any]) -> str:
 def held_in(result: dict[str, Any], state: int) -> float:
     """Particles that the contact of a state holds on average; infinite where nobody knows."""
     forces = result.get("body", {}).get("forces", ())
-    if not forces:
-        return math.inf
+    if not forces:  # of a film that has bodies of its own
+        held = result.get("particles_held")
+        return math.inf if held is None else float(held)
     each = len(result["states"]["status"]) // len(forces)
     held = forces[state // each]["particles_held"]
     return math.inf if held is None else float(held)

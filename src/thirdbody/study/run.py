@@ -37,8 +37,9 @@ def run_study(study: Study) -> dict[str, Any]:
     -------
     dict
         Title, version, inputs (SI), scales, states (a list each), what each of several populations
-        carries in them, transitions, warnings, citations; and ``body``, where a force presses one:
-        pressures and integrals of each force, and sentences. A state that cannot be solved keeps
+        carries in them, transitions, warnings, citations; ``body``, where a force presses one:
+        pressures and integrals of each force, and sentences; and where none does, of a study with
+        [film], ``particles_held``: how many lie in the contact of the film's bodies. A state that cannot be solved keeps
         its place with None and a status that says why.
     """
     from ..version import __version__
@@ -63,7 +64,12 @@ def run_study(study: Study) -> dict[str, Any]:
         "transitions": critical.to_dict(),
         "warnings": list(dict.fromkeys(sentences)),
         "citations": cite(study.contact).splitlines(),
-    } | (_body(study, forced) if forced else {})
+    } | (_body(study, forced) if forced else _of_film(study))
+
+
+def _of_film(study: Study) -> dict[str, Any]:
+    """How many particles the contact of the table [film] holds, if there is one."""
+    return {} if study.film is None else {"particles_held": _held(study.film, study.contact)}
 
 
 def _body(study: Study, forced: list[Pressed]) -> dict[str, Any]:
