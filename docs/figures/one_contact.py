@@ -29,10 +29,14 @@ def one_asperity(ax):
 
 
 def one_particle(ax):
-    """Load of one particle over its squeeze, with the three limits."""
+    """Load of one particle over its squeeze, with the three limits and the computed one."""
     squeeze = np.geomspace(1e-4, 0.9, 400)
     gap = SIZE * (1 - squeeze)
-    whole = tb.particle.Series().single(SIZE, gap, surfaces=PAIR, particle=SILICA)["force"]
+    bodies = {"surfaces": PAIR, "particle": SILICA}
+    table, whole = (
+        tb.particle.Series(deep=deep).single(SIZE, gap, **bodies)["force"]
+        for deep in ("table", "off")
+    )
     E_star = 1 / ((1 - STEEL.nu**2) / STEEL.E + (1 - SILICA.nu**2) / SILICA.E)
     delta = SIZE * squeeze
     elastic = 4 / 3 * E_star * np.sqrt(SIZE / 2) * (delta / 2) ** 1.5
@@ -42,6 +46,7 @@ def one_particle(ax):
         "embedded": np.full_like(gap, np.pi / 4 * STEEL.H * SIZE**2),
     }
     ax.loglog(squeeze, 1e6 * whole, color=INKS[0], lw=2.6, label="series")
+    ax.loglog(squeeze, 1e6 * table, color="black", lw=1.2, label="by the table, the default")
     for (name, load), ink, dash in zip(limits.items(), INKS[1:], DASHES[1:], strict=False):
         ax.loglog(squeeze, 1e6 * load, color=ink, ls=dash, label=name)
     ax.set(xlabel=r"squeeze $\delta$ over diameter [1]", ylabel="load of one particle [µN]")
