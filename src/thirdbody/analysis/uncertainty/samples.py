@@ -11,7 +11,7 @@ import numpy as np
 from ...contact.contact import Contact
 from ...equilibrium.columns import COLUMNS, about
 from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, load_falls
-from ...equilibrium.states import carries, solves_each, state_columns, tables_each
+from ...equilibrium.states import carries, state_columns, tables_each
 from ...equilibrium.status import MOST_AREA
 from ...errors import InvalidValue
 from ...numerics.sampling import sobol
@@ -61,8 +61,7 @@ def costly(contact: Contact, vary: Iterable[str]) -> bool:
     names = [part for label in vary for part in label.split("+") if carries(part)]
     if not names:
         return False
-    breaks = any(each.strength is not None for each in contact.populations)
-    if breaks and not solves_each(contact, names):
+    if any(each.strength is not None for each in contact.populations):
         return True
     return tables_each(contact, names)
 

@@ -534,7 +534,7 @@ def solve_own(skins, parts, bodies, rules, inside, target, h, count, fate, error
         sides,
         np.empty((most, MOST_PANELS, PANEL)),
         np.empty((7, MOST_NODES)),
-        np.empty((5, MOST_SIZES)),
+        np.empty((4, MOST_SIZES)),
         np.empty(MOST_WHOLE if inside[0, 0] > 0 else 1),
         inside,
     )

@@ -45,7 +45,6 @@ SMALL, CONFINED, BENDS, PIECES = range(4)
 numbers of bends and of pieces of its series; the bends are the next row."""
 FIRST_PIECE, BEGIN, END, COEFFICIENTS = 2, 0, 1, 2
 K_FACTOR = 4
-MET = 6
 SAMPLES, CLOSER, SEARCHED, RESOLVED = 32, 14, 60, 1e-10
 STEEP = 6.0
 GENERATIONS = 40
@@ -269,45 +268,50 @@ def survival(given, p, x, log_met):
 def lay_whole(given, panels, p, count, squeezes, begin, end, sizes, first, last, shares, place):
     """Densities of whole particles at the nodes of ε and sizes; where they end, or −1.
 
-    Those of every size at the nodes, then those squeezed beyond the last panel. What a size and
-    its parents have in common at all nodes is made once, on the rows of ``sizes`` behind the two.
+    Those of every size at the nodes, then those squeezed beyond the last panel. In a gap, how far
+    a parent was squeezed depends on the squeeze of its pieces alone: the tensions of all
+    generations are found once, at the end of ``shares``; what a size and its parents have in
+    common at all nodes stands on the rows of ``sizes`` behind the two.
     """
     apart()
-    if place + (last - first) * (end - begin + 1) > len(shares):
-        return -1
-    tail = place + (last - first) * (end - begin)
     high, low, ratio, m = given[p, HIGH], given[p, LOW], given[p, RATIO], given[p, MODULUS]
     gain, shrink, edge = given[p, KEPT] * ratio**-4, math.log(ratio), panels[p, count - 1, TO]
-    for i in range(begin, end):
-        squeezes[MET, i] = m * met(panels, p, count, squeezes[0, i])
-    final = m * met(panels, p, count, edge)
+    wide, most = end - begin + 1, 0
+    if given[p, KEPT] > 0:
+        most = math.ceil(math.log(given[p, LEAST] / high) / shrink) + 1
+    stresses = len(shares) - (most + 1) * wide
+    if place + (last - first) * wide > stresses:
+        return -1
+    for k in range(most + 1):
+        for i in range(begin, end + 1):
+            left = 1 - squeezes[0, i] if i < end else 1 - edge
+            found = met(panels, p, count, 1 - left * ratio**k)
+            shares[stresses + k * wide + i - begin] = m * found
+    tail = place + (last - first) * (wide - 1)
     for j in range(first, last):
         x, parents = sizes[0, j], 0
         if given[p, KEPT] > 0:
-            parents = max(0, math.floor(math.log(x / high) / shrink + 1e-12))
+            parents = min(most, max(0, math.floor(math.log(x / high) / shrink + 1e-12)))
         y = x
         for k in range(parents + 1):
-            sizes[2, k] = x / y
-            sizes[3, k] = density(given, p, y) if low <= y <= high else 0.0
-            sizes[4, k] = m * (given[p, EXPONENT] * math.log(y) - given[p, LN_STRENGTH])
+            sizes[2, k] = density(given, p, y) if low <= y <= high else 0.0
+            sizes[3, k] = m * (given[p, EXPONENT] * math.log(y) - given[p, LN_STRENGTH])
             if y <= given[p, UNBROKEN]:
-                sizes[4, k] = -math.inf
+                sizes[3, k] = -math.inf
             y /= ratio
-        for i in range(begin, end + 1):
-            left = 1 - squeezes[0, i] if i < end else 1 - edge
+        for i in range(wide):
             number = broken = 0.0
-            for k in range(parents, 0, -1):
-                number = gain * broken * number + sizes[3, k]
-                broken = 0.0
-                if number > 0 and sizes[4, k] > -math.inf:
-                    stress = m * met(panels, p, count, 1 - left * sizes[2, k])
-                    broken = 1 - survived(stress + sizes[4, k])
-            number = gain * broken * number + sizes[3, 0]
-            if i < end:
-                shares[place] = number * survived(squeezes[MET, i] + sizes[4, 0])
+            for k in range(parents, -1, -1):
+                number = gain * broken * number + sizes[2, k]
+                if number > 0:
+                    alive = survived(shares[stresses + k * wide + i] + sizes[3, k])
+                    broken = 1 - alive
+            number = number * alive if number > 0 else 0.0
+            if i < wide - 1:
+                shares[place] = number
                 place += 1
             else:
-                shares[tail] = number * survived(final + sizes[4, 0])
+                shares[tail] = number
                 tail += 1
     return tail
 
