@@ -19,7 +19,8 @@ PLANE = BARE.replace(
         areal_density=1e11,
         diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9),
     ),
-    particle_law=tb.particle.Series(deep="off", seat="plane", law=tb.asperity.KE()),
+    particle_law=tb.particle.Series(deep="off", seat="plane"),
+    asperity_law=tb.asperity.DMT(w=0.05),  # which no engine knows
 )
 
 

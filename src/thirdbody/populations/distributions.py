@@ -132,8 +132,10 @@ class TruncatedGaussian(Distribution):
         lo, hi = self.support
         p0 = special.ndtr((lo - self.mean) / self.std)
         p1 = special.ndtr((hi - self.mean) / self.std)
-        u = special.ndtri(p0 + np.asarray(q, dtype=float) * (p1 - p0))
-        return np.clip(self.mean + self.std * u, lo, hi)
+        q = np.asarray(q, dtype=float)
+        u = special.ndtri(p0 + q * (p1 - p0))
+        # seven widths out one less a probability has no digits left: the end itself is known
+        return np.where(q < 1, np.clip(self.mean + self.std * u, lo, hi), hi)[()]
 
     def partial_moment(self, n: int, a: ArrayLike, b: ArrayLike) -> Array:
         lo, hi = _clip(a, b, self.support)
