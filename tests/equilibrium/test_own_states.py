@@ -558,3 +558,23 @@ def test_laws_of_the_kernel_are_the_laws():
         at(rows, y, out)
         for column, name in enumerate(("force", "area")):
             np.testing.assert_allclose(out[:, column], bound.reduced(name, y), rtol=1e-13)
+
+
+@pytest.mark.parametrize("kind", ["jump", "breaking", "heights"])
+def test_company_and_order_change_no_bit_of_what_is_laid_once_a_state(kind):
+    case = contact("ke", "rough", "hard")
+    if kind == "breaking":
+        case = contact("hermite").replace(**{"particles.strength": STRENGTH})
+    if kind == "heights":
+        case = case.replace(**{"roughness.heights": HEIGHTS["weibull"]})
+    vary, loads = drawn(case, 9, 4, unlike=True)
+    if kind == "breaking":
+        del vary["particles.material.nu"]
+    vary["surfaces.first.E"][::3], vary["surfaces.first.H"][::3] = STEEL.E, STEEL.H
+    whole = own_columns(case, vary, "F_star", loads)
+    mixed = {name: values[::-1] for name, values in vary.items()}
+    other = own_columns(case, mixed, "F_star", loads[::-1])
+    alone = own_columns(case, {k: v[4:5] for k, v in vary.items()}, "F_star", loads[4:5])
+    for name in ("d", "F_sa_star", "A_e", "A_ep", "A_p", "A_sa2", "A_t"):
+        np.testing.assert_array_equal(whole[name][::-1], other[name], name)
+        np.testing.assert_array_equal(whole[name][4:5], alone[name], name)
