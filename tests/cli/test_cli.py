@@ -428,6 +428,19 @@ def test_a_full_disk_is_told():
         files.write_text("/dev/full", "nothing")
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_device_is_told_before_any_work():
+    """Nothing is solved, so nothing is warned of."""
+    assert files.hindrance("/dev/full").startswith("no space left")
+    assert files.hindrance(os.devnull) == ""
+    for where in (">/dev/full", "--csv /dev/full"):
+        words = f"{sys.executable} -m thirdbody solve {DUSTY} {where}"
+        done = subprocess.run(words, shell=True, capture_output=True, text=True, timeout=300)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert len(done.stderr.splitlines()) == 1
+        assert "no space left" in done.stderr.lower()
+
+
 # ---------------------------------------------------------------------------- interruptions
 @pytest.mark.skipif(os.name == "nt", reason="signals")
 def test_interrupt_exits_130_with_one_line_and_no_file(tmp_path):

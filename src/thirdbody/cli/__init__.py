@@ -18,7 +18,7 @@ import typer
 
 from .commands import COMMANDS
 from .options import OwnCode, load_own_code, with_own_code
-from .streams import Commands, open_closed_streams, without_output
+from .streams import Commands, open_closed_streams, refuse_full_output, without_output
 
 __all__ = ["app", "main"]
 
@@ -40,6 +40,7 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:
+        refuse_full_output()
         try:
             app()
         finally:

@@ -8,10 +8,12 @@ error. Exit status: 0 done, 2 bad input, 3 no equilibrium or no transition in th
 from __future__ import annotations
 
 import contextlib
+import errno
 import importlib.util
 import io
 import os
 import shutil
+import stat
 import sys
 import textwrap
 import warnings
@@ -32,6 +34,7 @@ __all__ = [
     "complain",
     "figure_format",
     "open_closed_streams",
+    "refuse_full_output",
     "warn",
     "without_output",
     "write_figure",
@@ -81,6 +84,18 @@ def open_closed_streams() -> None:
         if getattr(sys, name) is None and os.open(os.devnull, flags) == number:
             mode = "r" if name == "stdin" else "w"
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115
+
+
+def refuse_full_output() -> None:
+    """The OSError of an answer that will find no room, as on ``/dev/full``, before any work."""
+    with contextlib.suppress(AttributeError, ValueError):  # no stream, or one without a number
+        number = sys.stdout.fileno()
+        if stat.S_ISCHR(os.fstat(number).st_mode):
+            try:
+                os.write(number, b"")
+            except OSError as error:
+                if error.errno == errno.ENOSPC:
+                    raise
 
 
 def without_output(error: OSError) -> int:

@@ -109,8 +109,11 @@ class FlashTemperature(AbstractOutput):
     contact: there are three, by number, area and load.
 
     Asperities of one shape: quantiles by number and the peak follow from the heights exactly, as
-    a deeper contact is a hotter one. Otherwise contacts are counted over 400 levels of temperature
-    and interpolated: within 1 % (measured against explicit contacts).
+    a deeper contact is a hotter one. Otherwise contacts are counted, class by class, over 400
+    levels of temperature and interpolated. Of particles p95, p99 and the peak are then within
+    2.5 %, and the median within 5 % (measured against the integral over sizes and seats, of
+    Gaussian and lognormal sizes that slide slowly); asperities within 1 % (against explicit
+    contacts).
 
     Neighbours heat a contact through the bulk temperature alone. Flakes conduct at least as well
     as the ball of their thickness that is used here. Shear and ploughing heat are set free in the

@@ -318,13 +318,30 @@ def hindrance(path: str | os.PathLike[str]) -> str:
         return _why(FileNotFoundError(), target)
     if os.path.exists(path) and not os.path.isfile(path):
         # a device or a pipe
-        return "" if os.access(path, os.W_OK) else "it takes nothing; give the name of a file"
+        if not os.access(path, os.W_OK):
+            return "it takes nothing; give the name of a file"
+        return _device_hindrance(Path(path))
     draft = _draft(target)
     try:
         draft.touch(exist_ok=False)
         draft.unlink()
     except OSError as error:
         return _why(error, target)
+    return ""
+
+
+def _device_hindrance(device: Path) -> str:
+    """Why a device takes nothing; of a pipe nothing is known before."""
+    try:
+        if not stat.S_ISCHR(device.stat().st_mode):
+            return ""
+        number = os.open(device, os.O_WRONLY | getattr(os, "O_NOCTTY", 0))
+        try:
+            os.write(number, b"")  # one that is full refuses this, too
+        finally:
+            os.close(number)
+    except OSError as error:
+        return _why(error, device)
     return ""
 
 

@@ -39,8 +39,8 @@ def run_study(study: Study) -> dict[str, Any]:
         Title, version, inputs (SI), scales, states (a list each), what each of several populations
         carries in them, transitions, warnings, citations; ``body``, where a force presses one:
         pressures and integrals of each force, and sentences; and where none does, of a study with
-        [film], ``particles_held``: how many lie in the contact of the film's bodies. A state that cannot be solved keeps
-        its place with None and a status that says why.
+        [film], ``particles_held``: how many lie in the contact of the film's bodies. A state that
+        cannot be solved keeps its place with None and a status that says why.
     """
     from ..version import __version__
 
