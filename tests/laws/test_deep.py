@@ -364,3 +364,17 @@ def test_many_curves_are_those_of_one():
         one = squeeze_curve(*sides)
         np.testing.assert_allclose(load[i], one.log_load, atol=1e-13)
         np.testing.assert_allclose(area[i], one.log_area, atol=1e-13)
+
+
+def test_a_side_has_the_same_bits_alone_and_among_others():
+    rng = np.random.default_rng(7)
+    cases = (
+        np.exp(rng.uniform(-1.5, 2.0, 60)),
+        rng.choice([0.0, 0.2, 0.5, 1.0], 60),
+        10 ** rng.uniform(0.8, 4.0, 60),
+    )
+    together = curve_rows(*cases)
+    for i in range(60):
+        alone = curve_rows(*(values[i : i + 1] for values in cases))
+        for one, many in zip(alone, together, strict=True):
+            np.testing.assert_array_equal(one[0], many[i])

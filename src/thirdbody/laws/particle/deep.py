@@ -230,7 +230,10 @@ def _logarithms(x: Array, friction: float, softness: Array) -> Array:
     c, u = cubic.c[:, piece, np.arange(len(x))], (at - nodes[piece])[:, None]
     row = row + softness[:, None] * (((c[0] * u + c[1]) * u + c[2]) * u + c[3])
     both = np.stack([row[:, : TERMS + 1], row[:, TERMS + 1 :]])
-    root = both[:, :, 1:] @ chebyshev_transform(TERMS)[1].T
+    # term by term: a product of matrices rounds a row alone and among others differently
+    root = np.zeros((2, len(x), TERMS))
+    for i, column in enumerate(chebyshev_transform(TERMS)[1].T):
+        root += both[:, :, 1 + i, None] * column
     # T_i T_j = (T_{i+j} + T_{|i-j|})/2
     square = np.zeros((*root.shape[:2], 2 * TERMS - 1))
     for i in range(TERMS):
