@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from twins import base, decades, horng_twins, interfaces, material, series_twin, series_twins, sizes
 
 import thirdbody as tb
+from thirdbody.contact.interface import interface
 
 pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
 PER_AREA = ("A_t", "A_ss", "A_sa", "A_e", "A_ep", "A_p")
@@ -418,3 +419,20 @@ def test_plastic_limit(interface, h):
         2 * math.pi * rough.eta * rough.R * rough.sigma_s * F_1, rel=1e-5
     )
     assert state.F_star * interface.E_ss == pytest.approx(state.A_t * interface.tip.H, rel=1e-5)
+
+
+@pytest.mark.parametrize("shadow", ["d", "none"])
+def test_particles_of_one_size_have_no_slope_where_they_jump_in(shadow):
+    x = 200e-9
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(tb.materials["S45C"], tb.materials["S45C"]),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=tb.Particles(
+            material=tb.materials["SiO2"], areal_density=1e10, diameter=tb.Monodisperse(mean=x)
+        ),
+        particle_law=tb.particle.Horng2022(shadow=shadow),
+    )
+    with np.errstate(all="raise"):
+        load = interface(case).load(x * np.array([0.999, 1.0, 1.001]))
+    assert np.all(np.isfinite(load))
+    assert np.all(load[:, 1] <= 0)

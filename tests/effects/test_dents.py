@@ -10,6 +10,7 @@ import pytest
 
 import thirdbody as tb
 from thirdbody.effects import Dents
+from thirdbody.effects.curves import Curve
 from thirdbody.effects.single import dent as one_dent
 from thirdbody.laws.particle import Series
 from thirdbody.laws.particle import one_particle as co
@@ -494,6 +495,12 @@ def test_percentile_and_deepest_are_those_of_an_integral_by_hand(seat, cut):
     for value, count in ((p95, 0.05 * n), (most, math.log(2 / (1 + math.exp(-n * 1e-6))) * 1e6)):
         # the exact value lies between two that differ by 2e-6
         assert number(value * (1 - 1e-6)) >= count >= number(value * (1 + 1e-6))
+
+
+def test_formulas_that_change_at_nearly_the_same_squeeze_are_one():
+    kink = 0.33805337343385033
+    curve = Curve(lambda eps: eps**2, [kink, np.nextafter(kink, 1), kink * (1 + 1e-13)])
+    np.testing.assert_allclose(curve.first(np.array([0.01, 0.25])), [0.1, 0.5], rtol=1e-8)
 
 
 def test_the_few_embedded_are_counted_exactly():

@@ -175,6 +175,50 @@ def test_angular_particles_hold_to_the_slow_path(shape, law, seat, body, unlike)
     assert max(largest_error(got, want, known).values()) <= BOUND
 
 
+@pytest.mark.parametrize("seat", SEATS)
+def test_particles_squeezed_to_the_end_have_the_area_of_the_law(seat):
+    # the softer surface takes the rest; the area on the harder one stays where it was
+    soft = tb.Material(E=7e9, nu=0.36, H=96e6)
+    case = contact("deep", seat, other=soft)
+    case = case.replace(
+        surfaces=tb.MaterialPair(tb.Material(E=87e9, nu=0.39, H=575e6), soft),
+        particles=case.particles.replace(material=tb.Material(E=88e9, nu=0.48, H=123e6)),
+    )
+    d = np.linspace(-2.0, 0.5, 6) * case.roughness.sigma
+    if seat == "plane":
+        case = case.replace(particles=case.particles.replace(diameter=tb.Monodisperse(mean=3e-7)))
+        d = np.linspace(0.05, 0.15, 6) * 3e-7  # the squeeze of the end is 0.934
+    got, want = own_columns(case, {}, "d", d), tb.solve(case, d=d).columns()
+    assert not np.any(got["status"])
+    for name in ("A_sa", "A_sa2", "F_sa_star"):
+        np.testing.assert_allclose(got[name], want[name], rtol=1e-10, err_msg=name)
+
+
+def test_a_load_that_the_slow_path_carries_is_not_too_large_where_formulas_end():
+    # nothing is known of soft grains on a plane in no gap: a load that is NaN bounds no load
+    case = tb.Contact(
+        surfaces=tb.MaterialPair(
+            tb.Material(E=68e9, nu=0.16, H=3.1e9), tb.Material(E=256e9, nu=0.19, H=6e9)
+        ),
+        roughness=tb.Roughness(
+            sigma=107e-9, R=86e-6, alpha=20.9, heights=tb.ExponentialHeights()
+        ),
+        particles=tb.Particles(
+            material=tb.Material(E=14.2e9, nu=0.44, H=369e6), areal_density=4.3e4,
+            diameter=tb.LogNormal(median=77e-6, gsd=1.06), shape=tb.Angular(roundness=0.13, angle=0.91),
+        ),
+        particle_law=SERIES(seat="offset", h_0=2.6e-7, shadow="none"),
+    )  # fmt: skip
+    loads = np.geomspace(1e-11, 2e-3, 6)
+    vary = {"particles.areal_density": 4.3e4 * np.array([1.0, 0.1, 0.01, 0.01, 0.1, 1.0])}
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    assert np.all(np.isfinite(want["d"]))
+    sure = got["doubt"] == ""
+    assert sure.any()
+    assert not got["status"][sure].any()
+    np.testing.assert_allclose(got["d"][sure], want["d"][sure], rtol=1e-9)
+
+
 STRENGTH = tb.WeibullStrength(sigma_0=67e6, x_0=1e-3, m=3.0, size_exponent=0.55, x_c=50e-9)
 BREAKING = {
     "plain": ("hermite", {}, {}),
@@ -185,6 +229,7 @@ BREAKING = {
     "small ones too": ("hermite", {"x_c": 0.0, "size_exponent": 0.8}, {}),
     "wide": ("hermite", {}, {"diameter": tb.LogNormal(median=2.5e-7, gsd=1.3)}),
     "grit": ("hermite", {}, {"shape": GRIT["faces"]}),
+    "from zero": ("deep", {}, {"diameter": tb.Uniform(low=0.0, high=6e-7)}),
 }
 
 
@@ -208,7 +253,8 @@ def hold_breaking(kind, count, unlike, seed):
 
 
 @pytest.mark.parametrize(
-    ("kind", "unlike"), [("plain", True), ("gone", False), ("not confined", False)]
+    ("kind", "unlike"),
+    [("plain", True), ("gone", False), ("not confined", False), ("from zero", False)],
 )
 def test_particles_that_break_hold_to_the_slow_path(kind, unlike):
     hold_breaking(kind, 2, unlike, 7)

@@ -381,9 +381,10 @@ class PrintedIntegrals(ParticleSum):
         return self.sizes.partial_moment(2, a, b)
 
     def _density(self, x: Array) -> Array:
-        """w(x) φ_a(x)."""
+        """w(x) φ_a(x); 0 where particles of one size jump in and out, which is no slope."""
         scale = self.x_a if self.law.weight == "xa2" else x
-        return scale**2 * self.sizes.pdf(x)
+        pdf = self.sizes.pdf(x)
+        return scale**2 * np.where(np.isfinite(pdf), pdf, 0.0)
 
     def _window(self, d: Array) -> Array:
         return self.C * self._moment(self.law.weight, d - self.h_e, d)
@@ -414,8 +415,7 @@ class PrintedIntegrals(ParticleSum):
         force, shadow = np.zeros((len(d), 3)), np.zeros((len(d), 3))
         window_slope = self.C * (self._density(d) - self._density(d - self.h_e))
         force[:, 0] = self._window(d) + self._above(d)
-        with np.errstate(invalid="ignore"):  # where particles of one size jump in and out
-            force[:, 1] = window_slope + self._above_slope(d)
+        force[:, 1] = window_slope + self._above_slope(d)
         force *= self.pressure * self.area_factor
         shadow[:, 0] = self._shadow(d)
         if self.law.shadow == "d":

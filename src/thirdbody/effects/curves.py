@@ -27,6 +27,8 @@ LEAST = 1e-13
 """Smallest squeeze of a table."""
 NEAR = 1e-13
 """Part of a stretch by which its ends stay off the squeezes where formulas change."""
+NEAREST = 1e-12
+"""Part of a squeeze by which two where formulas change differ; nearer ones are one."""
 CLOSE = 1e-8
 """Relative error of a value at the squeeze that is read for it."""
 ROUNDS, MOST = 60, 20_000
@@ -79,7 +81,10 @@ class Curve:
 
     def __init__(self, f: Callable[[Array], Array], kinks: Sequence[float], power: int = 1):
         self.power = power
-        edges = sorted({LEAST, 1.0, *(float(k) for k in kinks if k > LEAST)})
+        edges = [LEAST]
+        for kink in sorted((1.0, *map(float, kinks))):
+            if kink > edges[-1] * (1 + NEAREST):
+                edges.append(kink)
         edges.append(4 * edges[-1])
         top = float(np.max(f(np.array(edges))))
         parts = [_tabulated(f, a, b, top) for a, b in pairwise(edges)]

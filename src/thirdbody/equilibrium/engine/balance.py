@@ -191,16 +191,27 @@ def _imbalance(load, target):
 
 @scalar
 def search(given, skin, work, laid, rules, target, out):
-    """Separation near the root by few nodes, slope of ln F there, evaluations; NaN if none is."""
+    """Separation near the root by few nodes, slope of ln F there, evaluations; NaN if none is.
+
+    Where formulas do not reach, particles are squeezed further than they go: the root is above.
+    """
     apart()
     few = laid.shape[1] - 2
     high, low = top_of(given, skin), LOWEST
     f_high, f_low = -800.0, math.inf
     h, f, slope, n = 2.0, 0.0, 0.0, 0
     old_h, old_f = math.nan, math.nan
+    ends = False  # whether the formulas do, at ``low``
     while n < SEARCHED:
-        f = _imbalance(total(given, skin, work, laid, rules, few, h, out), target)
+        load = total(given, skin, work, laid, rules, few, h, out)
         n += 1
+        if load != load:
+            low, ends = h, True
+            old_h, h = math.nan, 0.5 * (low + high)
+            if high - low < 1e-13:
+                break
+            continue
+        f = _imbalance(load, target)
         if f > 0:
             low, f_low = h, f
         else:
@@ -216,10 +227,10 @@ def search(given, skin, work, laid, rules, target, out):
         x = h + step
         if f_low < math.inf and f_high > -800.0 and n % 3 == 0:
             x = low + (high - low) * f_low / (f_low - f_high)
-        if f_low == math.inf:
+        if f_low == math.inf and not ends:
             x = max(x, LOWEST)
         if not low < x < high and x != LOWEST:
-            x = 0.5 * (low + high) if f_low < math.inf else LOWEST
+            x = 0.5 * (low + high) if f_low < math.inf or ends else LOWEST
         if high - low < 1e-13:
             break
         h = x

@@ -332,8 +332,6 @@ class Numbers:
             mass = 1 / (math.sqrt(2 * math.pi) * rows[:, f.SIZE_2] * rows[:, f.NORM])
         elif type(one) is sizes.LogNormal:
             x_a = x_a * np.exp(0.5 * rows[:, f.SIZE_2] ** 2)
-        else:
-            x_a = 0.5 * (rows[:, f.LOW] + rows[:, f.HIGH])
         rough = self.varied.roughness
         found = printed_numbers(law, self.varied.surfaces, rough, changed, x_a, mass)
         above = f.BY_APPROACH if law.plastic_weight == "xxd" else f.AS_FIRST
@@ -466,8 +464,8 @@ class Numbers:
             low, high = changed.low, changed.high
             if np.any(high - low < NARROWEST * high):
                 raise NotCompiled("sizes that lie very close together")
-            kind = {f.KIND: f.UNIFORM, f.NORM: 1 / (high - low), f.LOW: low, f.HIGH: high}
-            _filled(rows, kind)
+            kind = {f.KIND: f.UNIFORM, f.SIZE_1: 0.5 * (low + high), f.NORM: 1 / (high - low)}
+            _filled(rows, {**kind, f.LOW: low, f.HIGH: high})
             return (high**2 + high * low + low**2) / 3
         if type(one) is Power:
             low, high, slope = one

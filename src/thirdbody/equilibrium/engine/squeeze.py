@@ -10,6 +10,8 @@ from .sides import prepare, regime_of, scalar, side_at
 
 __all__ = [
     "EDGE",
+    "LAST_1",
+    "LAST_2",
     "MOST_PANELS",
     "PANEL",
     "PULLED",
@@ -26,13 +28,15 @@ MOST_PANELS, TERMS = 160, 12
 EDGE, TO, REGIME, HELD, FROM, UNTIL, SHARE = range(7)
 """Of a panel: its ends in ε, the regime of side 1, the indentation at which a jump of its load
 holds side 1 (side 2 if negative, none if 0); ends and coefficients of the share of side 1."""
+LAST_1, LAST_2 = FROM, UNTIL
+"""Of the row behind the last panel: areas over x² on both surfaces of all that is squeezed more."""
 PULLED, RATE, START, TENSION = range(SHARE + TERMS, SHARE + TERMS + 4)
 """Tension [Pa] that holds on a panel on which less is met, or 0; place on the panel, as a rate of
 ln ε and where it starts; series of the logarithm of the tension."""
 PANEL = TENSION + TERMS
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
-CLOSE, BALANCED, RESOLVED = 1e-12, 1e-13, 1e-6
+CLOSE, BALANCED, NEARBY, RESOLVED = 1e-12, 1e-13, 1e-8, 1e-6
 JUMP, BESIDE = 1e-9, 1e-14
 """Of a load at a kink, at least, and where its sides are looked at; both relative."""
 DEEPEST = 1e3
@@ -197,6 +201,13 @@ def particle_at(given, sides, panels, p, n, eps):
     if held != 0:
         return other if held > 0 else load, first, second
     off = other / load - 1
+    if abs(off) > NEARBY:  # nearer first: what follows has an error of the square of this
+        step = off / (1.3 / one + 1.3 / (eps - one))
+        near = side_at(sides, 2 * p + 1, eps - one - step)[0] / side_at(sides, 2 * p, one + step)[0]
+        one += step * off / (off - (near - 1))
+        load, first = side_at(sides, 2 * p, one)
+        other, second = side_at(sides, 2 * p + 1, eps - one)
+        off = other / load - 1
     if abs(off) > BALANCED:
         # along the line from here to a point that is closer, with an error of its square
         step = off / (1.3 / one + 1.3 / (eps - one))
@@ -413,6 +424,40 @@ def _cut_at_crossings(given, sides, panels, p, count):
 
 
 @scalar
+def _last_area(sides, i, load, area):
+    """Area over x² of a side at the last load of a particle, near which it is ``area``.
+
+    A share between the sides holds to some 1e-6 beside a kink, and all that is squeezed further
+    has this area: it is read from the law.
+    """
+    apart()
+    if sides[i, LIMIT] <= load * (1 + CLOSE):
+        return side_at(sides, i, 2 * sides[i, KINKS + int(sides[i, COUNT]) - 1])[1]
+    if sides[i, JUMPS] > 0:
+        return area
+    return side_at(sides, i, inverse(sides, i, load))[1]
+
+
+@scalar
+def _note_last(given, sides, panels, p, count):
+    """Write down what all that is squeezed beyond the last panel has in common."""
+    apart()
+    equal, eps, first = given[p, EQUAL] == 1, panels[p, count - 1, TO], sides[2 * p, LIMIT]
+    other = first if equal else sides[2 * p + 1, LIMIT]
+    load = min(first, other)
+    _, one, two = particle_at(given, sides, panels, p, count - 1, eps)
+    one = panels[p, count, LAST_1] = _last_area(sides, 2 * p, load, one)
+    panels[p, count, LAST_2] = one if equal else _last_area(sides, 2 * p + 1, load, two)
+    # the weaker side takes the rest
+    indented = 0.5 * eps if equal else first_at(panels, p, count - 1, eps)
+    deeper = equal or first <= other * (1 + CLOSE)
+    if sides[2 * p, JUMPS] + sides[2 * p + 1, JUMPS] > 0:  # a last kink of either
+        deeper |= panels[p, count - 1, HELD] <= 0
+    indented *= 1 + 1e-9 * (1 if deeper else -1)
+    panels[p, count, REGIME] = regime_of(sides, 2 * p, indented)
+
+
+@scalar
 def lay_panels(given, sides, panels, p, rule):
     """Lay the panels of part p; how many, or −1 where the formulas do not cover it."""
     apart()
@@ -447,12 +492,6 @@ def lay_panels(given, sides, panels, p, rule):
         eps = 0.5 * (panels[p, n, EDGE] + panels[p, n, TO])
         one = 0.5 * eps if equal else first_at(panels, p, n, eps)
         panels[p, n, REGIME] = regime_of(sides, 2 * p, one)
-    # beyond the last the weaker side takes the rest
-    eps = panels[p, count - 1, TO]
-    one = 0.5 * eps if equal else first_at(panels, p, count - 1, eps)
-    deeper = equal or sides[2 * p, LIMIT] <= sides[2 * p + 1, LIMIT] * (1 + CLOSE)
-    if sides[2 * p, JUMPS] + sides[2 * p + 1, JUMPS] > 0:  # a last kink of either
-        deeper |= panels[p, count - 1, HELD] <= 0
+    _note_last(given, sides, panels, p, count)
     panels[p, count, SHARE] = 0.0 if equal else worst
-    panels[p, count, REGIME] = regime_of(sides, 2 * p, one * (1 + 1e-9 * (1 if deeper else -1)))
     return count

@@ -16,7 +16,6 @@ from .fields import (
     AREA,
     BREADTH,
     BREAKS,
-    COUNT,
     COVERAGE,
     COVERED,
     DENSITY,
@@ -32,7 +31,6 @@ from .fields import (
     HIGH,
     KEPT,
     KIND,
-    KINKS,
     LAID_FROM,
     LAST,
     LEAST,
@@ -58,8 +56,8 @@ from .fields import (
     WIDTH,
     W,
 )  # fmt: skip
-from .sides import branch_of, break_at, breaks, law_at, regime_of_branch, scalar, side_at
-from .squeeze import CLOSE, EDGE, REGIME, TO, particle_at
+from .sides import branch_of, break_at, breaks, law_at, regime_of_branch, scalar
+from .squeeze import EDGE, LAST_1, LAST_2, REGIME, TO, particle_at
 
 __all__ = [
     "MOST_HEIGHTS",
@@ -421,27 +419,13 @@ def _add_rough(
 
 
 @scalar
-def widest_of(sides, i):
-    """Area over x² of a side beyond its last kink."""
-    apart()
-    return side_at(sides, i, 2 * sides[i, KINKS + int(sides[i, COUNT]) - 1])[1]
-
-
-@scalar
 def _add_last(given, sides, panels, p, count, squared, out):
     """What particles beyond the last panel carry, by the sum of their sizes squared."""
     apart()
-    edge = panels[p, count - 1, TO]
-    _, one, two = particle_at(given, sides, panels, p, count - 1, edge)
+    one, two = panels[p, count, LAST_1], panels[p, count, LAST_2]
     load = sides[2 * p, LIMIT]  # the load may jump at the end
     if given[p, EQUAL] != 1:
         load = min(load, sides[2 * p + 1, LIMIT])
-        if sides[2 * p + 1, LIMIT] <= load * (1 + CLOSE):
-            two = widest_of(sides, 2 * p + 1)
-    if sides[2 * p, LIMIT] <= load * (1 + CLOSE):
-        one = widest_of(sides, 2 * p)
-        if given[p, EQUAL] == 1:
-            two = one
     out[F_SA] += squared * load
     out[A_SA + int(panels[p, count, REGIME])] += squared * one
     out[A_SA2] += squared * two
