@@ -45,7 +45,7 @@ def test_a_force_is_told_in_the_words_of_the_command_line(force, tmp_path):
     study = BALL | {"load": {"force": force}}
     told = run_study(check(study))["body"]["sentences"]
     state = State(study, tmp_path)
-    assert interface.told_of(state.answer.forces) == told
+    assert interface.force_sentences(state.answer.forces) == told
     first = interface.at_once(state.answer)
     assert len(first) == len(told)
     assert all("Integrated over" not in each.sentence() for each in first)

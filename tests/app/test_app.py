@@ -24,7 +24,7 @@ from thirdbody.app import exports, text
 from thirdbody.app.cross_section import CARRIES, profile, section, to_svg
 from thirdbody.app.entries import about_of
 from thirdbody.app.examples import EXAMPLES, example
-from thirdbody.app.fields import engineering, fields_of, number_of, shown, value_from
+from thirdbody.app.fields import engineering, fields_of, number_of, text_of, value_from
 from thirdbody.app.folders import Folders
 from thirdbody.app.guard import LARGEST_UPLOAD, Guard, Headers, allowed_hosts
 from thirdbody.app.jobs import Job, Stopped
@@ -330,7 +330,7 @@ def test_every_option_of_the_registries_has_a_field(registry):
 )  # fmt: skip
 def test_what_is_written_is_read_and_shown_again(written, value):
     assert value_from(written) == value
-    assert value_from(shown(value)) == value
+    assert value_from(text_of(value)) == value
 
 
 @pytest.mark.parametrize("value", [3e-7, 9.9996e-7, 1e-6, 5.2e-3, 2.0, 4e-11])
@@ -657,7 +657,7 @@ ALSO = {
 
 
 def test_a_length_is_shown_with_its_sign_and_written_without():
-    assert shown(["1 um", "2 um"]) == "1 µm, 2 µm"
+    assert text_of(["1 um", "2 um"]) == "1 µm, 2 µm"
     assert value_from("2.8 µm") == value_from("2.8 μm") == "2.8 um"
 
 

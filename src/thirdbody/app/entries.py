@@ -12,7 +12,7 @@ import thirdbody as tb
 
 from ..errors import InvalidValue
 from ..quantities.say import number, value_of
-from .fields import VARIANTS, Field, fields_of, known_keys, options_of, shown, value_from
+from .fields import VARIANTS, Field, fields_of, known_keys, options_of, text_of, value_from
 from .state import State
 from .text import from_toml, to_toml, with_micro
 from .widgets import put
@@ -57,7 +57,7 @@ class Entry(NamedTuple):
 
     widget: Any
     read: Callable[[str], Any] | None = None
-    show: Callable[[Any], str] = shown
+    show: Callable[[Any], str] = text_of
     whole: bool = False
     """Whether mistakes inside the table belong to it as well."""
 
@@ -121,7 +121,7 @@ class Entries:
         read, show = (
             (lambda text: text.strip() or None, lambda value: str(value or ""))
             if field.kind == "string"
-            else (lambda text: value_from(text, one=field.kind == "number"), shown)
+            else (lambda text: value_from(text, one=field.kind == "number"), text_of)
         )
         entry = ui.input(field.label, value=show(self.state.get(*place))).classes("w-full")
         name = dotted(place)
@@ -131,7 +131,7 @@ class Entries:
         self.shown[name] = Entry(entry, read, show)
         return entry
 
-    def known(self, *place: str) -> None:
+    def other_fields(self, *place: str) -> None:
         """The entries of a table without a form of its own, as the reader knows them."""
         for name, about in known_keys(self.state.study, place[0]).get(dotted(place), {}).items():
             if about:
@@ -181,7 +181,7 @@ class Entries:
                 self.state.set(*place, event.value or None)
 
         if not isinstance(now, str):
-            now = shown(now)  # a mistake, which stands there as it is written
+            now = text_of(now)  # a mistake, which stands there as it is written
         known = options if now in options else {now: now, **options}
         menu = ui.select(known, value=now, label=label, on_change=changed)
         put(menu.props("dense options-dense").classes("w-full"), {"hint": with_micro(hint)})
@@ -239,7 +239,7 @@ class Entries:
         """A word of a registry and the entries that go with it."""
         now = self.state.get(*place)
         word = now.get(tag) if isinstance(now, dict) else now
-        word = word if isinstance(word, str) else shown(word)
+        word = word if isinstance(word, str) else text_of(word)
         words = options_of(registry)
         if blank is not None:
             words = {"": blank, **words}

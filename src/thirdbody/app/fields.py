@@ -36,7 +36,7 @@ __all__ = [
     "number_field",
     "number_of",
     "options_of",
-    "shown",
+    "text_of",
     "value_from",
 ]
 
@@ -144,7 +144,7 @@ def number_field(
     allowed = allowed_range(about).removeprefix("must be ")
     said = f"{about['meaning']}; {allowed}"
     if default is not None:
-        said += f"; {shown(default)} when left out"
+        said += f"; {text_of(default)} when left out"
     elif not needed:
         said += "; may be left out"
     return Field(
@@ -207,12 +207,12 @@ def options_of(kind: Any) -> dict[str, str]:
 
 
 # ---------------------------------------------------------------------- text and values
-def shown(value: Any) -> str:
+def text_of(value: Any) -> str:
     """A value of a study as a field shows it: strings without quotes, the rest as in TOML."""
     if value is None:
         return ""
     if isinstance(value, list) and not any(isinstance(x, dict) for x in value):
-        return ", ".join(map(shown, value))
+        return ", ".join(map(text_of, value))
     return with_micro(value if isinstance(value, str) else written(value))
 
 

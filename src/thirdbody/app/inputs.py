@@ -19,7 +19,7 @@ from ..study.inputs import inputs_of
 from ..systems.bodies import BODIES
 from .bounds import LARGEST_TABLE
 from .entries import Place, dotted
-from .fields import VARIANTS, Field, fields_of, number_field, shown, value_from
+from .fields import VARIANTS, Field, fields_of, number_field, text_of, value_from
 from .particle_inputs import ParticleInputs
 from .text import with_micro
 from .uploads import take
@@ -81,7 +81,7 @@ def in_words(entry: Any) -> str:
     ('5 GPa ± 0.3 GPa', '1 µm, two of three cases within a factor of 1.5')
     """
     if isinstance(entry, dict) and len(entry) == 2:
-        keys, (one, two) = list(entry), map(shown, entry.values())
+        keys, (one, two) = list(entry), map(text_of, entry.values())
         if keys == ["low", "high"]:
             return f"between {one} and {two}"
         if keys == ["mean", "std"]:
@@ -124,7 +124,7 @@ class Inputs(ParticleInputs):
         """The rough surface."""
         if self.state.get("roughness", "topography") is not None:
             ui.label("The roughness is that of a measured file, or of two faces.").classes("hint")
-            self.known("roughness")
+            self.other_fields("roughness")
             ui.button("Numbers instead", on_click=self._numbers).props("flat dense")
             return
         given = self.table("roughness")
@@ -179,7 +179,7 @@ class Inputs(ParticleInputs):
             place, words, chosen, "shape of the tips", lambda w: self.change(*place, starts[w])
         )
         if now is not None:
-            self.known("roughness", "ellipticity")
+            self.other_fields("roughness", "ellipticity")
 
     def _numbers(self) -> None:
         answer = self.state.answer

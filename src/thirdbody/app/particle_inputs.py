@@ -12,7 +12,7 @@ from ..quantities.say import value_of
 from ..study.concentration import AMOUNT
 from ..study.counted import COUNTED
 from .entries import Entries, Place
-from .fields import COUNTED_FIELDS, VARIANTS, Field, fields_of, number_field, options_of, shown
+from .fields import COUNTED_FIELDS, VARIANTS, Field, fields_of, number_field, options_of, text_of
 from .state import State
 
 __all__ = ["ParticleInputs"]
@@ -30,7 +30,7 @@ def bins_in_words(given: dict[str, Any]) -> str:
     edges = given.get("edges")
     if not isinstance(edges, list) or len(edges) < 2:
         return "bins in the study file"
-    ends = [value_of(each, "m") if isinstance(each, float) else shown(each) for each in edges]
+    ends = [value_of(each, "m") if isinstance(each, float) else text_of(each) for each in edges]
     return f"{len(edges) - 1} bins from {ends[0]} to {ends[-1]}"
 
 

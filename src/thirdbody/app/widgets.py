@@ -12,7 +12,7 @@ from nicegui.json import dumps
 
 from .figures import CONFIG, empty
 
-__all__ = ["Facts", "Plot", "facts", "put", "shown", "table", "upload"]
+__all__ = ["Facts", "Plot", "facts", "put", "show_figures", "table", "upload"]
 
 
 def put(element: Any, props: Mapping[str, Any]) -> Any:
@@ -73,7 +73,7 @@ class Plot:
 
     async def show(self, made: dict[str, Any]) -> bool:
         """This figure, as `figures.figure` gives it; whether the browser has drawn it."""
-        return await shown([(self, made)])
+        return await show_figures([(self, made)])
 
     def change(self, made: dict[str, Any]) -> list[Any]:
         """The function of Plotly that draws this figure, and its arguments: what is new alone."""
@@ -98,7 +98,7 @@ def _without_y(trace: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in trace.items() if name != "y"}
 
 
-async def shown(figures: Iterable[tuple[Plot, dict[str, Any]]]) -> bool:
+async def show_figures(figures: Iterable[tuple[Plot, dict[str, Any]]]) -> bool:
     """Figures in their places, in one message; whether the browser has drawn all of them."""
     new = [(plot, made) for plot, made in figures if made != plot.made]
     if not new:

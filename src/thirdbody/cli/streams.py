@@ -154,7 +154,7 @@ class TableFiles(NamedTuple):
     parquet: Path | None = None
 
     @property
-    def asked(self) -> list[Path]:
+    def paths(self) -> list[Path]:
         return [path for path in self if path is not None]
 
     def need(self, figure: Path | None = None, *, force: bool = False) -> None:

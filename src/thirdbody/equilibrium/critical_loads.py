@@ -181,7 +181,7 @@ def _critical_loads(
     area, load = (values.reshape(count, NODES) for values in grid[:2])
     lost = np.isnan(shares.top)
 
-    def found(
+    def load_at(
         rows: NDArray[np.bool_], cell: NDArray[np.intp], column: int, level: float
     ) -> tuple[Array, NDArray[np.intp]]:
         """F* at which a share has its level between nodes ``cell`` and the next."""
@@ -206,7 +206,7 @@ def _critical_loads(
     cell = np.maximum(np.argmax(below, 1) - 1, 0)
     out["F_cr1"] = entry(
         [(never, "never p-s", 0.0), (always, "always p-s", np.inf)],
-        found(~never & ~always, cell, 0, level),
+        load_at(~never & ~always, cell, 0, level),
     )
     level = math.log(EPS_2 / (1 - EPS_2))
     above = area >= level
@@ -214,14 +214,14 @@ def _critical_loads(
     none, end = np.all(~above, axis=1), above[:, -1]
     out["F_cr2"] = entry(
         [(none, "always s-s", 0.0), (end, "never s-s", np.inf)],
-        found(~none & ~end, last, 0, level),
+        load_at(~none & ~end, last, 0, level),
     )
     out["F_tpca.A"] = _peak(shares, area, t, lost, entry)
     above = load >= 0
     changes = above[:, 1:] != above[:, :-1]
     last = NODES - 2 - np.argmax(changes[:, ::-1], 1)
     none = np.all(~changes, axis=1)
-    out["F_tpca.B"] = entry([(none, "none", np.nan)], found(~none, last, 1, 0.0))
+    out["F_tpca.B"] = entry([(none, "none", np.nan)], load_at(~none, last, 1, 0.0))
     return out
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Line", "Panel", "draw", "keep", "made", "save", "table_of"]
+__all__ = ["Line", "Panel", "draw", "keep", "prepare_folder", "save", "table_of"]
 
 Array = NDArray[np.float64]
 COLOURS = ("blue", "vermilion", "green", "purple", "orange", "sky")
@@ -147,7 +147,7 @@ FILES = re.compile(
 SURFACE = re.compile(r"[^/]+/(?:surface_\d{3,}\.json|\.surface_\d{3,}\.[0-9a-f-]+\.part\.json)")
 
 
-def made(out: str | Path, paper: str, preset: str | None = None) -> Path:
+def prepare_folder(out: str | Path, paper: str, preset: str | None = None) -> Path:
     """A folder for a study, made when missing.
 
     Parameters

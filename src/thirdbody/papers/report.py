@@ -14,7 +14,7 @@ from ..quantities.files import write_text
 from ..views.html import symbols, table
 from .ledger import OWN, WORDS, Claim, Verdict
 from .page import document, figures
-from .panels import Panel, draw, keep, made, table_of
+from .panels import Panel, draw, keep, prepare_folder, table_of
 from .trends import Measure, Reading, score
 
 __all__ = ["Study", "Summary"]
@@ -79,7 +79,7 @@ class Study:
                 f"preset = {preset!r} has no meaning for {self.name}: figures and ledger show all "
                 f"readings ({', '.join(self.readings)}); leave it out"
             )
-        folder = made(out, self.name)
+        folder = prepare_folder(out, self.name)
         report = progress or (lambda stage, done, total: None)
 
         report("claims", 0, 1)

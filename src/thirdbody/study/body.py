@@ -14,7 +14,16 @@ from ..quantities.value import quantity
 from ..systems.bodies import BODIES, Body, Pressed, press
 from .reader import Reader, Table
 
-__all__ = ["FORCE", "TABLE", "held_in", "loads_of", "of_bodies", "pressed", "told", "told_forces"]
+__all__ = [
+    "FORCE",
+    "TABLE",
+    "force_sentences",
+    "held_in",
+    "loads_of",
+    "of_bodies",
+    "pressed",
+    "told_forces",
+]
 
 FORCE = quantity(
     "F", "N", "force on the bodies of [body]", gt=0, hint="kN are 5e3 or '5 kN'"
@@ -59,7 +68,7 @@ def told_forces(forces: np.ndarray) -> np.ndarray:
     return forces if len(forces) <= MOST_INTEGRATED else forces[[0, -1]]
 
 
-def told(found: list[Pressed]) -> list[str]:
+def force_sentences(found: list[Pressed]) -> list[str]:
     """Sentences of the forces; of many, those of the ends."""
     some = found if len(found) <= MOST_INTEGRATED else [found[0], found[-1]]
     return [each.sentence() for each in some]
@@ -70,8 +79,8 @@ def of_bodies(result: dict[str, Any]) -> str:
 
     States are of a surface under one pressure, which shares its load among all its particles.
     """
-    told = result.get("body", {}).get("forces", ())
-    each = [force for force in told if force["particle_load_share"] is not None]
+    forces = result.get("body", {}).get("forces", ())
+    each = [force for force in forces if force["particle_load_share"] is not None]
     if not each:
         return ""
     rare = any(0 < force["particles_held"] < 1 for force in each)

@@ -16,7 +16,7 @@ from .fields import about_of
 from .one_value import number
 from .reader import Key, Reader, plain
 
-__all__ = ["AMOUNT", "amount", "laden", "told"]
+__all__ = ["AMOUNT", "amount", "complaints_of", "laden"]
 
 AMOUNT = {
     name: declared.metadata["quantity"]
@@ -48,19 +48,19 @@ def amount(reader: Reader, path: str, data: Any, kind: str, own: dict[str, Key])
     if by_volume:
         own["areal_density"] = own["areal_density"]._replace(required=False)
 
-    def shown(*keys: str) -> list[str]:
+    def entries_of(*keys: str) -> list[str]:
         return [f"{path}.{key} = {say(given[key])}" for key in keys if key in given]
 
     wrong = []
     for pair in ((kind if coded else "concentration", "areal_density"), ("gap", "film")):
-        if len(both := shown(*pair)) > 1:
+        if len(both := entries_of(*pair)) > 1:
             wrong.append(f"{', '.join(both)}: only one of these can be given; remove the other")
-    if by_volume and not shown("gap", "film"):
+    if by_volume and not entries_of("gap", "film"):
         wrong.append(
             f"{path}.gap is missing: the height of the fluid whose particles are trapped, e.g. "
             f'gap = "1 um"; {kind if coded else "concentration"} counts them per volume'
         )
-    if not by_volume and (idle := shown(*names)):
+    if not by_volume and (idle := entries_of(*names)):
         wrong.append(f"{idle[0]} has no effect without {path}.concentration")
     return wrong
 
@@ -71,14 +71,14 @@ def laden(reader: Reader, path: str, values: dict[str, Any], diameter: Any) -> P
         return reader.make(Particles, path, values | {"diameter": diameter})
     found = values.pop("concentration")
     gap = values.pop("gap", values.pop("film", None))
-    with told(path):
+    with complaints_of(path):
         return Particles.from_concentration(
             found.amount, by=found.by, gap=gap, diameter=diameter, **values
         )
 
 
 @contextmanager
-def told(path: str) -> Iterator[None]:
+def complaints_of(path: str) -> Iterator[None]:
     """Complaints about particles, with the name of their table."""
     try:
         yield

@@ -12,7 +12,7 @@ from ..populations.measured import cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
 from ..populations.particles import Particles
 from ..quantities.units import say
-from .concentration import AMOUNT, laden, told
+from .concentration import AMOUNT, complaints_of, laden
 from .fields import about_of
 from .one_value import number, word
 from .reader import Key, Reader, get, plain
@@ -60,7 +60,7 @@ def counted(
             raise InvalidValue(*wrong)
         found = values.pop(kind)
         options = {name: values.pop(name) for name in COUNTED[kind] if name in values}
-        with told(path):
+        with complaints_of(path):
             if kind == "sizes":
                 if inline:
                     weighting = options.get("weighting", "number")

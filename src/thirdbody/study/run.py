@@ -16,7 +16,7 @@ from ..errors import InvalidValue, RangeWarning, ThirdBodyError
 from ..systems.bodies import Pressed
 from ..systems.film_conditions import FilmConditions
 from ..systems.film_formulas import full_range
-from .body import pressed, told
+from .body import force_sentences, pressed
 from .whole import Study
 
 SHARING = "Johnson, Greenwood, Poon 1972, Wear 19, 91, doi:10.1016/0043-1648(72)90445-0"
@@ -77,7 +77,7 @@ def _body(study: Study, forced: list[Pressed]) -> dict[str, Any]:
     assert study.body is not None
     return {
         "body": study.body.to_dict()
-        | {"forces": [each.to_dict() for each in forced], "sentences": told(forced)}
+        | {"forces": [each.to_dict() for each in forced], "sentences": force_sentences(forced)}
     }
 
 

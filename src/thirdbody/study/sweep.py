@@ -128,14 +128,14 @@ def plan(
     except InvalidValue as error:
         back = {inner: outer for outer, inner in translated.items()}
 
-        def told(problem: str) -> str:
+        def named_in_study(problem: str) -> str:
             problem = re.sub(
                 r"vary\['([^']+)'\]", lambda m: f"sweep.vary.{back.get(m[1], m[1])}", problem
             )
             problem = re.sub(r"reduce\['(\w+)'\]", r"sweep.reduce.\1", problem)
             return re.sub(r"^(design|samples|seed|chunk|reduce)\b(?!\.)", r"sweep.\1", problem)
 
-        raise InvalidValue(*map(told, error.problems)) from None
+        raise InvalidValue(*map(named_in_study, error.problems)) from None
 
 
 def ends(asked: dict[str, Any]) -> tuple[str, np.ndarray] | None:

@@ -28,10 +28,10 @@ from ...quantities.carried import takes_units
 from ...quantities.progress import reporting
 from ..inputs import declared, words_of
 from ..sensitivity import sensitivity
-from .asked import NOT_SMOOTH, asked
 from .front import front, hypervolume
 from .problem import Limit, Objective, Suspension
 from .search import AMOUNT, DENSITY, GRID, SAMPLES, STARTS, STEPS, Point, Task
+from .task import NOT_SMOOTH, design_task
 
 if TYPE_CHECKING:
     import xarray
@@ -288,7 +288,7 @@ def design(
     True
     """
     objectives = [objective] if isinstance(objective, Objective) else list(objective)
-    task = asked(
+    task = design_task(
         contact,
         vary=vary,
         objectives=objectives,
@@ -324,7 +324,7 @@ def _expected(task: Task, points: int | None, local: bool) -> int:
 # -------------------------------------------------------------------------- the answer
 def _answer(task: Task) -> Best:
     rows, best = task.tried, task.best()
-    made = task.made(best.numbers, best.materials)
+    made = task.contact_at(best.numbers, best.materials)
     ok = np.array([not point.reason for point in rows])
     costs = np.array([list(point.costs.values()) for point in rows])
     on_front = np.zeros(len(rows), bool)
@@ -498,7 +498,7 @@ def _crowding(task: Task, best: Point, name: str) -> float:
     """d ln η_a/d ln y of the particles that a fluid brings."""
     step = 1e-5
     high, low = (
-        task.made({**best.numbers, name: best.numbers[name] * math.exp(t)}, best.materials)
+        task.contact_at({**best.numbers, name: best.numbers[name] * math.exp(t)}, best.materials)
         for t in (step, -step)
     )
     ratio = high.populations[0].areal_density / low.populations[0].areal_density

@@ -149,7 +149,7 @@ class Task:
         return np.array([each.place(numbers[name]) for name, each in self.variables.items()])
 
     # ------------------------------------------------------------------ contacts
-    def made(self, numbers: Numbers, materials: Materials) -> Contact:
+    def contact_at(self, numbers: Numbers, materials: Materials) -> Contact:
         """The contact of a point."""
         changes: dict[str, Any] = {}
         for name, value in numbers.items():

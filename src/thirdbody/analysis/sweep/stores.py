@@ -26,7 +26,7 @@ class _Zarr:
         self.arrays = {name: self.group[name] for name in layout.variables}
 
     @staticmethod
-    def made(path: Path, layout: Layout) -> _Zarr:
+    def create(path: Path, layout: Layout) -> _Zarr:
         import zarr
 
         group = zarr.create_group(path, attributes=_labels(layout))
@@ -103,7 +103,7 @@ class _NetCDF:
         self.file = h5netcdf.File(path, "w")
 
     @staticmethod
-    def made(path: Path, layout: Layout) -> _NetCDF:
+    def create(path: Path, layout: Layout) -> _NetCDF:
         import h5py
 
         out = _NetCDF(path, layout)

@@ -302,7 +302,7 @@ def _make_store(plan: Plan, folder: Folder, layout: Layout, name: str) -> None:
     folder.remove_markers()
     (folder.path / "done").mkdir()
     draft = folder.path / ".states.part.zarr"
-    _Zarr.made(draft, layout)
+    _Zarr.create(draft, layout)
     folder.record(name, plan.count, draft)
     draft.rename(folder.data)
 
@@ -311,7 +311,7 @@ def _mended(plan: Plan, folder: Folder, layout: Layout, name: str, found: Found)
     """The store with what belongs to no block as it was made."""
     if found.shared or found.unlabelled or not found.recorded:
         draft = folder.path / ".states.part.zarr"
-        _Zarr.made(draft, layout)
+        _Zarr.create(draft, layout)
         folder.restore(draft, name, plan.count)
         folder.remove_drafts()
     return folder.whole(lambda: _Zarr(folder.data, layout))
@@ -326,7 +326,7 @@ def _assemble(plan: Plan, folder: Folder, layout: Layout, attrs: dict[str, Any])
     """The parts put together, whole or not at all."""
     draft = folder.path / f".states.part{folder.data.suffix}"
     kind = _Zarr if folder.format == "zarr" else _NetCDF
-    store = kind.made(draft, layout)
+    store = kind.create(draft, layout)
     step = 1 if plan.reduction is None else _parts(plan)
     for first in range(0, plan.count, step):
         parts = (_load_part(folder.part(number)) for number in range(first, first + step))

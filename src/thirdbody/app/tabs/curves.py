@@ -27,7 +27,7 @@ from ..figures import (
     span,
 )
 from ..state import Answer, State
-from ..widgets import Plot, put, shown
+from ..widgets import Plot, put, show_figures
 from ..widgets import table as shown_table
 from .interface import abouts, swatch
 
@@ -218,7 +218,7 @@ class Curves:
         self.key.set_visibility(not two_body)
         for names in (FIGURES[:2], FIGURES[2:]):  # those on top first
             drawing = asyncio.ensure_future(
-                shown((self.plots[name], found[name]) for name in names if name in found)
+                show_figures((self.plots[name], found[name]) for name in names if name in found)
             )
             while not drawing.done() and self.state.tab == TAB:
                 await asyncio.wait([drawing], timeout=LOOKS)

@@ -12,7 +12,7 @@ from ...equilibrium.columns import COLUMNS, about
 from ...errors import InvalidValue
 from ...quantities.say import number, prefixed
 from ...study.inputs import field_of, inputs_of
-from ..fields import engineering, shown, value_from
+from ..fields import engineering, text_of, value_from
 from ..figures import GREY, empty, figure, line, plain, symbol
 from ..state import State, loads_as
 from ..text import with_micro
@@ -171,8 +171,8 @@ class Search:
             now = float(answer.contact.part(field_of(".".join(path), last)))
         except (InvalidValue, TypeError, ValueError):
             return
-        self.low.set_value(shown(engineering(now / 5, unit)))
-        self.high.set_value(shown(engineering(now * 3, unit)))
+        self.low.set_value(text_of(engineering(now / 5, unit)))
+        self.high.set_value(text_of(engineering(now * 3, unit)))
 
     async def _table(self) -> dict[str, Any]:
         """What the form asks, as the table [design] of a study."""
@@ -203,7 +203,7 @@ class Search:
         names = in_words(self.state.study, list(result["values"]))
         self.plot.update_figure(design_figure(result, variable, objective, unit, names))
         self.plot.set_visibility(True)
-        self.said.set_text(with_micro(" ".join(told(result, units, names))))
+        self.said.set_text(with_micro(" ".join(design_sentences(result, units, names))))
 
     async def draw(self) -> None:
         await self.work.tell(self.state)
@@ -242,7 +242,9 @@ def meaning(column: str) -> str:
     return str(about(column)["meaning"]) if column in COLUMNS else column
 
 
-def told(result: dict[str, Any], units: dict[str, str], names: dict[str, str]) -> list[str]:
+def design_sentences(
+    result: dict[str, Any], units: dict[str, str], names: dict[str, str]
+) -> list[str]:
     """The design that was found, in sentences."""
 
     def one(name: str, value: Any) -> str:

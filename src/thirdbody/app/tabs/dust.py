@@ -15,7 +15,7 @@ from ...populations.measured.cleanliness import DUSTS
 from ...quantities.say import percent, value_of
 from ..bounds import LARGEST_TABLE, MOST_NUMBERS
 from ..entries import about_of
-from ..fields import shown
+from ..fields import text_of
 from ..figures import empty, figure, line, plain
 from ..inputs import Inputs
 from ..solver import apart
@@ -153,7 +153,7 @@ class Dust:
 
     async def draw(self) -> None:
         given = self._given()
-        self.code.set_value(shown(given.get("iso4406")))
+        self.code.set_value(text_of(given.get("iso4406")))
         known = given.get("test_dust")
         self.test.set_value(known if isinstance(known, str) and known in DUSTS else None)
         mine = [text for text in self.state.problems if about_of(text).startswith("particles")]

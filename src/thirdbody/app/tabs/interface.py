@@ -24,8 +24,7 @@ from ...equilibrium.words import (
 )
 from ...errors import InvalidValue
 from ...quantities.say import number, percent, value_of
-from ...study.body import told as told_of
-from ...study.body import told_forces
+from ...study.body import force_sentences, told_forces
 from ...systems.bodies import Pressed, press
 from ..cross_section import section, to_svg
 from ..state import Answer, State
@@ -197,7 +196,7 @@ class Force:
         if not found:
             return
         follows = not whole and found[0].kind != "flat"
-        self.said.set_text(" ".join(told_of(found)))
+        self.said.set_text(" ".join(force_sentences(found)))
         self.first.set_visibility(follows)
         warned = [text for each in found for text in each.warnings]
         self.warned.set_text(f"Warning: {'; '.join(warned)}." if warned else "")

@@ -17,7 +17,7 @@ from ...quantities.say import prefixed, value_of
 from ..figures import AXES, SCALES, clipped, figure, line, mark, plain, symbol, wrapped
 from ..inputs import Inputs
 from ..state import Answer, State
-from ..widgets import Plot, shown
+from ..widgets import Plot, show_figures
 from ..widgets import table as shown_table
 
 __all__ = ["TITLE", "bounded", "build", "output_figures"]
@@ -116,7 +116,7 @@ def _folded(name: str) -> str:
     return "<br>".join(textwrap.wrap(name, WIDE + 12, break_long_words=False))
 
 
-def asked(state: State) -> list[str]:
+def names_of_outputs(state: State) -> list[str]:
     """Names of the outputs that the study asks for."""
     given = state.get("outputs")
     return list(given) if isinstance(given, dict) else []
@@ -125,10 +125,10 @@ def asked(state: State) -> list[str]:
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """Switches with their numbers, figures, and the values at the operating load."""
 
-    seen = {"asked": asked(state)}
+    seen = {"asked": names_of_outputs(state)}
 
     def renewed() -> None:
-        seen["asked"] = asked(state)
+        seen["asked"] = names_of_outputs(state)
         entries.refresh()
 
     inputs = Inputs(state, renewed)
@@ -148,7 +148,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     plots: dict[str, Plot] = {}
 
     async def draw() -> None:
-        if asked(state) != seen["asked"]:  # undone, or another study
+        if names_of_outputs(state) != seen["asked"]:  # undone, or another study
             renewed()
         inputs.tell()
         made, rows = await state.ask(_found, state.at)
@@ -159,7 +159,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
                 if name not in plots:
                     plots[name] = Plot(f"output {name}", drawn["layout"]["height"])
         _table(rows, table)
-        await shown((plots[name], drawn) for name, drawn in made.items())
+        await show_figures((plots[name], drawn) for name, drawn in made.items())
 
     return draw
 

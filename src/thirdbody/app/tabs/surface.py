@@ -210,7 +210,7 @@ class Surface:
             self.plots[name].update_figure(cutoff_figure(result, name))
         self.table.clear()
         with self.table:
-            facts(told(result).items(), "surface ")
+            facts(surface_numbers(result).items(), "surface ")
         self.notes.clear()
         with self.notes:
             for text in result["warnings"]:
@@ -231,7 +231,7 @@ class Surface:
         ui.notify("The roughness of the study is that of this surface now.")
 
 
-def told(result: dict[str, Any]) -> dict[str, str]:
+def surface_numbers(result: dict[str, Any]) -> dict[str, str]:
     """A measured surface in numbers."""
     used = result["used"]
     return {

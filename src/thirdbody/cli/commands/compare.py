@@ -95,7 +95,7 @@ def command(
 
         written = save(found.dataset(), out, at=index, force=force)
     files.write(*found.flat())
-    written += files.asked
+    written += files.paths
     _show_comparison(asked.title, found, index)
     for path in written:
         print(f"written: {path}", file=sys.stderr)

@@ -57,7 +57,7 @@ def command(
     files.write(
         columns, {name: each.about.get("units", "") for name, each in best.of_points.items()}
     )
-    for path in files.asked:
+    for path in files.paths:
         print(f"written: {path}", file=sys.stderr)
     if figure is not None:
         from ...views.plot.design import tried

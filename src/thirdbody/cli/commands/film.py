@@ -64,7 +64,7 @@ def command(
 
         drawn = stribeck(result["states"], result["regime_speeds"])
     files.write(*columns_of(result))
-    for path in files.asked:
+    for path in files.paths:
         print(f"written: {path}", file=sys.stderr)
     if figure is not None:
         write_figure(figure, drawn)

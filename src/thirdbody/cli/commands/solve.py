@@ -70,11 +70,11 @@ def command(
     from ...study import run_study
 
     files = TableFiles(csv_file, xlsx_file, parquet_file)
-    if as_json and files.asked:
+    if as_json and files.paths:
         raise typer.BadParameter(
             "--json and --csv, --xlsx or --parquet exclude each other; run the command twice"
         )
-    asked = read_study(study, settings, writes=files.asked)
+    asked = read_study(study, settings, writes=files.paths)
     files.need(force=force)
     with heartbeat("solve"):
         result = run_study(asked)
@@ -84,9 +84,9 @@ def command(
     solved = statuses.count("ok")
     if as_json:
         print(json.dumps(result, indent=1, allow_nan=False))
-    elif solved and files.asked:
+    elif solved and files.paths:
         files.write(*_columns(result))
-        for path in files.asked:
+        for path in files.paths:
             print(f"{len(statuses)} states written to {path}", file=sys.stderr)
     elif solved:
         _show(result)

@@ -90,7 +90,7 @@ def command(
     for sentence in found.warnings:
         warn(sentence)
     files.write(finite(result["curve"]), result["units"])
-    written = files.asked + ([] if out is None else _write_surface(out, found, result, force))
+    written = files.paths + ([] if out is None else _write_surface(out, found, result, force))
     if as_json:
         print(json.dumps(finite(result), indent=1, allow_nan=False))
     else:

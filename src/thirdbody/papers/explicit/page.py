@@ -20,7 +20,7 @@ from ...quantities.files import write_text
 from ...quantities.say import number, percent, signed
 from ...views.html import symbols, table
 from ..page import document, figures
-from ..panels import keep, made
+from ..panels import keep, prepare_folder
 from .cases import CASES, GROUPS
 from .compared import FULL, QUICK, Effort, Point, compared, points_of
 
@@ -96,7 +96,7 @@ def reproduce(
     if preset not in PRESETS:
         raise InvalidValue(f"preset = {preset!r} must be 'full' or 'quick'")
     effort = PRESETS[preset]
-    folder = made(out, "explicit", preset or "full")
+    folder = prepare_folder(out, "explicit", preset or "full")
     report = progress or (lambda stage, done, total: None)
     total = len(CASES) * effort.surfaces
     points: list[Point] = []

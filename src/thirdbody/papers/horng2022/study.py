@@ -11,7 +11,7 @@ from typing import Any
 from ...errors import InvalidValue
 from ...quantities.files import write_text
 from ..ledger import Verdict
-from ..panels import keep, made
+from ..panels import keep, prepare_folder
 from .claims import claims, study_data
 from .drawing import draw
 from .figures import PANELS, table
@@ -110,7 +110,7 @@ def reproduce(
     """
     if preset not in READINGS:
         raise InvalidValue(f"preset = {preset!r} must be one of {', '.join(READINGS)}")
-    folder = made(out, "horng2022", preset)
+    folder = prepare_folder(out, "horng2022", preset)
     report = progress or (lambda stage, done, total: None)
 
     books = {name: Curves(reading) for name, reading in READINGS.items()}

@@ -14,7 +14,7 @@ from ...errors import InvalidValue, RangeWarning
 from ...quantities.files import write_text
 from ...views.html import symbols, table
 from ..page import document, figures
-from ..panels import draw, keep, made, table_of
+from ..panels import draw, keep, prepare_folder, table_of
 from .listed import rows
 from .row import STANDINGS, WORDS, Row, Verdict, word_of
 
@@ -88,7 +88,7 @@ def reproduce(
     """
     if preset is not None:
         raise InvalidValue(f"preset = {preset!r} has no meaning for measurements; leave it out")
-    folder = made(out, "measurements")
+    folder = prepare_folder(out, "measurements")
     report = progress or (lambda stage, done, total: None)
 
     known = rows()
@@ -127,7 +127,7 @@ def _quietly(made: Callable[[], Made]) -> Made:
 def _as_json(summary: Summary) -> dict[str, Any]:
     from ...version import __version__
 
-    def told(verdict: Verdict) -> dict[str, Any]:
+    def verdict_entries(verdict: Verdict) -> dict[str, Any]:
         band = verdict.band
         return {
             "verdict": verdict.word,
@@ -157,7 +157,7 @@ def _as_json(summary: Summary) -> dict[str, Any]:
                         "quantity": one.claim.quantity,
                         "allowed": one.claim.allowed,
                         "remark": one.claim.remark,
-                        **told(summary.ledger[row.name][one.claim.id]),
+                        **verdict_entries(summary.ledger[row.name][one.claim.id]),
                     }
                     for one in row.statements
                 ],

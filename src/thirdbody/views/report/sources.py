@@ -216,14 +216,16 @@ def laws_of(contact: Contact) -> list[tuple[str, Law, bool]]:
     """What each law is for, the law, and whether the study chose it."""
     fields = {item.name: item for item in dataclasses.fields(contact)}
 
-    def asked(name: str) -> bool:
+    def is_chosen(name: str) -> bool:
         return not _is_default(fields[name], getattr(contact, name))
 
-    out: list[tuple[str, Law, bool]] = [("asperities", contact.asperity_law, asked("asperity_law"))]
+    out: list[tuple[str, Law, bool]] = [
+        ("asperities", contact.asperity_law, is_chosen("asperity_law"))
+    ]
     for i, each in enumerate(contact.populations):
         law = contact.law_of(each)
         what = "particles" + (f" ({each.name or i + 1})" if len(contact.populations) > 1 else "")
-        chosen = each.law is not None or asked("particle_law")
+        chosen = each.law is not None or is_chosen("particle_law")
         out.append((what, law, chosen))
         if isinstance(inner := getattr(law, "law", None), Law):
             out.append((f"{what}: one indentation", inner, chosen))

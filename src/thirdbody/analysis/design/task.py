@@ -19,7 +19,7 @@ from ..uncertainty.inputs import drawn_inputs
 from .problem import Limit, Objective, Suspension
 from .search import AMOUNT, DENSITY, Task, Variable
 
-__all__ = ["NOT_SMOOTH", "asked"]
+__all__ = ["NOT_SMOOTH", "design_task"]
 
 Array = NDArray[np.float64]
 
@@ -44,7 +44,7 @@ def _load_cases(
     return load, loads, share / share.sum()
 
 
-def asked(
+def design_task(
     contact: Contact,
     *,
     vary: Mapping[str, Any],
