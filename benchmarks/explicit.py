@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import thirdbody as tb
-from thirdbody.explicit.bodies import NONE, Bodies, LawTable, Placed, covered
+from thirdbody.explicit.bodies import NONE, Bodies, LawTable, Placed, covered_share
 from thirdbody.explicit.press import HARDEST, Pressed, press
 
 Array = NDArray[np.float64]
@@ -77,7 +77,7 @@ def measured(z: Array, load: float, cap: float, bodies: Bodies, what: str) -> Ro
     """Solve once, and once more for the clock."""
     c = np.full(z.shape, cap)
     if len(bodies):
-        c *= 1 - covered(z, SPACING, bodies, Placed(bodies, z.shape, SPACING).at(z))
+        c *= 1 - covered_share(z, SPACING, bodies, Placed(bodies, z.shape, SPACING).at(z))
     total = load * E_STAR * z.size * SPACING**2
 
     def once() -> Pressed:

@@ -16,7 +16,7 @@ from thirdbody.analysis.design.problem import Limit, Objective, Suspension
 from thirdbody.equilibrium.states import state_columns
 from thirdbody.numerics.sampling import Span
 from thirdbody.quantities import progress
-from thirdbody.views.plot.design import tried
+from thirdbody.views.plot.design import plot_trials
 
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
 SIZE = "particles.diameter.mean+particles.diameter.std"
@@ -386,7 +386,7 @@ def test_points_tell_units_and_the_figure_words():
     assert told["particles.concentration"] == "kg/m^3"
     assert told["particle_load_share:window"] == "1"
     assert told["feasible"] is None
-    ax, bar = tried(made["one"]).axes
+    ax, bar = plot_trials(made["one"]).axes
     assert " ".join(ax.get_xlabel().split()) == (
         "mean diameter and standard deviation of the diameter of the particles [nm]"
     )
@@ -396,7 +396,7 @@ def test_points_tell_units_and_the_figure_words():
     assert bar.get_ylabel().endswith("(window) [1]")
     (best,) = (line for line in ax.lines if line.get_label() == "best")
     assert best.get_xdata()[0] == pytest.approx(1e9 * made["one"].values[SIZE])
-    (ax,) = tried(made["two"]).axes
+    (ax,) = plot_trials(made["two"]).axes
     assert "[1]" in ax.get_xlabel()
     assert "(worst) [nm]" in " ".join(ax.get_ylabel().split())
     (line,) = (line for line in ax.lines if line.get_label() == "front")

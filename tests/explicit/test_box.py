@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 import thirdbody as tb
-from thirdbody.explicit.box import balanced, rescaled
+from thirdbody.explicit.box import pressures_with_sum, rescale
 
 
 @pytest.mark.parametrize("seed", range(60))
@@ -25,7 +25,7 @@ def test_the_sum_is_the_total_and_the_shift_is_common(seed):
     def lack(nu):
         return math.fsum(np.clip(moved + nu * tilt, 0.0, cap)) - total
 
-    now = balanced(moved, tilt, cap, total)
+    now = pressures_with_sum(moved, tilt, cap, total)
     assert math.fsum(np.clip(now, 0.0, cap)) == pytest.approx(total, rel=1e-12)
     span = float(np.max((np.minimum(cap, 10.0) + np.abs(moved)) / tilt))
     nu = brentq(lack, -span, span, xtol=1e-300, rtol=1e-15)
@@ -39,7 +39,7 @@ def test_a_pattern_is_brought_to_the_sum(seed):
     cap, most = rng.random((8, 8)) * (rng.random((8, 8)) < 0.7), rng.random(3)
     p, phi = np.minimum(rng.random((8, 8)), cap), np.minimum(rng.random(3), most)
     total = rng.random() * float(np.sum(cap) + np.sum(most))
-    p, phi = rescaled(p, phi, cap, most, total)
+    p, phi = rescale(p, phi, cap, most, total)
     assert np.sum(p) + np.sum(phi) == pytest.approx(total, rel=1e-11)
     assert np.all((p >= 0) & (p <= cap * (1 + 1e-12)))
     assert np.all((phi >= 0) & (phi <= most * (1 + 1e-12)))

@@ -97,7 +97,7 @@ def test_what_a_draw_carries_on_average_counts_the_tail_of_the_sizes():
     surface = map_of(heights - heights.mean(), 2e-7)
     (law,) = law_tables(contact)
     h, sigma = 3.8 * surface.sigma, surface.sigma
-    found = sums._expected(
+    found = sums._sums_of_draw(
         contact, surface, tb.explicit.RandomSeats(), np.empty(0), np.array([h]), gaussian=True
     )
     x, weight = gauss(np.log(1e-8), np.log(3e-5), 500)

@@ -7,7 +7,7 @@ from scipy import optimize
 import thirdbody as tb
 from thirdbody.explicit.bodies import Bodies, LawTable
 from thirdbody.explicit.half_space import HalfSpace, lattice_constant
-from thirdbody.explicit.press import HARDEST, press, touched
+from thirdbody.explicit.press import HARDEST, contact_share, press
 
 E, SPACING = 112e9, 1e-7
 STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
@@ -293,7 +293,7 @@ def test_an_area_is_that_of_a_finer_grid(hardness):
         c = np.full(fine.shape, H or HARDEST)
         state = press(fine, coarse / k, E, c=c, load=load, tol=1e-7, max_iterations=1000)
         counts.append(np.mean(state.p > 0))
-        areas.append(np.mean(touched(state.p, c, H)))
+        areas.append(np.mean(contact_share(state.p, c, H)))
         if H is not None:
             assert areas[-1] >= np.mean(state.p) / H
     assert areas[:2] == pytest.approx([areas[2]] * 2, rel=0.02)
@@ -309,21 +309,21 @@ def test_a_bearing_area_has_no_rim_and_a_sphere_has():
     h, H = 2 * np.std(z), 1e-6 * E
     c = np.full(z.shape, H)
     soft = press(z, SPACING, E, c=c, h=h, tol=1e-10)
-    assert np.array_equal(touched(soft.p, c, H), soft.p / H)
-    assert np.mean(touched(soft.p, c, H)) == pytest.approx(np.mean(z > h), rel=1e-3)
+    assert np.array_equal(contact_share(soft.p, c, H), soft.p / H)
+    assert np.mean(contact_share(soft.p, c, H)) == pytest.approx(np.mean(z > h), rel=1e-3)
     n, R, a = 128, 1e-4, 8 * SPACING
     x = (np.arange(n) - n / 2 + 0.3) * SPACING
     r2 = x[:, None] ** 2 + (x - 0.2 * SPACING) ** 2
     c = never(r2.shape)
     state = press(-r2 / (2 * R), SPACING, E, c=c, load=4 / 3 * E * a**3 / R, tol=1e-9)
     exact = np.pi * (a / SPACING) ** 2
-    assert np.sum(touched(state.p, c, None)) == pytest.approx(exact, rel=0.025)
+    assert np.sum(contact_share(state.p, c, None)) == pytest.approx(exact, rel=0.025)
     assert np.count_nonzero(state.p) > 1.03 * exact
     # a punch ends where its pixels do; half of a pixel under a particle is half a pixel
     inside = r2 < a**2
-    assert np.sum(touched(1.0 * inside, np.where(inside, HARDEST, 0.0), None)) == inside.sum()
+    assert np.sum(contact_share(1.0 * inside, np.where(inside, HARDEST, 0.0), None)) == inside.sum()
     half = np.full((8, 8), 0.5 * H)
-    assert np.all(touched(half, half, H) == 0.5)
+    assert np.all(contact_share(half, half, H) == 0.5)
 
 
 # ---------------------------------------------------------------- the certificate

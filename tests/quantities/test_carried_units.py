@@ -20,7 +20,7 @@ import thirdbody as tb
 from thirdbody.quantities.carried import (
     USUAL,
     carries_unit,
-    documented,
+    arguments_of,
     in_si,
     takes_units,
     units_of,
@@ -449,7 +449,7 @@ def measured_functions():
                 if inspect.isfunction(function) and function.__module__ == found.name:
                     units = {
                         each: unit
-                        for each, unit in documented(function.__doc__ or "")
+                        for each, unit in arguments_of(function.__doc__ or "")
                         if unit not in (None, "1")
                         and each in (given := inspect.signature(function).parameters)
                         and is_door(given[each])

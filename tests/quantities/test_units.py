@@ -8,7 +8,7 @@ import pytest
 
 from thirdbody.errors import InvalidValue
 from thirdbody.quantities.kinds import one_spelling, registry
-from thirdbody.quantities.units import _POWERS, _scaled, say, to_si
+from thirdbody.quantities.units import _POWERS, _scale, say, to_si
 
 
 @pytest.mark.parametrize(
@@ -122,4 +122,4 @@ def test_usual_units_are_those_of_the_registry(unit, name):
     # the same double as by the registry, which reads a blank in front of the power
     for number in ("0.3", "7e-3", "-1.7", "123456.789"):
         body = one_spelling(name)
-        assert to_si(f"{number} {name}", unit) == _scaled(number, body, "", unit)
+        assert to_si(f"{number} {name}", unit) == _scale(number, body, "", unit)

@@ -20,7 +20,7 @@ from thirdbody.contact.output import AbstractOutput, Column
 from thirdbody.quantities.say import number, percent
 from thirdbody.study import load_study
 from thirdbody.study.one_surface import one_surface
-from thirdbody.views.explicit_words import compared, headline
+from thirdbody.views.explicit_words import comparison_table, headline
 from thirdbody.views.html import figure, symbols, text_table, words
 from thirdbody.views.report import Report, Row, laws_of, report, rows_of, source_of
 
@@ -423,7 +423,7 @@ def test_a_study_with_explicit_surfaces_has_one_pressed(tmp_path, no_figures):
     found = report(study)
     page = Page(found.html())
     again = one_surface(study, study.values)
-    head, rows = compared(again)
+    head, rows = comparison_table(again)
     assert page.tables["Point by point"] == [head, *rows]
     assert headline(again, 1) in page.whole
     assert "128 × 128 points" in page.whole

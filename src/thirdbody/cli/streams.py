@@ -115,16 +115,16 @@ def complain(sentences: Iterable[str]) -> None:
     with contextlib.suppress(OSError):
         for sentence in sentences:
             for line in in_study_words(sentence).splitlines():
-                print(_wrapped(f"error: {line}"), file=sys.stderr)
+                print(_wrap_line(f"error: {line}"), file=sys.stderr)
 
 
 def warn(message: Warning | str, *_: Any, **__: Any) -> None:
     """A warning: one line of a pipe or file, as many lines of a terminal as it takes."""
     sentence = in_study_words(" ".join(str(message).split()))
-    print(_wrapped(f"warning: {sentence}"), file=sys.stderr)
+    print(_wrap_line(f"warning: {sentence}"), file=sys.stderr)
 
 
-def _wrapped(line: str) -> str:
+def _wrap_line(line: str) -> str:
     """A line as a terminal shows it whole, in words; as it is where none reads along.
 
     ``COLUMNS`` sets the width, as of tables.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Index = NDArray[np.int64]
 
-__all__ = ["NONE", "Bodies", "LawTable", "Placed", "covered"]
+__all__ = ["NONE", "Bodies", "LawTable", "Placed", "covered_share"]
 
 SHALLOWEST = 1e-7
 """Squeeze over the lowest kink from which a law is tabulated; Hertz below."""
@@ -171,7 +171,7 @@ class Placed:
         return out + lattice
 
 
-def covered(z: Array, spacing: float, bodies: Bodies, heights: Array) -> Array:
+def covered_share(z: Array, spacing: float, bodies: Bodies, heights: Array) -> Array:
     """Share of each pixel (n, m) that a particle lies over [1].
 
     A pixel counts by its centre; under particles smaller than two pixels, by finer points.

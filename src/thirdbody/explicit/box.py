@@ -12,13 +12,13 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["balanced", "rescaled", "room"]
+__all__ = ["pressures_with_sum", "rescale", "room"]
 
 NEWTON, BALANCE = 30, 1e-14
 """Newton steps to the load before its corners are searched, and what of the load may be missing."""
 
 
-def balanced(moved: Array, tilt: Array, cap: Array, total: float) -> Array:
+def pressures_with_sum(moved: Array, tilt: Array, cap: Array, total: float) -> Array:
     """``moved`` + ν ``tilt`` so that the sum within the box is the total: Newton, then exactly."""
     scale = float(np.sum(tilt))
     if scale <= 0:
@@ -44,18 +44,18 @@ def _level(moved: Array, tilt: Array, cap: Array, total: float) -> float:
     start, end = -moved[moves] / tilt[moves], (cap[moves] - moved[moves]) / tilt[moves]
     corners = np.unique(np.concatenate([start, end]))
 
-    def carried(nu: float) -> float:
+    def load_at(nu: float) -> float:
         return float(np.sum(np.clip(moved + nu * tilt, 0.0, cap)))
 
     low, high = 0, len(corners) - 1
     while high - low > 1:
         middle = (low + high) // 2
-        if carried(float(corners[middle])) > total:
+        if load_at(float(corners[middle])) > total:
             high = middle
         else:
             low = middle
-    below = carried(float(corners[low]))
-    rise = carried(float(corners[high])) - below
+    below = load_at(float(corners[low]))
+    rise = load_at(float(corners[high])) - below
     share = min(max((total - below) / rise, 0.0), 1.0) if rise > 0 else 0.0
     return float(corners[low] + share * (corners[high] - corners[low]))
 
@@ -71,7 +71,7 @@ def room(X: Array, s: Array, cap: Array) -> float:
     return max(1.0, min(ends))
 
 
-def rescaled(p: Array, phi: Array, c: Array, most: Array, total: float) -> tuple[Array, Array]:
+def rescale(p: Array, phi: Array, c: Array, most: Array, total: float) -> tuple[Array, Array]:
     """The same pattern with the sum wanted: a common factor, within the box."""
     X, cap = np.concatenate([p.ravel(), phi]), np.concatenate([c.ravel(), most])
     factor = 1.0

@@ -243,7 +243,7 @@ def ensemble(
     """
     loads = _loads(F_star)
     rule = seats_named(seats)
-    given, total = _counted(surfaces)
+    given, total = _surfaces_and_count(surfaces)
     if isinstance(rule, GivenSeats) and total > 1:
         raise InvalidValue("seats: positions belong to one surface; give surfaces = 1")
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
@@ -265,7 +265,7 @@ def ensemble(
         numbers = (total, size, spacing, seed, cap, tol, max_iterations)
         key = _key(contact, given, rule, numbers, grid)
         kept = None if folder is None else Path(folder)
-        records = {} if kept is None else _finished(kept, total, key)
+        records = {} if kept is None else _read_surfaces(kept, total, key)
         left = [(i, task(i, grid)) for i in range(total) if i not in records]
         results = shared(
             left, workers=workers, client=client, part="surface", smaller="a smaller size"
@@ -284,7 +284,7 @@ def ensemble(
     )
 
 
-def _finished(kept: Path, total: int, key: str) -> dict[int, dict[str, Any]]:
+def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, Any]]:
     """What an earlier run with the same key kept, by the number of the surface.
 
     Raises
@@ -326,7 +326,7 @@ def _tell(sentence: str) -> None:
     tell_of_range(sentence, UserWarning)
 
 
-def _counted(
+def _surfaces_and_count(
     surfaces: int | Sequence[Topography],
 ) -> tuple[Sequence[Topography] | None, int]:
     """The surfaces that are given, None for synthetic ones, and how many there are."""
@@ -397,7 +397,7 @@ def seats_on(
 def counterpart(contact: Contact, seats: SeatHeights) -> Contact:
     """The statistical counterpart: laws that rest somewhere get the seat that was measured."""
 
-    def seated(law: Value) -> Any:
+    def seated_law(law: Value) -> Any:
         if not isinstance(law, SeatedLaw) or not math.isfinite(seats.mean):
             return law
         return law.replace(
@@ -407,10 +407,12 @@ def counterpart(contact: Contact, seats: SeatHeights) -> Contact:
     own = contact.particles
     several = own if isinstance(own, tuple) else (own,) if own is not None else ()
     mine = tuple(
-        each if each.law is None else each.replace(law=seated(each.law)) for each in several
+        each if each.law is None else each.replace(law=seated_law(each.law)) for each in several
     )
     kept: Any = mine if isinstance(own, tuple) else (mine[0] if mine else None)
-    return contact.replace(particle_law=seated(contact.particle_law), particles=kept, outputs=())
+    return contact.replace(
+        particle_law=seated_law(contact.particle_law), particles=kept, outputs=()
+    )
 
 
 # -------------------------------------------------------------------------- all of them

@@ -18,7 +18,7 @@ from ..populations.materials import Material, MaterialPair
 from ..populations.measured.topography import Topography
 from ..quantities.say import number, percent, plural, value_of
 from ..quantities.value import warn_of_slip
-from .bodies import NONE, Bodies, LawTable, covered
+from .bodies import NONE, Bodies, LawTable, covered_share
 from .press import HARDEST
 from .seats import (
     AbstractSeats,
@@ -172,11 +172,11 @@ def _of_topography(surface: Topography, spacing: float | None) -> Map:
     z = np.array(surface.filtered(), dtype=float)
     return Map(
         z=z - z.mean(), spacing=surface.spacing[0], periodic=surface.periodic,
-        source=surface.source, notes=_smoothed(surface, z),
+        source=surface.source, notes=_sentence_of_smoothing(surface, z),
     )  # fmt: skip
 
 
-def _smoothed(surface: Topography, z: Array) -> tuple[str, ...]:
+def _sentence_of_smoothing(surface: Topography, z: Array) -> tuple[str, ...]:
     """That waves were left out which nobody asked to leave out, and what it does."""
     if surface.given_cutoff is not None or surface.cutoff == 0:
         return ()
@@ -216,11 +216,11 @@ def interface_of(
     yields = cap_of(cap, contact)
     warnings = _doubts(contact, surface)
     c = np.full_like(surface.z, HARDEST if yields is None else yields)
-    bodies, overlaps = _drawn(contact, surface, seats, rng, particles)
+    bodies, overlaps = _draw_bodies(contact, surface, seats, rng, particles)
     zeta = np.empty(0)
     if len(bodies):
         zeta = height_at(surface.z, surface.spacing, bodies.x, bodies.y) + bodies.lift
-        hidden = covered(surface.z, surface.spacing, bodies, zeta)
+        hidden = covered_share(surface.z, surface.spacing, bodies, zeta)
         if yields is None:
             c[hidden >= 0.5] = 0.0
         else:
@@ -257,7 +257,7 @@ def cap_of(cap: str | float | None, contact: Contact) -> float | None:
     )
 
 
-def _drawn(
+def _draw_bodies(
     contact: Contact,
     surface: Map,
     seats: AbstractSeats,
@@ -266,7 +266,7 @@ def _drawn(
 ) -> tuple[Bodies, int]:
     populations = contact.populations
     if given is not None:
-        return _told(contact, surface, given, rng)
+        return _bodies_of_user(contact, surface, given, rng)
     if not populations:
         if isinstance(seats, GivenSeats):
             raise InvalidValue("seats: positions are given, but the contact has no particles")
@@ -304,7 +304,7 @@ def _refuse_countless(density: float, surface: Map) -> None:
     )
 
 
-def _told(
+def _bodies_of_user(
     contact: Contact, surface: Map, given: Mapping[str, Any], rng: np.random.Generator
 ) -> tuple[Bodies, int]:
     """Particles of which every one is told: x, y, diameter, population."""

@@ -237,7 +237,7 @@ class Pool:
         from scipy.interpolate import PchipInterpolator
 
         particles, asperities, touched, dented = (
-            _interpolated(now[name][kept], log, at)
+            _interpolate(now[name][kept], log, at)
             for name in ("particles", "asperities", "area", "particle_area")
         )
         out[0] = PchipInterpolator(log, self.h[kept])(at)
@@ -265,7 +265,7 @@ class Pool:
         now = self._mean(self.sums, which)
         if fair:
             hoped = self._mean(self.expected, which)
-            factor = {name: _held(hoped[name], now[name], self.h) for name in EXPECTED}
+            factor = {name: _ratio_of_draw(hoped[name], now[name], self.h) for name in EXPECTED}
             now["asperities"] = now["asperities"] * factor["bearing"]
             now["area"] = now["area"] * factor["bearing"]
             now["particles"] = now["particles"] * factor["law"]
@@ -288,7 +288,7 @@ def _first_reached(load: Array, h: Array) -> Index:
     return np.array(kept, dtype=np.int64)
 
 
-def _interpolated(values: Array, log: Array, at: Array) -> Array:
+def _interpolate(values: Array, log: Array, at: Array) -> Array:
     """Values over ln load at other ln loads; 0 below the first that is not."""
     from scipy.interpolate import PchipInterpolator
 
@@ -304,7 +304,7 @@ def _interpolated(values: Array, log: Array, at: Array) -> Array:
     return np.where(at < log[some][0], 0.0, found)
 
 
-def _held(hoped: Array, drawn: Array, grid: Array) -> Array:
+def _ratio_of_draw(hoped: Array, drawn: Array, grid: Array) -> Array:
     """hoped/drawn; where nothing is drawn the ratio of the next lower h that has."""
     order = np.argsort(grid)
     out, last = np.ones(len(grid)), 1.0

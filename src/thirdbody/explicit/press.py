@@ -18,7 +18,7 @@ import numpy as np
 from numba import njit
 
 from .bodies import NONE, Bodies, Placed
-from .box import balanced, rescaled, room
+from .box import pressures_with_sum, rescale, room
 from .half_space import HalfSpace
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Index = NDArray[np.int64]
 
-__all__ = ["HARDEST", "Pressed", "capacity", "press", "touched"]
+__all__ = ["HARDEST", "Pressed", "capacity", "contact_share", "press"]
 
 HARDEST = 1e30
 """Stands for a pixel that never yields [Pa]."""
@@ -82,7 +82,7 @@ def capacity(c: Array, bodies: Bodies, spacing: float) -> float:
     return float(np.sum(c)) * spacing**2 + float(np.sum(bodies.limit))
 
 
-def touched(p: Array, c: Array, cap: float | None) -> Array:
+def contact_share(p: Array, c: Array, cap: float | None) -> Array:
     r"""Share of each pixel (n, m) that is in contact [1].
 
     .. math:: a_i = \max\left[\frac{p_i}{H},\
@@ -315,7 +315,7 @@ class _Programme:
         else:
             p, phi = np.clip(start[0], 0, self.c), np.clip(start[1] / self.area, 0, self.most)
         if self.total is not None:
-            p, phi = rescaled(p, phi, self.c, self.most, self.total)
+            p, phi = rescale(p, phi, self.c, self.most, self.total)
         u = self.displaced(p, phi)
         level = -self.h if self.h is not None else _first_level(p, self.c, u - self.z)
         return _Iterate(p, phi, u, level)
@@ -370,7 +370,7 @@ class _Programme:
             x.p, self.c, x.u, self.z, x.level
         )
         if deepest > 0:
-            outer += self._unbounded(x, sum_p, under, deepest)
+            outer += self._lack_without_cap(x, sum_p, under, deepest)
         available = self.top + x.level - self._beneath(x.u, phi)
         reached = self.bodies.force(available) / self.area
         r_k = available - squeeze
@@ -387,7 +387,7 @@ class _Programme:
             w_k=w_k, mu=mu, excess=inner + outer + miss, weight=sum_p + float(np.sum(phi)),
         )  # fmt: skip
 
-    def _unbounded(self, x: _Iterate, sum_p: float, under: float, deepest: float) -> float:
+    def _lack_without_cap(self, x: _Iterate, sum_p: float, under: float, deepest: float) -> float:
         r"""What pixels without a cap lack, at most :math:`t = \max(\lambda - g)` each [Pa m].
 
         Under a load no pressures of one sum can have more than tΣp − Σp(λ − g)₊ to gain. At a
@@ -416,7 +416,7 @@ class _Programme:
         cap = np.concatenate([self.c.ravel()[A.where], self.most])
         moved = X + a * np.concatenate(d)
         if self.total is not None:
-            moved = balanced(moved, np.concatenate([A.w, A.w_k]), cap, float(np.sum(X)))
+            moved = pressures_with_sum(moved, np.concatenate([A.w, A.w_k]), cap, float(np.sum(X)))
         new = np.clip(moved, 0.0, cap)
         along = new - X
         s, s_k = np.zeros_like(x.p), along[count:]

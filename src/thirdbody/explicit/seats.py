@@ -129,7 +129,7 @@ class DownhillSeats(AbstractSeats):
     distance: float = quantity("s", "m", "length of the way down", default=1e-6, gt=0)
 
     def draw(self, z: Array, spacing: float, size: Array, rng: np.random.Generator) -> Seated:
-        return _descended(z, spacing, len(size), rng, self.distance)
+        return _descend(z, spacing, len(size), rng, self.distance)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -288,7 +288,7 @@ def _best(
 NEIGHBOURS = [(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1) if (a, b) != (0, 0)]
 
 
-def _descended(
+def _descend(
     z: Array, spacing: float, count: int, rng: np.random.Generator, distance: float
 ) -> Seated:
     """Along the gradient in steps of half a pixel, until a step would lead up."""

@@ -18,7 +18,7 @@ from ..laws.base import REGIMES
 from ..quantities.carried import takes_units
 from ..quantities.say import number, percent, plural, value_of
 from .interface import Interface, interface_of, map_of
-from .press import HARDEST, Pressed, capacity, press, touched
+from .press import HARDEST, Pressed, capacity, contact_share, press
 from .seats import seats_named
 from .state import CONTACTS, ExplicitState
 
@@ -147,7 +147,7 @@ def solve(
     """
     if not isinstance(contact, Contact):
         raise InvalidValue(f"contact = {contact!r:.80} must be a Contact")
-    name, values, one = _asked(pressure, F_star, h)
+    name, values, one = _load_of_user(pressure, F_star, h)
     rule = seats_named(seats)
     _options(tol, max_iterations, precision, maps, seed, workers)
     surface_map = map_of(surface, spacing)
@@ -243,8 +243,10 @@ def numbers_of(inside: Interface, state: Pressed) -> dict[str, Any]:
     contact, spacing, area = inside.contact, inside.map.spacing, inside.map.area
     touching = state.p > 0
     counted = float(np.mean(touching))
-    A_ss = float(np.mean(touched(state.p, inside.c, inside.cap)))
-    first, second = (float(np.sum(each)) / area for each in _squeezed(inside, state)["areas"])
+    A_ss = float(np.mean(contact_share(state.p, inside.c, inside.cap)))
+    first, second = (
+        float(np.sum(each)) / area for each in _squeeze_columns(inside, state)["areas"]
+    )
     on_pixels = float(np.sum(state.p)) * spacing**2 / area
     on_particles = float(np.sum(state.f)) / area
     load, A_t = on_pixels + on_particles, A_ss + first
@@ -271,7 +273,7 @@ def numbers_of(inside: Interface, state: Pressed) -> dict[str, Any]:
     }
 
 
-def _squeezed(inside: Interface, state: Pressed) -> dict[str, Any]:
+def _squeeze_columns(inside: Interface, state: Pressed) -> dict[str, Any]:
     """Dents [m], areas [m²] and regime of every particle."""
     bodies = inside.bodies
     dents, areas = np.zeros((2, len(bodies))), np.zeros((2, len(bodies)))
@@ -292,7 +294,7 @@ def _squeezed(inside: Interface, state: Pressed) -> dict[str, Any]:
 
 
 # -------------------------------------------------------------------------- what is asked
-def _asked(
+def _load_of_user(
     pressure: ArrayLike | None, F_star: ArrayLike | None, h: ArrayLike | None
 ) -> tuple[str, Array, bool]:
     """Which quantity is given, its values, and whether it was one number."""
@@ -396,7 +398,7 @@ def _maps(inside: Interface, state: Pressed) -> xarray.Dataset:
 def _particles(inside: Interface, state: Pressed) -> xarray.Dataset:
     import xarray
 
-    bodies, found = inside.bodies, _squeezed(inside, state)
+    bodies, found = inside.bodies, _squeeze_columns(inside, state)
     names = [each.name or each.material.name for each in inside.contact.populations]
     fields = {
         "x": (bodies.x, "m", "position"),

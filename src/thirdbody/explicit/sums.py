@@ -67,7 +67,7 @@ def one_surface(
         "columns": {name: [each[name] for each in columns] for name in columns[0]},
         "zeta": [float(np.sum(zeta)), float(np.sum(zeta**2)), int(np.sum(zeta > 2.5)), len(zeta)],
         "warnings": list(inside.warnings),
-        "expected": _expected(contact, surface, rule, zeta, grid, gaussian),
+        "expected": _sums_of_draw(contact, surface, rule, zeta, grid, gaussian),
     }
 
 
@@ -108,7 +108,7 @@ def places(surface: Map, rule: AbstractSeats, contact: Contact, rng: np.random.G
     return heights / (surface.sigma or 1.0)
 
 
-def _expected(
+def _sums_of_draw(
     contact: Contact,
     surface: Map,
     rule: AbstractSeats,

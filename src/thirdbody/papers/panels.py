@@ -165,10 +165,10 @@ def prepare_folder(out: str | Path, paper: str, preset: str | None = None) -> Pa
         It holds another study or anything else, or cannot be made.
     """
     told = {"command": "reproduce", "paper": paper, "preset": preset}
-    return claim_folder(out, told, files=FILES, unmarked=_unmarked)
+    return claim_folder(out, told, files=FILES, unmarked=_unmarked_study)
 
 
-def _unmarked(folder: Path) -> dict[str, Any] | None:
+def _unmarked_study(folder: Path) -> dict[str, Any] | None:
     """Nothing, where a ledger of an earlier version lies in a folder, or surfaces of one."""
     ledgers = ("claims.json", "measurements.json", "comparison.json")
     if any("version" in (read_json(folder / name) or {}) for name in ledgers):

@@ -208,15 +208,15 @@ def factor_without_loss(
 ) -> Measurement:
     """Factor on one input at which the area with particles reaches that without."""
 
-    def lowered(factor: float) -> bool:
+    def is_lower(factor: float) -> bool:
         return bool(reading.trend(pressure, **{of: factor}).ratio[0] < 1 - 1e-9)
 
-    at_low = lowered(low)
-    if at_low == lowered(high):
+    at_low = is_lower(low)
+    if at_low == is_lower(high):
         return Measurement.absent(f"none between {low:g} and {high:g}")
     while high / low > 1 + 1e-9:
         middle = math.sqrt(low * high)
-        if lowered(middle) == at_low:
+        if is_lower(middle) == at_low:
             low = middle
         else:
             high = middle

@@ -277,16 +277,16 @@ def density_of_no_effect(reading: Reading, size: float, pressure: float) -> Meas
     """Density [1/m²] at which the particles leave μ as it is."""
     base = CASES[reading.name][1]
 
-    def raised(factor: float) -> bool:
+    def is_higher(factor: float) -> bool:
         trend = slid(reading, np.array([pressure]), size=size, density=factor)
         return bool(trend.mu[0] > trend.bare_mu[0])
 
     low, high = 1e9 / base, 3e11 / base
-    if raised(low) == raised(high):
+    if is_higher(low) == is_higher(high):
         return Measurement.absent("none between 10⁹ and 3·10¹¹ per m²")
     while high / low > 1 + 1e-8:
         middle = (low * high) ** 0.5
-        if raised(middle):
+        if is_higher(middle):
             low = middle
         else:
             high = middle

@@ -303,7 +303,7 @@ class Ellipticity(Value):
                 mean = max(float(np.exp(np.log(ratio[part]).mean())), 1.0)
                 rho = (root_load[part].mean() / elliptic_hertz(mean).root_R_F) ** 2
                 classes.append((mean, float(rho), float(len(part))))
-        ratios, radii, weights = zip(*_merged(classes), strict=True)
+        ratios, radii, weights = zip(*_merge_alike(classes), strict=True)
         return cls(ratios=ratios, radii=radii, weights=weights)
 
     @classmethod
@@ -442,7 +442,7 @@ def combined_tips(
 
 
 # -------------------------------------------------------------------------- rules
-def _merged(classes: list[tuple[float, float, float]]) -> list[tuple[float, float, float]]:
+def _merge_alike(classes: list[tuple[float, float, float]]) -> list[tuple[float, float, float]]:
     """Neighbouring classes of one shape as one."""
     out = [classes[0]]
     for ratio, radius, weight in classes[1:]:

@@ -206,7 +206,7 @@ def needs_process(faces: Sequence[Finish]) -> str:
     )
 
 
-def assumed(faces: Sequence[Finish], used: dict[str, float]) -> str:
+def assumption_sentence(faces: Sequence[Finish], used: dict[str, float]) -> str:
     """The sentence that says what was taken on the way from the drawing to the numbers used."""
     found, tables = drawing(faces), _tables()
     stated = "; ".join(face.words for face in faces)
@@ -220,11 +220,11 @@ def assumed(faces: Sequence[Finish], used: dict[str, float]) -> str:
         how.append("faces added as squares")
     else:
         how.append("one face, or the pair as a whole, against a smooth one")
-    out = f"{stated}: sigma = {_ranged(found.sigma, 'm')} ({'; '.join(how)})"
+    out = f"{stated}: sigma = {_range_text(found.sigma, 'm')} ({'; '.join(how)})"
     if found.R is None:
         return out
     parts = [
-        f"{name} = {_ranged(getattr(found, name), unit)}"
+        f"{name} = {_range_text(getattr(found, name), unit)}"
         for name, unit in (("R", "m"), ("alpha", "1"), ("eta_R_sigma", "1"))
         if used.get(name) == getattr(found, name)[1]
     ]
@@ -236,13 +236,15 @@ def assumed(faces: Sequence[Finish], used: dict[str, float]) -> str:
     return out
 
 
-def _ranged(values: tuple[float, float, float], unit: str) -> str:
+def _range_text(values: tuple[float, float, float], unit: str) -> str:
     low, usual, high = values
 
-    def said(value: float) -> str:
+    def number_text(value: float) -> str:
         return number(value) if unit == "1" else value_of(value, unit)
 
-    return said(usual) + (f" ({said(low)} to {said(high)})" if low < high else "")
+    return number_text(usual) + (
+        f" ({number_text(low)} to {number_text(high)})" if low < high else ""
+    )
 
 
 def check_faces(faces: Any) -> list[str]:

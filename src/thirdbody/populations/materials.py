@@ -227,7 +227,7 @@ class MaterialLibrary(Mapping[str, Material]):
             Every mistake in files of one's own, one sentence each.
         """
         named = os.environ.get(OWN_FILES, "").split(os.pathsep)
-        out = dict(_shipped())
+        out = dict(_own_materials())
         for file in (*(Path(name) for name in named if name), *self.files):
             own = _own(file)
             if taken := [name for name in own if name in out and out[name] != own[name]]:
@@ -342,7 +342,7 @@ def _text(name: str, entry: dict[str, Any]) -> str:
 
 
 @cache
-def _shipped() -> dict[str, dict[str, Any]]:
+def _own_materials() -> dict[str, dict[str, Any]]:
     text = resources.files("thirdbody").joinpath("data/materials.toml").read_text("utf-8")
     return tomllib.loads(text)
 

@@ -75,7 +75,7 @@ def carries_unit(value: Any) -> bool:
         return any(map(carries_unit, value.values()))
     if not _may_carry(kind):  # type: ignore[arg-type]
         return False
-    return _speaks(value) or _labelled(value) is not None or _typed(value)
+    return _speaks(value) or _unit_label(value) is not None or _has_unit_type(value)
 
 
 @cache
@@ -94,7 +94,7 @@ def _speaks(value: Any) -> bool:
     )
 
 
-def _labelled(value: Any) -> str | None:
+def _unit_label(value: Any) -> str | None:
     """The unit that an array says beside its numbers, as xarray's do."""
     if not (hasattr(value, "dims") and hasattr(value, "attrs")):
         return None
@@ -104,7 +104,7 @@ def _labelled(value: Any) -> str | None:
     return unit if isinstance(unit, str) and unit else None
 
 
-def _typed(value: Any) -> bool:
+def _has_unit_type(value: Any) -> bool:
     """Whether an array says the unit in its type, as pint's in pandas do."""
     return hasattr(getattr(value, "dtype", None), "units")
 
@@ -147,16 +147,16 @@ def in_si(value: Any, unit: str) -> Any:
     if isinstance(value, list):
         return [in_si(each, unit) for each in value]
     if _speaks(value):
-        return _converted(value, unit)
-    if (label := _labelled(value)) is not None:
+        return _convert(value, unit)
+    if (label := _unit_label(value)) is not None:
         if not label:
-            return _converted(value.data, unit)
-        return _scaled(np.asarray(value, float), _factor(value.name, label, unit))
+            return _convert(value.data, unit)
+        return _scale(np.asarray(value, float), _factor(value.name, label, unit))
     items = value.ravel() if type(value) is np.ndarray else value
     return np.reshape([float(in_si(each, unit)) for each in items], np.shape(value))
 
 
-def _converted(value: Any, unit: str) -> Any:
+def _convert(value: Any, unit: str) -> Any:
     """A quantity of a library of units, by that library's own factor."""
     wanted = spelled(unit)
     try:
@@ -165,7 +165,7 @@ def _converted(value: Any, unit: str) -> Any:
         raise InvalidValue(_why_not(value, unit)) from None
     some = np.flatnonzero(np.isfinite(given) & (given != 0))
     factor = float(found.flat[some[0]] / given.flat[some[0]]) if len(some) else math.nan
-    exact = _scaled(given, factor)
+    exact = _scale(given, factor)
     out = exact if np.allclose(exact, found, rtol=1e-12, atol=0, equal_nan=True) else found
     return out if out.ndim else float(out)
 
@@ -175,7 +175,7 @@ def _magnitude(value: Any) -> np.ndarray:
     return np.asarray(bare, float)
 
 
-def _scaled(given: np.ndarray, factor: float) -> np.ndarray:
+def _scale(given: np.ndarray, factor: float) -> np.ndarray:
     """Numbers times a factor; powers of ten as one writes them: 250 nm is the double 250e-9."""
     exponent = round(math.log10(factor)) if factor > 0 and math.isfinite(factor) else 0
     if not math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
@@ -418,7 +418,7 @@ def units_of(function: Callable[..., Any], owner: type = object) -> dict[str, st
     """
     found: dict[str, str | None] = dict(USUAL)
     for docstring in reversed(list(_docstrings(function, owner))):
-        found |= {name: unit for name, unit in documented(docstring) if unit or name not in found}
+        found |= {name: unit for name, unit in arguments_of(docstring) if unit or name not in found}
     return found
 
 
@@ -430,10 +430,10 @@ def _docstrings(function: Callable[..., Any], owner: type) -> Iterator[str]:
         yield getattr(method, "__doc__", None) or ""
 
 
-def documented(docstring: str) -> Iterator[tuple[str, str | None]]:
+def arguments_of(docstring: str) -> Iterator[tuple[str, str | None]]:
     """Arguments that a docstring in the style of numpydoc describes, and their units.
 
-    >>> list(documented('''One line.
+    >>> list(arguments_of('''One line.
     ...
     ...     Parameters
     ...     ----------

@@ -202,11 +202,11 @@ def _remove_left(target: Path) -> None:
     with suppress(OSError), os.scandir(target.parent) as entries:
         for entry in entries:
             found = names.fullmatch(entry.name)
-            if found and entry.is_file(follow_symlinks=False) and not _written(found, entry):
+            if found and entry.is_file(follow_symlinks=False) and not _is_written(found, entry):
                 Path(entry.path).unlink(missing_ok=True)
 
 
-def _written(draft: re.Match[str], entry: os.DirEntry[str]) -> bool:
+def _is_written(draft: re.Match[str], entry: os.DirEntry[str]) -> bool:
     """Whether somebody may still be writing a draft."""
     if draft["machine"] is None:
         return False

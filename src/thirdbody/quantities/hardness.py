@@ -72,7 +72,7 @@ def _by_table(value: float, start: str, end: str, table: str) -> float:
     return float(np.interp(value, x, y))
 
 
-def _known(scale: str, allowed: tuple[str, ...]) -> str:
+def _scales_text(scale: str, allowed: tuple[str, ...]) -> str:
     scale = _ALSO_WRITTEN.get(scale, scale)
     if scale not in allowed:
         hint = (
@@ -134,7 +134,7 @@ def convert(value: float, start: str, end: str, *, table: str = "iso18265") -> f
     7.404
     """
     allowed = (*_COLUMNS, "GPa")
-    start, end = _known(start, allowed), _known(end, allowed)
+    start, end = _scales_text(start, allowed), _scales_text(end, allowed)
     value = _positive(value, start)
     if start == "GPa":
         start, value = "HV", value * 1e9 / VICKERS
@@ -172,7 +172,7 @@ def pressure(value: float, scale: str) -> float:
     >>> [round(pressure(*number) / 1e9, 2) for number in ((700, "HV"), (62, "HRC"), (200, "HB"))]
     [7.4, 7.89, 2.23]
     """
-    scale = _known(scale, (*_COLUMNS, "HK"))
+    scale = _scales_text(scale, (*_COLUMNS, "HK"))
     value = _positive(value, scale)
     if scale == "HK":
         return value * KGF_PER_MM2

@@ -89,7 +89,7 @@ def connected(address: str, *, timeout: float | None = None) -> Client:
     try:
         resolve_address(address)  # a client that finds the mistake dies with a traceback
         with ThreadPoolExecutor(1) as pool:  # a notebook has a loop of its own in this thread
-            pool.submit(asyncio.run, _greeted(address, seconds)).result()
+            pool.submit(asyncio.run, _greet(address, seconds)).result()
         return Client(address, timeout=seconds, set_as_default=False)
     except Exception as error:  # what answers there may be anything
         why = str(error).splitlines()[0] if str(error) else type(error).__name__
@@ -99,7 +99,7 @@ def connected(address: str, *, timeout: float | None = None) -> Client:
         ) from None
 
 
-async def _greeted(address: str, seconds: float) -> None:
+async def _greet(address: str, seconds: float) -> None:
     """A scheduler says there who it is; a client would wait for that without an end."""
     import asyncio
 
@@ -166,7 +166,7 @@ def _in_threads(parts: Parts[Result], workers: int) -> Results[Result]:
             todo.put(None)
 
 
-def _solved(task: Callable[[], Any]) -> Any:
+def _solve_task(task: Callable[[], Any]) -> Any:
     return task()
 
 
@@ -188,7 +188,7 @@ def _on_cluster(parts: Parts[Result], client: Client, part: str, smaller: str) -
     def hand_out(number: int, task: Callable[[], Result]) -> None:
         # a key of its own for every attempt: the cluster remembers the failed ones
         key = f"thirdbody-{run}-{number}-{given_up.get(number, 0)}"
-        future = client.submit(_solved, task, key=key, pure=False)
+        future = client.submit(_solve_task, task, key=key, pure=False)
         flying[key] = number, task, future
         results.add(future)
 

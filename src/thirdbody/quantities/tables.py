@@ -78,7 +78,7 @@ class Table:
         named = [self.heads.index(head) for head in self.drop if head in self.heads]
         return [*named, *(i for i in reversed(range(1, len(self.heads))) if i not in named)]
 
-    def _fitted(self, shown: list[int], room: int) -> tuple[list[int], list[int], int]:
+    def _fit_columns(self, shown: list[int], room: int) -> tuple[list[int], list[int], int]:
         """Of these columns those that fit, their widths, and the gap between them."""
         needs = {i: self._needs(i) for i in shown}
         going = [i for i in self._going() if i in shown]
@@ -103,13 +103,13 @@ class Table:
     # ------------------------------------------------------------------ on the screen
     def __rich_console__(self, console: Any, options: Any) -> Any:
         every = list(range(len(self.heads)))
-        shown, widths, gap = self._fitted(every, options.max_width)
-        yield self._drawn(shown, widths, gap)
+        shown, widths, gap = self._fit_columns(every, options.max_width)
+        yield self._draw_table(shown, widths, gap)
         while self.wrap and (rest := [i for i in every if i not in shown]):
-            now, widths, gap = self._fitted([0, *rest], options.max_width)
+            now, widths, gap = self._fit_columns([0, *rest], options.max_width)
             if len(now) == 1:
                 break
-            yield self._drawn(now, widths, gap)
+            yield self._draw_table(now, widths, gap)
             shown += now[1:]
         told = [self.heads[i] for i in every if i in shown]
         if told := [f"{head}: {self.legend[head]}" for head in told if head in self.legend]:
@@ -117,7 +117,7 @@ class Table:
         if gone := [self.heads[i] for i in every if i not in shown]:
             yield f"Not shown for want of width: {listed(gone)}; {self.more}."
 
-    def _drawn(self, shown: list[int], widths: list[int], gap: int) -> Any:
+    def _draw_table(self, shown: list[int], widths: list[int], gap: int) -> Any:
         from rich import box
         from rich.table import Table as Drawn
 

@@ -101,12 +101,12 @@ def to_si(value: Any, unit: str) -> float:
             return _one(in_si(value, unit), unit)
         if hasattr(value, "__float__") and not isinstance(value, bool):  # numpy's numbers
             return _one(value, unit)
-        return _refuse(f"{say(value)} must be {_needed(unit)}")
+        return _refuse(f"{say(value)} must be {_need_text(unit)}")
     text = value.strip()
     shown = say(value)
     number = _NUMBER.match(text)
     if number is None:
-        return _refuse(f"{shown} has no number in front; it must be {_needed(unit)}")
+        return _refuse(f"{shown} has no number in front; it must be {_need_text(unit)}")
     rest = text[number.end() :].strip()
     if re.match(r",\d", rest):
         return _refuse(_about_comma(text, shown))
@@ -114,11 +114,11 @@ def to_si(value: Any, unit: str) -> float:
         return float(number.group())
     power = _POWERS.get(unit, {}).get(rest)
     if power is not None and math.isfinite(float(number.group())):
-        return _shifted(number.group(), power)
+        return _shift(number.group(), power)
     body = one_spelling(rest)
     if body is None:
-        return _refuse(f"{shown} cannot be read; it must be {_needed(unit)}")
-    return _scaled(number.group(), body, shown, unit)
+        return _refuse(f"{shown} cannot be read; it must be {_need_text(unit)}")
+    return _scale(number.group(), body, shown, unit)
 
 
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+(?![\d,])")
@@ -193,7 +193,7 @@ def _one(value: Any, unit: str) -> float:
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        return _refuse(f"{say(value)} must be {_needed(unit)}")
+        return _refuse(f"{say(value)} must be {_need_text(unit)}")
 
 
 def _refuse(sentence: str) -> NoReturn:
@@ -214,14 +214,14 @@ def say(value: Any) -> str:
     return text if len(text) <= 80 else text[:76] + " ..."
 
 
-def _needed(unit: str) -> str:
+def _need_text(unit: str) -> str:
     kind = KINDS.get("" if unit == "1" else unit.replace("^", "**"), "a quantity")
     if unit == "1":
         return f"{kind}, e.g. {EXAMPLES['1']}"
     return f"{kind}: a number in SI [{unit}] or with a unit, e.g. {EXAMPLES.get(unit, unit)}"
 
 
-def _shifted(number: str, power: int) -> float:
+def _shift(number: str, power: int) -> float:
     """The number times a power of ten: "300 nm" is the double 300e-9, not 300 * 1e-9."""
     try:
         return float(Fraction(number) * Fraction(10) ** power)
@@ -229,7 +229,7 @@ def _shifted(number: str, power: int) -> float:
         return math.copysign(math.inf, float(number))
 
 
-def _scaled(number: str, body: str, shown: str, unit: str) -> float:
+def _scale(number: str, body: str, shown: str, unit: str) -> float:
     units = registry()
     wanted = "" if unit == "1" else unit.replace("^", "**")
     try:
@@ -238,13 +238,13 @@ def _scaled(number: str, body: str, shown: str, unit: str) -> float:
         return _refuse(_unknown(body, shown, unit))
     if strange := next((word for word in re.findall(r"[^\W\d_]+", body) if not is_usual(word)), ""):
         return _refuse(
-            f"{shown} has the unit {strange}, which is not used here; it must be {_needed(unit)}"
+            f"{shown} has the unit {strange}, which is not used here; it must be {_need_text(unit)}"
         )
     if found.dimensionality == units.parse_units(wanted).dimensionality:
         factor = units.convert(1.0, found, wanted)
         exponent = round(math.log10(factor)) if factor > 0 else 0
         if math.isfinite(float(number)) and math.isclose(factor, 10.0**exponent, rel_tol=1e-12):
-            return _shifted(number, exponent)
+            return _shift(number, exponent)
         return float(number) * factor
     kind = kind_of_parsed(found)
     if unit == "1":
@@ -267,6 +267,6 @@ def _unknown(body: str, shown: str, unit: str) -> str:
             )
         folded = {name.lower(): name for name in reversed(_USUAL)}
         near = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.7)
-        guess = f"did you mean {folded[near[0]]}?" if near else f"it must be {_needed(unit)}"
+        guess = f"did you mean {folded[near[0]]}?" if near else f"it must be {_need_text(unit)}"
         return f"{shown} has the unit {word}, which is not known (case matters); {guess}"
-    return f"{shown} has a unit that cannot be read; it must be {_needed(unit)}"
+    return f"{shown} has a unit that cannot be read; it must be {_need_text(unit)}"

@@ -187,7 +187,7 @@ def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None
     """
     if _told.get() or not dataclasses.is_dataclass(value):  # an output or law of one's own
         return
-    for name, about, _ in _declared(type(value)):
+    for name, about, _ in _declarations(type(value)):
         part, old = getattr(value, name), getattr(before, name, None)
         if part is old:
             continue
@@ -202,7 +202,9 @@ def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None
 
 
 @cache
-def _declared(kind: type) -> tuple[tuple[str, dict[str, Any] | None, dict[str, Any] | None], ...]:
+def _declarations(
+    kind: type,
+) -> tuple[tuple[str, dict[str, Any] | None, dict[str, Any] | None], ...]:
     """Every field of a class, with what is declared of it as a quantity or a choice."""
     return tuple(
         (item.name, item.metadata.get("quantity"), item.metadata.get("choice"))
@@ -236,7 +238,7 @@ class Value:
 
     def __post_init__(self) -> None:
         problems: list[str] = []
-        for name, about, words in _declared(type(self)):  # type: ignore[arg-type]
+        for name, about, words in _declarations(type(self)):  # type: ignore[arg-type]
             value = getattr(self, name)
             why = None
             if type(value) is not float and (told := masked_words(value) or huge_words(value)):
@@ -276,7 +278,7 @@ class Value:
         """A copy with some fields changed; dots reach inside: ``**{"diameter.mean": 1e-7}``."""
         now: dict[str, Any] = {}
         inner: dict[str, dict[str, Any]] = {}
-        names = {name for name, _, _ in _declared(type(self))}  # type: ignore[arg-type]
+        names = {name for name, _, _ in _declarations(type(self))}  # type: ignore[arg-type]
         for key, value in changes.items():
             head, _, rest = key.partition(".")
             if head not in names:
@@ -288,7 +290,7 @@ class Value:
                 now[head] = value
         for head, deeper in inner.items():
             where, part = f"{type(self).__name__}.{head}", now.get(head, getattr(self, head))
-            now[head] = _replaced(where, part, deeper)
+            now[head] = _replace_at(where, part, deeper)
         with slips_are_told():
             out = dataclasses.replace(self, **now)  # type: ignore[type-var]
         if self._tells_of_slips:
@@ -496,7 +498,7 @@ def _stand_in(kind: type[Value]) -> type[Any]:
     return types.new_class(name, (kind,), {"stand_in": True}, lambda space: space.update(body))
 
 
-def _replaced(where: str, part: Any, changes: dict[str, Any]) -> Any:
+def _replace_at(where: str, part: Any, changes: dict[str, Any]) -> Any:
     """A value, or a tuple of them with the number of the one before the dot, with changes."""
     if isinstance(part, Value):
         return part.replace(**changes)
@@ -508,7 +510,7 @@ def _replaced(where: str, part: Any, changes: dict[str, Any]) -> Any:
         which, _, rest = key.partition(".")
         inner.setdefault(_index(where, items, which), {})[rest] = value
     for index, deeper in inner.items():
-        items[index] = _replaced(f"{where}.{index}", items[index], deeper)
+        items[index] = _replace_at(f"{where}.{index}", items[index], deeper)
     return tuple(items)
 
 

@@ -81,7 +81,7 @@ def _vary(reader: Reader, where: str) -> Any:
         problems: list[str] = []
         for label, entry in _flat(given).items():
             try:
-                name, allowed = _chosen(reader, f"{where}.{say(label)}", label, entry)
+                name, allowed = _variable(reader, f"{where}.{say(label)}", label, entry)
                 out[name] = allowed
             except InvalidValue as error:
                 problems += error.problems
@@ -92,13 +92,13 @@ def _vary(reader: Reader, where: str) -> Any:
     return read
 
 
-def _chosen(reader: Reader, where: str, label: str, entry: Any) -> tuple[str, Any]:
+def _variable(reader: Reader, where: str, label: str, entry: Any) -> tuple[str, Any]:
     """One variable: its name in the library, and its range or its materials."""
     if isinstance(entry, list):
         kinds = [
             TypeAdapter(material(reader, f"{where}[{i}]", each)) for i, each in enumerate(entry)
         ]
-        return label, [_checked(kind, each) for kind, each in zip(kinds, entry, strict=True)]
+        return label, [_check(kind, each) for kind, each in zip(kinds, entry, strict=True)]
     if not (isinstance(entry, dict) and set(entry) == {"low", "high"}):
         raise InvalidValue(
             f"{where} = {say(entry)} must be {{ low = ..., high = ... }}, or a list of materials"
@@ -119,7 +119,7 @@ def _chosen(reader: Reader, where: str, label: str, entry: Any) -> tuple[str, An
     return "+".join(name for name, _ in found), tuple(read(entry[e]) for e, read in ends_of.items())
 
 
-def _checked(kind: Any, value: Any) -> Any:
+def _check(kind: Any, value: Any) -> Any:
     try:
         return kind.validate_python(value)
     except ValidationError as error:

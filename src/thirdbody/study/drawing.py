@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import InvalidValue
-from ..populations.finish import STATED, Finish, assumed, processes
+from ..populations.finish import STATED, Finish, assumption_sentence, processes
 from ..populations.roughness import Roughness
 from ..quantities.units import say
 from .fields import about_of
@@ -81,7 +81,7 @@ def drawn(reader: Reader, path: str, data: dict[str, Any]) -> Any:
             missing = f"{path}.R is missing: " if "R" not in values else ""
             raise InvalidValue(*(f"{missing}{text}" for text in error.problems)) from None
         used = {name: getattr(found, name) for name in KNOWN_BETTER}
-        reader.assumed.append(f"{path}: {assumed(faces, used)}")
+        reader.assumed.append(f"{path}: {assumption_sentence(faces, used)}")
         return found
 
     return reader.table(path, keys, build)

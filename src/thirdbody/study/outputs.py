@@ -42,7 +42,7 @@ def on_area(contact: Contact, body: Any, forces: Any, data: Any) -> tuple[Contac
         closes = unsaid and each.A_n is None
         if unsaid and area is not None and not (closes and not isinstance(body, Flat)):
             each = each.replace(A_n=area)
-        elif closes and (name := _closed(each)):
+        elif closes and (name := _closing_column(each)):
             of_body = "" if body is None else ", which is not Hertz's where bodies are rough"
             notes.append(
                 f"outputs.{each.name}: {name} is not known without A_n, the area of one contact"
@@ -59,7 +59,7 @@ def on_area(contact: Contact, body: Any, forces: Any, data: Any) -> tuple[Contac
     return (contact if same else contact.replace(outputs=tuple(out))), notes
 
 
-def _closed(output: Any) -> str:
+def _closing_column(output: Any) -> str:
     """The column that is the probability of closing; empty where there is none."""
     return next((name for name in output.columns if name.endswith("_closed")), "")
 

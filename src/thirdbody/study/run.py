@@ -51,7 +51,7 @@ def run_study(study: Study) -> dict[str, Any]:
         forced = [] if study.body is None else pressed(study.body, study.forces, study.contact)  # type: ignore[arg-type]
     sentences = [*study.notes, *state.warnings, *(str(item.message) for item in heard)]
     sentences += [sentence for each in forced for sentence in each.warnings]
-    states = {name: _listed(column) for name, column in state.columns().items()}
+    states = {name: _plain_numbers(column) for name, column in state.columns().items()}
     states["mode"] = [mode or None for mode in states["mode"]]
     return {
         "title": study.title,
@@ -69,7 +69,9 @@ def run_study(study: Study) -> dict[str, Any]:
 
 def _of_film(study: Study) -> dict[str, Any]:
     """How many particles the contact of the table [film] holds, if there is one."""
-    return {} if study.film is None else {"particles_held": _held(study.film, study.contact)}
+    return (
+        {} if study.film is None else {"particles_held": _particles_held(study.film, study.contact)}
+    )
 
 
 def _body(study: Study, forced: list[Pressed]) -> dict[str, Any]:
@@ -127,7 +129,7 @@ def run_film(study: Study) -> dict[str, Any]:
         warnings.simplefilter("always", RangeWarning)
         curve = given.stribeck_columns(contact)
         changes = given.regime_speeds(contact)
-    states = {name: _listed(column) for name, column in curve.items()}
+    states = {name: _plain_numbers(column) for name, column in curve.items()}
     sentences = [*study.notes, *(str(item.message) for item in heard)]
     return {
         "title": study.title,
@@ -136,14 +138,14 @@ def run_film(study: Study) -> dict[str, Any]:
         "states": states,
         "regime_speeds": changes._asdict(),
         "passing": passing(study, curve["h"]),
-        "particles_held": _held(given, contact),
-        "entrainment": _brought(study, curve["h_T"]),
+        "particles_held": _particles_held(given, contact),
+        "entrainment": _particles_brought(study, curve["h_T"]),
         "warnings": list(dict.fromkeys(sentences)),
         "citations": _sources(study),
     }
 
 
-def _held(given: FilmConditions, contact: Contact) -> float | None:
+def _particles_held(given: FilmConditions, contact: Contact) -> float | None:
     """Particles that lie on the dry Hertz contact of the film's bodies, on average."""
     if contact.two_body:
         return None
@@ -156,20 +158,20 @@ def passing(study: Study, h: Any) -> list[dict[str, Any]]:
     return [
         {
             "name": each.name or each.material.name or f"particles {number + 1}",
-            "share": _listed(each.diameter.partial_moment(0, 0.0, np.asarray(h, float))),
+            "share": _plain_numbers(each.diameter.partial_moment(0, 0.0, np.asarray(h, float))),
         }
         for number, each in enumerate(study.contact.populations)
     ]
 
 
-def _brought(study: Study, h_T: Any) -> dict[str, Any] | None:
+def _particles_brought(study: Study, h_T: Any) -> dict[str, Any] | None:
     """Largest particle dragged in, and particles that enter per area, at every film thickness."""
     given = film_conditions(study)
     dirt, R = given.entrainment, given.conjunction.R
     if dirt is None:
         return None
     return {
-        "largest": _listed(dirt.largest(h_T, R=R)),
+        "largest": _plain_numbers(dirt.largest(h_T, R=R)),
         "areal_density": [
             [dirt.areal_density(each.diameter, h=float(h), R=R) for h in h_T]
             for each in study.contact.populations
@@ -194,8 +196,8 @@ def _populations(state: Equilibrium) -> list[dict[str, Any]]:
     numbers = ("F_sa_star", "A_sa", "load_share", "area_share")
     return [
         {"name": part.name}
-        | {name: _listed(getattr(part, name)) for name in numbers}
-        | {name: _listed(values) for name, values in part.outputs.items()}
+        | {name: _plain_numbers(getattr(part, name)) for name in numbers}
+        | {name: _plain_numbers(values) for name, values in part.outputs.items()}
         for part in state.populations
     ]
 
@@ -208,7 +210,7 @@ def _transitions(contact: Contact) -> Transitions:
         return Transitions(none, none, TurningPoint(none, none, none))
 
 
-def _listed(column: Any) -> list[Any]:
+def _plain_numbers(column: Any) -> list[Any]:
     """A column as plain numbers, None for those that are not finite."""
     items = (
         item.item() if isinstance(item, np.generic) else item for item in np.atleast_1d(column)

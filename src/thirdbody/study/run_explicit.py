@@ -116,7 +116,7 @@ def run_explicit(
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
         if len(study.faces) == 1:
-            made = _measured(study, contact, loads, asked, maps, workers)
+            made = _run_measured(study, contact, loads, asked, maps, workers)
         else:
             if study.faces:
                 notes.append(
@@ -191,10 +191,10 @@ def claim_results(out: str | os.PathLike[str], study: Study, *, maps: str = "las
             for face in study.faces
         ],
     }
-    return claim_folder(out, told, files=FILES, unmarked=_unmarked, growing=("surfaces",))
+    return claim_folder(out, told, files=FILES, unmarked=_unmarked_study, growing=("surfaces",))
 
 
-def _unmarked(folder: Path) -> dict[str, Any] | None:
+def _unmarked_study(folder: Path) -> dict[str, Any] | None:
     """The study whose results lie in a folder, as these say it."""
     found = read_json(folder / "explicit.json")
     if found is not None and {"version", "inputs", "table"} <= set(found):
@@ -214,7 +214,7 @@ def _plain(value: Any) -> Any:
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 
-def _measured(
+def _run_measured(
     study: Study,
     contact: Contact,
     loads: np.ndarray,

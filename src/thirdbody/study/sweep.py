@@ -110,7 +110,7 @@ def plan(
     found = [name for name in LOADS if name in given]
     name = found[0] if found else load
     given["d" if name == "separation" else name] = given.pop(name, loads)
-    names = _dotted(given.pop("vary", {}))
+    names = _dotted_names(given.pop("vary", {}))
     given["vary"] = {inner: value for inner, value in names.values()}
     translated = {outer: inner for outer, (inner, _) in names.items()} | {"separation": "d"}
     if "over" in given.get("reduce", {}):
@@ -167,13 +167,13 @@ def with_nested_names(data: dict[str, Any]) -> dict[str, Any]:
     return data | {"sweep": data["sweep"] | {"vary": tree}}
 
 
-def _dotted(tree: dict[str, Any], path: str = "") -> dict[str, tuple[str, Any]]:
+def _dotted_names(tree: dict[str, Any], path: str = "") -> dict[str, tuple[str, Any]]:
     """Names as in the file, each with the dotted name of the field and the values."""
     out: dict[str, tuple[str, Any]] = {}
     for name, value in tree.items():
         where = f"{path}.{name}" if path else name
         if isinstance(value, dict) and not is_span(value):
-            out |= _dotted(value, where)
+            out |= _dotted_names(value, where)
         else:
             out[where] = field_of(path, name), value
     return out

@@ -161,13 +161,15 @@ def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     data = with_nested_names(data)
     with slips_are_told():
         try:
-            return _checked(data, folder, [t for t in TABLES if t.name in data or t.required(data)])
+            return _checked_study(
+                data, folder, [t for t in TABLES if t.name in data or t.required(data)]
+            )
         except InvalidValue:
             # to say where a misplaced key belongs, every table must be known
-            return _checked(data, folder, TABLES)
+            return _checked_study(data, folder, TABLES)
 
 
-def _checked(data: dict[str, Any], folder: Path, tables: Iterable[Table]) -> Study:
+def _checked_study(data: dict[str, Any], folder: Path, tables: Iterable[Table]) -> Study:
     """The study, when these are all the tables that it may hold."""
     reader = Reader(folder, data, FIELDS)
     keys = {
@@ -208,7 +210,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
     reader.notes += notes
     film = on_body(reader, film, bodies, given_forces)
-    load, loads = loaded or _pressed(film, contact)
+    load, loads = loaded or _film_load(film, contact)
     forces = None
     if load == "force":
         load, forces, loads = "pressure", loads, loads_of(bodies, loads, contact)
@@ -238,6 +240,6 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     )
 
 
-def _pressed(film: FilmConditions, contact: Contact) -> tuple[str, np.ndarray]:
+def _film_load(film: FilmConditions, contact: Contact) -> tuple[str, np.ndarray]:
     """The load of a study that gives none but that of its film: without oil, all is on solids."""
     return "pressure", np.array([film.nominal_pressure(contact)])

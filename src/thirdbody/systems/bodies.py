@@ -447,7 +447,7 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
     }
     if not integrate:
         return Pressed(**given)
-    found = _integrated(contact, body, force, hertz)
+    found = _integrals(contact, body, force, hertz)
     if not contact.two_body and found.get("method") == "rough body":
         given["particles_held"] *= max(float(hertz.maximum) / found["peak_pressure"], 1.0)
     if 0 < (given["particles_held"] or 0.0) < 1 and "method" in found:
@@ -463,7 +463,7 @@ def _with_and_without(
     Of those that hold some, the mean number of particles is 1/(1 − exp(−N)) times that of all.
     """
     without = math.exp(-held)
-    clean = _integrated(contact.replace(particles=None), body, force, hertz)
+    clean = _integrals(contact.replace(particles=None), body, force, hertz)
     try:
         dusty = contact.replace(
             particles=tuple(
@@ -471,7 +471,7 @@ def _with_and_without(
                 for each in contact.populations
             )
         )
-        some = _integrated(dusty, body, force, hertz)
+        some = _integrals(dusty, body, force, hertz)
     except InvalidValue:  # so many do not find room
         some = shared
     if "method" not in clean or "method" not in some:
@@ -492,7 +492,7 @@ def _part(share: float, found: dict[str, Any]) -> dict[str, float | None]:
     return {"share": share} | {name: found[name] for name in names}
 
 
-def _integrated(contact: Contact, body: Body, force: float, hertz: Hertz) -> dict[str, Any]:
+def _integrals(contact: Contact, body: Body, force: float, hertz: Hertz) -> dict[str, Any]:
     shape, one, why = body.conjunction, force / body.bodies, ""
     try:
         if isinstance(shape, Line):

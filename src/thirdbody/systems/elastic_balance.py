@@ -414,7 +414,7 @@ def _seek(
 def _rigid(skin: Skin, shape: Shape, load: float) -> float:
     """Separation at which the undeformed shape would carry the load, roughly."""
 
-    def carried(d: float) -> float:
+    def share_at(d: float) -> float:
         try:
             extent = shape.extent(skin, d)
         except NoEquilibrium:
@@ -429,17 +429,17 @@ def _rigid(skin: Skin, shape: Shape, load: float) -> float:
         step = p / -slope
     width = step
     for _ in range(WIDENED):
-        if not carried(high) > load:
+        if not share_at(high) > load:
             break
         high, width = high + width, 1.5 * width
     width = step
     for _ in range(WIDENED):
-        if not carried(low) < load:
+        if not share_at(low) < load:
             break
         low, width = low - width, 1.5 * width
-    if carried(high) > load or carried(low) < load:
+    if share_at(high) > load or share_at(low) < load:
         raise NoEquilibrium(OUT_OF_REACH.format(load=load, low=low, high=high))
     while high - low > 0.05 * step:
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if carried(middle) > load else (low, middle)
+        low, high = (middle, high) if share_at(middle) > load else (low, middle)
     return high

@@ -521,17 +521,17 @@ class GhaedniaMultiscale(Value):
         share = np.where(touch, load / local, 1.0)
         asperities = np.where(touch, A_0 * (1 - footprint), 0.0)
 
-        def shaped(values: Array) -> Array:
+        def in_shape(values: Array) -> Array:
             return values.reshape(given.shape) if given.ndim else values[0].item()
 
         return MultiscaleState(
-            pressure=shaped(p),
-            A_0=shaped(A_0),
-            local_pressure=shaped(local),
-            gap=shaped(gap),
-            A_particles=shaped(A_0 * area),
-            A_asperities=shaped(asperities),
-            particle_load_share=shaped(share),
+            pressure=in_shape(p),
+            A_0=in_shape(A_0),
+            local_pressure=in_shape(local),
+            gap=in_shape(gap),
+            A_particles=in_shape(A_0 * area),
+            A_asperities=in_shape(asperities),
+            particle_load_share=in_shape(share),
             warnings=self._warnings(p),
         )
 

@@ -313,7 +313,7 @@ def mixed_film(
     >>> state.film_share.round(3).tolist(), state.regime.tolist()
     ([0.01, 0.535], ['boundary', 'mixed'])
     """
-    w, u, scalar = _given(load, speed)
+    w, u, scalar = _loads_and_speeds(load, speed)
     bodies = lubricated(contact, conjunction, oil, w, film, slide_roll, hertz, (few, most))
     sigma, p = contact.roughness.sigma, bodies.p
 
@@ -446,7 +446,7 @@ def _solve_heard(contact: Contact, d: float | Array) -> tuple[Equilibrium, list[
     return state, [str(each.message) for each in heard if issubclass(each.category, RangeWarning)]
 
 
-def _given(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, bool]:
+def _loads_and_speeds(load: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, bool]:
     """Loads and speeds of every state, and whether there is one."""
     problems = []
     values = []

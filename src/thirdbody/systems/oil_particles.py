@@ -277,7 +277,7 @@ class FilmParticles(Value):
         end = self.diameter.support[1] if top is None else top
         return float(self.diameter.partial_moment(power, x, end)) if end > x else 0.0
 
-    def _pressed(self, x: float) -> float:
+    def _number_above(self, x: float) -> float:
         """Particles or fragments larger than x per particle of the oil."""
         if self.strength is not None:
             sizes, number, _ = self._pieces([x])
@@ -294,10 +294,10 @@ class FilmParticles(Value):
         from scipy.optimize import brentq
 
         top = self.diameter.support[1]
-        if self.fragment is not None and self._pressed(self.fragment * (1 - 1e-12)) >= count:
+        if self.fragment is not None and self._number_above(self.fragment * (1 - 1e-12)) >= count:
             return self.fragment
         return float(
-            brentq(lambda x: self._pressed(x) - count, lowest, top, xtol=1e-16, rtol=1e-13)
+            brentq(lambda x: self._number_above(x) - count, lowest, top, xtol=1e-16, rtol=1e-13)
         )
 
     def _pieces(self, ends: Sequence[float]) -> tuple[Array, Array, tuple[float, float]]:
@@ -359,7 +359,7 @@ class FilmParticles(Value):
         """Widths of the marks of particles that are flattened [m]."""
         return np.minimum(flattened_diameter(x, gap=self.film), self._widest(side) * np.asarray(x))
 
-    def _flattened(self, side: int) -> str:
+    def _flat_sentence(self, side: int) -> str:
         body = (self.surfaces.first, self.surfaces.second)[side - 1]
         return (
             f"particles of {value_of(self.material.H, 'Pa')} hardness are not harder than surface "
@@ -461,10 +461,10 @@ class FilmParticles(Value):
             raise InvalidValue(f"side = {side!r} must be 1 or 2")
         if not self.sinks(side - 1):
             if self.debris != "ductile":
-                tell_of_range(self._flattened(side))
+                tell_of_range(self._flat_sentence(side))
             return self._footprints(side - 1)
         lowest = self._first(side - 1)
-        count = self._pressed(lowest) if math.isfinite(lowest) else 0.0
+        count = self._number_above(lowest) if math.isfinite(lowest) else 0.0
         if count == 0:
             return FilmDents(0.0, *4 * (math.nan,), *2 * (math.nan,), math.nan)._replace(volume=0.0)
         x, w = self._nodes()
@@ -527,7 +527,7 @@ class FilmParticles(Value):
         passed = self.columns_of_oil * area * overrollings
         wanted = math.log(2) / passed if passed else math.inf
         lowest = self._first(side - 1) if self.sinks(side - 1) else self.film
-        if not math.isfinite(lowest) or self._pressed(lowest) <= wanted:
+        if not math.isfinite(lowest) or self._number_above(lowest) <= wanted:
             return Dent(np.array(math.nan), np.array(math.nan), np.array(math.nan))
         found = self._dent(self.single(self._size(wanted, lowest)), side - 1)
         return Dent(*(each[0, 0] for each in found))

@@ -17,7 +17,7 @@ from .mixed_film import (
     FEW,
     MOST,
     STEPS,
-    _given,
+    _loads_and_speeds,
     lubricated,
     mean_gap,
     mixed_film,
@@ -206,18 +206,18 @@ def regime_speeds(
     >>> round(mixed_film(contact, speed=found.full, **given).solid_share, 9)
     0.01
     """
-    w, _, _ = _given(load, 1.0)
+    w, _, _ = _loads_and_speeds(load, 1.0)
     bodies = lubricated(contact, conjunction, oil, w, film, None, hertz, (few, most))
     bound, floor, sigma = interface(contact), bodies.floor, contact.roughness.sigma
 
-    def carried(t: Array) -> Array:
+    def share_at(t: Array) -> Array:
         """Share of the solids at a separation d = floor + σe^t."""
         return bound.load(floor + sigma * np.exp(t))[:, 0] / bodies.p
 
     shares = np.array([most, few])
-    known = (shares > 0) & (shares < 1) & (carried(np.full(2, -40.0)) > shares)
+    known = (shares > 0) & (shares < 1) & (share_at(np.full(2, -40.0)) > shares)
     # beyond e^40 sigma there is no contact
-    t = _falling(lambda t: carried(t) - shares, np.full(2, -40.0), np.full(2, 40.0))
+    t = _falling(lambda t: share_at(t) - shares, np.full(2, -40.0), np.full(2, 40.0))
     gap = mean_gap(floor + sigma * np.exp(t) + bound.mean_plane, sigma=sigma)
     gamma = 1 / (1 - np.where(known, shares, 0.5))
     ends = np.log([[SLOWEST] * 2, [FASTEST] * 2])

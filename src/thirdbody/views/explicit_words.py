@@ -11,7 +11,7 @@ from ..quantities.say import number, percent, plural, value_of
 if TYPE_CHECKING:
     from ..study.one_surface import OneSurface
 
-__all__ = ["compared", "headline", "rows"]
+__all__ = ["comparison_table", "headline", "rows"]
 
 HEAD = ("", "explicit", "statistical")
 
@@ -56,7 +56,7 @@ def headline(found: OneSurface, i: int) -> str:
     )
 
 
-def compared(found: OneSurface) -> tuple[list[str], list[list[str]]]:
+def comparison_table(found: OneSurface) -> tuple[list[str], list[list[str]]]:
     """Head and rows of a table over the loads: explicit and statistical, side by side."""
     loads = np.atleast_1d(found.state.F_star)
     each = [rows(found, i) for i in range(len(loads))]

@@ -111,10 +111,10 @@ def _jumps(law: AbstractAsperityLaw) -> str:
     w = getattr(law, "w", None)
     if w is not None and law.onset:
         touch = law.onset * float(law.yield_interference(**body)) * body["H"] / w
-        out.append(f"at touch: F from 0 to {_signed(touch)} πwR")
+        out.append(f"at touch: F from 0 to {_signed_text(touch)} πwR")
     for y, jump in law.jumps.items():
         found = [
-            f"{symbol} {_signed(100 * step)} %"
+            f"{symbol} {_signed_text(100 * step)} %"
             for symbol, step in zip("FAS", jump, strict=True)
             if abs(step) > 5e-5
         ]
@@ -123,5 +123,5 @@ def _jumps(law: AbstractAsperityLaw) -> str:
     return "; ".join(out) if out else "none"
 
 
-def _signed(value: float) -> str:
+def _signed_text(value: float) -> str:
     return f"{'+' if value >= 0 else ''}{number(value, 3)}"

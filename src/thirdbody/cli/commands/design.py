@@ -60,9 +60,9 @@ def command(
     for path in files.paths:
         print(f"written: {path}", file=sys.stderr)
     if figure is not None:
-        from ...views.plot.design import tried
+        from ...views.plot.design import plot_trials
 
-        write_figure(figure, tried(best))
+        write_figure(figure, plot_trials(best))
     if as_json:
         told = {"title": asked.title, **best.to_dict()}
         print(json.dumps(told, indent=1, allow_nan=False))

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...errors import NoEquilibrium
 from ...explicit.half_space import lattice_constant
-from ...explicit.press import press, touched
+from ...explicit.press import contact_share, press
 from ...laws.base import OneParticle, Squeezed
 from ...laws.particle.series import Series
 
@@ -72,7 +72,7 @@ def table(E_over_H: float) -> tuple[Array, Array, Array]:
         side = POINTS * spacing
         images = lattice_constant((side, side)) * load / (math.pi * E_over_H)
         eps[i] = 1 - (found.h + mean) + images
-        areas[i] = float(np.sum(touched(found.p, hardness, 1.0))) * spacing**2
+        areas[i] = float(np.sum(contact_share(found.p, hardness, 1.0))) * spacing**2
     return eps, loads, np.minimum(areas, FULL)
 
 

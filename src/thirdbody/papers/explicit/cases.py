@@ -106,7 +106,7 @@ def _hard(chi: float, alpha: float = 5.0, over_sigma: float = 1.0, **other: Any)
     return _contact(over_sigma, alpha=alpha, H=(H, H), **other)
 
 
-def _named(over_sigma: float) -> str:
+def _name_of(over_sigma: float) -> str:
     return f"x/σ = {over_sigma:.2g}"
 
 
@@ -118,19 +118,19 @@ def _cases() -> tuple[Case, ...]:
 
     sizes = {"2": 2.0, "1": 1.0, "067": 2 / 3}
     for key, x in sizes.items():
-        add(f"x{key}", "sizes", _named(x), _contact(x))
+        add(f"x{key}", "sizes", _name_of(x), _contact(x))
     for key, x in sizes.items():
-        add(f"bump{key}", "bumps", _named(x), _contact(x, law=BumpLaw()))
+        add(f"bump{key}", "bumps", _name_of(x), _contact(x, law=BumpLaw()))
     for alpha in (4.0, 15.0):
         for x in (2.0, 1.0):
-            words = f"α = {alpha:g}, {_named(x)}"
+            words = f"α = {alpha:g}, {_name_of(x)}"
             add(f"alpha{alpha:g}_x{x:g}", "spectra", words, _contact(x, alpha=alpha))
     soft = 0.018 * stored_contact(SIGMA).E_ss
     for x in (2.0, 1.0):
-        words = f"soft, H/E* = 0.018, {_named(x)}"
+        words = f"soft, H/E* = 0.018, {_name_of(x)}"
         add(f"soft_x{x:g}", "materials", words, _contact(x, H=(soft, soft)))
     for x in (2.0, 1.0):
-        words = f"one body twice as hard, {_named(x)}"
+        words = f"one body twice as hard, {_name_of(x)}"
         add(f"unequal_x{x:g}", "materials", words, _contact(x, H=(5e9, 10e9)))
     for gsd in (1.3, 1.6):
         spread = tb.LogNormal(median=SIGMA, gsd=gsd)
@@ -138,8 +138,8 @@ def _cases() -> tuple[Case, ...]:
         add(f"spread{gsd:g}", "mixtures", words, _contact(1.0, sizes=spread))
     for power, words in ((9, "10⁹ m⁻²"), (10, "10¹⁰ m⁻²"), (12, "10¹² m⁻²")):
         dense = _contact(2.0, density=10.0**power)
-        add(f"density{power}", "densities", f"{words}, {_named(2)}", dense)
-    add("density12_x1", "densities", f"10¹² m⁻², {_named(1)}", _contact(1.0, density=1e12))
+        add(f"density{power}", "densities", f"{words}, {_name_of(2)}", dense)
+    add("density12_x1", "densities", f"10¹² m⁻², {_name_of(1)}", _contact(1.0, density=1e12))
     seats: tuple[tuple[str, str, Any], ...] = (
         ("settled", "lowest of 5 spots in 0.5 µm", SettledSeats()),
         ("settled_wide", "lowest of 5 spots in 1.5 µm", SettledSeats(within=1.5e-6)),
@@ -149,19 +149,19 @@ def _cases() -> tuple[Case, ...]:
         ("sphere", "as a sphere rests", SphereSeats()),
     )
     for name, words, rule in seats:
-        add(name, "seats", f"{words}, {_named(2)}", _contact(2.0), rule)
-    add("summits", "seats", f"a summit each, 2×10¹⁰ m⁻², {_named(1)}",
+        add(name, "seats", f"{words}, {_name_of(2)}", _contact(2.0), rule)
+    add("summits", "seats", f"a summit each, 2×10¹⁰ m⁻², {_name_of(1)}",
         _contact(1.0, density=2e10), SummitSeats())  # fmt: skip
     for name, words, case in (
-        ("large", _named(1), _contact(1.0)),
-        ("large_soft", f"soft, H/E* = 0.018, {_named(1)}", _contact(1.0, H=(soft, soft))),
+        ("large", _name_of(1), _contact(1.0)),
+        ("large_soft", f"soft, H/E* = 0.018, {_name_of(1)}", _contact(1.0, H=(soft, soft))),
     ):
         out.append(Case(name=name, group="loads", words=words, contact=case, loads=LARGE))
-    out += _crowded()
+    out += _crowded_cases()
     return tuple(out)
 
 
-def _crowded() -> list[Case]:
+def _crowded_cases() -> list[Case]:
     """Surfaces hard against their slopes, and soft debris, at real areas of 0.002 to 0.25."""
     out = [
         Case(name=f"chi{chi:g}_alpha{alpha:g}", group="hard", words=f"χ = {chi:g}, α = {alpha:g}",

@@ -224,7 +224,7 @@ def points_of(case: Case, found: Ensemble, effort: Effort) -> list[Point]:
                 model_bare=carried,
                 surfaces=found.surfaces,
                 zeta=(found.seats.mean, found.seats.std),
-                stored=_stored(case, load),
+                stored=_stored_share(case, load),
                 bounds=(
                     float(table["particle_load_share_cv_least"].values[i]),
                     float(table["particle_load_share_cv_most"].values[i]),
@@ -243,7 +243,7 @@ RATIOS = (
 )
 
 
-def _stored(case: Case, load: float) -> tuple[float, float] | None:
+def _stored_share(case: Case, load: float) -> tuple[float, float] | None:
     """What the stored runs gave for the same contact."""
     if case.group not in ("sizes", "bumps"):
         return None

@@ -241,7 +241,7 @@ def _cell(state: dict[str, Any]) -> str:
     bold = "**{}**" if state["off"] else "{}"
     if least is not None and most is not None:
         told = f"{model:.1f}"
-        return f"{_between(least, most)}, " + bold.format(told) + _field(state, 1)
+        return f"{_bounds_text(least, most)}, " + bold.format(told) + _field(state, 1)
     assert ours is not None
     decimals = 0 if not error else min(max(0, 1 - math.floor(math.log10(error))), 3)
     spread = f" ± {error:.{decimals}f}" if error else ""
@@ -255,7 +255,7 @@ def _field(state: dict[str, Any], decimals: int) -> str:
     return "" if share is None else f", {100 * share:.{decimals}f}"
 
 
-def _between(least: float, most: float) -> str:
+def _bounds_text(least: float, most: float) -> str:
     """Bounds in per cent: what is wider than they are is not told."""
     low, high = math.floor(10 * least) / 10, math.ceil(10 * most) / 10
     if high >= 100:
@@ -330,7 +330,7 @@ def _explicit(point: Point) -> str:
     """The share without the luck of the draw, or its bounds."""
     if not point.bounded:
         return _share(point.share)
-    return _between(*(100 * each for each in point.bounds)) + " %"
+    return _bounds_text(*(100 * each for each in point.bounds)) + " %"
 
 
 def _page(summary: Summary, svg: bytes) -> str:

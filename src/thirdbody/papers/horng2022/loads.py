@@ -36,7 +36,7 @@ def second_critical_load(curves: Curves, material: str, sigma: float, x_a: float
     return Measurement.of(value) if math.isfinite(value) else Measurement.absent(NEVER_S_S)
 
 
-def _ordered(rows: list[list[float]], largest: bool, why: str) -> Measurement:
+def _in_order(rows: list[list[float]], largest: bool, why: str) -> Measurement:
     return extreme([ratio for row in rows for ratio in ratios(row)], largest, why)
 
 
@@ -45,7 +45,7 @@ def first_by_size(
     curves: Curves, materials: list[str], sigma: float, x_a: list[float]
 ) -> Measurement:
     rows = [[first_load(curves, material, sigma, x) for x in x_a] for material in materials]
-    return _ordered(rows, False, "a size is never p-s, or two of them always are")
+    return _in_order(rows, False, "a size is never p-s, or two of them always are")
 
 
 @measure
@@ -53,7 +53,7 @@ def second_by_size(
     curves: Curves, materials: list[str], sigma: float, x_a: list[float]
 ) -> Measurement:
     rows = [[second_load(curves, material, sigma, x) for x in x_a] for material in materials]
-    return _ordered(rows, False, "two sizes are never s-s")
+    return _in_order(rows, False, "two sizes are never s-s")
 
 
 @measure
@@ -61,7 +61,7 @@ def first_by_roughness(
     curves: Curves, material: str, sigma: list[float], x_a: float
 ) -> Measurement:
     row = [first_load(curves, material, s, x_a) for s in sigma]
-    return _ordered([row], True, "on one σ the contact is never p-s, or on two it always is")
+    return _in_order([row], True, "on one σ the contact is never p-s, or on two it always is")
 
 
 @measure
@@ -69,7 +69,7 @@ def second_by_roughness(
     curves: Curves, material: str, sigma: list[float], x_a: float
 ) -> Measurement:
     row = [second_load(curves, material, s, x_a) for s in sigma]
-    return _ordered([row], True, "on two σ the contact is never s-s")
+    return _in_order([row], True, "on two σ the contact is never s-s")
 
 
 @measure
@@ -95,13 +95,13 @@ def second_material_ratios(curves: Curves, pairs: list[list[float]]) -> Measurem
 @measure
 def smallest_second_material_ratio(curves: Curves, sigma: float, x_a: list[float]) -> Measurement:
     rows = [[second_load(curves, material, sigma, x) for material in (STEEL, SILICA)] for x in x_a]
-    return _ordered(rows, False, NEVER_S_S)
+    return _in_order(rows, False, NEVER_S_S)
 
 
 @measure
 def first_steel_over_silica(curves: Curves, sigma: float, x_a: list[float]) -> Measurement:
     rows = [[first_load(curves, material, sigma, x) for material in (SILICA, STEEL)] for x in x_a]
-    return _ordered(rows, True, "a size is never p-s, or always p-s with both materials")
+    return _in_order(rows, True, "a size is never p-s, or always p-s with both materials")
 
 
 def _quotient(pair: list[float], why: str) -> Measurement:

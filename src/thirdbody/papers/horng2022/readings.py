@@ -124,7 +124,7 @@ class Reading:
         }
 
 
-def _printed(key: str, preset: str, words: str, **rest: Any) -> Reading:
+def _printed_reading(key: str, preset: str, words: str, **rest: Any) -> Reading:
     def law(sigma: float, x_a: float) -> AbstractParticleLaw:
         return Horng2022(preset=preset)
 
@@ -148,7 +148,7 @@ def _on_rough_seat(sigma: float, x_a: float) -> AbstractParticleLaw:
 READINGS: dict[str, Reading] = {
     reading.name: reading
     for reading in (
-        _printed(
+        _printed_reading(
             "P",
             "published",
             "printed, both integrals; χ = 0.00738, h_e = 3.11 σ, pressure H_s + H_a",
@@ -158,7 +158,7 @@ READINGS: dict[str, Reading] = {
             cut=2.05,
             adjusted="R, σ_a, n, h_e, χ, and the pressure H_s + H_a",
         ),
-        _printed(
+        _printed_reading(
             "W",
             "window",
             "printed, first integral only; χ = 1/16, h_e = 3.25 σ",
@@ -168,7 +168,7 @@ READINGS: dict[str, Reading] = {
             cut=3.0,
             adjusted="R, σ_a, h_e; χ follows from errata 7 and 9",
         ),
-        _printed(
+        _printed_reading(
             "V",
             "window_E2",
             "printed, first integral only; E' = 2E* in the bracket, h_e = 2.39 σ",
@@ -179,7 +179,7 @@ READINGS: dict[str, Reading] = {
             F_star_scale=2.0,
             adjusted="R, σ_a, n, h_e",
         ),
-        _printed(
+        _printed_reading(
             "X3",
             "all_terms",
             "printed, both integrals; χ = 0.0185, h_e = 3.15 σ",
@@ -189,7 +189,7 @@ READINGS: dict[str, Reading] = {
             cut=3.0,
             adjusted="R, h_e, χ",
         ),
-        _printed(
+        _printed_reading(
             "L",
             "literal",
             "printed, both integrals; h_e = C x_a/2",

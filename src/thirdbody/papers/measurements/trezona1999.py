@@ -13,7 +13,7 @@ from ...quantities.say import number
 from ..panels import Line, Panel
 from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
 
-__all__ = ["ROW", "turning", "worn"]
+__all__ = ["ROW", "turning", "wear_columns"]
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ COEFFICIENTS = ((0.1, 0.001, 1e-5), (0.5, 0.01, 0.0), (0.2, 0.001, 1e-3))
 
 
 @cache
-def worn(pressure: float, coefficients: tuple[float, float, float]) -> dict[str, Array]:
+def wear_columns(pressure: float, coefficients: tuple[float, float, float]) -> dict[str, Array]:
     """Wear, rolling share and load share of the particles over `DENSITIES`.
 
     Parameters
@@ -38,7 +38,7 @@ def worn(pressure: float, coefficients: tuple[float, float, float]) -> dict[str,
 
     Examples
     --------
-    >>> found = worn(1e6, (0.1, 0.001, 1e-5))
+    >>> found = wear_columns(1e6, (0.1, 0.001, 1e-5))
     >>> bool(found["wear"].max() > 1.5 * found["wear"][-1])
     True
     """
@@ -72,7 +72,7 @@ def worn(pressure: float, coefficients: tuple[float, float, float]) -> dict[str,
 
 
 def _every() -> list[dict[str, Array]]:
-    return [worn(p, given) for p in PRESSURES for given in COEFFICIENTS]
+    return [wear_columns(p, given) for p in PRESSURES for given in COEFFICIENTS]
 
 
 def _maximum() -> Band:
@@ -113,7 +113,7 @@ def turning(pressure: float, coefficients: tuple[float, float, float]) -> tuple[
     from scipy.interpolate import PchipInterpolator
     from scipy.optimize import brentq
 
-    found, places = worn(pressure, coefficients), np.log(DENSITIES)
+    found, places = wear_columns(pressure, coefficients), np.log(DENSITIES)
     rolling = PchipInterpolator(places, found["rolling"])
     first = int(np.argmax(found["rolling"] > 0.1))
     at = brentq(lambda x: float(rolling(x)) - 0.1, places[first - 1], places[first])
@@ -136,7 +136,7 @@ def _panel() -> Panel:
         Line(
             f"{pressure / 1e6:g} MPa, $f_{{ab}}$ = {given[0]:g}, $K_{{ss}}$ = {number(given[2])}",
             DENSITIES,
-            worn(pressure, given)["wear"],
+            wear_columns(pressure, given)["wear"],
             colour=i,
             dash=j,
         )

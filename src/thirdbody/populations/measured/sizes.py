@@ -121,7 +121,7 @@ def by_number(
                 for (weight, part), number in zip(sizes.components, parts, strict=True)
             ]
             return Mixture(parts=tuple(parts), weights=tuple(w / max(weights) for w in weights))
-    return _reweighted(sizes, power, smallest, weighting)
+    return _reweight(sizes, power, smallest, weighting)
 
 
 def _above(sizes: Distribution, smallest: float | None) -> float:
@@ -129,7 +129,7 @@ def _above(sizes: Distribution, smallest: float | None) -> float:
     return float(sizes.partial_moment(0, lo - 1 if smallest is None else smallest, hi))
 
 
-def _reweighted(
+def _reweight(
     sizes: Distribution, power: int, smallest: float | None, weighting: str
 ) -> Distribution:
     """Sections of power laws, each with the number that its weight stands for."""

@@ -354,17 +354,17 @@ def gaussian_filtered(h: Array, spacing: tuple[float, ...], cutoff: float, perio
     widths = [SIGMA_OF_CUTOFF * cutoff / d for d in spacing]
     missing = np.isnan(h)
     if missing.any():
-        weight = _blurred(np.where(missing, 0.0, 1.0), widths, periodic)
-        total = _blurred(np.where(missing, 0.0, h), widths, periodic)
+        weight = _blur(np.where(missing, 0.0, 1.0), widths, periodic)
+        total = _blur(np.where(missing, 0.0, h), widths, periodic)
         return np.where(missing, np.nan, total / np.where(missing, 1.0, weight))
-    total = _blurred(h, widths, periodic)
+    total = _blur(h, widths, periodic)
     for axis, width in enumerate(widths):
         shape = [-1 if a == axis else 1 for a in range(h.ndim)]
-        total /= _blurred(np.ones(h.shape[axis]), [width], periodic).reshape(shape)
+        total /= _blur(np.ones(h.shape[axis]), [width], periodic).reshape(shape)
     return total
 
 
-def _blurred(z: Array, widths: list[float], periodic: bool) -> Array:
+def _blur(z: Array, widths: list[float], periodic: bool) -> Array:
     """Convolution with a Gaussian along every axis; nothing lies beyond the edges."""
     from scipy.ndimage import gaussian_filter1d
     from scipy.signal import oaconvolve
@@ -417,14 +417,14 @@ class Spectrum:
         where = np.digitize(np.sqrt(self.q2), edges) - 1
         inside = (where >= 0) & (where < rings)
 
-        def summed(values: Array) -> Array:
+        def sum_over(values: Array) -> Array:
             return np.bincount(where[inside], values[inside], minlength=rings).astype(float)
 
-        number = summed(self.count)
+        number = sum_over(self.count)
         full = number > 0
         q = np.sqrt(edges[1:] * edges[:-1])[full]
-        density = summed(self.power)[full] / number[full] * self.area
-        return q, density, summed(self.power * self.q2**2)[full]
+        density = sum_over(self.power)[full] / number[full] * self.area
+        return q, density, sum_over(self.power * self.q2**2)[full]
 
     def radial(self) -> tuple[Array, Array]:
         q, density, _ = self.rings()

@@ -123,7 +123,7 @@ class Topography:
         return float(np.isnan(self.heights).mean())
 
     @cached_property
-    def _sampled(self) -> Differences:
+    def _differences(self) -> Differences:
         return differences(self.heights, self.spacing, self.periodic)
 
     @property
@@ -134,12 +134,12 @@ class Topography:
     @property
     def rms_slope(self) -> float:
         """RMS gradient of a map as sampled, or RMS slope of a profile [1]."""
-        return math.sqrt(self._sampled.slopes.trace())
+        return math.sqrt(self._differences.slopes.trace())
 
     @property
     def rms_curvature(self) -> float:
         """RMS mean curvature of a map as sampled, or RMS second derivative of a profile [1/m]."""
-        return math.sqrt(self._sampled.second) * (0.5 if self.dim == 2 else 1.0)
+        return math.sqrt(self._differences.second) * (0.5 if self.dim == 2 else 1.0)
 
     # ---------------------------------------------------------------- at a cut-off
     @property

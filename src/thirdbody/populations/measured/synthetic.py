@@ -76,7 +76,7 @@ def self_affine(
     >>> round(rough.rms_height * 1e9, 9)
     100.0
     """
-    _checked(points, seed, spacing=spacing, sigma=sigma, shortest=shortest, longest=longest)
+    _check_arguments(points, seed, spacing=spacing, sigma=sigma, shortest=shortest, longest=longest)
     problems = []
     if not 0 <= hurst <= 1:
         problems.append(f"hurst = {hurst!r} must be from 0 to 1")
@@ -139,7 +139,7 @@ def from_moments(
     >>> round(found.m4 / asked.m4, 9), round(found.alpha / asked.alpha, 9)
     (1.0, 1.0)
     """
-    _checked(points, seed, spacing=spacing)
+    _check_arguments(points, seed, spacing=spacing)
     if not 0 <= hurst <= 1:
         raise InvalidValue(f"hurst = {hurst!r} must be from 0 to 1")
     shape = _RolledOff(points, spacing, hurst)
@@ -213,7 +213,7 @@ def _matching(shape: _RolledOff, wanted: float, alpha: float) -> tuple[float, fl
     return q_s, ratio
 
 
-def _checked(points: int, seed: int, **lengths: float) -> None:
+def _check_arguments(points: int, seed: int, **lengths: float) -> None:
     problems = [
         f"{name} = {value!r} must be a finite length above 0 [m]"
         for name, value in lengths.items()

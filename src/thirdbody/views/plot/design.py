@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 
     from ...analysis.design.design import Best
 
-__all__ = ["tried"]
+__all__ = ["plot_trials"]
 
 WIDTH = 48
 """Letters along an axis."""
 
 
-def tried(best: Best) -> Figure:
+def plot_trials(best: Best) -> Figure:
     """Every point tried, feasible or not, and the best.
 
     One variable against the first objective; several: the first two variables, coloured by it;

@@ -38,14 +38,14 @@ class Figures(Found):
                 transitions=_transitions(self.result["transitions"]),
             )
             out.append((self._at(ax), "Contact modes over the load."))
-        ax = self._marked(plot.area(self.curve, _place(left=0.75)))
+        ax = self._mark_loads(plot.area(self.curve, _place(left=0.75)))
         out.append((ax, "Real contact area over the load."))
         if not self.contact.two_body:
             ax = plot.shares(self.curve, _place(left=0.60))
             if self.curve.populations:
                 self._each_population(ax)
-            out.append((self._marked(ax), "Part of the load that particles carry."))
-        ax = self._marked(plot.separation(self.curve, _place(left=0.92), quantity="h"))
+            out.append((self._mark_loads(ax), "Part of the load that particles carry."))
+        ax = self._mark_loads(plot.separation(self.curve, _place(left=0.92), quantity="h"))
         ax.yaxis.set_major_formatter(EngFormatter("m"))
         ax.set_ylabel(ax.get_ylabel().removesuffix(" [m]"))
         out.append((ax, "Separation of the mean planes over the load."))
@@ -56,19 +56,19 @@ class Figures(Found):
         if loads:
             mark = "Bar" if loads > FEW else plural(loads, "Triangle").partition(" ")[2]
             legend += f" {mark} on the axis: the load{'s' if loads > 1 else ''} of the study."
-        if drawn := self._drawn():
+        if drawn := self._critical_loads():
             legend += f" Dotted: {listed(list(drawn))}."
         pictures = "\n".join(figure(svg_of(ax.figure), caption) for ax, caption in out)
         lead = f'<p class="soft lead-in">{words(legend)}</p>'
         return [lead, f"<div class=figures>{pictures}</div>"]
 
-    def _marked(self, ax: Axes) -> Axes:
+    def _mark_loads(self, ax: Axes) -> Axes:
         """Loads of the study and critical loads, and the pressure above."""
         from matplotlib.ticker import EngFormatter, NullLocator
 
         E = self.contact.E_ss
         self._at(ax)
-        for name, F in self._drawn().items():
+        for name, F in self._critical_loads().items():
             ax.axvline(F, color="0.25", linewidth=0.8, linestyle=":")
             ax.annotate(
                 f"$F^*_{{{name.removeprefix('F_')}}}$",
@@ -87,7 +87,7 @@ class Figures(Found):
         above.tick_params(which="both", direction="in")
         return ax
 
-    def _drawn(self) -> dict[str, float]:
+    def _critical_loads(self) -> dict[str, float]:
         """Critical loads F* within the curves."""
         if self.contact.two_body:
             return {}

@@ -110,9 +110,9 @@ def report(
         curve = _curve(bare, result, loaded)
         pressed = None
         if study.explicit is not None and loaded:
-            pressed = _pressed(study, [states["F_star"][i] for i in loaded])
+            pressed = _press_surface(study, [states["F_star"][i] for i in loaded])
         progress(PARTS[1])
-        assessment = _assessed(study, bare, given, progress) if loaded else None
+        assessment = _assess(study, bare, given, progress) if loaded else None
         progress(PARTS[2])
         return Report(
             study=study,
@@ -127,7 +127,7 @@ def report(
         )
 
 
-def _pressed(study: Study, loads: list[float]) -> OneSurface | str:
+def _press_surface(study: Study, loads: list[float]) -> OneSurface | str:
     """One small surface under a few of the loads; why not, where it cannot be pressed."""
     few = [loads[i] for i in some_of(len(loads), MOST_PRESSED)]
     try:
@@ -147,7 +147,7 @@ def _curve(contact: Contact, result: dict[str, Any], loaded: Sequence[int]) -> E
     return solve(contact, F_star=np.geomspace(low, high, DRAWN))
 
 
-def _assessed(
+def _assess(
     study: Study, contact: Contact, given: dict[str, Any], progress: Callable[[str], None]
 ) -> Assessment | None:
     inner = nested(progress, len(ASSESSED))

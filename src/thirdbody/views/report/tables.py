@@ -9,7 +9,7 @@ from ...equilibrium.columns import about
 from ...equilibrium.words import CRITICAL, MOST_MEET_NONE, RARE, critical_load, happens, is_rare
 from ...quantities.say import NOT_KNOWN, percent, plural, unit_of, value_of
 from ...study.body import held_in
-from ..explicit_words import compared, headline
+from ..explicit_words import comparison_table, headline
 from ..html import figure, section, svg_of, symbols, table, text_table, words
 from .found import Found, some_of
 
@@ -134,7 +134,7 @@ class Tables(Found):
             return [section("Point by point", [text], name="explicit")]
         from ..plot.explicit import explicit
 
-        head, rows = compared(found)
+        head, rows = comparison_table(found)
         last = len(rows) - 1
         told = [headline(found, last), *found.warnings]
         out = [f"<p>{words(text)}</p>" for text in told]
