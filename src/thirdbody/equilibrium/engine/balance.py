@@ -489,9 +489,9 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
             laid[p, COARSE, COUNT] = 0
             if given[p, SEAT] == PRINTED:
                 continue
-            count = lay_panels(given, work[1], work[2], p, rules[0, POLYNOMIAL:])
+            count = lay_panels(given, work[1], work[2], p, rules[len(rules) - 1, POLYNOMIAL:])
             if count > 0 and given[p, BREAKS] == 1:
-                series = rules[0, POLYNOMIAL:]
+                series = rules[len(rules) - 1, POLYNOMIAL:]
                 count = lay_tension(given, work[1], work[2], p, count, series, work[6])
             laid[p, COARSE, COUNT] = count
             if count < 0:

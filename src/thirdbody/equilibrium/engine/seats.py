@@ -63,6 +63,8 @@ REACH = 9.5
 """Widths of a seat beyond which nothing is summed."""
 WIDE_SPAN = 2.5
 """Widths of a panel from which on it may be as wide as the sizes spread."""
+VECTOR = 8
+"""Numbers that a processor takes at once: loops over the rest are slow."""
 ONSET, REST, ALIKE = 0.4, 0.2, 0.5
 """Width of the first piece over that of the others; part of one below which the piece before goes
 on; 1 − ε from which on sizes may lie as close as before."""
@@ -134,14 +136,13 @@ def lay_nodes(given, sides, panels, p, count, grid, begin, rule):
 
 
 @summed
-def _moments(values, terms, found):
-    """Sums of each row of values times the terms, into a column."""
+def _product(one, other):
+    """Sum of the products of two rows."""
     apart()
-    for row in range(len(values)):
-        total = 0.0
-        for i in range(len(terms)):
-            total += values[row, i] * terms[i]
-        found[row] = total
+    total = 0.0
+    for i in range(len(one)):
+        total += one[i] * other[i]
+    return total
 
 
 @exact
@@ -153,27 +154,41 @@ def _gather(grid, first, begin, end, a, b, rule):
     """
     apart()
     nodes = int(rule[0, SEAT_NODES])
-    found, values = grid[LOAD:SUM, first : first + nodes], grid[LOAD:SUM, begin:end]
+    # rows of their own, from zero: only then do loops over them become vectors
     x, now, before = grid[EPS, begin:end], grid[SUM, begin:end], grid[SUM + 1, begin:end]
     for i in range(len(x)):
         x[i] = 2 * (x[i] - a) / (b - a) - 1
         now[i], before[i] = 1.0, x[i]
     for k in range(nodes):
-        _moments(values, now, found[:, k])
+        for row in range(LOAD, SUM):
+            grid[row, first + k] = _product(grid[row, begin:end], now)
         for i in range(len(x)):
             following = 2 * x[i] * now[i] - before[i]
             before[i], now[i] = now[i], following
-    series, total = rule[POLYNOMIAL + 1 :, :nodes], grid[SUM, first : first + nodes]
-    for row in range(len(found)):
+    total = grid[SUM, first : first + nodes]
+    for row in range(LOAD, SUM):
         for m in range(len(total)):
             total[m] = 0.0
         for k in range(nodes):
+            value, series = grid[row, first + k], rule[POLYNOMIAL + 1 + k, :nodes]
             for m in range(len(total)):
-                total[m] += found[row, k] * series[k, m]
+                total[m] += value * series[m]
+        found = grid[row, first : first + nodes]
         for m in range(len(total)):
-            found[row, m] = total[m]
+            found[m] = total[m]
     for m in range(nodes):
         grid[EPS, first + m] = a + 0.5 * (b - a) * (1 + rule[POLYNOMIAL, m])
+
+
+@scalar
+def _fill_up(grid, place, end):
+    """Nodes that carry nothing, up to a whole number of vectors; where they end."""
+    while (end - place) % VECTOR != 0:
+        for row in range(LOAD, SUM):
+            grid[row, end] = 0.0
+        grid[EPS, end] = grid[EPS, end - 1]
+        end += 1
+    return end
 
 
 @scalar
@@ -218,7 +233,7 @@ def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, pieces,
             parts += 1
             n += 1
         begin = place + most if parts * nodes > most else place
-        if begin + parts * nodes > MOST_NODES:
+        if begin + parts * nodes + VECTOR > MOST_NODES:
             return -1, place, size
         end = begin
         for n in range(panel, panel + parts):
@@ -227,6 +242,8 @@ def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, pieces,
         if begin > place:
             _gather(grid, place, begin, end, a, b, rule)
             end = place + most
+        else:
+            end = _fill_up(grid, place, end)
         pieces[s, NODE], pieces[s, NODE_END] = place, end
         place = end
         # sizes as close as a gap shows them at the least squeeze of the piece
@@ -291,22 +308,12 @@ def _sum_sizes(grid, sizes, pieces, s, gap, width):
 def _add_nodes(given, p, grid, begin, end, out):
     """What nodes carry whose K is known."""
     apart()
-    factor, here = given[p, DENSITY], grid[:, begin:end]
-    load = second = larger = elastic = middle = plastic = 0.0
-    for i in range(here.shape[1]):
-        share = here[SUM, i]
-        load += share * here[LOAD, i]
-        second += share * here[SECOND, i]
-        larger += share * here[LARGER, i]
-        elastic += share * here[FIRST, i]
-        middle += share * here[FIRST + 1, i]
-        plastic += share * here[FIRST + 2, i]
-    out[F_SA] += factor * load
-    out[A_SA] += factor * elastic
-    out[A_SA + 1] += factor * middle
-    out[A_SA + 2] += factor * plastic
-    out[A_SA2] += factor * second
-    out[SHADE] += factor * larger
+    factor, share = given[p, DENSITY], grid[SUM, begin:end]
+    out[F_SA] += factor * _product(share, grid[LOAD, begin:end])
+    out[A_SA2] += factor * _product(share, grid[SECOND, begin:end])
+    out[SHADE] += factor * _product(share, grid[LARGER, begin:end])
+    for k in range(3):
+        out[A_SA + k] += factor * _product(share, grid[FIRST + k, begin:end])
 
 
 @scalar
