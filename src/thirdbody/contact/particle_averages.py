@@ -185,6 +185,11 @@ class SizeAverage:
         """Part of the particles in gaps narrower than this: (N,)."""
         return np.where(gaps < narrow, 1.0, 0.0)
 
+    def touching(self, gaps: Array) -> Array:
+        """Part of the particles that is larger than gaps (N,), by number."""
+        top = np.nextafter(self.top, np.inf)
+        return np.asarray(self.sizes.partial_moment(0, np.nextafter(gaps, np.inf), top))
+
     def derivatives(self, gaps: Array, columns: tuple[int, ...]) -> Array:
         """P, P′ and P″ of some columns: (N, len(columns), 3)."""
         u = np.sqrt(np.maximum(self.top - gaps, 0.0))
@@ -405,6 +410,19 @@ class SeatAverage:
         values = weights[:, None] * average.average(gaps, rise)
         z = (mean_gap[:, None] - gaps) / self.width
         return out + np.exp(-0.5 * z * z) @ values / (self.width * math.sqrt(2 * math.pi))
+
+    def touching(self, mean_gap: Array) -> Array:
+        """Part of the particles that is larger than the gap it lies in, by number: (N,)."""
+        average = self.average
+        if isinstance(average.sizes, Monodisperse):
+            return special.ndtr((average.top - mean_gap) / self.width)
+        gaps, _, weights = average.gaps(self.width)
+        values = weights * average.touching(gaps) / (self.width * math.sqrt(2 * math.pi))
+        z = (mean_gap[:, None] - gaps) / self.width
+        # every one in gaps below the first
+        return (
+            special.ndtr((average.bottom - mean_gap) / self.width) + np.exp(-0.5 * z * z) @ values
+        )
 
     @property
     def particles(self) -> SizeAverage:
