@@ -244,9 +244,10 @@ class SizeAverage:
         upper = _distinct(np.sort([*self.rises, *upper]))
         # nothing changes faster than the seat and the sizes together
         m1, m2 = (float(self.sizes.partial_moment(k, -1.0, np.inf)) for k in (1, 2))
-        own = math.sqrt(max(m2 - m1 * m1, 0.0))
-        both = SMOOTH_WIDTHS * width * own / math.hypot(width, own)
-        return self._gaps(upper, lower, max(SPOT_WIDTHS * width, both), SPOT_NODES)
+        own, step = math.sqrt(max(m2 - m1 * m1, 0.0)), SPOT_WIDTHS * width
+        if own > 1e-6 * m1:
+            step = SMOOTH_WIDTHS * width * own / math.hypot(width, own)
+        return self._gaps(upper, lower, step, SPOT_NODES)
 
     def _gaps(
         self, upper: Array, lower: Array | None, width: float, nodes: tuple[int, int]
@@ -483,7 +484,7 @@ NORMAL_REACH = 9.0
 """Standard deviations of the seat beyond which nothing is counted."""
 SEAT_NODES = (14, 10)
 """Nodes of a panel in the gap as wide as the seat, and of a much narrower one."""
-SPOT_NODES, SPOT_WIDTHS, SMOOTH_WIDTHS, SIZE_NODES = (14, 12), 2.0, 4.4, 10
+SPOT_NODES, SPOT_WIDTHS, SMOOTH_WIDTHS, SIZE_NODES = (14, 12), 2.0, 4.6, 10
 """The same for spots, whose sums need 1e-9 of the load; width of their panels over that of the seat
-at least, and over that of seat and sizes together; nodes of sizes."""
+under particles of one size, and over that of seat and sizes together; nodes of sizes."""
 WIDEST = 1e5

@@ -11,8 +11,6 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from ..compiled.machine import apart, exp
 from .densities import scale_of
 from .fields import (
@@ -46,9 +44,9 @@ from .fields import (
     SPAN,
     WIDTH,
 )
-from .sides import scalar
+from .sides import exact, scalar, summed
 from .squeeze import EDGE, REGIME, TO, particle_at
-from .sums import ROOT_2PI, above, add_last, add_plane, exact, lay_sizes, shade
+from .sums import ROOT_2PI, above, add_last, add_plane, lay_sizes, shade
 
 __all__ = ["GRID_ROWS", "MOST_NODES", "MOST_PIECES", "PIECE", "add_part", "lay_nodes", "lay_pieces"]
 
@@ -68,10 +66,6 @@ VECTOR = 8
 ONSET, REST, ALIKE = 0.4, 0.2, 0.5
 """Width of the first piece over that of the others; part of one below which the piece before goes
 on; 1 − ε from which on sizes may lie as close as before."""
-
-
-summed = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, fastmath=True)
-"""Options of plain sums of products, whose order may be any, the same in every state."""
 
 
 # ------------------------------------------------------------------------------ once a state

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from ..compiled.machine import apart, exp, normal_cdf
 from .breakage import mark_sizes
 from .densities import density, scale_of
@@ -52,7 +50,7 @@ from .fields import (
     WIDTH,
     W,
 )  # fmt: skip
-from .sides import branch_of, break_at, breaks, law_at, regime_of_branch, scalar, side_at
+from .sides import branch_of, break_at, breaks, exact, law_at, regime_of_branch, scalar, side_at
 from .squeeze import CLOSE, REGIME, TO, particle_at
 
 __all__ = [
@@ -64,21 +62,17 @@ __all__ = [
     "add_last",
     "add_plane",
     "add_skin",
-    "exact",
     "lay_sizes",
     "lay_skin",
     "shade",
 ]
 
-MOST_SIZES, MOST_HEIGHTS = 6144, 1536
+MOST_SIZES, MOST_HEIGHTS = 16_384, 1536
 T, OF_LOAD, OF_AREA, ITS_REGIME = range(4)
 """Rows of the nodes over heights: t = ω/σ_s, weighted load and area, regime."""
 ROOT_2PI = math.sqrt(2 * math.pi)
 NEAREST, CLOSEST = 0.3, 1e-5
 """First panel over heights [σ_s], and over the distance to the lower end of the heights."""
-
-exact = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True,
-             fastmath={"nnan", "ninf", "nsz", "contract"})  # fmt: skip
 
 
 # ------------------------------------------------------------------------------ asperities
