@@ -4,6 +4,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from scipy.stats import norm
 
 import thirdbody as tb
 from thirdbody.contact.evaluation import spots_of
@@ -65,6 +66,30 @@ def test_spots_carry_the_load(sizes, seat):
         ]
     )
     close(by_regime, np.stack([state.A_e, state.A_ep, state.A_p]), state.A_t)
+
+
+@pytest.mark.parametrize("sizes", SIZES)
+@pytest.mark.parametrize("seat", ["rough", "plane"])
+def test_loaded_particles_are_counted_without_laying_them_out(sizes, seat):
+    case = contact(sizes, seat=seat)
+    sums = interface(case).populations[0]
+    d = np.linspace(-1e-7, 0.9 * sums.reach, 11)
+    found = sums.spots(d)
+    want = sum(each.total((each.load > 0).astype(float)) for each in found)
+    np.testing.assert_allclose(sums.touching(d), want, rtol=1e-9, atol=1e-12 * want.max())
+
+
+def test_particles_in_the_way_of_gaussian_sizes_and_seats_by_the_formula():
+    """Size and seat are independent and Gaussian: their difference is, of a variance in sum."""
+    case = contact().replace(
+        **{"particles.diameter": tb.TruncatedGaussian(mean=300e-9, std=20e-9, n=8.0)}
+    )
+    sums, law = interface(case).populations[0], case.particle_law
+    width = np.hypot(20e-9, law.zeta_std * 100e-9)
+    d = np.linspace(0.0, 6e-7, 13)
+    gap = d + law.seat_offset(case.roughness)
+    want = 2e10 * norm.sf((gap - 300e-9) / width)
+    np.testing.assert_allclose(sums.touching(d), want, rtol=1e-10)
 
 
 @pytest.mark.parametrize(

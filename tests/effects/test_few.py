@@ -236,3 +236,36 @@ def test_where_nothing_touches_nothing_is_the_mean_of_few():
     told = "\n".join(both.warnings)
     assert "nothing touches in 1 of 2 states" in told
     assert "holds 0.3 contacts on average" in told
+
+
+@pytest.mark.parametrize("conduct", ["insulate", "conduct"])
+def test_outputs_alone_and_among_others(conduct):
+    """Contacts of their own that an output asks for are solved by another engine among many."""
+    dust = tb.Particles(
+        material=BODY.replace(H=8e9, resistivity=1.0),
+        areal_density=2e8,
+        diameter=tb.LogNormal(median=1e-6, gsd=1.3),
+    )
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(BODY, BODY),
+        roughness=ROUGH,
+        particles=dust,
+        outputs=(
+            ElectricalConductance(A_n=1e-7, particles=conduct, few="mean"),
+            tb.outputs.Counts(),
+        ),
+    )
+    count = 24
+    H = BODY.H * np.linspace(0.9, 1.1, count)
+    loads = np.geomspace(1e-6, 1e-4, count)
+    vary = {"surfaces.first.H": H}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        among = tb.solve_states(contact, F_star=loads, vary=vary)
+        turned = tb.solve_states(contact, F_star=loads[::-1], vary={"surfaces.first.H": H[::-1]})
+        for i in (0, 11, 23):
+            one = tb.solve(contact.replace(**{"surfaces.first.H": float(H[i])}), F_star=loads[i])
+            for name, value in one.outputs.items():
+                assert float(among[name][i]) == pytest.approx(value, rel=3e-10, nan_ok=True), name
+    for name in one.outputs:
+        np.testing.assert_array_equal(among[name], turned[name][::-1], name)

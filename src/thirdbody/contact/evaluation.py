@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -72,6 +72,8 @@ class Solved:
     """
     solver: Solver | None = None
     """Of other contacts under a load; None where separations are given."""
+    counted: Callable[[], Array] | None = None
+    """Loaded particles per nominal area [1/m²], where that is known without every one of them."""
     kept: dict[Any, Any] = field(init=False, repr=False, default_factory=dict)
     """What an output found for these states, for its warnings."""
 
@@ -82,6 +84,12 @@ class Solved:
     def total_of_particles(self, of_particles: Callable[[ParticleSpots], Any]) -> Array:
         """Σ n q over the particles: (N,)."""
         return _sum(self.d, self.particles, of_particles)
+
+    def loaded_particles(self) -> Array:
+        """Loaded particles per nominal area [1/m²]: (N,)."""
+        if self.counted is not None:
+            return self.counted()
+        return self.total_of_particles(lambda spots: spots.load > 0)
 
     def output(self, name: str) -> Any:
         """The output of this name that the contact carries."""
@@ -159,12 +167,28 @@ def _how_many(which: NDArray[np.bool_]) -> str:
     return f"{np.count_nonzero(which)} of {len(which)} states"
 
 
-def spots_of(
-    contact: Contact, bound: Interface, d: Array, shadow: Array
-) -> tuple[list[AsperitySpots], list[ParticleSpots]]:
-    """Every spot of the states at d: asperities out of the shadow, and loaded particles."""
-    asperities = [spots.thinned(1 - shadow) for spots in bound.asperities.spots(d)]
-    particles = []
+class Later(Sequence[Any]):
+    """Particles that are laid out once an output asks for them: many do not."""
+
+    def __init__(self, lay_out: Callable[[], Sequence[Any]]):
+        self._lay_out = lay_out
+
+    @cached_property
+    def _found(self) -> Sequence[Any]:
+        return self._lay_out()
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+    def __getitem__(self, which: Any) -> Any:
+        return self._found[which]
+
+
+def particles_of(
+    contact: Contact, bound: Interface, d: Array, crowd: Array | None = None
+) -> list[ParticleSpots]:
+    """Every loaded particle of the states at d, so many times as the contact has them."""
+    particles: list[ParticleSpots] = []
     for each, response in zip(contact.populations, bound.populations, strict=True):
         law = contact.law_of(each)
         splits = {
@@ -174,7 +198,28 @@ def spots_of(
         }
         found = response.spots(d, sorted(splits))
         particles += [replace(spots, material=each.material, population=each) for spots in found]
-    return asperities, particles
+    return particles if crowd is None else [spots.thinned(crowd) for spots in particles]
+
+
+def touching(bound: Interface, d: Array, crowd: Array | None = None) -> Array:
+    """Loaded particles per nominal area [1/m²] at d (N,), NaN where that is."""
+    found = np.where(np.isnan(d), np.nan, 0.0)
+    where = np.isfinite(d)
+    for each in bound.populations if where.any() else ():
+        found[where] += each.touching(d[where])
+    return found if crowd is None else found * crowd
+
+
+def spots_of(
+    contact: Contact, bound: Interface, d: Array, shadow: Array
+) -> tuple[list[AsperitySpots], list[ParticleSpots]]:
+    """Every spot of the states at d: asperities out of the shadow, and loaded particles."""
+    return asperities_of(bound, d, shadow), particles_of(contact, bound, d)
+
+
+def asperities_of(bound: Interface, d: Array, shadow: Array) -> list[AsperitySpots]:
+    """Every asperity in contact of the states at d, out of the shadow of particles."""
+    return [spots.thinned(1 - shadow) for spots in bound.asperities.spots(d)]
 
 
 @lru_cache(maxsize=256)
@@ -233,16 +278,17 @@ def evaluate(
     notes: dict[str, str] = {}
     for part in _laid_out_together(columns["d"], bound):
         here = {name: columns[name][part] for name in ("d", "h", "pressure", "A_t")}
-        asperities, particles = spots_of(contact, bound, here["d"], columns["shadow"][part])
-        if crowd is not None:
-            particles = [spots.thinned(crowd[part]) for spots in particles]
+        many = None if crowd is None else crowd[part]
+        asperities = asperities_of(bound, here["d"], columns["shadow"][part])
+        particles = Later(partial(particles_of, contact, bound, here["d"], many))
         state = Solved(
             contact=contact,
             **here,
             asperities=asperities,
             particles=particles,
-            crowd=None if crowd is None else crowd[part],
+            crowd=many,
             solver=solver,
+            counted=partial(touching, bound, here["d"], many),
         )
         for output in contact.outputs:
             with np.errstate(all="ignore"):  # a spot without a load has no number of its own
@@ -254,7 +300,7 @@ def evaluate(
                 notes.setdefault(NUMBERS.sub("", note), note)
         for population, own in zip(contact.populations, parts, strict=False):
             mine = [spots for spots in particles if spots.population is population]
-            alone = replace(state, asperities=[], particles=mine)
+            alone = replace(state, asperities=[], particles=mine, counted=None)
             for output in contact.outputs:
                 with np.errstate(all="ignore"):
                     found = output.of(alone) if output.by_population else {}

@@ -185,6 +185,11 @@ class SizeAverage:
         """Part of the particles in gaps narrower than this: (N,)."""
         return np.where(gaps < narrow, 1.0, 0.0)
 
+    def touching(self, gaps: Array) -> Array:
+        """Part of the particles that is larger than gaps (N,), by number."""
+        top = np.nextafter(self.top, np.inf)
+        return np.asarray(self.sizes.partial_moment(0, np.nextafter(gaps, np.inf), top))
+
     def derivatives(self, gaps: Array, columns: tuple[int, ...]) -> Array:
         """P, P′ and P″ of some columns: (N, len(columns), 3)."""
         u = np.sqrt(np.maximum(self.top - gaps, 0.0))
@@ -237,7 +242,12 @@ class SizeAverage:
         if len(self.gaps_below):
             lower = _distinct(np.sort([*self.gaps_below, *more[more < self.join]]))
         upper = _distinct(np.sort([*self.rises, *upper]))
-        return self._gaps(upper, lower, SPOT_WIDTHS * width, SPOT_NODES)
+        # nothing changes faster than the seat and the sizes together
+        m1, m2 = (float(self.sizes.partial_moment(k, -1.0, np.inf)) for k in (1, 2))
+        own, step = math.sqrt(max(m2 - m1 * m1, 0.0)), SPOT_WIDTHS * width
+        if own > 1e-6 * m1:
+            step = SMOOTH_WIDTHS * width * own / math.hypot(width, own)
+        return self._gaps(upper, lower, step, SPOT_NODES)
 
     def _gaps(
         self, upper: Array, lower: Array | None, width: float, nodes: tuple[int, int]
@@ -402,6 +412,19 @@ class SeatAverage:
         z = (mean_gap[:, None] - gaps) / self.width
         return out + np.exp(-0.5 * z * z) @ values / (self.width * math.sqrt(2 * math.pi))
 
+    def touching(self, mean_gap: Array) -> Array:
+        """Part of the particles that is larger than the gap it lies in, by number: (N,)."""
+        average = self.average
+        if isinstance(average.sizes, Monodisperse):
+            return special.ndtr((average.top - mean_gap) / self.width)
+        gaps, _, weights = average.gaps(self.width)
+        values = weights * average.touching(gaps) / (self.width * math.sqrt(2 * math.pi))
+        z = (mean_gap[:, None] - gaps) / self.width
+        # every one in gaps below the first
+        return (
+            special.ndtr((average.bottom - mean_gap) / self.width) + np.exp(-0.5 * z * z) @ values
+        )
+
     @property
     def particles(self) -> SizeAverage:
         """The average over sizes of which this is the average over seats."""
@@ -461,6 +484,7 @@ NORMAL_REACH = 9.0
 """Standard deviations of the seat beyond which nothing is counted."""
 SEAT_NODES = (14, 10)
 """Nodes of a panel in the gap as wide as the seat, and of a much narrower one."""
-SPOT_NODES, SPOT_WIDTHS, SIZE_NODES = (14, 12), 2.0, 10
-"""The same for spots, whose sums need 1e-9 of the load; width of their panels; nodes of sizes."""
+SPOT_NODES, SPOT_WIDTHS, SMOOTH_WIDTHS, SIZE_NODES = (14, 12), 2.0, 4.6, 10
+"""The same for spots, whose sums need 1e-9 of the load; width of their panels over that of the seat
+under particles of one size, and over that of seat and sizes together; nodes of sizes."""
 WIDEST = 1e5

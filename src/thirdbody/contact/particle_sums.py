@@ -129,6 +129,11 @@ class ParticleSum(ABC):
         """As `fields`, by quadrature at these d, where that spares tables."""
         return self.fields(d)
 
+    def touching(self, d: Array) -> Array:
+        """Loaded particles per nominal area [1/m²] at d (N,)."""
+        found = self.spots(d)
+        return np.sum([each.total(np.sign(each.load)) for each in found], axis=0)
+
     @abstractmethod
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
         """Every loaded particle at d (N,), in groups.
@@ -166,6 +171,9 @@ class ParticlesTogether(ParticleSum):
     @staticmethod
     def _added(parts: Sequence[dict[str, Array]]) -> dict[str, Array]:
         return {name: np.sum([part[name] for part in parts], axis=0) for name in parts[0]}
+
+    def touching(self, d: Array) -> Array:
+        return np.sum([each.touching(d) for each in self.sums], axis=0)
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
         return [spots for each in self.sums for spots in each.spots(d, splits)]
@@ -238,6 +246,13 @@ class Part:
     def _gap_under_largest(self, squeeze: float) -> float:
         return (1 - squeeze) * self.average.particles.top
 
+    def touching(self, d: Array) -> Array:
+        """Loaded particles per nominal area [1/m²] at d (N,); all that are squeezed are."""
+        if self.breaks:
+            found = self.spots(d)
+            return found.total(np.sign(found.load))
+        return self.density * self.average.touching((d + self.offset) / self.scale)
+
     def spots(self, d: Array, splits: Sequence[float] = ()) -> ParticleSpots:
         found = self.average.spots((d + self.offset) / self.scale, splits)
         return found.of_size(self.scale, self.density)
@@ -294,6 +309,9 @@ class SeatedParticles(ParticleSum):
             "A_sa2": total[:, 4],
             "shadow": self._shadow(total[:, self._shadow_column][:, None])[:, 0],
         }
+
+    def touching(self, d: Array) -> Array:
+        return np.sum([part.touching(d) for part in self.parts], axis=0)
 
     def spots(self, d: Array, splits: Sequence[float] = ()) -> list[ParticleSpots]:
         return [part.spots(d, splits) for part in self.parts]

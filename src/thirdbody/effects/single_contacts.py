@@ -23,8 +23,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..contact.evaluation import touching
+from ..contact.interface import interface
 from ..errors import InvalidValue
-from .counts import Counts
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -96,7 +97,7 @@ def single_contacts(
     if output.A_n is None or solver is None or contact.two_body:
         return None
     crowd = np.ones_like(state.d) if state.crowd is None else state.crowd
-    loaded = output.A_n * state.total_of_particles(lambda spots: spots.load > 0)
+    loaded = output.A_n * state.loaded_particles()
     few = np.flatnonzero(loaded < MANY)
     if not len(few):
         return None
@@ -104,7 +105,7 @@ def single_contacts(
     bare = contact.replace(particles=None, outputs=(mean,))
     d = solver.separation(bare, state.pressure[few])
     clean = solver.outputs(bare, d)
-    count = solver.outputs(contact.replace(outputs=(Counts(),)), d)["n_sa"]
+    count = touching(interface(contact), d)
     there = output.A_n * crowd[few] * count
     kept = ~(there >= MANY)
     few, there = few[kept], there[kept]
@@ -157,7 +158,7 @@ def _with_particles(
         which = np.flatnonzero(rounded == factor)
         try:
             more = contact.replace(
-                outputs=(output, Counts()),
+                outputs=(output,),
                 particles=tuple(
                     each.replace(areal_density=factor * each.areal_density)
                     for each in contact.populations
@@ -165,7 +166,8 @@ def _with_particles(
             )
         except InvalidValue:  # so many do not find room: nothing is known of them
             continue
-        found = solver.outputs(more, solver.separation(more, pressure[which]))
+        d = solver.separation(more, pressure[which])
+        found = {**solver.outputs(more, d), "n_sa": touching(interface(more), d)}
         for name, values in out.items():
             values[which] = found[name]
     return out

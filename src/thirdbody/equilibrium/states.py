@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..contact.contact import Contact
-from ..contact.evaluation import evaluate
+from ..contact.evaluation import Solver, evaluate
 from ..contact.interface import Interface, interface
 from ..errors import InvalidValue, NotCompiled
 from ..populations.materials import BULK
@@ -246,6 +246,8 @@ def _with_outputs(
     alike = {**arrays, DENSITY: count == 0}
     if contact.asperity_law.of_surface:  # where particles stand depends on how many there are
         alike = dict(arrays)
+    many = engine.available() and _differ(inputs, len(loads))
+    solver = Solver(_separation, _outputs_at) if many else SOLVER
     for which in _alike(alike, len(loads)):
         own = varied(contact, {name: values[which[0]].item() for name, values in arrays.items()})
         crowd = count[which] / (count[which[0]] or 1.0)
@@ -254,11 +256,42 @@ def _with_outputs(
             interface(own),
             _taken(out, which),
             crowd,
-            solver=None if load == "d" else SOLVER,
+            solver=None if load == "d" else solver,
         )
         for name, column in values.items():
             out.setdefault(name, np.full(len(loads), np.nan))[which] = column
         solved(0.5 * len(which), "each has spots of its own")
+    return out
+
+
+def _of_one(contact: Contact, load: str, loads: NDArray[np.float64]) -> Columns:
+    """Columns of one contact of many, for which no table is worth while; NaN where unsolved."""
+    bare = contact.replace(outputs=())
+    try:
+        out = own_columns(bare, {}, load, loads)
+        rest = np.flatnonzero(out["doubt"] != "")
+    except NotCompiled:
+        out, rest = {}, np.arange(len(loads))
+    if len(rest):
+        found = solve_untold(bare, load, loads[rest])
+        for name in ("d", "h", "pressure", "A_t", "shadow"):
+            out.setdefault(name, np.empty(len(loads)))[rest] = getattr(found, name)
+    return out
+
+
+def _separation(contact: Contact, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
+    """d of one contact of many under pressures (N,) [m]; NaN where no separation carries them."""
+    return np.asarray(_of_one(contact, "pressure", pressure)["d"])
+
+
+def _outputs_at(contact: Contact, d: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+    """Outputs of one contact of many at separations (N,) [m], NaN where those are."""
+    known = np.isfinite(d)
+    out = {name: np.full(len(d), np.nan) for each in contact.outputs for name in each.columns}
+    if known.any():
+        values, _ = evaluate(contact, interface(contact), _of_one(contact, "d", d[known]))
+        for name, column in values.items():
+            out[name][known] = column
     return out
 
 

@@ -45,6 +45,7 @@ from .samples import (
     about_result,
     check_counts,
     columns_at,
+    columns_of_loads,
     critical_of,
     crowded_samples,
     evaluated,
@@ -475,9 +476,10 @@ def propagate(
         of_outputs = {name for each in contact.outputs for name in each.columns} & set(names)
         with roughly():
             told = _outputs(contact, load, loads, drawn_values, first_few) if of_outputs else {}
+        states = columns_of_loads(contact, load, loads, drawn_values, len(u))
         for i, value in enumerate(loads.tolist()):
             with roughly():
-                state = columns_at(contact, load, value, drawn_values, len(u))
+                state = next(states)
             state |= {name: told[name][i] for name in names if name in of_outputs}
             found.add(state, columns_at(contact, load, value, {}, 1, outputs=bool(of_outputs)))
 

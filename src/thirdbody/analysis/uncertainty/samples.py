@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
     Arrays = dict[str, NDArray[Any]]
 
-__all__ = ["OUTPUTS", "about_result", "columns_at", "costly", "enough"]
+__all__ = ["OUTPUTS", "about_result", "columns_at", "columns_of_loads", "costly", "enough"]
 
 REPLICATES = 8
 """Scramblings of the sequence."""
@@ -45,6 +45,8 @@ OUTPUTS: dict[str, dict[str, str]] = {
     "F/F_cr2": {"symbol": "F/F_cr2", "unit": "1", "meaning": "load over the second critical load"},
 }
 """Symbol, unit and meaning of everything that gets a band, beside the outputs of the contact."""
+AT_ONCE = 2**17
+"""States of several loads that are solved together."""
 MOST_OUTPUTS = 512
 """Samples of outputs: each is a contact of its own, with spots of its own."""
 
@@ -157,6 +159,23 @@ def columns_at(
         contact, vary = carrying(contact, vary)
     loads = vary.pop(load, np.full(count, value))
     return state_columns(contact, **{load: loads}, vary=vary or None)
+
+
+def columns_of_loads(
+    contact: Contact, load: str, loads: Array, vary: Arrays, count: int
+) -> Iterator[Arrays]:
+    """States of all samples at each load in turn, bare.
+
+    What is laid or tabulated of a sample serves all loads: its states are solved side by side.
+    """
+    together = 1 if load in vary else max(1, AT_ONCE // count)
+    for start in range(0, len(loads), together):
+        some = loads[start : start + together]
+        every = {name: np.repeat(values, len(some)) for name, values in vary.items()}
+        size = count * len(some)
+        found = columns_at(contact, load, np.tile(some, count), every, size)
+        for i in range(len(some)):
+            yield {name: values[i :: len(some)] for name, values in found.items()}
 
 
 def about_loads(names: Iterable[str]) -> bool:

@@ -29,12 +29,12 @@ from .fields import (
     OFFSET,
     OK,
     PLANE,
+    POLYNOMIAL,
     PRINTED,
     PROJECTED,
     ROUGH,
     RULE,
     SEAT,
-    SERIES,
     SHADE,
     SHADOW,
     SIDE,
@@ -54,20 +54,18 @@ from .fields import (
     W,
 )  # fmt: skip
 from .printed import add_printed, only_falls, printed_bound
+from .seats import (
+    GRID_ROWS,
+    MOST_NODES,
+    MOST_PIECES,
+    PIECE,
+    add_part,
+    lay_nodes,
+    lay_pieces,
+)
 from .sides import scalar
 from .squeeze import EDGE, MOST_PANELS, PANEL, SHARE, TO, lay_panels, particle_at
-from .sums import (
-    MOST_HEIGHTS,
-    MOST_NODES,
-    MOST_SIZES,
-    NEAREST,
-    add_part,
-    add_skin,
-    lay_nodes,
-    lay_sizes,
-    lay_skin,
-    shade,
-)  # fmt: skip
+from .sums import MOST_HEIGHTS, MOST_SIZES, NEAREST, add_skin, lay_sizes, lay_skin, shade
 
 __all__ = ["LEVELS", "solve_own"]
 
@@ -78,9 +76,9 @@ COARSE, FINE, LEVELS = 0, 1, 2
 and `every`, numbers and no constants, for which numba would compile what takes them twice."""
 NOTHING = -1
 """In place of a level: nothing is laid."""
-COUNT, GRID, GRID_END, SIZED, SIZED_END, WHOLE, WHOLE_END = range(7)
-"""What is laid of a part, a level: its panels; where nodes, sizes and what is whole begin and end.
-The row after the last part is of the asperities."""
+COUNT, GRID, GRID_END, SIZED, SIZED_END, WHOLE, WHOLE_END, PIECES = range(8)
+"""What is laid of a part, a level: its panels; where nodes, sizes and what is whole begin and end;
+its pieces. The row after the last part is of the asperities."""
 ASKED = 1e-10
 """Error of loads, areas and the separation over σ that is asked for."""
 SAFE = 10.0
@@ -103,11 +101,11 @@ RISE = 1e-6
 def total(given, skin, work, laid, rules, level, h, out):
     """Columns at h [σ_s] by the nodes of a level; the load, or NaN where formulas do not reach."""
     apart()
-    heights, sides, panels, grid, sizes, shares, _ = work
+    heights, sides, panels, grid, sizes, shares, _, pieces = work
     for k in range(10):
         out[k] = 0.0
     last = len(given)
-    nodes, span = int(rules[level, 0, NODES]), rules[level, 0, SPAN]
+    nodes = int(rules[level, 0, NODES])
     good = add_skin(
         skin, heights, laid[last, level, GRID], laid[last, level, GRID_END],
         rules[level, RULE], rules[level, RULE + 1], nodes, h, out,
@@ -120,9 +118,8 @@ def total(given, skin, work, laid, rules, level, h, out):
             add_printed(given, p, gap, rules[level, RULE], rules[level, RULE + 1], nodes, out)
             continue
         good &= add_part(
-            given, sides, panels, p, own[COUNT], grid, own[GRID], own[GRID_END],
-            sizes, own[SIZED], own[SIZED_END], shares, own[WHOLE], d,
-            rules[level, RULE], rules[level, RULE + 1], nodes, span, out,
+            given, sides, panels, p, own, grid, sizes, pieces[p, level], shares, d, rules[level],
+            out,
         )  # fmt: skip
     if not good:
         return math.nan
@@ -130,10 +127,31 @@ def total(given, skin, work, laid, rules, level, h, out):
 
 
 @scalar
+def _lay_broken(given, work, p, count, place, size, kept, rule):
+    """Lay the nodes and sizes of a part that breaks, and what is whole at them.
+
+    Where they end, the last one −1 if there is no room.
+    """
+    apart()
+    _, sides, panels, grid, sizes, shares, _, _ = work
+    first = size
+    size = lay_sizes(
+        given, p, sizes, size, rule[SIZE_RULE], rule[SIZE_RULE + 1], int(rule[0, SIZE_NODES]),
+        rule[0, SIZE_SPAN], 1.0,
+    )  # fmt: skip
+    begin = place
+    place = lay_nodes(given, sides, panels, p, count, grid, place, rule)
+    if size < 0 or place < 0:
+        return begin, first, -1
+    kept = lay_whole(given, panels, p, count, grid, begin, place, sizes, first, size, shares, kept)
+    return place, size, kept
+
+
+@scalar
 def lay(given, skin, work, laid, rules, level):
     """Lay the nodes of one level behind those of the one before; False if there is no room."""
     apart()
-    heights, sides, panels, grid, sizes, shares, _ = work
+    heights, sides, panels, grid, sizes, _, _, pieces = work
     nodes, span = int(rules[level, 0, NODES]), rules[level, 0, SPAN]
     gauss, weights = rules[level, RULE], rules[level, RULE + 1]
     last, good = len(given), True
@@ -154,20 +172,17 @@ def lay(given, skin, work, laid, rules, level):
         own[COUNT] = laid[p, COARSE, COUNT]
         own[GRID], own[SIZED], own[WHOLE] = place, size, kept
         if given[p, SEAT] == ROUGH and good:
-            size = lay_sizes(
-                given, p, sizes, size, rules[level, SIZE_RULE], rules[level, SIZE_RULE + 1],
-                int(rules[level, 0, SIZE_NODES]), rules[level, 0, SIZE_SPAN],
-            )  # fmt: skip
-            place = lay_nodes(
-                given, sides, panels, p, own[COUNT], grid, place, gauss, weights, nodes, span
-            )
-            good &= size >= 0 and place >= 0
-            if good and given[p, BREAKS] == 1:
-                kept = lay_whole(
-                    given, panels, p, own[COUNT], grid, own[GRID], place, sizes, own[SIZED], size,
-                    shares, kept,
-                )  # fmt: skip
+            if given[p, BREAKS] == 1:
+                place, size, kept = _lay_broken(
+                    given, work, p, own[COUNT], place, size, kept, rules[level]
+                )
                 good &= kept >= 0
+            else:
+                own[PIECES], place, size = lay_pieces(
+                    given, sides, panels, p, own[COUNT], grid, place, sizes, size,
+                    pieces[p, level], rules[level],
+                )  # fmt: skip
+                good &= own[PIECES] >= 0
         own[GRID_END], own[SIZED_END], own[WHOLE_END] = place, size, kept
     return good
 
@@ -485,9 +500,9 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
             laid[p, COARSE, COUNT] = 0
             if given[p, SEAT] == PRINTED:
                 continue
-            count = lay_panels(given, work[1], work[2], p, rules[0, SERIES:])
+            count = lay_panels(given, work[1], work[2], p, rules[len(rules) - 1, POLYNOMIAL:])
             if count > 0 and given[p, BREAKS] == 1:
-                series = rules[0, SERIES:]
+                series = rules[len(rules) - 1, POLYNOMIAL:]
                 count = lay_tension(given, work[1], work[2], p, count, series, work[6])
             laid[p, COARSE, COUNT] = count
             if count < 0:
@@ -544,12 +559,13 @@ def solve_own(skins, parts, bodies, rules, inside, target, h, count, fate, error
         np.zeros((5, 2 * MOST_HEIGHTS)),
         sides,
         np.empty((most, MOST_PANELS, PANEL)),
-        np.empty((7, MOST_NODES)),
+        np.empty((GRID_ROWS, MOST_NODES)),
         np.empty((4, MOST_SIZES)),
         np.empty(MOST_WHOLE if inside[0, 0] > 0 else 1),
         inside,
+        np.empty((most, 2, MOST_PIECES, PIECE)),
     )
-    laid = np.zeros((most + 1, 2, 7), np.int64)
+    laid = np.zeros((most + 1, 2, 8), np.int64)
     ready = np.full(1, NOTHING)
     out = np.empty(10)
     for i in range(len(target)):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from ..compiled.machine import apart
+from ..compiled.machine import apart, exp
 from .densities import density
 from .fields import (
     EQUAL,
@@ -24,7 +24,7 @@ from .fields import (
     SIZE_1,
     UNBROKEN,
 )
-from .sides import scalar
+from .sides import exact, scalar
 from .squeeze import (
     EDGE,
     MOST_PANELS,
@@ -49,6 +49,8 @@ SAMPLES, CLOSER, SEARCHED, RESOLVED = 32, 14, 60, 1e-10
 STEEP = 6.0
 GENERATIONS = 40
 NEGLIGIBLE = 1e-15
+NEVER, SURELY = -600.0, 6.5
+"""ln of the hazard below which nothing breaks, and from which on nothing is whole."""
 
 
 @scalar
@@ -264,6 +266,32 @@ def survival(given, p, x, log_met):
     )
 
 
+@exact
+def _count_whole(shares, rows, wide, most, parents, gain, sizes, place):
+    """Densities of whole particles of a size, from its oldest parents down, to ``place``.
+
+    Of the last node too, where they stand in ``shares`` behind the tensions.
+    """
+    apart()
+    start = rows + (most + 1) * wide
+    # rows of their own, from zero: only then do loops over them become vectors
+    number, alive = shares[start : start + wide], shares[start + wide : start + 2 * wide]
+    for i in range(len(number)):
+        number[i], alive[i] = 0.0, 1.0
+    for k in range(parents, -1, -1):
+        tension = shares[rows + k * wide : rows + (k + 1) * wide]
+        own, level = sizes[2, k], sizes[3, k]
+        for i in range(len(number)):
+            number[i] = gain * (1 - alive[i]) * number[i] + own
+            power = min(max(tension[i] + level, NEVER), SURELY)
+            alive[i] = exp(-exp(power))
+    found = shares[place : place + wide - 1]
+    for i in range(len(number)):
+        number[i] *= alive[i]
+    for i in range(len(found)):
+        found[i] = number[i]
+
+
 @scalar
 def lay_whole(given, panels, p, count, squeezes, begin, end, sizes, first, last, shares, place):
     """Densities of whole particles at the nodes of ε and sizes; where they end, or −1.
@@ -279,14 +307,14 @@ def lay_whole(given, panels, p, count, squeezes, begin, end, sizes, first, last,
     wide, most = end - begin + 1, 0
     if given[p, KEPT] > 0:
         most = math.ceil(math.log(given[p, LEAST] / high) / shrink) + 1
-    stresses = len(shares) - (most + 1) * wide
-    if place + (last - first) * wide > stresses:
+    rows = len(shares) - (most + 3) * wide  # of tensions; then numbers, and parts that are whole
+    if place + (last - first) * wide > rows:
         return -1
     for k in range(most + 1):
         for i in range(begin, end + 1):
             left = 1 - squeezes[0, i] if i < end else 1 - edge
             found = met(panels, p, count, 1 - left * ratio**k)
-            shares[stresses + k * wide + i - begin] = m * found
+            shares[rows + k * wide + i - begin] = m * found
     tail = place + (last - first) * (wide - 1)
     for j in range(first, last):
         x, parents = sizes[0, j], 0
@@ -297,22 +325,12 @@ def lay_whole(given, panels, p, count, squeezes, begin, end, sizes, first, last,
             sizes[2, k] = density(given, p, y) if low <= y <= high else 0.0
             sizes[3, k] = m * (given[p, EXPONENT] * math.log(y) - given[p, LN_STRENGTH])
             if y <= given[p, UNBROKEN]:
-                sizes[3, k] = -math.inf
+                sizes[3, k] = NEVER
             y /= ratio
-        for i in range(wide):
-            number = broken = 0.0
-            for k in range(parents, -1, -1):
-                number = gain * broken * number + sizes[2, k]
-                if number > 0:
-                    alive = survived(shares[stresses + k * wide + i] + sizes[3, k])
-                    broken = 1 - alive
-            number = number * alive if number > 0 else 0.0
-            if i < wide - 1:
-                shares[place] = number
-                place += 1
-            else:
-                shares[tail] = number
-                tail += 1
+        _count_whole(shares, rows, wide, most, parents, gain, sizes, place)
+        shares[tail] = shares[rows + (most + 2) * wide - 1]
+        place += wide - 1
+        tail += 1
     return tail
 
 

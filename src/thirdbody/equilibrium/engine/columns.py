@@ -40,10 +40,13 @@ SHADOWS = {
     "none": f.NOTHING,
 }
 TERMS, DEEPEST = 12, 5.0
-"""Of a Chebyshev series; lowest separation [σ_s] that may be given, down."""
-NODES = (((6, 3.0, 10, 6.5), (12, 3.0, 16, 6.5)), ((12, 2.0, 16, 4.0), (24, 2.0, 24, 4.0)))
+"""Of the series of a panel; lowest separation [σ_s] that may be given, down."""
+NODES = (
+    ((6, 3.0, 10, 6.5, 16, 3.6), (12, 3.0, 16, 6.5, 32, 3.6)),
+    ((12, 2.0, 16, 4.0, 16, 2.4), (24, 2.0, 24, 4.0, 32, 2.4)),
+)
 """Of each level, few and all: nodes of a panel and how many widths of a density it covers, then
-the same of sizes on a rough seat."""
+the same of sizes on a rough seat, and of the seat over the squeeze."""
 MOST_SECTIONS = 40
 """Classes of size of a population: each costs as much as a population of its own."""
 WIDEST = math.log(2.5)
@@ -59,18 +62,25 @@ NARROWEST = 1e-5
 
 @lru_cache(maxsize=1)
 def rules() -> Array:
-    """Gauss rules of every level, then places and transform of a Chebyshev series."""
-    out = np.zeros((2 * len(NODES), f.SERIES + 1 + TERMS, 24))
+    """Rules of every level, then places and transform of the series of a panel."""
+    most = max(asked[4] for asked in itertools.chain(*NODES))
+    out = np.zeros((2 * len(NODES) + 1, f.POLYNOMIAL + 1 + most, most))
+    _add_series(out[-1], TERMS)
     for i, asked in enumerate(itertools.chain(*NODES)):
-        out[i, 0, :4] = asked
+        out[i, 0, :6] = asked
         for row, count in ((f.RULE, asked[0]), (f.SIZE_RULE, asked[2])):
             out[i, row, :count], out[i, row + 1, :count] = gauss_legendre(count)
-    angle = (np.arange(TERMS) + 0.5) * math.pi / TERMS
-    series = out[0, f.SERIES :]
-    series[0, :TERMS] = np.cos(angle)
-    series[1:, :TERMS] = 2 / TERMS * np.cos(np.outer(np.arange(TERMS), angle))
-    series[1, :TERMS] /= 2
+        _add_series(out[i], asked[4])
     return out
+
+
+def _add_series(rows: Array, terms: int) -> None:
+    """Fill in Chebyshev nodes, and what each term of a series has of the values there."""
+    angle = (np.arange(terms) + 0.5) * math.pi / terms
+    series = rows[f.POLYNOMIAL :, :terms]
+    series[0] = np.cos(angle)
+    series[1 : terms + 1] = 2 / terms * np.cos(np.outer(np.arange(terms), angle))
+    series[1] /= 2
 
 
 def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[Any], Any]:

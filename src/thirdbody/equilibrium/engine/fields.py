@@ -80,6 +80,6 @@ NOT_MONOTONE, NOT_RESOLVED, TOO_LONG = 10, 11, 12
 """For another engine: the load may rise, the error is not small enough, too many nodes."""
 
 # ------------------------------------------------------------------ the rules of a level
-NODES, SPAN, SIZE_NODES, SIZE_SPAN = range(4)
-RULE, SIZE_RULE, SERIES = 1, 3, 5
-"""Rows of Gauss nodes, each before one of weights, and of the Chebyshev series."""
+NODES, SPAN, SIZE_NODES, SIZE_SPAN, SEAT_NODES, SEAT_SPAN = range(6)
+RULE, SIZE_RULE, POLYNOMIAL = 1, 3, 5
+"""Rows of Gauss nodes, each before one of weights, and of Chebyshev nodes before their series."""

@@ -11,7 +11,7 @@ from numba import njit
 
 from ...laws.asperity import formulas
 from ...laws.particle import deep
-from ..compiled.machine import apart
+from ..compiled.machine import EXACT, apart
 from .fields import (
     CAP,
     CEB,
@@ -57,6 +57,11 @@ __all__ = ["break_at", "breaks", "law_at", "prepare", "regime_of", "side_at"]
 
 scalar = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
 """Options of functions that only the kernel calls."""
+exact = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, fastmath=EXACT)
+"""Of loops that are to become vectors."""
+summed = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, fastmath=True)
+"""Of plain sums of products, whose order may be any, the same in every state."""
+
 
 elastic = scalar(formulas.elastic)
 doubled = scalar(formulas.doubled)

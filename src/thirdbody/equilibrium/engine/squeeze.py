@@ -5,7 +5,20 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart
-from .fields import CEB, CODE, COUNT, EQUAL, JG, JUMPS, KINKS, LIMIT, MOST_JUMPS
+from .fields import (
+    CEB,
+    CODE,
+    COUNT,
+    EQUAL,
+    FOOTPRINT,
+    JG,
+    JUMPS,
+    KINKS,
+    LIMIT,
+    MOST_JUMPS,
+    PROJECTED,
+    SHADOW,
+)
 from .sides import prepare, regime_of, scalar, side_at
 
 __all__ = [
@@ -37,6 +50,9 @@ PANEL = TENSION + TERMS
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
 CLOSE, BALANCED, NEARBY, RESOLVED = 1e-12, 1e-13, 1e-8, 1e-6
+SHARED, STEEPEST = 1e-7, 1e4
+"""Imbalance from which one more step of secants leaves 1e-10 of a share, of which `particle_at`
+leaves the square; power of an indentation like which a load may grow."""
 JUMP, BESIDE = 1e-9, 1e-14
 """Of a load at a kink, at least, and where its sides are looked at; both relative."""
 DEEPEST = 1e3
@@ -134,34 +150,35 @@ def inverse(sides, i, load):
 
 
 @scalar
-def split(sides, i, eps, low, high, delta):
+def split(sides, i, eps, low, high, delta, power):
     """Indentation over x of side i at a squeeze ε, between two; side i + 1 takes the rest.
 
     By secants from a first guess, inside the bracket; the first slope is that of a load which
-    grows like a power of the indentation.
+    grows like a power of the indentation. That power at the end, too.
     """
     apart()
     if not low < delta < high:
         delta = 0.5 * (low + high)
     old = old_f = math.nan
-    slope = 1.3 / delta + 1.3 / max(eps - delta, 1e-300)
+    slope = power / delta + power / max(eps - delta, 1e-300)
     for step in range(100):
         f = math.log(side_at(sides, i, delta)[0] / side_at(sides, i + 1, eps - delta)[0])
         if f < 0:
             low = delta
         else:
             high = delta
-        if abs(f) < 4e-16 or high - low < 4e-16 * high:
-            break
         if old == old and delta != old:
             slope = (f - old_f) / (delta - old)
+        if abs(f) < 4e-16 or high - low < 4e-16 * high:
+            break
         old, old_f = delta, f
         delta -= f / slope
         if not low < delta < high or not slope > 0 or step % 12 == 11:
             delta = 0.5 * (low + high)
-        elif abs(delta - old) < 2e-16 * delta:
+        elif abs(delta - old) < 2e-16 * delta or (step > 0 and abs(f) < SHARED):
             break
-    return delta
+    power = slope * delta * (eps - delta) / eps
+    return delta, power if 0.5 < power < STEEPEST else 1.3
 
 
 @scalar
@@ -328,7 +345,7 @@ def _fill_share(sides, panels, p, n, rule, low, high):
     free = _lets_go(sides, p)
     for k in range(TERMS):
         panels[p, n, SHARE + k] = 0.0
-    share = 0.0
+    share, power = 0.0, 1.3
     for j in range(TERMS):  # from the last place down to the first
         x = rule[0, j]
         eps = 0.25 * last * (x + 1) ** 2
@@ -338,7 +355,7 @@ def _fill_share(sides, panels, p, n, rule, low, high):
         least, most = max(low, eps - (last - high)), min(high, eps)
         if free:
             least, most = _allowed(sides, p, eps)
-        delta = split(sides, 2 * p, eps, least, most, guess)
+        delta, power = split(sides, 2 * p, eps, least, most, guess, power)
         share = delta / eps
         for k in range(TERMS):
             panels[p, n, SHARE + k] += rule[1 + k, j] * share
@@ -362,7 +379,7 @@ def _share_out(sides, panels, p, count, rule):
             n += 1
             continue
         if not free:
-            high = split(sides, 2 * p, b, low, min(b, low + b - a), low + 0.5 * (b - a))
+            high, _ = split(sides, 2 * p, b, low, min(b, low + b - a), low + 0.5 * (b - a), 1.3)
         _fill_share(sides, panels, p, n, rule, low, high)
         tail = abs(panels[p, n, SHARE + TERMS - 1]) + abs(panels[p, n, SHARE + TERMS - 2])
         if tail > RESOLVED and b > a * 1.001 and count < MOST_PANELS - 2:
@@ -378,16 +395,24 @@ def _share_out(sides, panels, p, count, rule):
 
 
 @scalar
-def _crossing(given, sides, panels, p, n, low, high):
+def _areas_at(sides, panels, p, n, eps):
+    """Areas over x² on both surfaces, of ε on panel n, as the share of a squeeze has them."""
+    apart()
+    one = first_at(panels, p, n, eps)
+    return side_at(sides, 2 * p, one)[1], side_at(sides, 2 * p + 1, eps - one)[1]
+
+
+@scalar
+def _crossing(sides, panels, p, n, low, high):
     """ε on panel n between two at which the areas on both surfaces are equal."""
     apart()
-    _, one, two = particle_at(given, sides, panels, p, n, low)
+    one, two = _areas_at(sides, panels, p, n, low)
     above = one > two
     for _ in range(100):
         eps = 0.5 * (low + high)
         if high - low <= 1e-15 * high:
             break
-        _, one, two = particle_at(given, sides, panels, p, n, eps)
+        one, two = _areas_at(sides, panels, p, n, eps)
         if (one > two) == above:
             low = eps
         else:
@@ -397,20 +422,22 @@ def _crossing(given, sides, panels, p, n, low, high):
 
 @scalar
 def _cut_at_crossings(given, sides, panels, p, count):
-    """Panels cut where the larger of the two areas changes; their number."""
+    """Panels cut where the larger of the two areas changes, if it counts; their number."""
     apart()
+    if given[p, SHADOW] != FOOTPRINT and given[p, SHADOW] != PROJECTED:
+        return count
     n = int(panels[p, 0, EDGE])  # 0, and no constant
     while n < count and count < MOST_PANELS - 2:
         a, b = panels[p, n, EDGE], panels[p, n, TO]
         before, place = 0.0, a
         for j in range(9):
             eps = a + (b - a) * (0.02 + 0.12 * j)
-            _, one, two = particle_at(given, sides, panels, p, n, eps)
+            one, two = _areas_at(sides, panels, p, n, eps)
             sign = 0.0
             if abs(one - two) > 1e-11 * max(one, two):
                 sign = 1.0 if one > two else -1.0
             if sign * before < 0:
-                at = _crossing(given, sides, panels, p, n, place, eps)
+                at = _crossing(sides, panels, p, n, place, eps)
                 for m in range(count, n, -1):
                     for k in range(PANEL):
                         panels[p, m, k] = panels[p, m - 1, k]

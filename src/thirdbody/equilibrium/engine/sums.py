@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from ..compiled.machine import apart, exp, normal_cdf
 from .breakage import mark_sizes
 from .densities import density, scale_of
@@ -16,8 +14,6 @@ from .fields import (
     AREA,
     BREADTH,
     BREAKS,
-    COVERAGE,
-    COVERED,
     DENSITY,
     EQUAL,
     EXPONENT,
@@ -33,20 +29,16 @@ from .fields import (
     KIND,
     LAID_FROM,
     LAST,
-    LEAST,
     LIMIT,
     LOGNORMAL,
     LOW,
     LOWEST_HEIGHT,
     MIDDLE,
     MODULUS,
-    OFFSET,
     ONE_SIZE,
-    PLANE,
     POWER,
     PROJECTED,
     RATIO,
-    SEAT,
     SHADE,
     SHADOW,
     SHAPE,
@@ -56,37 +48,29 @@ from .fields import (
     WIDTH,
     W,
 )  # fmt: skip
-from .sides import branch_of, break_at, breaks, law_at, regime_of_branch, scalar
-from .squeeze import EDGE, LAST_1, LAST_2, REGIME, TO, particle_at
+from .sides import branch_of, break_at, breaks, exact, law_at, regime_of_branch, scalar
+from .squeeze import LAST_1, LAST_2, REGIME, TO, particle_at
 
 __all__ = [
     "MOST_HEIGHTS",
-    "MOST_NODES",
     "MOST_SIZES",
     "NEAREST",
-    "add_part",
+    "ROOT_2PI",
+    "above",
+    "add_last",
+    "add_plane",
     "add_skin",
-    "lay_nodes",
     "lay_sizes",
     "lay_skin",
+    "shade",
 ]
 
-MOST_NODES, MOST_SIZES, MOST_HEIGHTS = 16_384, 2048, 1536
-EPS, LOAD, FIRST, SECOND, LARGER, ON, SUM = range(7)
-"""Rows of the nodes over ε: ε, weighted load, areas on both surfaces, the larger of the areas,
-regime, and the sum over sizes."""
+MOST_SIZES, MOST_HEIGHTS = 16_384, 1536
 T, OF_LOAD, OF_AREA, ITS_REGIME = range(4)
 """Rows of the nodes over heights: t = ω/σ_s, weighted load and area, regime."""
 ROOT_2PI = math.sqrt(2 * math.pi)
-REACH = 9.5
-"""Widths of a seat beyond which nothing is summed."""
 NEAREST, CLOSEST = 0.3, 1e-5
 """First panel over heights [σ_s], and over the distance to the lower end of the heights."""
-WIDE_SPAN = 2.5
-"""Widths of a panel from which on it may be as wide as the sizes spread."""
-
-exact = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True,
-             fastmath={"nnan", "ninf", "nsz", "contract"})  # fmt: skip
 
 
 # ------------------------------------------------------------------------------ asperities
@@ -137,9 +121,10 @@ def lay_skin(skin, heights, count, until, gauss, weights, nodes, start, first):
 def _weigh(heights, begin, end, h):
     """Densities of Gaussian heights at the nodes, without exp(−h²/2)."""
     apart()
-    for j in range(begin, end):
-        t = heights[T, j]
-        heights[4, j] = exp(max(-t * (h + 0.5 * t), -700.0))
+    # rows of their own, from zero: only then do loops over them become vectors
+    t, found = heights[T, begin:end], heights[4, begin:end]
+    for j in range(len(t)):
+        found[j] = exp(max(-t[j] * (h + 0.5 * t[j]), -700.0))
 
 
 @exact
@@ -227,14 +212,17 @@ def _lay_pieces(given, p, sizes, count, gauss, weights, nodes, span, low, high):
 
 
 @scalar
-def lay_sizes(given, p, sizes, begin, gauss, weights, nodes, span):
-    """Nodes over sizes on a rough seat: x and weight x³; where they end, or −1."""
+def lay_sizes(given, p, sizes, begin, gauss, weights, nodes, span, thick):
+    """Nodes over sizes on a rough seat: x and weight; where they end, or −1.
+
+    The gap shows ``thick`` times a size, which is 1 − ε.
+    """
     apart()
     if given[p, KIND] == ONE_SIZE:
         x = given[p, SIZE_1]
         sizes[0, begin], sizes[1, begin] = x, 1.0
         return begin + 1
-    low, high, width = given[p, LOW], given[p, HIGH], given[p, WIDTH]
+    low, high, width = given[p, LOW], given[p, HIGH], given[p, WIDTH] / max(thick, 1e-3)
     if given[p, BREAKS] == 1:
         marked = mark_sizes(given, p, sizes[2])
         count = begin
@@ -265,47 +253,6 @@ def lay_sizes(given, p, sizes, begin, gauss, weights, nodes, span):
 
 
 @scalar
-def lay_nodes(given, sides, panels, p, count, grid, begin, gauss, weights, nodes, span):
-    """Nodes over ε on a rough seat: weighted load and areas; where they end, or −1."""
-    apart()
-    place = begin
-    size, width = 0.5 * (given[p, LOW] + given[p, HIGH]), given[p, WIDTH]
-    own = 0.0 if given[p, KIND] == ONE_SIZE else scale_of(given, p, size) / size
-    # sizes that end abruptly show in the width of the seat alone
-    if span < WIDE_SPAN or given[p, BREAKS] == 1:
-        own = 0.0
-    for n in range(count):
-        first, last = panels[p, n, EDGE], panels[p, n, TO]
-        thin = own * (1 - 0.5 * (first + last))
-        step = span * math.sqrt((width / given[p, HIGH]) ** 2 + thin * thin)
-        parts = max(1, math.ceil((last - first) / step))
-        if place + parts * nodes > MOST_NODES:
-            return -1
-        for m in range(parts):
-            a = first + (last - first) * m / parts
-            b = first + (last - first) * (m + 1) / parts
-            for j in range(nodes):
-                if a == 0:
-                    root = 0.5 * math.sqrt(b) * (1 + gauss[j])
-                    eps, weight = root * root, root * math.sqrt(b) * weights[j]
-                else:
-                    eps = a + 0.5 * (b - a) * (1 + gauss[j])
-                    weight = 0.5 * (b - a) * weights[j]
-                load, one, two = particle_at(given, sides, panels, p, n, eps)
-                grid[EPS, place] = eps
-                grid[LOAD, place] = weight * load
-                grid[FIRST, place] = weight * one
-                grid[SECOND, place] = weight * two
-                larger = shade(given, p, one, two)
-                if given[p, BREAKS] == 1 and given[p, SHADOW] == PROJECTED:
-                    larger += 0.25 * math.pi * given[p, BREADTH]
-                grid[LARGER, place] = weight * larger
-                grid[ON, place] = panels[p, n, REGIME]
-                place += 1
-    return place
-
-
-@scalar
 def shade(given, p, one, two):
     """Area over x² that a particle shades beside its projected area, if that counts at all."""
     larger = max(one, two)
@@ -316,54 +263,6 @@ def shade(given, p, one, two):
     return 0.0
 
 
-# ------------------------------------------------------------------------------ seats
-@exact
-def _sum_whole(grid, begin, end, sizes, first, last, gap, width, shares, place, step):
-    """As `_sum_sizes`, of what is whole; ``place`` of the first node, ``step`` between sizes."""
-    apart()
-    for i in range(begin, end):
-        grid[SUM, i] = 0.0
-    for j in range(first, last):
-        x = sizes[0, j]
-        c = sizes[1, j] * x * x * x / (ROOT_2PI * width)
-        start, rate = (gap - x) / width, x / width
-        for i in range(begin, end):
-            z = start + rate * grid[EPS, i]
-            grid[SUM, i] += c * shares[place + i - begin] * exp(max(-0.5 * z * z, -700.0))
-        place += step
-
-
-@exact
-def _sum_sizes(grid, begin, end, sizes, first, last, gap, width):
-    """Over sizes at each node: weight x³ times the density of the seat, into the last row."""
-    apart()
-    for i in range(begin, end):
-        grid[SUM, i] = 0.0
-    for j in range(first, last):
-        x = sizes[0, j]
-        c = sizes[1, j] * x * x * x / (ROOT_2PI * width)
-        start, rate = (gap - x) / width, x / width
-        if rate <= 0:
-            continue
-        nearest = _first_from(grid, begin, end, (-REACH - start) / rate)
-        for i in range(nearest, _first_from(grid, nearest, end, (REACH - start) / rate)):
-            z = start + rate * grid[EPS, i]
-            grid[SUM, i] += c * exp(-0.5 * z * z)
-
-
-@scalar
-def _first_from(grid, begin, end, eps):
-    """The first of the nodes from ``begin`` to ``end`` that is squeezed by so much."""
-    apart()
-    while begin < end:
-        middle = (begin + end) // 2
-        if grid[EPS, middle] < eps:
-            begin = middle + 1
-        else:
-            end = middle
-    return begin
-
-
 @scalar
 def above(z):
     """The normal distribution Φ(z)."""
@@ -372,54 +271,7 @@ def above(z):
 
 
 @scalar
-def _add_rough(
-    given, sides, panels, p, count, grid, begin, end, sizes, first, last, gap, shares, place, out
-):
-    """What a part carries on a rough seat, into the columns of the particles."""
-    apart()
-    width = given[p, WIDTH]
-    # only nodes that some seat reaches: those of x(1 − ε) within REACH widths of the gap
-    most, least = gap + REACH * width, gap - REACH * width
-    breaks_up = given[p, BREAKS] == 1
-    smallest = max(given[p, LEAST] if breaks_up else given[p, LOW], 1e-300)
-    low = 1 - most / (smallest if most > 0 else given[p, HIGH])
-    high = 1 - least / (given[p, HIGH] if least > 0 else smallest)
-    a, b = begin, end
-    while a < b and grid[EPS, a] < low:
-        a += 1
-    while b > a and grid[EPS, b - 1] > high:
-        b -= 1
-    if breaks_up:
-        start = place + a - begin
-        _sum_whole(grid, a, b, sizes, first, last, gap, width, shares, start, end - begin)
-        place += (last - first) * (end - begin)
-    else:
-        _sum_sizes(grid, a, b, sizes, first, last, gap, width)
-    factor = given[p, DENSITY]
-    for i in range(a, b):
-        share = factor * grid[SUM, i]
-        out[F_SA] += share * grid[LOAD, i]
-        out[A_SA + int(grid[ON, i])] += share * grid[FIRST, i]
-        out[A_SA2] += share * grid[SECOND, i]
-        out[SHADE] += share * grid[LARGER, i]
-    edge = panels[p, count - 1, TO]
-    squeezed = touched = 0.0
-    for j in range(first, last):
-        x = sizes[0, j]
-        weight = factor * sizes[1, j] * x * x
-        if breaks_up:
-            weight *= shares[place + j - first]
-        squeezed += weight * above((x * (1 - edge) - gap) / width)
-        touched += weight * above((x - gap) / width)
-    _add_last(given, sides, panels, p, count, squeezed, out)
-    if breaks_up:  # what is squeezed less stands in the nodes
-        touched = squeezed
-    if given[p, SHADOW] == PROJECTED:
-        out[SHADE] += 0.25 * math.pi * given[p, BREADTH] * touched
-
-
-@scalar
-def _add_last(given, sides, panels, p, count, squared, out):
+def add_last(given, sides, panels, p, count, squared, out):
     """What particles beyond the last panel carry, by the sum of their sizes squared."""
     apart()
     one, two = panels[p, count, LAST_1], panels[p, count, LAST_2]
@@ -462,13 +314,13 @@ def _add_one_size(given, sides, panels, p, count, gap, out):
         _add_size(given, sides, panels, p, n, x, eps, given[p, DENSITY], out)
         return
     squared = given[p, DENSITY] * x * x
-    _add_last(given, sides, panels, p, count, squared, out)
+    add_last(given, sides, panels, p, count, squared, out)
     if given[p, SHADOW] == PROJECTED:
         out[SHADE] += squared * 0.25 * math.pi * given[p, BREADTH]
 
 
 @scalar
-def _add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, out):
+def add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, out):
     """What a part carries on a plane, by panels in the size x; False below its range."""
     apart()
     low, high = given[p, LOW], given[p, HIGH]
@@ -512,24 +364,7 @@ def _add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span,
                 else:
                     _add_size(given, sides, panels, p, n, x, delta / x, weight, out)
             a = c
-    _add_last(given, sides, panels, p, count, squared, out)
+    add_last(given, sides, panels, p, count, squared, out)
     if given[p, SHADOW] == PROJECTED:
         out[SHADE] += squared * 0.25 * math.pi * given[p, BREADTH]
-    return True
-
-
-@scalar
-def add_part(given, sides, panels, p, count, grid, begin, end, sizes, first, last, shares, place,
-             d, gauss, weights, nodes, span, out):  # fmt: skip
-    """What part p carries at a separation d [m]; False where its formulas do not reach."""
-    apart()
-    gap = d + given[p, OFFSET]
-    if given[p, SHADOW] == COVERED:
-        out[SHADE] += given[p, COVERAGE]
-    if given[p, SEAT] == PLANE:
-        return _add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, out)
-    _add_rough(
-        given, sides, panels, p, count, grid, begin, end, sizes, first, last, gap, shares, place,
-        out,
-    )  # fmt: skip
     return True

@@ -1,0 +1,395 @@
+"""Particles on a rough seat: nodes of one state over the squeeze, and sums at one separation.
+
+The seat weighs a squeeze ε by how many particles are squeezed so far: a smooth function K of ε,
+however the load of a particle bends. Between two ends over which K changes little it is a
+polynomial; what it is to be multiplied with is summed for each node of that polynomial, once a
+state. Every separation then costs K at these nodes alone. Particles that break have no such K:
+there the nodes of the load are those of the sum.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..compiled.machine import apart, exp
+from .densities import scale_of
+from .fields import (
+    A_SA,
+    A_SA2,
+    BREADTH,
+    BREAKS,
+    COVERAGE,
+    COVERED,
+    DENSITY,
+    F_SA,
+    HIGH,
+    KIND,
+    LEAST,
+    LOW,
+    NODES,
+    OFFSET,
+    ONE_SIZE,
+    PLANE,
+    POLYNOMIAL,
+    PROJECTED,
+    RULE,
+    SEAT,
+    SEAT_NODES,
+    SEAT_SPAN,
+    SHADE,
+    SHADOW,
+    SIZE_NODES,
+    SIZE_RULE,
+    SIZE_SPAN,
+    SPAN,
+    WIDTH,
+)
+from .sides import exact, scalar, summed
+from .squeeze import EDGE, REGIME, TO, particle_at
+from .sums import ROOT_2PI, above, add_last, add_plane, lay_sizes, shade
+
+__all__ = ["GRID_ROWS", "MOST_NODES", "MOST_PIECES", "PIECE", "add_part", "lay_nodes", "lay_pieces"]
+
+MOST_NODES, MOST_PIECES = 16_384, 600
+EPS, LOAD, SECOND, LARGER, FIRST = range(5)
+"""Rows of the nodes over ε: ε, weighted load, areas on the second surface and the larger one, on
+the first surface by regime, and the sum over sizes."""
+SUM, GRID_ROWS = FIRST + 3, FIRST + 5
+FROM, UNTIL, NODE, NODE_END, SIZE, SIZE_END, PIECE = range(7)
+"""Of a piece of the squeeze: its ends, and where its nodes and its sizes begin and end."""
+REACH = 9.5
+"""Widths of a seat beyond which nothing is summed."""
+WIDE_SPAN = 2.5
+"""Widths of a panel from which on it may be as wide as the sizes spread."""
+VECTOR = 8
+"""Numbers that a processor takes at once: loops over the rest are slow."""
+ONSET, REST, ALIKE = 0.4, 0.2, 0.5
+"""Width of the first piece over that of the others; part of one below which the piece before goes
+on; 1 − ε from which on sizes may lie as close as before."""
+
+
+# ------------------------------------------------------------------------------ once a state
+@scalar
+def _own_scale(given, p):
+    """Spread of the sizes over themselves, as it shows in K; 0 if they end abruptly or break."""
+    if given[p, KIND] == ONE_SIZE or given[p, BREAKS] == 1:
+        return 0.0
+    size = 0.5 * (given[p, LOW] + given[p, HIGH])
+    return scale_of(given, p, size) / size
+
+
+@scalar
+def _lay_node(given, sides, panels, p, n, eps, weight, grid, place):
+    """What a particle carries at ε on panel n, times a weight, as a node."""
+    apart()
+    load, one, two = particle_at(given, sides, panels, p, n, eps)
+    grid[EPS, place] = eps
+    grid[LOAD, place] = weight * load
+    grid[SECOND, place] = weight * two
+    larger = shade(given, p, one, two)
+    if given[p, BREAKS] == 1 and given[p, SHADOW] == PROJECTED:
+        larger += 0.25 * math.pi * given[p, BREADTH]
+    grid[LARGER, place] = weight * larger
+    for k in range(FIRST, SUM):
+        grid[k, place] = 0.0
+    grid[FIRST + int(panels[p, n, REGIME]), place] = weight * one
+
+
+@scalar
+def _lay_between(given, sides, panels, p, n, a, b, grid, place, rule):
+    """Gauss nodes between two ends on panel n; where they end."""
+    apart()
+    nodes = int(rule[0, NODES])
+    for j in range(nodes):
+        x, weight = 1 + rule[RULE, j], rule[RULE + 1, j]
+        if a == 0:
+            root = 0.5 * math.sqrt(b) * x
+            eps, weight = root * root, root * math.sqrt(b) * weight
+        else:
+            eps, weight = a + 0.5 * (b - a) * x, 0.5 * (b - a) * weight
+        _lay_node(given, sides, panels, p, n, eps, weight, grid, place + j)
+    return place + nodes
+
+
+@scalar
+def lay_nodes(given, sides, panels, p, count, grid, begin, rule):
+    """Nodes over ε of particles that break; where they end, or −1."""
+    apart()
+    place, nodes = begin, int(rule[0, NODES])
+    step = rule[0, SPAN] * given[p, WIDTH] / given[p, HIGH]
+    for n in range(count):
+        first, last = panels[p, n, EDGE], panels[p, n, TO]
+        parts = max(1, math.ceil((last - first) / step))
+        if place + parts * nodes > MOST_NODES:
+            return -1
+        for m in range(parts):
+            a = first + (last - first) * m / parts
+            b = first + (last - first) * (m + 1) / parts
+            place = _lay_between(given, sides, panels, p, n, a, b, grid, place, rule)
+    return place
+
+
+@summed
+def _product(one, other):
+    """Sum of the products of two rows."""
+    apart()
+    total = 0.0
+    for i in range(len(one)):
+        total += one[i] * other[i]
+    return total
+
+
+@exact
+def _gather(grid, first, begin, end, a, b, rule):
+    """What stands at nodes from ``begin`` to ``end``, for a polynomial by its own from ``first``.
+
+    Sums of the nodes times Chebyshev polynomials, and what each value of the polynomial has in
+    them.
+    """
+    apart()
+    nodes = int(rule[0, SEAT_NODES])
+    # rows of their own, from zero: only then do loops over them become vectors
+    x, now, before = grid[EPS, begin:end], grid[SUM, begin:end], grid[SUM + 1, begin:end]
+    for i in range(len(x)):
+        x[i] = 2 * (x[i] - a) / (b - a) - 1
+        now[i], before[i] = 1.0, x[i]
+    for k in range(nodes):
+        for row in range(LOAD, SUM):
+            grid[row, first + k] = _product(grid[row, begin:end], now)
+        for i in range(len(x)):
+            following = 2 * x[i] * now[i] - before[i]
+            before[i], now[i] = now[i], following
+    total = grid[SUM, first : first + nodes]
+    for row in range(LOAD, SUM):
+        for m in range(len(total)):
+            total[m] = 0.0
+        for k in range(nodes):
+            value, series = grid[row, first + k], rule[POLYNOMIAL + 1 + k, :nodes]
+            for m in range(len(total)):
+                total[m] += value * series[m]
+        found = grid[row, first : first + nodes]
+        for m in range(len(total)):
+            found[m] = total[m]
+    for m in range(nodes):
+        grid[EPS, first + m] = a + 0.5 * (b - a) * (1 + rule[POLYNOMIAL, m])
+
+
+@scalar
+def _fill_up(grid, place, end):
+    """Nodes that carry nothing, up to a whole number of vectors; where they end."""
+    while (end - place) % VECTOR != 0:
+        for row in range(LOAD, SUM):
+            grid[row, end] = 0.0
+        grid[EPS, end] = grid[EPS, end - 1]
+        end += 1
+    return end
+
+
+@scalar
+def _cut_squeeze(given, panels, p, count, pieces, rule):
+    """Lay the ends of pieces of the squeeze in which K changes little; how many, or −1."""
+    apart()
+    span, last = rule[0, SEAT_SPAN], panels[p, count - 1, TO]
+    seat, own = given[p, WIDTH] / given[p, HIGH], _own_scale(given, p)
+    if span < WIDE_SPAN:
+        own = 0.0
+    a, number = 0.0, 0
+    while a < last:
+        thin = own * abs(1 - a) / (1 + 0.5 * span * own)  # half a piece further
+        step = span * math.sqrt(seat * seat + thin * thin)
+        b = a + (ONSET * step if a == 0 else step)
+        if b + REST * step > last:
+            b = last
+        if number == MOST_PIECES:
+            return -1
+        pieces[number, FROM], pieces[number, UNTIL] = a, b
+        number += 1
+        a = b
+    return number
+
+
+@scalar
+def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, pieces, rule):
+    """Lay pieces of the squeeze with their nodes and sizes; how many, and where both end.
+
+    −1 pieces where there is no room.
+    """
+    apart()
+    number = _cut_squeeze(given, panels, p, count, pieces, rule)
+    nodes, most = int(rule[0, NODES]), int(rule[0, SEAT_NODES])
+    panel, closest = int(panels[p, 0, EDGE]), 0.0  # 0, and no constant
+    for s in range(number):
+        a, b = pieces[s, FROM], pieces[s, UNTIL]
+        while panel < count - 1 and panels[p, panel, TO] <= a:
+            panel += 1
+        parts, n = 1, panel
+        while n < count - 1 and panels[p, n, TO] < b:
+            parts += 1
+            n += 1
+        begin = place + most if parts * nodes > most else place
+        if begin + parts * nodes + VECTOR > MOST_NODES:
+            return -1, place, size
+        end = begin
+        for n in range(panel, panel + parts):
+            low, high = max(a, panels[p, n, EDGE]), min(b, panels[p, n, TO])
+            end = _lay_between(given, sides, panels, p, n, low, high, grid, end, rule)
+        if begin > place:
+            _gather(grid, place, begin, end, a, b, rule)
+            end = place + most
+        else:
+            end = _fill_up(grid, place, end)
+        pieces[s, NODE], pieces[s, NODE_END] = place, end
+        place = end
+        # sizes as close as a gap shows them at the least squeeze of the piece
+        widest = max(abs(1 - a), abs(1 - b))
+        if not ALIKE * closest <= widest <= closest:
+            closest = widest
+            first = size
+            size = lay_sizes(
+                given, p, sizes, size, rule[SIZE_RULE], rule[SIZE_RULE + 1],
+                int(rule[0, SIZE_NODES]), rule[0, SIZE_SPAN], widest,
+            )  # fmt: skip
+            if size < 0:
+                return -1, place, size
+            pieces[s, SIZE], pieces[s, SIZE_END] = first, size
+        else:
+            pieces[s, SIZE], pieces[s, SIZE_END] = pieces[s - 1, SIZE], pieces[s - 1, SIZE_END]
+    return number, place, size
+
+
+# ------------------------------------------------------------------------------ at a separation
+@exact
+def _sum_whole(grid, begin, end, sizes, first, last, gap, width, shares, place, step):
+    """K of what is whole; ``place`` of the first node, ``step`` between sizes."""
+    apart()
+    # rows of their own, from zero: only then do loops over them become vectors
+    eps, total = grid[EPS, begin:end], grid[SUM, begin:end]
+    for i in range(len(total)):
+        total[i] = 0.0
+    for j in range(first, last):
+        x = sizes[0, j]
+        c = sizes[1, j] * x * x * x / (ROOT_2PI * width)
+        start, rate = (gap - x) / width, x / width
+        whole = shares[place : place + len(eps)]
+        for i in range(len(eps)):
+            z = start + rate * eps[i]
+            total[i] += c * whole[i] * exp(max(-0.5 * z * z, -700.0))
+        place += step
+
+
+@exact
+def _sum_sizes(grid, sizes, pieces, s, gap, width):
+    """K on a piece: over sizes, x³ times the density of the seat, into the last row."""
+    apart()
+    begin, end = int(pieces[s, NODE]), int(pieces[s, NODE_END])
+    thick, thin = 1 - pieces[s, FROM], 1 - pieces[s, UNTIL]
+    low, high = gap - REACH * width, gap + REACH * width
+    eps, total = grid[EPS, begin:end], grid[SUM, begin:end]
+    for i in range(len(total)):
+        total[i] = 0.0
+    for j in range(int(pieces[s, SIZE]), int(pieces[s, SIZE_END])):
+        x = sizes[0, j]
+        if not (x * thick > low and x * thin < high):
+            continue
+        c = sizes[1, j] * x * x * x / (ROOT_2PI * width)
+        start, rate = (gap - x) / width, x / width
+        for i in range(len(eps)):
+            z = start + rate * eps[i]
+            total[i] += c * exp(max(-0.5 * z * z, -700.0))
+
+
+@scalar
+def _add_nodes(given, p, grid, begin, end, out):
+    """What nodes carry whose K is known."""
+    apart()
+    factor, share = given[p, DENSITY], grid[SUM, begin:end]
+    out[F_SA] += factor * _product(share, grid[LOAD, begin:end])
+    out[A_SA2] += factor * _product(share, grid[SECOND, begin:end])
+    out[SHADE] += factor * _product(share, grid[LARGER, begin:end])
+    for k in range(3):
+        out[A_SA + k] += factor * _product(share, grid[FIRST + k, begin:end])
+
+
+@scalar
+def _squared(given, p, sizes, first, last, thick, gap):
+    """Sum of the squares of sizes whose part of this thickness reaches the gap."""
+    apart()
+    total = 0.0
+    for j in range(first, last):
+        x = sizes[0, j]
+        total += sizes[1, j] * x * x * above((x * thick - gap) / given[p, WIDTH])
+    return given[p, DENSITY] * total
+
+
+@scalar
+def _add_rough(given, sides, panels, p, count, grid, sizes, pieces, number, gap, out):
+    """What a part carries on a rough seat, into the columns of the particles."""
+    apart()
+    for s in range(number):
+        _sum_sizes(grid, sizes, pieces, s, gap, given[p, WIDTH])
+        _add_nodes(given, p, grid, int(pieces[s, NODE]), int(pieces[s, NODE_END]), out)
+    last = number - 1
+    squeezed = _squared(
+        given, p, sizes, int(pieces[last, SIZE]), int(pieces[last, SIZE_END]),
+        1 - panels[p, count - 1, TO], gap,
+    )  # fmt: skip
+    add_last(given, sides, panels, p, count, squeezed, out)
+    if given[p, SHADOW] == PROJECTED:
+        touched = _squared(
+            given, p, sizes, int(pieces[0, SIZE]), int(pieces[0, SIZE_END]),
+            1 - pieces[0, FROM], gap,
+        )  # fmt: skip
+        out[SHADE] += 0.25 * math.pi * given[p, BREADTH] * touched
+
+
+@scalar
+def _add_broken(given, sides, panels, p, count, grid, own, sizes, gap, shares, out):
+    """What a part that breaks carries on a rough seat; ``own`` is what is laid of it."""
+    apart()
+    width, begin, end, first, last, place = given[p, WIDTH], own[1], own[2], own[3], own[4], own[5]
+    # only nodes that some seat reaches: those of x(1 − ε) within REACH widths of the gap
+    most, least = gap + REACH * width, gap - REACH * width
+    smallest = max(given[p, LEAST], 1e-300)
+    low = 1 - most / (smallest if most > 0 else given[p, HIGH])
+    high = 1 - least / (given[p, HIGH] if least > 0 else smallest)
+    a, b = begin, end
+    while a < b and grid[EPS, a] < low:
+        a += 1
+    while b > a and grid[EPS, b - 1] > high:
+        b -= 1
+    start = place + a - begin
+    _sum_whole(grid, a, b, sizes, first, last, gap, width, shares, start, end - begin)
+    place += (last - first) * (end - begin)
+    _add_nodes(given, p, grid, a, b, out)
+    edge, squeezed = panels[p, count - 1, TO], 0.0
+    for j in range(first, last):
+        x = sizes[0, j]
+        weight = sizes[1, j] * x * x * shares[place + j - first]
+        squeezed += weight * above((x * (1 - edge) - gap) / width)
+    squeezed *= given[p, DENSITY]
+    add_last(given, sides, panels, p, count, squeezed, out)
+    if given[p, SHADOW] == PROJECTED:  # what is squeezed less stands in the nodes
+        out[SHADE] += 0.25 * math.pi * given[p, BREADTH] * squeezed
+
+
+@scalar
+def add_part(given, sides, panels, p, own, grid, sizes, pieces, shares, d, rule, out):
+    """What part p carries at a separation d [m]; False where its formulas do not reach.
+
+    ``own`` says what of it is laid: panels; where nodes, sizes and what is whole begin and end;
+    pieces.
+    """
+    apart()
+    gap, count = d + given[p, OFFSET], own[0]
+    if given[p, SHADOW] == COVERED:
+        out[SHADE] += given[p, COVERAGE]
+    if given[p, SEAT] == PLANE:
+        return add_plane(
+            given, sides, panels, p, count, gap, rule[RULE], rule[RULE + 1], int(rule[0, NODES]),
+            rule[0, SPAN], out,
+        )  # fmt: skip
+    if given[p, BREAKS] == 1:
+        _add_broken(given, sides, panels, p, count, grid, own, sizes, gap, shares, out)
+    else:
+        _add_rough(given, sides, panels, p, count, grid, sizes, pieces, own[7], gap, out)
+    return True
