@@ -331,13 +331,16 @@ class Deep(Side):
     def __init__(self, law: Any, E_star: float, H: float, nu: float, ratio: float, m: float):
         super().__init__(law, 0.5, E_star, H, nu)
         self.tables = [series_of(name, ratio, m, E_star / H) for name in ("own", "area")]
-        self.hill, self.end = m / (3 * np.sqrt(3)), 0.475
-        most = H * max(1.0, 1 / ratio)
-        if self.disc(0.475)[0] < most:
-            self.end = 0.5 - np.exp(-31.0)
-            if self.disc(self.end)[0] > most:
-                lean = brentq(lambda v: self.disc(0.5 - np.exp(v))[0] - most, -31, np.log(0.025))
-                self.end = 0.5 - np.exp(lean)
+        self.hill, self.end, self.own = m / (3 * np.sqrt(3)), 0.475, own_part(ratio, m)
+        most, v_0 = H * max(1.0, 1 / ratio), np.log(1 - 0.95 * self.own)
+        if self.disc(v_0)[0] < most:
+            lean = -30.0
+            if self.own and self.disc(lean)[0] > most:
+                lean = brentq(lambda v: self.disc(v)[0] - most, -30, v_0, xtol=1e-15)
+            self.end = 0.5 * min(-np.expm1(lean) / self.own, 1.0) if self.own else 0.5
+        elif ratio < 1:  # the softest were squeezed between rigid surfaces
+            over = lambda u: np.divide(*self.table(np.array(u))) - most  # noqa: E731
+            self.end = brentq(over, 0.375, 0.475, xtol=1e-16) if over(0.375) < 0 else 0.375
         self.cap = 0.075
         wide = np.linspace(self.cap, self.end, 400)
         i = int(np.argmax(self.area(wide) > np.pi / 4))
@@ -346,7 +349,8 @@ class Deep(Side):
             off = lambda u: self.area(u) - np.pi / 4  # noqa: E731
             points.append(brentq(off, wide[i - 1], wide[i], xtol=1e-16))
         points += [u for u in self.omega_1 * np.array(self.law.breakpoints) if u < self.cap]
-        points += [0.5 - 0.025 / 4**i for i in range(1, 25)]
+        if self.own:
+            points += [(0.5 - np.exp(v_0) / 2 / 4**i) / self.own for i in range(1, 25)]
         self.kinks = np.unique([u for u in points if u <= self.end])
 
     def table(self, delta: Any) -> Any:
@@ -355,10 +359,10 @@ class Deep(Side):
         load, area = (np.exp(series(at)) for series in self.tables)
         return load * self.H / 2.84 / 4, area * np.pi / 4
 
-    def disc(self, delta: Any) -> Any:
-        """Mean pressure and area beyond the curves."""
+    def disc(self, log_t: Any) -> Any:
+        """Mean pressure and area beyond the curves, of a half as high as t radii."""
         load, area = self.table(np.array(0.475))
-        t, thick = 1 - 2 * np.asarray(delta), 0.05
+        t, thick = np.exp(log_t), 1 - 0.95 * self.own
         rise = lambda area, t: 1 + self.hill * np.sqrt(area / (np.pi / 4)) / t  # noqa: E731
         return load / area * rise(area * thick / t, t) / rise(area, thick), area * thick / t
 
@@ -372,12 +376,29 @@ class Deep(Side):
         w = v**2 * (3 - 2 * v)
         bare = np.maximum(tip[1:].sum(axis=0), 1e-300)
         blended = np.maximum(tip[0], 1e-300) ** (1 - w) * load**w, bare ** (1 - w) * area**w
-        p, wide = self.disc(u)
+        p, wide = self.disc(np.log1p(-2 * self.own * u))
         load = np.where(w == 0, tip[0], np.where(u > 0.475, p * wide, blended[0]))
         area = np.where(w == 0, tip[1:].sum(axis=0), np.where(u > 0.475, wide, blended[1]))
         areas = np.where(tip[1:] > 0, area, 0.0)
         plastic = np.stack([0 * area, 0 * area, area])
         return np.stack([load, *np.where(u >= self.cap, plastic, areas)])
+
+
+def own_part(ratio: float, m: float) -> float:
+    """Part of a squeeze of 0.95 that the particle takes: 1 less the sink over the squeeze.
+
+    Sinks, in straight lines over ln ρ, never fall with the squeeze, nor rise faster than it.
+    """
+    rigid = [run for run in runs_of_the_table() if run["soft"] == 0]
+    factors, rows = sorted({run["m"] for run in rigid}), []
+    for f in factors:
+        x, sinks = zip(*sorted((r["x"], r["sink"]) for r in rigid if r["m"] == f), strict=True)
+        rows.append([np.interp(np.log(ratio), x, at) for at in zip(*sinks, strict=True)])
+    sinks = across(m, factors, rows)
+    for i in range(1, 19):
+        sinks[i] = min(max(sinks[i], sinks[i - 1]), sinks[i - 1] + 0.05)
+    part = 1 - sinks[-1] / 0.95
+    return part if part > 1e-3 else 0.0
 
 
 def place(eps: Any, low: float = 0.05, high: float = 0.95) -> Any:
@@ -386,12 +407,8 @@ def place(eps: Any, low: float = 0.05, high: float = 0.95) -> Any:
     return (2 * at - first - last) / (last - first)
 
 
-def series_of(name: str, ratio: float, m: float, kappa: float) -> Any:
-    """ln F/(Y R²), Y of the softer body, or ln A/(πR²), between the computed runs.
-
-    First value and roots of the slope go by monotone cubics over ln ρ and m and in straight lines
-    over H/E*; ten terms of the root, squared and summed up, give a polynomial that never falls.
-    """
+def runs_of_the_table() -> Any:
+    """The computed curves between two surfaces."""
     text = resources.files("thirdbody").joinpath("data/deep_series.json").read_text("utf-8")
     runs = [run for run in json.loads(text)["curves"] if run["surfaces"] == 2]
     for run in runs:
@@ -399,7 +416,25 @@ def series_of(name: str, ratio: float, m: float, kappa: float) -> Any:
         body = 1 if rho in (0, np.inf) else 2
         run |= {"rho": rho, "x": np.log(np.clip(rho, 0.4, 10.0))}
         run["soft"] = 2.84 * (min(rho, 1.0) or 1.0) * 0.91 * body / E_over_Y
+    return runs
 
+
+def across(at: float, nodes: Any, rows: Any) -> Any:
+    """Rows between nodes, by a monotone cubic."""
+    order = np.argsort(nodes)
+    nodes, rows = np.array(nodes)[order], np.array(rows)[order]
+    if len(nodes) == 1:
+        return rows[0]
+    return PchipInterpolator(nodes, rows, axis=0)(np.clip(at, nodes[0], nodes[-1]))
+
+
+def series_of(name: str, ratio: float, m: float, kappa: float) -> Any:
+    """ln F/(Y R²), Y of the softer body, or ln A/(πR²), between the computed runs.
+
+    First value and roots of the slope go by monotone cubics over ln ρ and m and in straight lines
+    over H/E*; ten terms of the root, squared and summed up, give a polynomial that never falls.
+    """
+    runs = runs_of_the_table()
     x, soft = np.log(np.clip(ratio, 0.4, 10.0)), 1 / max(kappa, 8.0)
     rigid = [run for run in runs if run["soft"] == 0]
 
@@ -415,13 +450,6 @@ def series_of(name: str, ratio: float, m: float, kappa: float) -> Any:
         twin = next(it for it in rigid if (it["m"], it["rho"]) == (1, run["rho"]))
         shorter = min(run["to"], twin["to"]) * (1 + 1e-9)
         return (row(run, eps) - row(twin, eps)) * np.append(1.0, eps <= shorter)
-
-    def across(at: float, nodes: Any, rows: Any) -> Any:
-        order = np.argsort(nodes)
-        nodes, rows = np.array(nodes)[order], np.array(rows)[order]
-        if len(nodes) == 1:
-            return rows[0]
-        return PchipInterpolator(nodes, rows, axis=0)(np.clip(at, nodes[0], nodes[-1]))
 
     def over_hardness(some: Any, of: Any) -> Any:
         return across(x, [run["x"] for run in some], [of(run) for run in some])

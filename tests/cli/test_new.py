@@ -85,6 +85,7 @@ def test_a_file_of_ones_own(empty_folder):
     assert run("new", "measured-surface", "heights.txt").exit_code == 0
     table = tomllib.loads(Path("measured-surface.toml").read_text("utf-8"))["roughness"]
     assert table == {"topography": "heights.txt"}
+    assert "asperity_law" not in tomllib.loads(Path("measured-surface.toml").read_text("utf-8"))
     Path("below").mkdir()
     run("new", "measured-surface", "heights.txt", "--out", "below/study.toml")
     table = tomllib.loads(Path("below/study.toml").read_text("utf-8"))["roughness"]

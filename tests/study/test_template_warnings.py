@@ -6,12 +6,20 @@ import pytest
 
 from thirdbody.study import load_study, run_study
 
-TEMPLATES = ("ball-screw", "rolling-bearing", "additive", "electrical", "two-body")
+TEMPLATES = (
+    "ball-screw",
+    "rolling-bearing",
+    "additive",
+    "electrical",
+    "two-body",
+    "measured-surface",
+)
 ADVICE = (
     "solve again with",
     'the asperity law "field"',
     'few = "mean"',
     "assess",
+    "quote them with their cut-off",
     "take ",
     "give ",
 )

@@ -66,6 +66,9 @@ def command(
         where = measured if measured.is_absolute() or out is None else measured.resolve()
         text = text.replace('topography = "example"', f"topography = {json.dumps(str(where))}")
         text = text.replace('cutoff = "1 um"  ', '# cutoff = "1 um"')
+        # a map of one's own may be one that the law refuses: a profile, or a broad spectrum
+        for line in ("[asperity_law]", 'name = "field"', 'spectrum = "measured"'):
+            text = text.replace(line, f"# {line}")
         text = text.replace("thirdbody surface FILE", f"thirdbody surface {say(str(measured))}")
     write_text(target, text)
     print(f"written: {target}", file=sys.stderr)

@@ -46,7 +46,8 @@ def sources() -> str:
     numba looks at the module of a function alone.
     """
     about, here = hashlib.sha256(), Path(str(files(__package__)))
-    others = (here.parent / "engine", here.parents[1] / "laws" / "asperity")
+    laws = here.parents[1] / "laws"
+    others = (here.parent / "engine", laws / "asperity", laws / "particle")
     paths = [*here.glob("*.py"), *(path for each in others for path in each.glob("*.py"))]
     for path in sorted(paths):
         about.update(path.read_bytes())

@@ -16,7 +16,7 @@ from ...contact.particle_sums import printed_numbers
 from ...errors import NotCompiled
 from ...laws import asperity, particle
 from ...laws.asperity.elliptic import elliptic_hertz
-from ...laws.particle.deep import curve_rows
+from ...laws.particle.deep import curve_rows, sink_rows, squashed_part
 from ...laws.particle.tension import _bends, _equator
 from ...numerics.quadrature import gauss_legendre
 from ...populations import distributions as sizes
@@ -414,6 +414,7 @@ class Numbers:
         given = np.broadcast_arrays(ratio, varied.friction_factor, E / H, np.empty(self.count))
         cases, which = np.unique(np.stack(given[:3]), axis=1, return_inverse=True)
         load, area = curve_rows(*cases)
+        taken = squashed_part(sink_rows(*cases[:2]))
         terms = f.TABLE_LOAD + f.TABLE_TERMS
         rows[:, f.TABLE_LOAD : terms] = load[which]
         rows[:, f.TABLE_AREA : f.OF_SIDE] = area[which]
@@ -424,6 +425,7 @@ class Numbers:
                 f.UNIT: R * math.pi * delta_1 * H,
                 f.HILL: varied.friction_factor / (3 * math.sqrt(3)),
                 f.HARDER: np.maximum(1 / ratio, 1.0),
+                f.TAKEN: taken[which],
             },
         )
         return E, H

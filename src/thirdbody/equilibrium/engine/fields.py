@@ -27,11 +27,12 @@ separation below which it shows in the nodes; width of a panel over t = ω/σ_s,
 OF_ASPERITIES = 18
 
 # ------------------------------------------------------------------ given, of a side
-FORM, DELTA_1, UNIT, FULL, TIP, HILL, HARDER = range(5, 12)
+FORM, DELTA_1, UNIT, FULL, TIP, HILL, HARDER, TAKEN = range(5, 13)
 """Kind, first yield over x, unit of load [Pa], reduced area of the great circle or of the disc,
-tip radius over x, friction hill, hardness of the surface over H."""
+tip radius over x, friction hill, hardness of the surface over H, and the part of a deep squeeze
+that the particle takes."""
 TABLE_TERMS = 20
-TABLE_LOAD = 12
+TABLE_LOAD = 13
 TABLE_AREA = TABLE_LOAD + TABLE_TERMS
 """Series of ln of load and of area of a side by the table of deep squeezes."""
 OF_SIDE = TABLE_AREA + TABLE_TERMS

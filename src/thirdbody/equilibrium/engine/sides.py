@@ -47,6 +47,7 @@ from .fields import (
     TABLE_AREA,
     TABLE_LOAD,
     TABLE_TERMS,
+    TAKEN,
     TIP,
     UNIT,
     WIDE,
@@ -79,7 +80,7 @@ LAW_ENDS, TABLE_BEGINS, TABLE_ENDS, SPLITS = (
     deep.SPLITS,
 )
 FIRST, LAST = math.log(LAW_ENDS / (1 - LAW_ENDS)), math.log(TABLE_ENDS / (1 - TABLE_ENDS))
-THINNEST = math.exp(deep.THINNEST)
+THINNEST, EARLIEST, DEEPEST = math.exp(deep.THINNEST), deep.EARLIEST, deep.DEEPEST
 GRADING = 4.0
 """Ratio of heights left at neighbouring kinks of a disc."""
 
@@ -288,7 +289,7 @@ def _table_at(rows, i, x):
 def _disc_at(rows, i, left):
     """Load over πR²H and area over πR² of a disc beyond the table, of a height left."""
     load, area = _table_at(rows, i, 1.0)
-    thick = 1 - TABLE_ENDS
+    thick = 1 - TABLE_ENDS * rows[i, TAKEN]
     wide, hill = area * thick / left, rows[i, HILL]
     rise = (1 + hill * math.sqrt(wide) / left) / (1 + hill * math.sqrt(area) / thick)
     return load * thick / left * rise, wide
@@ -299,7 +300,7 @@ def _deep_at(rows, i, eps):
     """Load over πR²H and area over πR² of a side by the table, at a squeeze ε = δ/R."""
     apart()
     if eps > TABLE_ENDS:
-        return _disc_at(rows, i, 1 - eps)
+        return _disc_at(rows, i, 1 - rows[i, TAKEN] * eps)
     thin = rows[i, DELTA_1] / rows[i, TIP]
     if eps <= LAW_ENDS:
         load, area = law_at(rows, i, eps / thin)
@@ -316,16 +317,32 @@ def _deep_at(rows, i, eps):
 
 
 @scalar
-def _prepare_table(rows, i):
-    """Where a side by the table is wide, sinks in, and changes its formula."""
-    thin = rows[i, DELTA_1] / rows[i, TIP]
-    low = high = 1 - TABLE_ENDS
+def _table_end(rows, i):
+    """Squeeze from which the mean pressure is the hardness of the surface."""
+    taken = rows[i, TAKEN]
+    low = high = 1 - TABLE_ENDS * taken
     load, area = _disc_at(rows, i, low)
+    if load >= rows[i, HARDER] * area:
+        if rows[i, HARDER] <= 1:
+            return TABLE_ENDS
+        low, high = EARLIEST, TABLE_ENDS
+        load, area = _deep_at(rows, i, low)
+        if load >= rows[i, HARDER] * area:
+            return low
+        for _ in range(HALVINGS):
+            eps = 0.5 * (low + high)
+            load, area = _deep_at(rows, i, eps)
+            if load < rows[i, HARDER] * area:
+                low = eps
+            else:
+                high = eps
+        return 0.5 * (low + high)
+    if taken == 0:
+        return DEEPEST
     while load < rows[i, HARDER] * area and low > THINNEST:
         high, low = low, 0.5 * low
         load, area = _disc_at(rows, i, low)
-    end = 1 - low
-    if low < high and low > THINNEST:
+    if low > THINNEST:
         for _ in range(HALVINGS):
             left = math.sqrt(low * high)
             load, area = _disc_at(rows, i, left)
@@ -333,10 +350,18 @@ def _prepare_table(rows, i):
                 high = left
             else:
                 low = left
-        end = 1 - low
+    return min((1 - low) / taken, DEEPEST)
+
+
+@scalar
+def _prepare_table(rows, i):
+    """Where a side by the table is wide, sinks in, and changes its formula."""
+    thin, taken = rows[i, DELTA_1] / rows[i, TIP], rows[i, TAKEN]
+    end = _table_end(rows, i)
     rows[i, END] = end / thin
     for eps in (LAW_ENDS, TABLE_BEGINS, *SPLITS, TABLE_ENDS, end):
-        _add_kink(rows, i, eps / thin)
+        if eps <= end:
+            _add_kink(rows, i, eps / thin)
     for n in range(breaks(rows, i)):
         if break_at(rows, i, n) * thin < TABLE_BEGINS:
             _add_kink(rows, i, break_at(rows, i, n))
@@ -349,10 +374,10 @@ def _prepare_table(rows, i):
             else:
                 low = eps
         _add_kink(rows, i, 0.5 * (low + high) / thin)
-    left = 1 - TABLE_ENDS
-    while left > GRADING * (1 - end):
+    left = 1 - TABLE_ENDS * taken
+    while left > GRADING * (1 - end * taken):
         left /= GRADING
-        _add_kink(rows, i, (1 - left) / thin)
+        _add_kink(rows, i, (1 - left) / taken / thin)
     rows[i, CAP] = TABLE_BEGINS / thin
 
 

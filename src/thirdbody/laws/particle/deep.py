@@ -36,6 +36,12 @@ SOFT, RIGID = 0.4, 10.0
 """Hardness ratios up to which surfaces count as rigid, and from which the particle does."""
 SINK_AT = np.linspace(LAW_ENDS, TABLE_ENDS, 19)
 """Squeezes ε of the table, at which sinks stand."""
+EARLIEST = SPLITS[1]
+"""Squeeze ε from which a surface may have its hardness on a squashed particle."""
+LEAST_PART = 1e-3
+"""Part of the squeeze below which a particle takes none of it."""
+DEEPEST = 1.0
+"""Squeeze ε beyond which nothing changes: the planes of equal surfaces meet."""
 SOFTEST_KAPPA = 8.0
 """E*/H below which the elastic part of the table is not extrapolated further."""
 
@@ -202,7 +208,8 @@ def squeeze_curve(ratio: float, friction: float, kappa: float) -> SqueezeCurve:
         E*/H of the softer body, κ [1]; below 8 as at 8.
     """
     log_load, log_area = curve_rows(*(np.array([value]) for value in (ratio, friction, kappa)))
-    return SqueezeCurve(log_load[0], log_area[0], _sinks(math.log(ratio), friction))
+    sinks = sink_rows(np.array([ratio]), np.array([friction]))
+    return SqueezeCurve(log_load[0], log_area[0], sinks[0])
 
 
 def curve_rows(ratio: Array, friction: Array, kappa: Array) -> tuple[Array, Array]:
@@ -261,15 +268,29 @@ def _share_lines() -> tuple[Any, ...]:
     return tuple(line(m) for m in _frictions())
 
 
-def _sinks(x: float, friction: float) -> Array:
-    """Sinks over R at `SINK_AT`, between the rigid-plastic runs: never falling with the squeeze.
+def sink_rows(ratio: Array, friction: Array) -> Array:
+    """Sinks over R of many sides at `SINK_AT` (N, 19), of which `squeeze_curve` has one.
 
-    Nor do they rise faster than it, so that the squash of the particle never falls either.
+    Between the rigid-plastic runs, never falling with the squeeze, nor rising faster than it, so
+    that the squash of the particle never falls either.
     """
-    out = _at_friction(friction, _share_lines(), x) * SINK_AT
-    for i in range(1, len(out)):
-        out[i] = np.clip(out[i], out[i - 1], out[i - 1] + (SINK_AT[i] - SINK_AT[i - 1]))
+    out = np.empty((len(ratio), len(SINK_AT)))
+    for m in np.unique(friction):
+        here = friction == m
+        out[here] = _at_friction(float(m), _share_lines(), np.log(ratio[here])) * SINK_AT
+    for i in range(1, len(SINK_AT)):
+        before = out[:, i - 1]
+        out[:, i] = np.clip(out[:, i], before, before + (SINK_AT[i] - SINK_AT[i - 1]))
     return out
+
+
+def squashed_part(sinks: Array) -> Array:
+    """Part of the squeeze that the particle itself takes at the table's end, from sinks (N, 19).
+
+    1 where the surface is rigid, 0 where the particle is.
+    """
+    part: Array = 1 - np.minimum(sinks[..., -1] / TABLE_ENDS, 1.0)
+    return np.where(part > LEAST_PART, part, 0.0)
 
 
 def _row(run: _Run, places: Array) -> Array:
@@ -321,7 +342,11 @@ class DeepSide(Side):
     with its friction hill, while its mean pressure is below the hardness of the surface,
 
     .. math:: A \propto \frac1t, \qquad p \propto 1 + \frac{m\,a}{3\sqrt3\,tR},
-        \qquad t = 1-\varepsilon .
+        \qquad t = 1-(1-k)\,\varepsilon ,
+
+    with the half height tR that is left to it, as the surface takes the part k of the squeeze that
+    it takes at the end of the table. A surface harder than the particle bears no more than its
+    hardness within the table either: the softest particles were squeezed between rigid surfaces.
 
     Attributes
     ----------
@@ -351,16 +376,19 @@ class DeepSide(Side):
         self._table = np.stack([curve.log_load, curve.log_area], axis=-1)
         self._sunk = curve.sinks
         self._at_top = np.exp(chebval(1.0, self._table))
+        self.taken = float(squashed_part(curve.sinks))
+        self.thick = 1 - TABLE_ENDS * self.taken
         self.end = self._sinks(max(1 / form.ratio, 1.0))
         turns = [y for y in self.law.breakpoints if y < self._reduced(LAW_ENDS)]
         turns += self._reduced(np.array([LAW_ENDS, TABLE_BEGINS, *SPLITS, TABLE_ENDS])).tolist()
         turns += self._wide()
         turns += [y for y in self.law.breakpoints if LAW_ENDS < self._squeeze(y) < TABLE_BEGINS]
-        t, last = 1 - TABLE_ENDS, 1 - self.end
+        t, last = self.thick, 1 - self.end * self.taken
         while t > GRADING * last:
             t /= GRADING
-            turns.append(float(self._reduced(1 - t)))
-        self.kinks = np.unique([*turns, float(self._reduced(self.end))])
+            turns.append(float(self._reduced((1 - t) / self.taken)))
+        last = float(self._reduced(self.end))
+        self.kinks = np.unique([*(y for y in turns if y < last), last])
         self.cap = np.array(self._reduced(TABLE_BEGINS))
         self.limit = self.unit * self.reduced_force(self.kinks[-1:])
 
@@ -405,7 +433,7 @@ class DeepSide(Side):
     def _disc(self, t: Any) -> tuple[Any, Any]:
         """Load over πR²H and area over πR² of a disc of the height t left, beyond the table."""
         load, area = self._at_top
-        thick = 1 - TABLE_ENDS
+        thick = self.thick
         wide = area * thick / t
 
         def rise(area: Any, t: Any) -> Any:
@@ -421,14 +449,30 @@ class DeepSide(Side):
             load, area = self._disc(math.exp(log_t))
             return float(load / area) - surface
 
-        low = high = math.log(1 - TABLE_ENDS)
+        low = high = math.log(self.thick)
+        if excess(low) >= 0:
+            return self._sinks_early(surface) if surface > 1 else TABLE_ENDS
+        if self.taken == 0:
+            return DEEPEST
         while excess(low) < 0 and low > THINNEST:
             high, low = low, low - math.log(2)
-        if low == high:
-            return TABLE_ENDS
-        if low <= THINNEST:
-            return -math.expm1(low)
-        return -math.expm1(brentq(excess, low, high, xtol=1e-15, rtol=1e-15))
+        if low > THINNEST:
+            low = brentq(excess, low, high, xtol=1e-15, rtol=1e-15)
+        # 1 − e^x by expm1: few digits of the height are left otherwise
+        return min(-math.expm1(low) / self.taken, DEEPEST)
+
+    def _sinks_early(self, surface: float) -> float:
+        """The same within the table, for surfaces that were taken for rigid there."""
+        from scipy.optimize import brentq
+
+        def excess(eps: float) -> float:
+            at = place_of(eps, LAW_ENDS, TABLE_ENDS)
+            load, area = np.exp(chebval(at, self._table))
+            return float(load / area) - surface
+
+        if excess(EARLIEST) >= 0:
+            return EARLIEST
+        return float(brentq(excess, EARLIEST, TABLE_ENDS, xtol=1e-15, rtol=1e-15))
 
     def _columns(self, y: Array) -> tuple[Array, Array]:
         """Load over πR²H and area over πR² at y."""
@@ -450,7 +494,7 @@ class DeepSide(Side):
                 values[low] = first * np.where(w > 0, table, 1.0) ** w
         over = eps > TABLE_ENDS
         if np.any(over):
-            load[over], area[over] = self._disc(1 - eps[over])
+            load[over], area[over] = self._disc(1 - self.taken * eps[over])
         return load, area
 
     def both(self, delta: Array) -> tuple[Array, Array]:
@@ -473,8 +517,8 @@ class DeepSide(Side):
         """
         eps = np.asarray(delta, dtype=float) / self.R
         nodes, sinks = np.append(0.0, SINK_AT), np.append(0.0, self._sunk)
-        within = np.interp(eps, nodes, sinks)
-        disc = np.clip(eps, TABLE_ENDS, self.end) - TABLE_ENDS
+        within = np.interp(np.minimum(eps, self.end), nodes, sinks)
+        disc = np.maximum(np.minimum(eps, self.end) - TABLE_ENDS, 0.0)
         whole = np.maximum(eps - self.end, 0.0)
         return self.R * (within + disc * (sinks[-1] / TABLE_ENDS) + whole)
 

@@ -477,7 +477,9 @@ class Topography:
     @cached_property
     def warnings(self) -> tuple[str, ...]:
         """What a user of these numbers should know, one sentence each."""
-        out = [*self.notes, *self._bandwidth()]
+        out = list(self.notes)
+        if unsure := [*self._bandwidth(), *self._few()]:
+            out.append("; ".join(unsure))
         least = self.recommended[0]
         if self.cutoff < least * (1 - 1e-9):
             at = "the heights as sampled" if self.cutoff == 0 else f"a cut-off {self._at()}"
@@ -500,14 +502,6 @@ class Topography:
                 f"the surface is not isotropic: the mean square slope is {self.anisotropy:.3g} "
                 "times as large along as across; moments are means over all directions, and "
                 "Nayak's relations are off (compare the summits counted)"
-            )
-        count = self.summits.count
-        if self.dim == 2 and count < 10 * FEW_SUMMITS:
-            error = percent(1 / math.sqrt(max(count, 1)), digits=2)
-            out.append(
-                f"{count} summits on the map at a cut-off {self._at()}: "
-                f"their mean numbers are uncertain by some {error}; a larger map, or several, "
-                "make them surer"
             )
         if abs(self.skewness) > 0.5 or abs(self.kurtosis - 3) > 1:
             out.append(
@@ -540,6 +534,17 @@ class Topography:
             f"the answer depends on the cut-off: from {value_of(middle / 2**0.5, 'm')} to "
             f"{value_of(middle * 2**0.5, 'm')}, one octave about the one used, {', '.join(moving)}"
             "; quote them with their cut-off"
+        ]
+
+    def _few(self) -> list[str]:
+        """How far a map of few summits leaves their numbers open."""
+        count = self.summits.count
+        if self.dim != 2 or count >= 10 * FEW_SUMMITS:
+            return []
+        error = percent(1 / math.sqrt(max(count, 1)), digits=2)
+        return [
+            f"{count} summits on the map at a cut-off {self._at()}: their mean numbers are "
+            f"uncertain by some {error}; a larger map, or several, make them surer"
         ]
 
     def to_dict(self) -> dict[str, Any]:
