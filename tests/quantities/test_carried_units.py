@@ -19,8 +19,8 @@ from test_signatures import PUBLIC, _is_number
 import thirdbody as tb
 from thirdbody.quantities.carried import (
     USUAL,
-    carries_unit,
     arguments_of,
+    carries_unit,
     in_si,
     takes_units,
     units_of,

@@ -26,6 +26,7 @@ from .fields import (
 )
 from .sides import exact, scalar
 from .squeeze import (
+    CLOSE,
     EDGE,
     MOST_PANELS,
     PANEL,
@@ -339,7 +340,7 @@ def lay_tension(given, sides, panels, p, count, rule, inside):
     """Panels of part p with the tension on each; how many, or −1 where that does not reach."""
     apart()
     last = panels[p, count - 1, TO]
-    if last >= 1:
+    if last > 1 + CLOSE:
         return -1
     count = _cut_at_bends(given, sides, panels, p, count, inside)
     count = _find_held(given, sides, panels, p, count, inside)
