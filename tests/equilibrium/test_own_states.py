@@ -199,6 +199,20 @@ def test_particles_squeezed_to_the_end_have_the_area_of_the_law(seat):
         np.testing.assert_allclose(got[name], want[name], rtol=1e-10, err_msg=name)
 
 
+@pytest.mark.parametrize("sizes", list(SIZES))
+def test_a_plane_below_every_gap_is_solved(sizes):
+    # asperities carry nearly all, and all particles are squeezed to their whole height
+    case = contact("deep", "plane", sizes=sizes)
+    scale = 0.05 if sizes == "gaussian" else 1.0
+    dust = case.particles.diameter.scaled(scale)
+    case = case.replace(particles=case.particles.replace(diameter=dust))
+    d = np.array([-1.5, -0.5, -1e-6, 0.0, 1e-3]) * case.roughness.sigma
+    got, want = own_columns(case, {}, "d", d), tb.solve(case, d=d).columns()
+    assert not np.any(got["status"])
+    for name in ("A_sa", "A_sa2", "F_sa_star", "shadow"):
+        np.testing.assert_allclose(got[name], want[name], rtol=1e-9, err_msg=name)
+
+
 def test_a_load_that_the_slow_path_carries_is_not_too_large_where_formulas_end():
     # nothing is known of soft grains on a plane in no gap: a load that is NaN bounds no load
     case = tb.Contact(

@@ -49,7 +49,7 @@ from .fields import (
     W,
 )  # fmt: skip
 from .sides import branch_of, break_at, breaks, exact, law_at, regime_of_branch, scalar
-from .squeeze import LAST_1, LAST_2, REGIME, TO, particle_at
+from .squeeze import CLOSE, LAST_1, LAST_2, REGIME, TO, particle_at
 
 __all__ = [
     "MOST_HEIGHTS",
@@ -328,7 +328,7 @@ def add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, 
     if gap >= high:
         return True
     edge = panels[p, count - 1, TO]
-    if gap <= 0 and edge >= 1:
+    if gap <= 0 and edge > 1 + CLOSE:
         return False
     if given[p, KIND] == ONE_SIZE:
         _add_one_size(given, sides, panels, p, count, gap, out)
@@ -337,13 +337,13 @@ def add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, 
     for n in range(count + 1):
         # sizes squeezed by the ε of panel n, and last those squeezed beyond
         a, b = max(low, gap), high
-        if n > 0:
+        if gap <= 0 and n < count:
+            continue
+        if gap > 0 and n > 0:
             eps = panels[p, n - 1, TO]
             a = max(a, gap / (1 - eps) if eps < 1 else high)
         if n < count:
             eps = panels[p, n, TO]
-            if gap <= 0:
-                continue
             b = min(b, gap / (1 - eps) if eps < 1 else high)
         while a < b:
             step = span * scale_of(given, p, a)
