@@ -33,7 +33,7 @@ SLOW = 1e5
 """States a second below which a row is told of."""
 TITLE = "## One input that varies, for every law, seat and size"
 ABOUT = (
-    "States a second of one thread, by `benchmarks/engine_matrix.py`: one input varies by ±8 %, and "
+    "States a second of one thread, by `benchmarks/engine_matrix.py`: one input varies by ±8 %, "
     f"the load from F* = {LOADS[0]:g} to {LOADS[1]:g}; every state has its own."
 )
 
