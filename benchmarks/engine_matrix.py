@@ -3,6 +3,7 @@
     python benchmarks/engine_matrix.py                        # all rows, one thread
     python benchmarks/engine_matrix.py --only "plane, hard"   # rows whose name holds these words
     python benchmarks/engine_matrix.py --seconds 0.3 --json found.json --beside before.json
+    python benchmarks/engine_matrix.py --seconds 0.3 --page   # and its part of results.md
 
 One input varies by ±8 %, the load from F* = 1e-6 to 1e-4. Processor time of one thread.
 """
@@ -30,6 +31,11 @@ FEWEST, FIRST, MOST = 24, 256, 200_000
 """States of a block: at least, at first, at most."""
 SLOW = 1e5
 """States a second below which a row is told of."""
+TITLE = "## One input that varies, for every law, seat and size"
+ABOUT = (
+    "States a second of one thread, by `benchmarks/engine_matrix.py`: one input varies by ±8 %, "
+    f"the load from F* = {LOADS[0]:g} to {LOADS[1]:g}; every state has its own."
+)
 
 
 @dataclass
@@ -225,12 +231,20 @@ def told(rows: list[Row], before: dict[str, float]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def write_part(text: str) -> None:
+    """Put the matrix at the end of results.md, in place of the one there."""
+    page = Path(__file__).parent / "results.md"
+    rest = page.read_text("utf-8") if page.exists() else ""
+    page.write_text(f"{rest.partition(TITLE)[0].rstrip()}\n\n{TITLE}\n\n{ABOUT}\n\n{text}", "utf-8")
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--only", default="", help="rows whose name holds these words")
     parser.add_argument("--seconds", type=float, default=2.0, help="of a block")
     parser.add_argument("--json", type=Path, help="file for what is found, which keeps other rows")
     parser.add_argument("--beside", type=Path, help="such a file, for the rates before")
+    parser.add_argument("--page", action="store_true", help="write it into results.md")
     asked = parser.parse_args()
     os.environ["THIRDBODY_THREADS"] = "1"
     warnings.simplefilter("ignore")
@@ -251,6 +265,8 @@ def main() -> None:
             kept[row.name] = asdict(row)
             asked.json.write_text(json.dumps(kept, indent=1) + "\n", "utf-8")
     print("\n" + told(rows, before))
+    if asked.page:
+        write_part(told(rows, before))
 
 
 if __name__ == "__main__":

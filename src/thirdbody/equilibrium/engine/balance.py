@@ -41,11 +41,7 @@ from .fields import (
     SIGMA,
     SIGMA_S,
     SIZE_2,
-    SIZE_NODES,
-    SIZE_RULE,
-    SIZE_SPAN,
     SOFTEST,
-    SPAN,
     STIFFEST,
     TOO_LONG,
     TOO_MUCH,
@@ -57,15 +53,13 @@ from .printed import add_printed, only_falls, printed_bound
 from .seats import (
     GRID_ROWS,
     MOST_NODES,
-    MOST_PIECES,
-    PIECE,
     add_part,
-    lay_nodes,
+    lay_broken,
     lay_pieces,
 )
 from .sides import scalar
 from .squeeze import EDGE, MOST_PANELS, PANEL, SHARE, TO, lay_panels, particle_at
-from .sums import MOST_HEIGHTS, MOST_SIZES, NEAREST, add_skin, lay_sizes, lay_skin, shade
+from .sums import MOST_HEIGHTS, MOST_SIZES, NEAREST, add_skin, lay_skin, shade
 
 __all__ = ["LEVELS", "solve_own"]
 
@@ -76,9 +70,9 @@ COARSE, FINE, LEVELS = 0, 1, 2
 and `every`, numbers and no constants, for which numba would compile what takes them twice."""
 NOTHING = -1
 """In place of a level: nothing is laid."""
-COUNT, GRID, GRID_END, SIZED, SIZED_END, WHOLE, WHOLE_END, PIECES = range(8)
-"""What is laid of a part, a level: its panels; where nodes, sizes and what is whole begin and end;
-its pieces. The row after the last part is of the asperities."""
+COUNT, GRID, GRID_END, SIZED, SIZED_END, WHOLE, WHOLE_END, PIECE_BEGIN, PIECE_END = range(9)
+"""What is laid of a part, a level: its panels; where nodes, sizes, what is whole and pieces begin
+and end. The row after the last part is of the asperities."""
 ASKED = 1e-10
 """Error of loads, areas and the separation over σ that is asked for."""
 SAFE = 10.0
@@ -101,7 +95,7 @@ RISE = 1e-6
 def total(given, skin, work, laid, rules, level, h, out):
     """Columns at h [σ_s] by the nodes of a level; the load, or NaN where formulas do not reach."""
     apart()
-    heights, sides, panels, grid, sizes, shares, _, pieces = work
+    heights, sides, panels, grid, sizes, shares, _ = work
     for k in range(10):
         out[k] = 0.0
     last = len(given)
@@ -118,7 +112,7 @@ def total(given, skin, work, laid, rules, level, h, out):
             add_printed(given, p, gap, rules[level, RULE], rules[level, RULE + 1], nodes, out)
             continue
         good &= add_part(
-            given, sides, panels, p, own, grid, sizes, pieces[p, level], shares, d, rules[level],
+            given, sides, panels, p, own, grid, sizes, shares, d, rules[level],
             out,
         )  # fmt: skip
     if not good:
@@ -127,63 +121,47 @@ def total(given, skin, work, laid, rules, level, h, out):
 
 
 @scalar
-def _lay_broken(given, work, p, count, place, size, kept, rule):
-    """Lay the nodes and sizes of a part that breaks, and what is whole at them.
-
-    Where they end, the last one −1 if there is no room.
-    """
-    apart()
-    _, sides, panels, grid, sizes, shares, _, _ = work
-    first = size
-    size = lay_sizes(
-        given, p, sizes, size, rule[SIZE_RULE], rule[SIZE_RULE + 1], int(rule[0, SIZE_NODES]),
-        rule[0, SIZE_SPAN], 1.0,
-    )  # fmt: skip
-    begin = place
-    place = lay_nodes(given, sides, panels, p, count, grid, place, rule)
-    if size < 0 or place < 0:
-        return begin, first, -1
-    kept = lay_whole(given, panels, p, count, grid, begin, place, sizes, first, size, shares, kept)
-    return place, size, kept
-
-
-@scalar
 def lay(given, skin, work, laid, rules, level):
     """Lay the nodes of one level behind those of the one before; False if there is no room."""
     apart()
-    heights, sides, panels, grid, sizes, _, _, pieces = work
-    nodes, span = int(rules[level, 0, NODES]), rules[level, 0, SPAN]
-    gauss, weights = rules[level, RULE], rules[level, RULE + 1]
+    heights, sides, panels, grid, sizes, shares, _ = work
     last, good = len(given), True
-    place = size = begin = kept = 0
+    place = size = begin = kept = piece = 0
     if level == FINE:
         begin = laid[last, COARSE, GRID_END]
         if last > 0:
-            kept = laid[last - 1, COARSE, WHOLE_END]
-            place, size = laid[last - 1, COARSE, GRID_END], laid[last - 1, COARSE, SIZED_END]
+            before = laid[last - 1, COARSE]
+            place, size, kept = before[GRID_END], before[SIZED_END], before[WHOLE_END]
+            piece = before[PIECE_END]
     laid[last, level, GRID] = begin
     begin = laid[last, level, GRID_END] = lay_skin(
-        skin, heights, begin, MOST_HEIGHTS, gauss, weights, nodes,
-        0.0 * span, NEAREST / skin[0, W],
+        skin, heights, begin, heights.shape[1] // 2, rules[level, RULE], rules[level, RULE + 1],
+        int(rules[level, 0, NODES]), 0.0 * skin[0, W], NEAREST / skin[0, W],
     )  # fmt: skip
     good &= begin >= 0
     for p in range(last):
         own = laid[p, level]
         own[COUNT] = laid[p, COARSE, COUNT]
-        own[GRID], own[SIZED], own[WHOLE] = place, size, kept
+        own[GRID], own[SIZED], own[WHOLE], own[PIECE_BEGIN] = place, size, kept, piece
         if given[p, SEAT] == ROUGH and good:
             if given[p, BREAKS] == 1:
-                place, size, kept = _lay_broken(
-                    given, work, p, own[COUNT], place, size, kept, rules[level]
+                place, size = lay_broken(
+                    given, sides, panels, p, own[COUNT], grid, place, sizes, size, rules[level]
                 )
-                good &= kept >= 0
+                good &= place >= 0 and size >= 0
+                if good:
+                    kept = lay_whole(
+                        given, panels, p, own[COUNT], grid, own[GRID], place, sizes, own[SIZED],
+                        size, shares, kept,
+                    )  # fmt: skip
+                    good &= kept >= 0
             else:
-                own[PIECES], place, size = lay_pieces(
-                    given, sides, panels, p, own[COUNT], grid, place, sizes, size,
-                    pieces[p, level], rules[level],
+                piece, place, size = lay_pieces(
+                    given, sides, panels, p, own[COUNT], grid, place, sizes, size, piece,
+                    rules[level],
                 )  # fmt: skip
-                good &= own[PIECES] >= 0
-        own[GRID_END], own[SIZED_END], own[WHOLE_END] = place, size, kept
+                good &= piece >= 0
+        own[GRID_END], own[SIZED_END], own[WHOLE_END], own[PIECE_END] = place, size, kept, piece
     return good
 
 
@@ -563,9 +541,8 @@ def solve_own(skins, parts, bodies, rules, inside, target, h, count, fate, error
         np.empty((4, MOST_SIZES)),
         np.empty(MOST_WHOLE if inside[0, 0] > 0 else 1),
         inside,
-        np.empty((most, 2, MOST_PIECES, PIECE)),
     )
-    laid = np.zeros((most + 1, 2, 8), np.int64)
+    laid = np.zeros((most + 1, 2, 9), np.int64)
     ready = np.full(1, NOTHING)
     out = np.empty(10)
     for i in range(len(target)):

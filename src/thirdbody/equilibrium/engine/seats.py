@@ -38,9 +38,6 @@ from .fields import (
     SEAT_SPAN,
     SHADE,
     SHADOW,
-    SIZE_NODES,
-    SIZE_RULE,
-    SIZE_SPAN,
     SPAN,
     WIDTH,
 )
@@ -48,15 +45,22 @@ from .sides import exact, scalar, summed
 from .squeeze import EDGE, REGIME, TO, particle_at
 from .sums import ROOT_2PI, above, add_last, add_plane, lay_sizes, shade
 
-__all__ = ["GRID_ROWS", "MOST_NODES", "MOST_PIECES", "PIECE", "add_part", "lay_nodes", "lay_pieces"]
+__all__ = [
+    "GRID_ROWS",
+    "MOST_NODES",
+    "add_part",
+    "lay_broken",
+    "lay_pieces",
+]
 
-MOST_NODES, MOST_PIECES = 16_384, 600
+MOST_NODES = 16_384
 EPS, LOAD, SECOND, LARGER, FIRST = range(5)
 """Rows of the nodes over ε: ε, weighted load, areas on the second surface and the larger one, on
 the first surface by regime, and the sum over sizes."""
-SUM, GRID_ROWS = FIRST + 3, FIRST + 5
-FROM, UNTIL, NODE, NODE_END, SIZE, SIZE_END, PIECE = range(7)
-"""Of a piece of the squeeze: its ends, and where its nodes and its sizes begin and end."""
+SUM = FIRST + 3
+FROM, UNTIL, NODE, NODE_END, SIZE, SIZE_END, GRID_ROWS = range(SUM + 2, SUM + 9)
+"""Of pieces of the squeeze, in more rows: its ends, and where its nodes and its sizes begin and
+end."""
 REACH = 9.5
 """Widths of a seat beyond which nothing is summed."""
 WIDE_SPAN = 2.5
@@ -70,63 +74,48 @@ on; 1 − ε from which on sizes may lie as close as before."""
 
 # ------------------------------------------------------------------------------ once a state
 @scalar
-def _own_scale(given, p):
-    """Spread of the sizes over themselves, as it shows in K; 0 if they end abruptly or break."""
-    if given[p, KIND] == ONE_SIZE or given[p, BREAKS] == 1:
-        return 0.0
-    size = 0.5 * (given[p, LOW] + given[p, HIGH])
-    return scale_of(given, p, size) / size
-
-
-@scalar
-def _lay_node(given, sides, panels, p, n, eps, weight, grid, place):
-    """What a particle carries at ε on panel n, times a weight, as a node."""
-    apart()
-    load, one, two = particle_at(given, sides, panels, p, n, eps)
-    grid[EPS, place] = eps
-    grid[LOAD, place] = weight * load
-    grid[SECOND, place] = weight * two
-    larger = shade(given, p, one, two)
-    if given[p, BREAKS] == 1 and given[p, SHADOW] == PROJECTED:
-        larger += 0.25 * math.pi * given[p, BREADTH]
-    grid[LARGER, place] = weight * larger
-    for k in range(FIRST, SUM):
-        grid[k, place] = 0.0
-    grid[FIRST + int(panels[p, n, REGIME]), place] = weight * one
-
-
-@scalar
 def _lay_between(given, sides, panels, p, n, a, b, grid, place, rule):
-    """Gauss nodes between two ends on panel n; where they end."""
+    """Gauss nodes between two ends on panel n, of what a particle carries; where they end."""
     apart()
-    nodes = int(rule[0, NODES])
-    for j in range(nodes):
+    seen = 0.0
+    if given[p, BREAKS] == 1 and given[p, SHADOW] == PROJECTED:
+        seen = 0.25 * math.pi * given[p, BREADTH]
+    regime = FIRST + int(panels[p, n, REGIME])
+    for j in range(int(rule[0, NODES])):
         x, weight = 1 + rule[RULE, j], rule[RULE + 1, j]
         if a == 0:
             root = 0.5 * math.sqrt(b) * x
             eps, weight = root * root, root * math.sqrt(b) * weight
         else:
             eps, weight = a + 0.5 * (b - a) * x, 0.5 * (b - a) * weight
-        _lay_node(given, sides, panels, p, n, eps, weight, grid, place + j)
-    return place + nodes
+        load, one, two = particle_at(given, sides, panels, p, n, eps)
+        grid[EPS, place] = eps
+        grid[LOAD, place] = weight * load
+        grid[SECOND, place] = weight * two
+        grid[LARGER, place] = weight * (shade(given, p, one, two) + seen)
+        for k in range(FIRST, SUM):
+            grid[k, place] = 0.0
+        grid[regime, place] = weight * one
+        place += 1
+    return place
 
 
 @scalar
-def lay_nodes(given, sides, panels, p, count, grid, begin, rule):
-    """Nodes over ε of particles that break; where they end, or −1."""
+def lay_broken(given, sides, panels, p, count, grid, place, sizes, size, rule):
+    """Nodes over ε and sizes of particles that break; where both end, −1 where there is no room."""
     apart()
-    place, nodes = begin, int(rule[0, NODES])
+    nodes = int(rule[0, NODES])
     step = rule[0, SPAN] * given[p, WIDTH] / given[p, HIGH]
     for n in range(count):
         first, last = panels[p, n, EDGE], panels[p, n, TO]
         parts = max(1, math.ceil((last - first) / step))
         if place + parts * nodes > MOST_NODES:
-            return -1
+            return -1, size
         for m in range(parts):
             a = first + (last - first) * m / parts
             b = first + (last - first) * (m + 1) / parts
             place = _lay_between(given, sides, panels, p, n, a, b, grid, place, rule)
-    return place
+    return place, lay_sizes(given, p, sizes, size, rule, 1.0)
 
 
 @summed
@@ -186,40 +175,41 @@ def _fill_up(grid, place, end):
 
 
 @scalar
-def _cut_squeeze(given, panels, p, count, pieces, rule):
-    """Lay the ends of pieces of the squeeze in which K changes little; how many, or −1."""
+def _cut_squeeze(given, panels, p, count, grid, piece, rule):
+    """Lay the ends of pieces of the squeeze in which K changes little; where they end, or −1."""
     apart()
     span, last = rule[0, SEAT_SPAN], panels[p, count - 1, TO]
-    seat, own = given[p, WIDTH] / given[p, HIGH], _own_scale(given, p)
-    if span < WIDE_SPAN:
-        own = 0.0
-    a, number = 0.0, 0
+    seat, own = given[p, WIDTH] / given[p, HIGH], 0.0
+    if given[p, KIND] != ONE_SIZE and span >= WIDE_SPAN:
+        size = 0.5 * (given[p, LOW] + given[p, HIGH])
+        own = scale_of(given, p, size) / size
+    a = 0.0
     while a < last:
         thin = own * abs(1 - a) / (1 + 0.5 * span * own)  # half a piece further
         step = span * math.sqrt(seat * seat + thin * thin)
         b = a + (ONSET * step if a == 0 else step)
         if b + REST * step > last:
             b = last
-        if number == MOST_PIECES:
+        if piece == MOST_NODES:
             return -1
-        pieces[number, FROM], pieces[number, UNTIL] = a, b
-        number += 1
+        grid[FROM, piece], grid[UNTIL, piece] = a, b
+        piece += 1
         a = b
-    return number
+    return piece
 
 
 @scalar
-def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, pieces, rule):
-    """Lay pieces of the squeeze with their nodes and sizes; how many, and where both end.
+def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, piece, rule):
+    """Lay pieces of the squeeze with their nodes and sizes; where pieces, nodes and sizes end.
 
-    −1 pieces where there is no room.
+    −1 for pieces where there is no room.
     """
     apart()
-    number = _cut_squeeze(given, panels, p, count, pieces, rule)
+    until = _cut_squeeze(given, panels, p, count, grid, piece, rule)
     nodes, most = int(rule[0, NODES]), int(rule[0, SEAT_NODES])
     panel, closest = int(panels[p, 0, EDGE]), 0.0  # 0, and no constant
-    for s in range(number):
-        a, b = pieces[s, FROM], pieces[s, UNTIL]
+    for s in range(piece, until):
+        a, b = grid[FROM, s], grid[UNTIL, s]
         while panel < count - 1 and panels[p, panel, TO] <= a:
             panel += 1
         parts, n = 1, panel
@@ -236,25 +226,25 @@ def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, pieces,
         if begin > place:
             _gather(grid, place, begin, end, a, b, rule)
             end = place + most
-        else:
-            end = _fill_up(grid, place, end)
-        pieces[s, NODE], pieces[s, NODE_END] = place, end
+        while (end - place) % VECTOR != 0:  # nodes that carry nothing
+            for row in range(LOAD, SUM):
+                grid[row, end] = 0.0
+            grid[EPS, end] = grid[EPS, end - 1]
+            end += 1
+        grid[NODE, s], grid[NODE_END, s] = place, end
         place = end
         # sizes as close as a gap shows them at the least squeeze of the piece
         widest = max(abs(1 - a), abs(1 - b))
-        if not ALIKE * closest <= widest <= closest:
-            closest = widest
-            first = size
-            size = lay_sizes(
-                given, p, sizes, size, rule[SIZE_RULE], rule[SIZE_RULE + 1],
-                int(rule[0, SIZE_NODES]), rule[0, SIZE_SPAN], widest,
-            )  # fmt: skip
-            if size < 0:
-                return -1, place, size
-            pieces[s, SIZE], pieces[s, SIZE_END] = first, size
-        else:
-            pieces[s, SIZE], pieces[s, SIZE_END] = pieces[s - 1, SIZE], pieces[s - 1, SIZE_END]
-    return number, place, size
+        if ALIKE * closest <= widest <= closest:
+            grid[SIZE, s], grid[SIZE_END, s] = grid[SIZE, s - 1], grid[SIZE_END, s - 1]
+            continue
+        closest = widest
+        grid[SIZE, s] = size
+        size = lay_sizes(given, p, sizes, size, rule, widest)
+        if size < 0:
+            return -1, place, size
+        grid[SIZE_END, s] = size
+    return until, place, size
 
 
 # ------------------------------------------------------------------------------ at a separation
@@ -278,16 +268,16 @@ def _sum_whole(grid, begin, end, sizes, first, last, gap, width, shares, place, 
 
 
 @exact
-def _sum_sizes(grid, sizes, pieces, s, gap, width):
+def _sum_sizes(grid, sizes, s, gap, width):
     """K on a piece: over sizes, x³ times the density of the seat, into the last row."""
     apart()
-    begin, end = int(pieces[s, NODE]), int(pieces[s, NODE_END])
-    thick, thin = 1 - pieces[s, FROM], 1 - pieces[s, UNTIL]
+    begin, end = int(grid[NODE, s]), int(grid[NODE_END, s])
+    thick, thin = 1 - grid[FROM, s], 1 - grid[UNTIL, s]
     low, high = gap - REACH * width, gap + REACH * width
     eps, total = grid[EPS, begin:end], grid[SUM, begin:end]
     for i in range(len(total)):
         total[i] = 0.0
-    for j in range(int(pieces[s, SIZE]), int(pieces[s, SIZE_END])):
+    for j in range(int(grid[SIZE, s]), int(grid[SIZE_END, s])):
         x = sizes[0, j]
         if not (x * thick > low and x * thin < high):
             continue
@@ -311,34 +301,28 @@ def _add_nodes(given, p, grid, begin, end, out):
 
 
 @scalar
-def _squared(given, p, sizes, first, last, thick, gap):
-    """Sum of the squares of sizes whose part of this thickness reaches the gap."""
+def _squared(given, p, grid, sizes, s, thick, gap):
+    """Sum of the squares of sizes of a piece whose part of this thickness reaches the gap."""
     apart()
     total = 0.0
-    for j in range(first, last):
+    for j in range(int(grid[SIZE, s]), int(grid[SIZE_END, s])):
         x = sizes[0, j]
         total += sizes[1, j] * x * x * above((x * thick - gap) / given[p, WIDTH])
     return given[p, DENSITY] * total
 
 
 @scalar
-def _add_rough(given, sides, panels, p, count, grid, sizes, pieces, number, gap, out):
+def _add_rough(given, sides, panels, p, count, grid, sizes, piece, until, gap, out):
     """What a part carries on a rough seat, into the columns of the particles."""
     apart()
-    for s in range(number):
-        _sum_sizes(grid, sizes, pieces, s, gap, given[p, WIDTH])
-        _add_nodes(given, p, grid, int(pieces[s, NODE]), int(pieces[s, NODE_END]), out)
-    last = number - 1
-    squeezed = _squared(
-        given, p, sizes, int(pieces[last, SIZE]), int(pieces[last, SIZE_END]),
-        1 - panels[p, count - 1, TO], gap,
-    )  # fmt: skip
+    for s in range(piece, until):
+        _sum_sizes(grid, sizes, s, gap, given[p, WIDTH])
+        _add_nodes(given, p, grid, int(grid[NODE, s]), int(grid[NODE_END, s]), out)
+    thin = 1 - panels[p, count - 1, TO]
+    squeezed = _squared(given, p, grid, sizes, until - 1, thin, gap)
     add_last(given, sides, panels, p, count, squeezed, out)
     if given[p, SHADOW] == PROJECTED:
-        touched = _squared(
-            given, p, sizes, int(pieces[0, SIZE]), int(pieces[0, SIZE_END]),
-            1 - pieces[0, FROM], gap,
-        )  # fmt: skip
+        touched = _squared(given, p, grid, sizes, piece, 1 - grid[FROM, piece], gap)
         out[SHADE] += 0.25 * math.pi * given[p, BREADTH] * touched
 
 
@@ -373,7 +357,7 @@ def _add_broken(given, sides, panels, p, count, grid, own, sizes, gap, shares, o
 
 
 @scalar
-def add_part(given, sides, panels, p, own, grid, sizes, pieces, shares, d, rule, out):
+def add_part(given, sides, panels, p, own, grid, sizes, shares, d, rule, out):
     """What part p carries at a separation d [m]; False where its formulas do not reach.
 
     ``own`` says what of it is laid: panels; where nodes, sizes and what is whole begin and end;
@@ -391,5 +375,5 @@ def add_part(given, sides, panels, p, own, grid, sizes, pieces, shares, d, rule,
     if given[p, BREAKS] == 1:
         _add_broken(given, sides, panels, p, count, grid, own, sizes, gap, shares, out)
     else:
-        _add_rough(given, sides, panels, p, count, grid, sizes, pieces, own[7], gap, out)
+        _add_rough(given, sides, panels, p, count, grid, sizes, own[7], own[8], gap, out)
     return True

@@ -100,7 +100,7 @@ def inverse(sides, i, load):
     """Indentation over x at which a side first carries a load below its limit."""
     apart()
     count = int(sides[i, COUNT])
-    n = 0
+    n = count - count  # no constant, for which numba would compile twice
     below = at = 0.0
     while n < count:
         below, at = around(sides, i, n)

@@ -43,6 +43,9 @@ from .fields import (
     SHADOW,
     SHAPE,
     SIZE_1,
+    SIZE_NODES,
+    SIZE_RULE,
+    SIZE_SPAN,
     SPREAD,
     STEP,
     WIDTH,
@@ -212,12 +215,14 @@ def _lay_pieces(given, p, sizes, count, gauss, weights, nodes, span, low, high):
 
 
 @scalar
-def lay_sizes(given, p, sizes, begin, gauss, weights, nodes, span, thick):
+def lay_sizes(given, p, sizes, begin, rule, thick):
     """Nodes over sizes on a rough seat: x and weight; where they end, or −1.
 
     The gap shows ``thick`` times a size, which is 1 − ε.
     """
     apart()
+    gauss, weights = rule[SIZE_RULE], rule[SIZE_RULE + 1]
+    nodes, span = int(rule[0, SIZE_NODES]), rule[0, SIZE_SPAN]
     if given[p, KIND] == ONE_SIZE:
         x = given[p, SIZE_1]
         sizes[0, begin], sizes[1, begin] = x, 1.0
@@ -307,7 +312,7 @@ def _add_one_size(given, sides, panels, p, count, gap, out):
     eps = (x - gap) / x
     if eps <= 0:
         return
-    n = 0
+    n = count - count  # no constant, for which numba would compile twice
     while n < count and eps > panels[p, n, TO]:
         n += 1
     if n < count:
