@@ -27,6 +27,8 @@ LEAST = 1e-13
 """Smallest squeeze of a table."""
 NEAR = 1e-13
 """Part of a stretch by which its ends stay off the squeezes where formulas change."""
+ROUNDED = 1e-12
+"""Between two kinks, relative, below which they are one."""
 CLOSE = 1e-8
 """Relative error of a value at the squeeze that is read for it."""
 ROUNDS, MOST = 60, 20_000
@@ -79,16 +81,18 @@ class Curve:
 
     def __init__(self, f: Callable[[Array], Array], kinks: Sequence[float], power: int = 1):
         self.power = power
-        edges = sorted({LEAST, 1.0, *(float(k) for k in kinks if k > LEAST)})
+        ends = sorted({LEAST, 1.0, *(float(k) for k in kinks if k > LEAST)})
+        # those that rounding alone holds apart are one
+        edges = [b for a, b in pairwise([0.0, *ends]) if b - a > ROUNDED * b]
         edges.append(4 * edges[-1])
         top = float(np.max(f(np.array(edges))))
         parts = [_tabulated(f, a, b, top) for a, b in pairwise(edges)]
         eps, values = (np.concatenate([part[i] for part in parts]) for i in (0, 1))
         seams = np.cumsum([len(part[0]) for part in parts])[:-1]
         self.runs = tuple(_runs(eps, values, seams))
-        ends = [v for _, part in parts for v in (part[0], part[-1])]
-        ends += [end for run in self.runs for end in (run.low, run.high)]
-        found = np.unique([end for end in ends if end > 0])
+        found_at = [v for _, part in parts for v in (part[0], part[-1])]
+        found_at += [end for run in self.runs for end in (run.low, run.high)]
+        found = np.unique([end for end in found_at if end > 0])
         self.seams = found[np.diff(found, prepend=-1.0) > CLOSE * found]
         """Values at which the squeeze of a value may jump or bend."""
         self.top = float(np.max(values))
