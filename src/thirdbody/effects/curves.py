@@ -165,8 +165,8 @@ def _cubics(roots: Array, eps: Array, place: NDArray[np.intp]) -> Array:
     a, b = eps[row, place], eps[row, place + 1]
     with np.errstate(all="ignore"):
         u = (roots - here[:, None]) / step[:, None]
+        good = np.all(np.diff(u, axis=1) > 0, axis=1) & (np.abs(u).max(axis=1) < 1e6)
     straight = np.stack([a, b - a, 0 * a, 0 * a], axis=1)
-    good = np.all(np.diff(u, axis=1) > 0, axis=1) & (np.abs(u).max(axis=1) < 1e6)
     # divided differences, then powers of u
     out = straight
     n, e = u[good], eps[good].copy()
