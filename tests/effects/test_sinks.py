@@ -156,3 +156,13 @@ def test_finer_sums(ratio):
     one, two = solved(ratio, FRICTION), solved(ratio, Finer(**fields))
     for column in one:
         assert two[column] == pytest.approx(one[column], rel=1e-4, abs=1e-9), column
+
+
+def test_kinks_that_rounding_holds_apart_are_one():
+    """A disc may end where the planes meet, at a squeeze of 1 to rounding."""
+    from thirdbody.effects.curves import Curve
+
+    for kink in (1 - 2e-16, 1 + 2e-16):
+        curve = Curve(lambda eps: np.sin(np.minimum(eps, 1.0)), [0.5, kink])
+        found = curve.first(np.sin([0.25, 0.75]))
+        assert found == pytest.approx([0.25, 0.75], rel=1e-7)

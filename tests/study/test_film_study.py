@@ -324,12 +324,12 @@ def test_the_command_tells_point_and_curve():
     done = run(EXAMPLE, "--set", "film.speed=0.5 m/s")
     assert done.exit_code == 0
     assert "128 nm" in done.stdout
-    assert "0.03841" in done.stdout
-    assert "S45C: 0 % of the particles are narrower than the gap of 122.6 nm" in done.stdout
+    assert "0.03813" in done.stdout
+    assert "S45C: 0 % of the particles are narrower than the gap of 122.7 nm" in done.stdout
     assert "squeezed by more than 0.15 of their radius" in done.stderr
     done = run(EXAMPLE, "--set", "film.speed.points=5")
     assert (
-        "boundary up to 0.03041 m/s, where solids carry 99 % of the load, and a full film from "
+        "boundary up to 0.03056 m/s, where solids carry 99 % of the load, and a full film from "
         "12.55 m/s, where solids carry 1 % of the load."
     ) in " ".join(done.stdout.split())
     assert "below 1 sigma roughness hinders the flow" in done.stderr
@@ -343,7 +343,7 @@ def test_the_command_tells_point_and_curve():
             0.01,
             "because there is no speed at which solids carry 100 % of the load, and a full film",
         ),
-        (0.99, 0, "Lubrication is boundary up to 0.03041 m/s, where solids carry 99 % of the"),
+        (0.99, 0, "Lubrication is boundary up to 0.03056 m/s, where solids carry 99 % of the"),
         (1, 0, "and never a full film, because there is none at which solids carry 0 % of"),
     ],
 )

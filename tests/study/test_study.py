@@ -1159,8 +1159,8 @@ def test_what_the_examples_say():
     assert soft["d"][1] < hard["d"][1]
     assert sphere["particle_load_share"][0] < 0.5
     small = run_study(load_study(example("nanoparticle_additive")))["states"]
-    assert small["particle_load_share"][0] == pytest.approx(0.09, abs=0.005)
-    assert small["particle_load_share"][-1] == pytest.approx(0.06, abs=0.005)
+    assert small["particle_load_share"][0] == pytest.approx(0.08, abs=0.005)
+    assert small["particle_load_share"][-1] == pytest.approx(0.05, abs=0.005)
     debris = run_study(load_study(example("bearing_wear_debris")))["states"]
     assert debris["particle_load_share"][0] > 0.999
     both = run_study(load_study(example("dust_and_debris"), ["load.pressure=[80e3, 3.5e5, 6e5]"]))

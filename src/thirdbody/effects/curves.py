@@ -91,9 +91,9 @@ class Curve:
         eps, values = (np.concatenate([part[i] for part in parts]) for i in (0, 1))
         seams = np.cumsum([len(part[0]) for part in parts])[:-1]
         self.runs = tuple(_runs(eps, values, seams))
-        ends = [v for _, part in parts for v in (part[0], part[-1])]
-        ends += [end for run in self.runs for end in (run.low, run.high)]
-        found = np.unique([end for end in ends if end > 0])
+        found_at = [v for _, part in parts for v in (part[0], part[-1])]
+        found_at += [end for run in self.runs for end in (run.low, run.high)]
+        found = np.unique([end for end in found_at if end > 0])
         self.seams = found[np.diff(found, prepend=-1.0) > CLOSE * found]
         """Values at which the squeeze of a value may jump or bend."""
         self.top = float(np.max(values))
@@ -166,8 +166,8 @@ def _cubics(roots: Array, eps: Array, place: NDArray[np.intp]) -> Array:
     a, b = eps[row, place], eps[row, place + 1]
     with np.errstate(all="ignore"):
         u = (roots - here[:, None]) / step[:, None]
+        good = np.all(np.diff(u, axis=1) > 0, axis=1) & (np.abs(u).max(axis=1) < 1e6)
     straight = np.stack([a, b - a, 0 * a, 0 * a], axis=1)
-    good = np.all(np.diff(u, axis=1) > 0, axis=1) & (np.abs(u).max(axis=1) < 1e6)
     # divided differences, then powers of u
     out = straight
     n, e = u[good], eps[good].copy()
