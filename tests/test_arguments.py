@@ -200,7 +200,7 @@ def test_words_of_single_contacts_are_refused():
         lambda: heat.sphere_resistance(0.1, a_2=0.1, r=1.0, k=1.0, ends="uniform"),
         lambda: dent.sink(SILICA, hardness=1e9, debris="soft"),
     ):
-        with pytest.raises(tb.InvalidValue, match=r"^\w+ = '.*' must be one of "):
+        with pytest.raises(tb.InvalidValue, match=r"^\w+ = '.*' must be (one of )?['(]"):
             call()
 
 
@@ -213,9 +213,9 @@ def test_a_side_of_an_oil_that_does_not_exist_is_refused():
     )
     for call in (oil.dents, lambda side: oil.largest(1e-6, side=side)):
         for side in (0, 3, -1, 1.5, True, None):
-            with pytest.raises(tb.InvalidValue, match=r"^side = .* must be one of 1, 2$"):
+            with pytest.raises(tb.InvalidValue, match=r"^side = .* must be 1 or 2$"):
                 call(side)
-    with pytest.raises(tb.InvalidValue, match=r"^side = -1 must be one of 0, 1$"):
+    with pytest.raises(tb.InvalidValue, match=r"^side = -1 must be 0 or 1$"):
         oil.sinks(-1)
     with pytest.raises(tb.InvalidValue, match=r"^area = nan must be finite and >= 0$"):
         oil.largest(float("nan"))

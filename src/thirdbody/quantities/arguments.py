@@ -82,12 +82,13 @@ def need_one(name: str, value: Any, *options: str | int) -> None:
     --------
     >>> need_one("basis", "loads", "area", "load")
     Traceback (most recent call last):
-    thirdbody.errors.InvalidValue: basis = 'loads' must be one of 'area', 'load'
+    thirdbody.errors.InvalidValue: basis = 'loads' must be 'area' or 'load'
     """
     if not (type(value) in (str, int) or isinstance(value, np.integer)) or value not in options:
-        known = ", ".join(map(repr, options))
+        two = len(options) == 2
+        known = (" or " if two else ", ").join(map(repr, options))
         shown = repr(value) if isinstance(value, str) else _shown(value)
-        raise InvalidValue(f"{name} = {shown} must be one of {known}")
+        raise InvalidValue(f"{name} = {shown} must be {'' if two else 'one of '}{known}")
 
 
 def need_place(name: str, value: Any, count: int) -> None:
