@@ -44,6 +44,10 @@ class NoTransition(ThirdBodyError, RuntimeError):
     """The contact mode does not change inside the loads searched."""
 
 
+class WrongKind(InvalidValue):
+    """Arguments that are not what a signature says; an outer function may know them better."""
+
+
 class NotCompiled(Exception):
     """The compiled engine does not know these inputs, and why; the NumPy engine takes them.
 

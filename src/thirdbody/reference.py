@@ -14,6 +14,7 @@ from scipy import special
 from scipy.special import elliprd, elliprf
 
 from .errors import InvalidValue
+from .quantities.arguments import need_positive
 from .quantities.carried import takes_units
 
 if TYPE_CHECKING:
@@ -169,6 +170,7 @@ class SummitSum(NamedTuple):
 
 def _touching(h: ArrayLike, eta: float, sigma_s: float, R: float) -> Array:
     """n_0 = ηRσ_s exp(−h − 1): π n_0 is the elastic area."""
+    need_positive(eta=eta, sigma_s=sigma_s, R=R)
     h = np.asarray(h, dtype=float)
     if np.any(h < -1):
         raise InvalidValue(

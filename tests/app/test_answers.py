@@ -70,7 +70,7 @@ def test_particles_that_a_contact_meets_are_counted():
     found = press(study.contact, study.body, 20.0, integrate=False)
     every = sum(dust.areal_density for dust in study.contact.populations)
     assert found.particles_held == pytest.approx(every * found.area, rel=1e-12)
-    assert "One contact in 31 000 meets a particle" in found.sentence()
+    assert "One contact in 31000 meets a particle" in found.sentence()
     clean = study.contact.replace(particles=None)
     assert press(clean, study.body, 20.0, integrate=False).particles_held is None
     crowd = study.contact.populations[0].replace(areal_density=1e9)
@@ -95,7 +95,7 @@ def test_the_section_shows_no_more_particles_than_a_contact_holds(tmp_path):
     bad, (svg, caption, *_) = _drawn(BALL, tmp_path)
     assert not bad
     assert svg.count('class="grain') == 1
-    assert "One contact in 31 000 meets a particle" in caption
+    assert "One contact in 31000 meets a particle" in caption
     assert "deep" not in caption
     free = {key: value for key, value in BALL.items() if key != "body"}
     _, (svg, caption, *_) = _drawn(free | {"load": {"pressure": "1 GPa"}}, tmp_path)

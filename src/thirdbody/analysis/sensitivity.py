@@ -28,6 +28,7 @@ from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue
 from ..quantities import notebook
+from ..quantities.arguments import need_place
 from ..quantities.carried import takes_units
 from ..quantities.progress import watched
 from .differences import FULL, QUICK, Entry, Places, Rule
@@ -114,7 +115,14 @@ class Sensitivity:
         ----------
         at : int, optional
             Number of the load, where several were given.
+
+        Raises
+        ------
+        InvalidValue
+            There is no such load.
         """
+        counts = [np.size(each) for row in self.elasticity.values() for each in row.values()]
+        need_place("at", at, max(counts, default=1))
 
         def one(value: Any) -> float:
             return float(value if np.ndim(value) == 0 else value[at])

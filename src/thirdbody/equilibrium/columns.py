@@ -15,9 +15,10 @@ from ..contact.contact import Contact
 from ..contact.output import column
 from ..errors import InvalidValue
 from ..quantities import notebook
+from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
 from ..version import __version__
-from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S
+from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S, need_shares
 from .status import WORDS
 
 if TYPE_CHECKING:
@@ -209,7 +210,22 @@ class Equilibrium:
     def modes(
         self, *, eps_1: float = EPS_1, eps_2: float = EPS_2, basis: str = "area"
     ) -> str | NDArray[np.str_]:
-        """Contact mode with other thresholds, by area (as in the paper) or by load."""
+        """Contact mode with other thresholds, by area (as in the paper) or by load.
+
+        Parameters
+        ----------
+        eps_1, eps_2 : float, optional
+            Thresholds, as of `thirdbody.transitions` [1].
+        basis : {"area", "load"}, optional
+            Whose shares are compared.
+
+        Raises
+        ------
+        InvalidValue
+            A threshold outside 0 to 1, another basis.
+        """
+        need_shares(eps_1=eps_1, eps_2=eps_2)
+        need_one("basis", basis, "area", "load")
         share = self.particle_area_share if basis == "area" else self.particle_load_share
         return _mode(share, eps_1, eps_2)
 

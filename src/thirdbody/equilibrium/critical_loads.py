@@ -89,6 +89,8 @@ def critical_loads(
     >>> bool(np.all(np.diff(loads) < 0)), str(status[0])
     (True, 'found')
     """
+    if not (isinstance(count, (int, np.integer)) and count > 0):
+        raise InvalidValue(f"count = {count!r} must be a whole number above 0")
     contact, vary = carrying(contact, vary)
     if contact.two_body:
         raise InvalidValue("a contact without particles has no critical loads")

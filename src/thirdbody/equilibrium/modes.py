@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-__all__ = ["EPS_1", "EPS_2", "FAINT", "HYBRID", "P_S", "S_S", "WINDOW"]
+from ..errors import InvalidValue
+
+__all__ = ["EPS_1", "EPS_2", "FAINT", "HYBRID", "P_S", "S_S", "WINDOW", "need_shares"]
 
 P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
 EPS_1, EPS_2 = 0.02, 0.05
@@ -11,3 +13,20 @@ WINDOW = (1e-8, 1e-2)
 """Loads F* between which critical loads are sought."""
 FAINT = 1e-12
 """The load F* that counts as nothing."""
+
+
+def need_shares(**shares: float) -> None:
+    """Refuse thresholds that are no shares.
+
+    Raises
+    ------
+    InvalidValue
+        A sentence for each that does not lie between 0 and 1.
+    """
+    problems = [
+        f"{name} = {share!r} must lie between 0 and 1"
+        for name, share in shares.items()
+        if not 0 < share < 1
+    ]
+    if problems:
+        raise InvalidValue(*problems)

@@ -13,9 +13,10 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import InvalidValue
 from ..quantities import notebook
+from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
 from .load_scan import load_scan
-from .modes import EPS_1, EPS_2, WINDOW
+from .modes import EPS_1, EPS_2, WINDOW, need_shares
 from .words import happens
 
 __all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]
@@ -186,11 +187,8 @@ def transitions(
     low, high = (float(load) for load in window)
     if not 0 < low < high:
         raise InvalidValue(f"window = {window!r} must be two loads F* with 0 < first < second")
-    if basis not in ("area", "load"):
-        raise InvalidValue(f"basis = {basis!r} must be 'area' or 'load'")
-    for name, eps in (("eps_1", eps_1), ("eps_2", eps_2)):
-        if not 0 < eps < 1:
-            raise InvalidValue(f"{name} = {eps!r} must lie between 0 and 1")
+    need_one("basis", basis, "area", "load")
+    need_shares(eps_1=eps_1, eps_2=eps_2)
     if contact.two_body:
         none = Critical(value=None, status="none")
         two_body = TurningPoint(none, none, none)

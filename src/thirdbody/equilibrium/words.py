@@ -82,7 +82,7 @@ def mode_among(mode: str | None, held: float) -> str:
     a mode in which asperities carry is that of the contacts too.
 
     >>> mode_among("p-s", 8.3e-5)
-    'one contact in 12 000 meets a particle, and the others are as without particles'
+    'one contact in 12000 meets a particle, and the others are as without particles'
     >>> mode_among("hybrid", 20.0), mode_among("s-s", 8.3e-5) == mode_of("s-s")
     ('real contact is on particles and on asperities (hybrid)', True)
     """
@@ -135,7 +135,7 @@ def meets(count: float) -> str:
     exp(−count).
 
     >>> meets(3.2e-5), meets(0.5), meets(1.0)
-    ('one contact in 31 000 meets a particle', '39 % of the contacts meet a particle', '')
+    ('one contact in 31000 meets a particle', '39 % of the contacts meet a particle', '')
     """
     if not 0 < count < 1:
         return ""
@@ -143,7 +143,8 @@ def meets(count: float) -> str:
     if share > FEW:
         return f"{percent(share, digits=2)} of the contacts meet a particle"
     every = float(f"{1 / share:.2g}")
-    said = f"{every:,.0f}".replace(",", " ") if every < MANY else number(every, 2)
+    # no gap between thousands: a line that breaks there would say another number
+    said = f"{every:.0f}" if every < MANY else number(every, 2)
     return f"one contact in {said} meets a particle"
 
 

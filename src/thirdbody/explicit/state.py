@@ -11,6 +11,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..equilibrium.columns import COLUMNS as OF_EQUILIBRIUM
 from ..quantities import notebook
+from ..quantities.arguments import names_arguments
 from ..quantities.files import whole
 from .seats import SeatHeights
 
@@ -99,6 +100,7 @@ class ExplicitState:
         # figures stand above the physics, which never needs them: found only when asked for
         return import_module("thirdbody.views.plot").explicit(self)
 
+    @names_arguments
     def to_netcdf(self, path: str | os.PathLike[str]) -> None:
         """Maps and particles in one NetCDF file.
 

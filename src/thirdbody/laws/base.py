@@ -26,6 +26,7 @@ import numpy as np
 from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule
 from ..populations.shape import Sphere
+from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
 from ..quantities.say import value_of
 from ..quantities.value import Value, choice, quantity
@@ -214,6 +215,7 @@ class AbstractAsperityLaw(Law):
     # ---------------------------------------------------------------- reduced form
     def reduced(self, quantity: str, y: ArrayLike) -> Array:
         """f(y), a(y) or df/dy (``"force"``, ``"area"``, ``"stiffness"``); zero without contact."""
+        need_one("quantity", quantity, "force", "area", "stiffness")
         y = np.asarray(y, dtype=float)
         out = np.zeros_like(y)
         start = self.start

@@ -33,7 +33,7 @@ def panel_rule(edges: Array, n: int) -> tuple[Array, Array]:
     nodes, weights = gauss_legendre(n)
     half = 0.5 * (edges[..., 1:] - edges[..., :-1])[..., None]
     middle = 0.5 * (edges[..., 1:] + edges[..., :-1])[..., None]
-    shape = (*edges.shape[:-1], -1)
+    shape = (*edges.shape[:-1], (edges.shape[-1] - 1) * len(nodes))
     return (middle + half * nodes).reshape(shape), (half * weights).reshape(shape)
 
 

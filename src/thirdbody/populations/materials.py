@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InvalidValue
+from ..quantities.arguments import names_arguments
 from ..quantities.files import read_bytes
 from ..quantities.value import Value, quantity
 
@@ -237,6 +238,7 @@ class MaterialLibrary(Mapping[str, Material]):
             out |= own
         return out
 
+    @names_arguments
     def load(self, *files: str | os.PathLike[str]) -> MaterialLibrary:
         """A library with the materials of one's own files beside these.
 
@@ -277,6 +279,7 @@ class MaterialLibrary(Mapping[str, Material]):
         library.entries()
         return library
 
+    @names_arguments
     def search(self, query: str = "") -> list[str]:
         """Names of the entries in which every word of the query stands.
 
@@ -312,6 +315,7 @@ class MaterialLibrary(Mapping[str, Material]):
         found = difflib.get_close_matches(str(name).casefold(), known, n=1, cutoff=0.6)
         return known[found[0]] if found else None
 
+    @names_arguments
     def __getitem__(self, name: str) -> Material:
         entries = self.entries()
         if name not in entries:

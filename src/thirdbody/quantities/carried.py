@@ -25,6 +25,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..errors import InvalidValue
+from .arguments import FAILURES, refuse_misfits
 from .kinds import kind_of, needed, registry, spelled
 
 __all__ = ["carries_unit", "in_si", "takes_units"]
@@ -210,7 +211,9 @@ def takes_units(function: F) -> F:
     """A function that converts arguments which carry a unit, or refuses them.
 
     The unit of each stands in the docstring, in brackets; that of an input in ``vary`` is known to
-    the contact. Arguments without a unit are passed on as they are.
+    the contact. Arguments without a unit are passed on as they are; where the function fails on
+    one that is not what its signature says, that one is named
+    (`thirdbody.quantities.arguments`).
 
     Raises
     ------
@@ -250,7 +253,14 @@ def takes_units(function: F) -> F:
             args, named = _all_in_si(function, args, named)
         if any(map(_may_be_none, args)) or (named and any(map(_may_be_none, named.values()))):
             _refuse_no_numbers(function, args, named)
-        return function(*args, **named)
+        try:
+            return function(*args, **named)
+        except FAILURES as error:
+            owner: type = type(args[0]) if args else object
+            units = units_of(function, owner)
+            quantities = {name for name, unit in units.items() if unit}
+            refuse_misfits(error, function, args, named, numbers=quantities)
+            raise
 
     with_units.takes_units = True  # type: ignore[attr-defined]
     return with_units  # type: ignore[return-value]

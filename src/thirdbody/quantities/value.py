@@ -18,6 +18,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from ..errors import InvalidValue, NotCompiled, tell_of_range
+from .arguments import FAILURES, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 
 if TYPE_CHECKING:
@@ -255,12 +256,20 @@ class Value:
                     continue
                 if not (why := problem_with(about, value)):
                     object.__setattr__(self, name, float(value))
-            elif words and value not in words["options"]:
+            elif words and not (isinstance(value, str) and value in words["options"]):
                 why = f"must be one of {', '.join(map(repr, words['options']))}"
             if why:
-                problems.append(f"{type(self).__name__}.{name} = {value!r} {why}")
+                shown = " ".join(repr(value).split())
+                shown = shown if len(shown) <= 100 else shown[:96] + " ..."
+                problems.append(f"{type(self).__name__}.{name} = {shown} {why}")
         if not problems:
-            problems = self._problems()
+            try:
+                problems = self._problems()
+            except FAILURES as error:
+                kind = type(self)
+                held = {name: getattr(self, name) for name in kind.__dataclass_fields__}  # type: ignore[attr-defined]
+                refuse_misfits(error, kind, (), held, where=f"{kind.__name__}.")
+                raise
         if problems:
             raise InvalidValue(*problems)
 
@@ -304,6 +313,7 @@ class Value:
             object.__setattr__(out, item.name, changes.get(item.name, getattr(self, item.name)))
         return out
 
+    @names_arguments
     def part(self, path: str) -> Any:
         """What a dotted name stands for: a field, or an item of a tuple by place or name."""
         where: Any = self
@@ -316,6 +326,7 @@ class Value:
                 raise InvalidValue(f"{type(self).__name__} has no {path!r}")
         return where
 
+    @names_arguments
     def with_arrays(self, changes: Mapping[str, NDArray[np.float64]]) -> Self:
         """A stand-in that holds an array (N,) in some of its quantities, one value a state.
 
@@ -374,6 +385,7 @@ class Value:
         return out
 
     @staticmethod
+    @names_arguments
     def from_dict(data: dict[str, Any]) -> Any:
         """The inverse of `to_dict`."""
         kind = data.get("type")

@@ -20,6 +20,7 @@ from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue
 from ..populations.measured.topography import Topography
+from ..quantities.arguments import names_arguments
 from ..quantities.value import slips_are_told
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
@@ -96,6 +97,7 @@ class Study:
         return solve(self.contact, **given)
 
 
+@names_arguments
 def load_study(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> Study:
     """Read a study file.
 

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..laws.base import Law
+from ..quantities.arguments import need_positive
 from ..quantities.value import choice
 from .conjunctions import Hertz, Line, Oil, Point
 
@@ -222,6 +223,7 @@ def kappa(ratio: float) -> float:
     >>> kappa(1.0)
     1.0
     """
+    need_positive(ratio=ratio)
     return float(ratio ** (-2 / math.pi))
 
 

@@ -35,6 +35,7 @@ from ..populations.distributions import Distribution
 from ..populations.materials import Material, MaterialPair
 from ..populations.measured.cleanliness import suspension_of_iso4406
 from ..populations.strength import WeibullStrength
+from ..quantities.arguments import need_one
 from ..quantities.say import number, percent, value_of
 from ..quantities.units import to_si
 from ..quantities.value import Value, choice, quantity
@@ -338,6 +339,7 @@ class FilmParticles(Value):
     # -------------------------------------------------------------------------- dents
     def sinks(self, side: int) -> bool:
         """Whether it is known how deep the particles sit in surface 1 (side 0) or 2 (side 1)."""
+        need_one("side", side, 0, 1)
         one = self._particle()
         H, known = one.sides[side].H, one.knows_sink[side]
         return not math.isnan(sink(self.material, hardness=H, debris=self.debris, computed=known))
@@ -457,8 +459,7 @@ class FilmParticles(Value):
         RangeWarning
             The particles are not harder than the surface.
         """
-        if side not in (1, 2):
-            raise InvalidValue(f"side = {side!r} must be 1 or 2")
+        need_one("side", side, 1, 2)
         if not self.sinks(side - 1):
             if self.debris != "ductile":
                 tell_of_range(self._flat_sentence(side))
@@ -481,7 +482,7 @@ class FilmParticles(Value):
             volume=float(self.columns_of_oil * spots.total(dent.volume)[0]),
             depth_p95=float(deep.depth[0, 0]),
             diameter_p95=float(deep.diameter[0, 0]),
-            embedded=float(spots.total(stay.astype(float))[0] / count),
+            embedded=min(1.0, float(spots.total(stay.astype(float))[0] / count)),
         )
 
     def _footprints(self, side: int) -> FilmDents:
@@ -523,7 +524,20 @@ class FilmParticles(Value):
             N [1].
         side : int, optional
             1 or 2.
+
+        Raises
+        ------
+        InvalidValue
+            Another side; a surface or a number of overrollings below 0, or not finite.
         """
+        need_one("side", side, 1, 2)
+        problems = [
+            f"{name} = {value!r} must be finite and >= 0"
+            for name, value in (("area", area), ("overrollings", overrollings))
+            if not 0 <= value < math.inf
+        ]
+        if problems:
+            raise InvalidValue(*problems)
         passed = self.columns_of_oil * area * overrollings
         wanted = math.log(2) / passed if passed else math.inf
         lowest = self._first(side - 1) if self.sinks(side - 1) else self.film

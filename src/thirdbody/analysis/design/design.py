@@ -24,6 +24,7 @@ from ...equilibrium.columns import about, columns_of
 from ...errors import ThirdBodyError
 from ...numerics.sampling import Span
 from ...populations.materials import Material
+from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
 from ...quantities.progress import reporting
 from ..inputs import declared, words_of
@@ -302,6 +303,8 @@ def design(
         suspension=suspension,
     )
     local = len(objectives) == 1 and bool(task.variables)
+    if points is not None:
+        need_positive(points=points)
     expected = _expected(task, points, local)
     with reporting("design", expected, 0, progress, "points") as task.report:
         for materials in task.choices():

@@ -8,8 +8,10 @@ import math
 import numpy as np
 
 from ...contact.contact import Contact
+from ...equilibrium.modes import need_shares
 from ...equilibrium.solve import solve
 from ...errors import InvalidValue
+from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
 
 __all__ = ["equal_share_size"]
@@ -67,6 +69,10 @@ def equal_share_size(
     """
     from scipy.optimize import brentq
 
+    need_positive(low=low, high=high)
+    if not low < high:
+        raise InvalidValue(f"low = {low!r} must be below high = {high!r}")
+    need_shares(share=share)
     if len(contact.populations) != 1:
         raise InvalidValue("equal_share_size needs exactly one population of particles")
     (dust,) = contact.populations

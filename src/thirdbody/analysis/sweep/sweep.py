@@ -139,6 +139,8 @@ def sweep(
     )
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
         raise InvalidValue(f"workers = {workers!r} must be a whole number, at least 1")
+    if client is not None and not hasattr(client, "submit"):
+        raise InvalidValue(f"client = {client!r:.60} must be a Client of distributed, or None")
     if out is None:
         return streaming.in_memory(plan, workers=workers, client=client, progress=progress)
     with refused_by_disk(out):

@@ -29,6 +29,7 @@ from ...equilibrium.solve import given_load
 from ...equilibrium.states import FEWEST, tables_each
 from ...errors import InvalidValue, tell_of_range
 from ...quantities import notebook
+from ...quantities.arguments import need_place
 from ...quantities.carried import takes_units
 from ...quantities.progress import watched
 from ...quantities.say import percent
@@ -176,6 +177,7 @@ class Propagation:
     @takes_units
     def at_load(self, at: int) -> Propagation:
         """What is said of one of several loads."""
+        need_place("at", at, np.size(self.loads))
         if np.ndim(self.loads) == 0:
             return self
 
@@ -221,6 +223,7 @@ class Propagation:
             strongest input of the first output comes first.
         """
         names = outputs_of([of] if isinstance(of, str) else of, self.contact)
+        need_place("at", at, np.size(self.loads))
         load = float(np.atleast_1d(self.loads)[at])
         vary, count = self._ends(probabilities, load)
         critical = self._critical_at_ends.get(probabilities, {})
@@ -293,6 +296,7 @@ class Propagation:
         width = len(self.inputs)
         cube = {"num_vars": width, "names": list(self.inputs), "bounds": [[0.0, 1.0]] * width}
         u = sample.sample(cube, samples, calc_second_order=False, seed=self.seed)
+        need_place("at", at, np.size(self.loads))
         load = float(np.atleast_1d(self.loads)[at])
         vary = self._problem().points(u)
         asked = about_loads(names)

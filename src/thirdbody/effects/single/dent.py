@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...populations.materials import Material
+from ...quantities.arguments import need_one
 from ...quantities.carried import takes_units
 from .ploughing import residual_depth
 
@@ -168,7 +169,7 @@ def dents_after(rate: ArrayLike, *, overrollings: ArrayLike, area: ArrayLike) ->
     [   9.95 1000.  ]
     """
     thrown = np.multiply(rate, overrollings)
-    covered = thrown * area
+    covered = np.multiply(thrown, area)
     # (1 − e^(−c))/c
     share = np.where(covered > 0, -np.expm1(-covered) / np.where(covered > 0, covered, 1.0), 1.0)
     return thrown * share
@@ -229,6 +230,7 @@ def sink(
     >>> sink(tb.materials["SiO2"], hardness=steel.H), sink(steel, hardness=steel.H)
     (1.0, nan)
     """
+    need_one("debris", debris, "by_hardness", "hard", "ductile", "brittle")
     if debris == "hard" or (debris != "ductile" and (computed or particle.H > hardness)):
         return 1.0
     return math.nan
@@ -255,6 +257,7 @@ def sunk(
     array
         NaN where it is not known; never more than the particle is thick.
     """
+    need_one("side", side, 0, 1)
     share = sink(
         particle, hardness=spots.hardness[side], debris=debris, computed=spots.knows_sink[side]
     )
@@ -279,6 +282,7 @@ def footprint(spots: ParticleSpots, *, side: int, squashed: bool = False) -> Arr
     -------
     array
     """
+    need_one("side", side, 0, 1)
     if squashed:
         return 2 * np.sqrt(spots.areas[side] / np.pi)
     gap = np.maximum(spots.x - spots.depths[0] - spots.depths[1], 1e-3 * spots.x)

@@ -19,6 +19,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import special
 
+from ...errors import InvalidValue
+from ...quantities.arguments import need_one
 from ...quantities.carried import takes_units
 from .joint import (
     absolute_slope,
@@ -107,6 +109,12 @@ def peclet(a: Number, *, v: float, D: float) -> Number:
     return v * a / (2 * D)
 
 
+def _need_source(kind: str, flux: str) -> None:
+    """Refuse words for a source of heat that are not known."""
+    need_one("kind", kind, "mean", "max")
+    need_one("flux", flux, "uniform", "hertz")
+
+
 @takes_units
 def moving_rise(Pe: Number, *, kind: str = "mean", flux: str = "uniform") -> Number:
     r"""Steady rise under a circular source that moves, over q̄a/k [1], after Tian and Kennedy.
@@ -154,6 +162,7 @@ def moving_rise(Pe: Number, *, kind: str = "mean", flux: str = "uniform") -> Num
     >>> float(moving_rise(1.0).round(4))  # quadrature: 0.5554
     0.5346
     """
+    _need_source(kind, flux)
     C, c = _MOVING[flux, kind]
     return C / np.sqrt(math.pi * (c + Pe))
 
@@ -257,6 +266,7 @@ def sudden_share(Fo: Number, *, kind: str = "mean", flux: str = "uniform") -> Nu
     >>> float(sudden_share(1e6, kind="max").round(4))
     0.9997
     """
+    _need_source(kind, flux)
     ln_Fo, ln_share = _sudden_table(flux, kind)
     x = np.log(np.maximum(Fo, 1e-300))
     early = np.minimum(x - ln_Fo[0], 0.0) / 2  # a half-space all over: √t
@@ -388,6 +398,9 @@ def sphere_resistance(
     >>> f"{R:.3f}; series: 5.858"
     '5.872; series: 5.858'
     """
+    if isinstance(ends, (list, dict, set, np.ndarray)) or ends not in _SPHERE_END:
+        known = ", ".join(map(repr, _SPHERE_END))
+        raise InvalidValue(f"ends = {ends!r:.60} must be one of {known}")
     gamma, epsilon = _SPHERE_END[ends]
     body = (np.log(4 * r / a_1) + np.log(4 * r / a_2) - 2 - 2 * epsilon) / (4 * math.pi * r)
     return (gamma * (1 / a_1 + 1 / a_2) + body) / k
@@ -472,6 +485,7 @@ def spreading(epsilon: Number, *, form: str = "power") -> Number:
     >>> round(spreading(0.1), 4), round(spreading(0.1, form="series"), 4)
     (0.8538, 0.8594)
     """
+    need_one("form", form, "power", "series", "none")
     if form == "none":
         return 1.0 + 0.0 * epsilon
     if form == "series":

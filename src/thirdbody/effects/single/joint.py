@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy import special
 
+from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ def absolute_slope(*, sigma: Number, R: Number, alpha: float) -> Number:
     >>> f"{absolute_slope(sigma=100e-9, R=2.8e-6, alpha=5.0):.4f}"
     '0.0822'
     """
+    need_positive(sigma=sigma, R=R, alpha=alpha)
     m_2 = sigma / R * math.sqrt(9 * math.pi / 64 / alpha)
     return np.sqrt(2 / math.pi * m_2)
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...quantities.arguments import need_one
 from ...quantities.carried import takes_units
 
 if TYPE_CHECKING:
@@ -210,6 +211,7 @@ def coefficient_of_faces(
 @takes_units
 def groove_of(spots: ParticleSpots, *, side: int) -> Array:
     """Cross-section of the groove of each particle in surface 1 (side 0) or 2 [m²]: (M, n)."""
+    need_one("side", side, 0, 1)
     shape = spots.shape
     if shape is None or shape.round:
         return groove_area(spots.sinks[side], radius=spots.impression_radius(side))

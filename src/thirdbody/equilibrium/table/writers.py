@@ -18,6 +18,7 @@ from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...contact.interface import interface
 from ...errors import InvalidValue
+from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.files import write_text
 from ...quantities.units import say
@@ -179,6 +180,7 @@ class ContactTable:
         ]
 
     # ------------------------------------------------------------------ files
+    @names_arguments
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Knots, values and slopes, with a head of ``#`` lines.
 
@@ -330,6 +332,7 @@ class ContactTable:
         )
         write_text(path, self._head("# ", note) + body + "\n")
 
+    @names_arguments
     def to_python(self, path: str | os.PathLike[str]) -> None:
         """A Python module with ``pressure(h)``, ``area(h)`` and ``stiffness(h)`` = −dp/dh.
 
@@ -338,6 +341,7 @@ class ContactTable:
         rows = "\n".join(f"    ({', '.join(row)})," for row in self._coefficients())
         write_text(path, self._head("# ") + _PYTHON.format(rows=rows, **self._ends()))
 
+    @names_arguments
     def to_c(self, path: str | os.PathLike[str]) -> None:
         """A C99 file with ``pressure(h)``, ``area(h)`` and ``stiffness(h)`` = −dp/dh.
 

@@ -13,6 +13,7 @@ from ...errors import InvalidValue
 from ...numerics.chebyshev import PiecewiseChebyshev
 from ...numerics.roots import bracketed_root
 from ...populations.materials import reduced_modulus
+from ...quantities.arguments import names_arguments
 from ...quantities.say import value_of
 from ..base import REGIMES, AbstractAsperityLaw, OneParticle, Squeezed
 
@@ -410,6 +411,7 @@ def squeezed_particle(
     return SqueezedParticle(law, first, second, R, forms, shape)
 
 
+@names_arguments
 def contact_sides(surfaces: MaterialPair, particle: Material) -> tuple[Body, Body]:
     """E*, and H and ν of the softer body, where the particle meets surface 1 and surface 2."""
 

@@ -25,6 +25,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InvalidValue
+from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.units import say
 from ..distributions import Distribution, PowerLaw
@@ -105,6 +106,7 @@ def _check_ends(kind: str, sizes: list[float], smallest: float | None, largest: 
         )
 
 
+@names_arguments
 def read_iso4406(code: str) -> tuple[int | None, ...]:
     """The three numbers of a code, None where it has a dash.
 

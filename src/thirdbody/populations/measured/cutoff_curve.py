@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...quantities.arguments import names_arguments
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -62,6 +64,7 @@ class Curve:
     def __getitem__(self, name: str) -> Array:
         return self.columns[name]
 
+    @names_arguments
     def per_octave(self, name: str) -> Array:
         """Relative change of a column when the cut-off doubles, at each cut-off.
 

@@ -24,6 +24,7 @@ from scipy.special import exprel
 
 from ...errors import InvalidValue
 from ...numerics.quadrature import gauss_legendre
+from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.files import read_bytes
 from ...quantities.units import say, to_si
@@ -353,6 +354,7 @@ FITS: dict[str, Callable[[float, float, float], _Start]] = {
 _MOST_ROWS = 100_000
 
 
+@names_arguments
 def read_sizes(path: str | os.PathLike[str], *, weighting: str = "number") -> MeasuredSizes:
     """Measured sizes from a CSV file.
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ...errors import InvalidValue
+from ...quantities.arguments import need_one
 from ...quantities.carried import takes_units
 from ...quantities.say import percent, signed, value_of
 from ..ellipticity import Ellipticity
@@ -208,8 +209,7 @@ class Topography:
         >>> surface.moments_at(2e-6).R > surface.moments_at(1e-6).R
         True
         """
-        if method not in METHODS:
-            raise InvalidValue(f"method = {method!r} must be one of {', '.join(METHODS)}")
+        need_one("method", method, *METHODS)
         cutoff = self._cutoff(cutoff)
         if method == "spectrum":
             m0, m2, m4 = self._spectrum.moments(cutoff)

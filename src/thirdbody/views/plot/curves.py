@@ -33,6 +33,7 @@ from ...equilibrium.columns import Equilibrium
 from ...equilibrium.transitions import Transitions
 from ...equilibrium.words import MODES
 from ...errors import InvalidValue
+from ...quantities.arguments import names_arguments
 from ...quantities.say import number
 from .style import (
     AXIS_LABELS,
@@ -89,6 +90,7 @@ def _lines(
     return ax
 
 
+@names_arguments
 def area(
     data: xarray.Dataset | Equilibrium,
     ax: Axes | None = None,
@@ -139,6 +141,7 @@ def area(
     return ax
 
 
+@names_arguments
 def shares(
     data: xarray.Dataset | Equilibrium,
     ax: Axes | None = None,
@@ -186,6 +189,7 @@ def shares(
     return ax
 
 
+@names_arguments
 def separation(
     data: xarray.Dataset | Equilibrium,
     ax: Axes | None = None,
@@ -227,6 +231,7 @@ def separation(
     return _lines(data, ax, against, quantity, ylog=False)
 
 
+@names_arguments
 def regimes(
     data: xarray.Dataset | Equilibrium, ax: Axes | None = None, *, against: str = "F_star"
 ) -> Axes:
@@ -299,6 +304,7 @@ def _mode_runs(x: NDArray[np.float64], mode: NDArray[Any]) -> list[tuple[float, 
     return runs
 
 
+@names_arguments
 def modes(
     data: xarray.Dataset | Equilibrium,
     ax: Axes | None = None,

@@ -12,6 +12,7 @@ from matplotlib.patches import Circle
 from matplotlib.ticker import MaxNLocator
 
 from ...errors import InvalidValue
+from ...quantities.arguments import names_arguments
 from ...quantities.say import percent, value_of
 from .style import OKABE_ITO, _dress, _tint
 from .topography import _length_scale
@@ -33,6 +34,7 @@ LEAST_PIXELS = 12
 """Points that a section shows at least."""
 
 
+@names_arguments
 def explicit(state: ExplicitState) -> Figure:
     """A state of `thirdbody.explicit.solve` in four panels.
 

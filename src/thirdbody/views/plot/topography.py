@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from ...quantities.arguments import names_arguments
 from ...quantities.say import number
 from .style import OKABE_ITO, _dress, _tint
 
@@ -21,6 +22,7 @@ __all__ = ["surface"]
 
 
 # ------------------------------------------------------------------ a measured surface
+@names_arguments
 def surface(topography: Topography) -> Figure:
     """A measured surface and what its asperities owe to the cut-off, in six panels.
 

@@ -1,0 +1,410 @@
+"""What an argument of a public function must be, read from its signature, and what is not so.
+
+A function fails on what it cannot take wherever it first touches it, in words of Python about a
+line that its user never wrote. `misfits` then says which argument it was and what it takes. It is
+asked after a failure alone: what works is never refused, and nothing is slower.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import os
+import sys
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from functools import cache, wraps
+from numbers import Real
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ..errors import InvalidValue, WrongKind
+
+__all__ = [
+    "FAILURES",
+    "misfits",
+    "names_arguments",
+    "need_one",
+    "need_place",
+    "need_positive",
+    "refuse_misfits",
+]
+
+F = TypeVar("F", bound=Callable[..., Any])
+FAILURES = (
+    *(TypeError, AttributeError, ValueError, LookupError, ArithmeticError),
+    *(NotImplementedError, AssertionError),
+)
+"""What Python and NumPy raise where they are given what they cannot take."""
+
+
+def names_arguments(function: F) -> F:
+    """A function that names the argument which is not what its signature says, where it fails.
+
+    Raises
+    ------
+    InvalidValue
+        When it is called and fails: a sentence for each argument that does not fit. Failures with
+        arguments that fit pass as they are.
+
+    Examples
+    --------
+    >>> @names_arguments
+    ... def tripled(path: str, *, times: int = 3) -> str:
+    ...     return path.upper() * times
+    >>> tripled("ab", times=2)
+    'ABAB'
+    >>> tripled(None)
+    Traceback (most recent call last):
+    thirdbody.errors.WrongKind: path = None must be text
+    """
+
+    @wraps(function)
+    def with_names(*args: Any, **named: Any) -> Any:
+        try:
+            return function(*args, **named)
+        except FAILURES as error:
+            refuse_misfits(error, function, args, named)
+            raise
+
+    return with_names  # type: ignore[return-value]
+
+
+def need_one(name: str, value: Any, *options: str | int) -> None:
+    """Refuse a word or a number that an argument does not know, and that passes for another one.
+
+    Raises
+    ------
+    InvalidValue
+        With the words it knows.
+
+    Examples
+    --------
+    >>> need_one("basis", "loads", "area", "load")
+    Traceback (most recent call last):
+    thirdbody.errors.InvalidValue: basis = 'loads' must be 'area' or 'load'
+    """
+    if not (type(value) in (str, int) or isinstance(value, np.integer)) or value not in options:
+        two = len(options) == 2
+        known = (" or " if two else ", ").join(map(repr, options))
+        shown = repr(value) if isinstance(value, str) else _shown(value)
+        raise InvalidValue(f"{name} = {shown} must be {'' if two else 'one of '}{known}")
+
+
+def need_place(name: str, value: Any, count: int) -> None:
+    """Refuse what is no place in a list, from the end too.
+
+    Raises
+    ------
+    InvalidValue
+        With the places there are.
+
+    Examples
+    --------
+    >>> need_place("at", 3, 2)
+    Traceback (most recent call last):
+    thirdbody.errors.InvalidValue: at = 3 must be a place in 2 values: 0 to 1
+    """
+    whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if not whole or not -count <= value < count:
+        values = "1 value" if count == 1 else f"{count} values"
+        raise InvalidValue(
+            f"{name} = {_shown(value)} must be a place in {values}: 0 to {count - 1}"
+        )
+
+
+def need_positive(**values: Any) -> None:
+    """Refuse numbers, or arrays with one, that are not finite and above 0.
+
+    Raises
+    ------
+    InvalidValue
+        A sentence for each.
+
+    Examples
+    --------
+    >>> need_positive(R=-1e-6, sigma_s=1e-8)
+    Traceback (most recent call last):
+    thirdbody.errors.InvalidValue: R = -1e-06 must be finite and > 0
+    """
+    problems = [
+        f"{name} = {_shown(value)} must be finite and > 0"
+        for name, value in values.items()
+        if not np.all((np.asarray(value) > 0) & np.isfinite(value))
+    ]
+    if problems:
+        raise InvalidValue(*problems)
+
+
+def refuse_misfits(
+    error: Exception,
+    function: Callable[..., Any],
+    args: tuple[Any, ...],
+    named: Mapping[str, Any],
+    *,
+    numbers: Container[str] = (),
+    where: str = "",
+) -> None:
+    """Say after a failure which arguments do not fit; nothing where all do.
+
+    Parameters
+    ----------
+    error : Exception
+        What was raised.
+    function : callable
+        By what, or a class in the making.
+    args, named : tuple, mapping
+        What it was called with.
+    numbers : container of str, optional
+        Arguments that are numbers by their documentation, where the signature does not say.
+    where : str, optional
+        What stands before the names: "Finish.".
+
+    Raises
+    ------
+    WrongKind
+        A sentence for each. An error of this library says more than a kind does, and passes.
+    """
+    if isinstance(error, InvalidValue) and not isinstance(error, WrongKind):
+        return
+    if problems := misfits(function, args, named, numbers=numbers):
+        raise WrongKind(*(where + each for each in problems)) from None
+
+
+def misfits(
+    function: Callable[..., Any],
+    args: tuple[Any, ...],
+    named: Mapping[str, Any],
+    *,
+    numbers: Container[str] = (),
+) -> list[str]:
+    """Arguments that are not what the signature of a function says, a sentence each.
+
+    Examples
+    --------
+    >>> def pressed(load: float, *, places: Sequence[str] = ()) -> float: ...
+    >>> misfits(pressed, (None,), {"places": 3})
+    ['load = None must be a number', 'places = 3 must be a list of texts']
+    >>> misfits(pressed, (1,), {"places": ["A_t"]})
+    []
+    """
+    try:
+        signature = inspect.signature(function)
+        given = signature.bind_partial(*args, **named).arguments
+    except TypeError:
+        return []  # Python's own sentence names what is missing or too much
+    problems = []
+    for name, value in given.items():
+        parameter = signature.parameters[name]
+        if parameter.kind is parameter.VAR_KEYWORD:
+            continue  # another function takes them
+        node = _parsed(parameter.annotation)
+        if name in numbers and (node is None or _name(node) == "Any"):
+            node = _tree("Number")
+        if node is None or (value is parameter.default and value is not None):
+            continue
+        space = getattr(inspect.unwrap(function), "__globals__", {})
+        for each in value if parameter.kind is parameter.VAR_POSITIONAL else [value]:
+            if not _fits(node, each, space):
+                words = " or ".join(dict.fromkeys(_words(node, space)))
+                problems.append(f"{name} = {_shown(each)} must be {words}")
+    return problems
+
+
+def _parsed(annotation: Any) -> ast.expr | None:
+    """The tree of an annotation; None where there is none."""
+    if annotation is inspect.Parameter.empty:
+        return None
+    text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", "")
+    return _tree(text)
+
+
+@cache
+def _tree(text: str) -> ast.expr | None:
+    try:
+        return ast.parse(text, mode="eval").body
+    except SyntaxError:
+        return None
+
+
+def _shown(value: Any) -> str:
+    """A value in a few letters."""
+    if value is None or isinstance(value, (str, bytes, bool, int, float, complex)):
+        text = repr(value) if not isinstance(value, int) or value.bit_length() < 200 else "..."
+        return text if len(text) <= 60 else text[:56] + " ..."
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape}"
+    kind = value.__name__ if isinstance(value, type) else type(value).__name__
+    article = "an" if kind[:1].lower() in "aeiou" else "a"
+    if isinstance(value, type):
+        return f"the class {kind}"
+    if isinstance(value, (list, tuple, dict, set)) and not value:
+        return f"an empty {kind}"
+    return f"{article} {kind}"
+
+
+# ------------------------------------------------------------------ what fits
+def _is_number(value: Any) -> bool:
+    if isinstance(value, (bool, np.bool_)):
+        return False
+    if isinstance(value, np.ndarray) or hasattr(value, "__array__"):
+        return np.size(value) == 1 and np.asarray(value).dtype.kind in "iuf"
+    return isinstance(value, Real) or (
+        hasattr(value, "__float__") and not isinstance(value, (complex, type))
+    )
+
+
+def _is_whole(value: Any) -> bool:
+    return _is_number(value) and float(value).is_integer()
+
+
+def _are_numbers(value: Any) -> bool:
+    if isinstance(value, (str, bytes, Mapping, type)) or value is None:
+        return False
+    if _is_number(value):
+        return True
+    if not isinstance(value, Iterable) and not hasattr(value, "__array__"):
+        return False
+    if isinstance(value, Iterator):
+        return True  # it is not used up to look at it
+    try:
+        found = np.asarray(value)
+        return found.dtype.kind in "iuf" or found.astype(float).dtype.kind == "f"
+    except (TypeError, ValueError):
+        return False
+
+
+def _is_array(value: Any) -> bool:
+    """A number or an array, which are computed with as they are: no list."""
+    return _are_numbers(value) and (not isinstance(value, Iterable) or hasattr(value, "__array__"))
+
+
+def _is_listed(value: Any) -> bool:
+    return isinstance(value, Iterable) and not isinstance(value, (str, bytes, Mapping))
+
+
+LEAVES: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "None": (lambda value: value is None, "None"),
+    "float": (_is_number, "a number"),
+    "int": (_is_whole, "a whole number"),
+    "bool": (lambda value: isinstance(value, (bool, np.bool_, int)), "True or False"),
+    "str": (lambda value: isinstance(value, str), "text"),
+    "Path": (lambda value: isinstance(value, os.PathLike), "the path of a file"),
+    "PathLike": (lambda value: isinstance(value, os.PathLike), "the path of a file"),
+    "Number": (_is_array, "a number or an array of numbers"),
+    "ArrayLike": (_are_numbers, "a number or an array of numbers"),
+    "Array": (_is_array, "a number or an array of numbers"),
+    "NDArray": (_are_numbers, "an array of numbers"),
+    "ndarray": (_are_numbers, "an array of numbers"),
+    "Callable": (callable, "a function"),
+    "Any": (lambda value: True, "anything"),
+    "Literal": (lambda value: isinstance(value, str), "text"),
+}
+LISTS = {"Sequence", "Iterable", "list", "tuple", "Collection"}
+MAPPINGS = {"Mapping", "dict", "MutableMapping"}
+UNIONS = {"Union", "Optional"}
+
+
+def _alternatives(node: ast.expr) -> Iterator[ast.expr]:
+    """The parts of a union."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitOr):
+        yield from _alternatives(node.left)
+        yield from _alternatives(node.right)
+    elif isinstance(node, ast.Constant) and isinstance(node.value, str) and _tree(node.value):
+        yield from _alternatives(_tree(node.value))  # type: ignore[arg-type]
+    else:
+        yield node
+
+
+def _name(node: ast.expr) -> str:
+    """The last name of a leaf: "PathLike" of os.PathLike[str]."""
+    if isinstance(node, ast.Subscript):
+        return _name(node.value)
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    if isinstance(node, ast.Constant):
+        return str(node.value)
+    return node.id if isinstance(node, ast.Name) else ""
+
+
+def _inside(node: ast.expr) -> list[ast.expr]:
+    """What stands in the brackets of a leaf."""
+    if not isinstance(node, ast.Subscript):
+        return []
+    return list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
+
+
+def _fits(node: ast.expr, value: Any, space: Mapping[str, Any]) -> bool:
+    return any(_fits_one(each, value, space) for each in _alternatives(node))
+
+
+def _fits_one(node: ast.expr, value: Any, space: Mapping[str, Any]) -> bool:
+    name, inside = _name(node), _inside(node)
+    if name in LEAVES:
+        return LEAVES[name][0](value)
+    if name in LISTS:
+        if not _is_listed(value):
+            return False
+        if name == "tuple" and len(inside) > 1 and _name(inside[-1]) != "Ellipsis":
+            return (
+                hasattr(value, "__len__")
+                and len(value) == len(inside)
+                and all(_fits(one, each, space) for one, each in zip(inside, value, strict=True))
+            )
+        if not inside or isinstance(value, Iterator):
+            return True
+        return all(_fits(inside[0], each, space) for each in value)
+    if name in MAPPINGS:
+        return isinstance(value, Mapping) and (
+            len(inside) != 2
+            or all(
+                _fits(inside[0], key, space) and _fits(inside[1], each, space)
+                for key, each in value.items()
+            )
+        )
+    kind = _kind(name, space)
+    return kind is None or isinstance(value, kind)
+
+
+def _kind(name: str, space: Mapping[str, Any]) -> type | None:
+    """The class that an annotation names; None where it names another thing, or is not known."""
+    found = space.get(name)
+    if found is None:  # imported for types alone
+        held = (vars(module).get(name) for key, module in list(sys.modules.items())
+                if key.startswith("thirdbody") and module is not None)  # fmt: skip
+        found = next((each for each in held if each is not None), None)
+    if not isinstance(found, type) or getattr(found, "_is_protocol", False):
+        return None
+    return found
+
+
+def _words(node: ast.expr, space: Mapping[str, Any]) -> Iterator[str]:
+    """What an annotation takes, in words."""
+    names = [_name(each) for each in _alternatives(node)]
+    for each, name in zip(_alternatives(node), names, strict=True):
+        if name == "str" and ("PathLike" in names or "Path" in names):
+            continue  # the text is the path
+        if name in LEAVES:
+            yield LEAVES[name][1]
+        elif name in LISTS:
+            inner = _inside(each)
+            exact = name == "tuple" and len(inner) > 1 and _name(inner[-1]) != "Ellipsis"
+            if exact:
+                yield f"{len(inner)} values, " + " and ".join(
+                    " or ".join(_words(one, space)) for one in inner
+                )
+            else:
+                yield f"a list of {_many(inner, space)}" if inner else "a list"
+        elif name in MAPPINGS:
+            yield "a mapping (dict) of names" if _inside(each) else "a mapping (dict)"
+        elif name:
+            article = "an" if name[0] in "AEIOU" else "a"
+            yield f"{article} {name}"
+
+
+PLURALS = {"text": "texts", "a number": "numbers", "a whole number": "whole numbers"}
+
+
+def _many(inner: Sequence[ast.expr], space: Mapping[str, Any]) -> str:
+    each = " or ".join(dict.fromkeys(_words(inner[0], space)))
+    return PLURALS.get(each, f"which each is {each}")

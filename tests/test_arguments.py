@@ -1,0 +1,262 @@
+"""Every public function with what is no argument: one sentence that names it, no error of Python.
+
+The functions are found by signature, not by a list. What each needs for a first call stands in
+`SAMPLES` and in the signature; a function is tried with each of its arguments wrong in turn.
+"""
+
+import inspect
+import warnings
+
+import numpy as np
+import pytest
+from test_signatures import PUBLIC
+
+import thirdbody as tb
+from thirdbody.errors import WrongKind
+from thirdbody.quantities.arguments import misfits, names_arguments
+
+STEEL, SILICA = tb.materials["S45C"], tb.materials["SiO2"]
+PAIR = tb.MaterialPair(STEEL, STEEL)
+SIZES = tb.LogNormal(median=3e-6, gsd=1.5)
+CONTACT = tb.Contact(surfaces=PAIR, roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+SURFACE = tb.synthetic.self_affine(
+    sigma=1e-7, hurst=0.8, shortest=4e-7, longest=6e-6, spacing=1e-7, points=64
+)
+SAMPLES = {
+    **{"contact": CONTACT, "surfaces": PAIR, "material": SILICA, "particle": SILICA},
+    **{"diameter": SIZES, "sizes": SIZES, "moments": SURFACE.moments_at(), "surface": SURFACE},
+    **{"code": "18/16/13", "kind": "as4059", "standard": "as4059", "grade": "6A/6B/6C"},
+    **{"weighting": "volume", "overrides": [], "first": tb.Finish(Ra=2e-7, process="ground")},
+    **{"value": 500.0, "start": "HV", "end": "GPa", "scale": "HV", "level": "middle"},
+    **{"place": "filter", "state": "18/16/13", "bearing": "ball", "source": "example"},
+    **{"quantity": "force", "debris": "hard", "form": "power", "by": "number"},
+    **{"radius": 1e-3, "load": 1.0, "amplitude": 1e-7, "pressure": 5e6, "h": 1.0},
+    **{"concentration": 1e9, "gap": 1e-6, "fraction": 0.1, "n": 1, "size": 4},
+}
+WRONG = {
+    "None": None, "object": object(), "a mapping": {"a": 1}, "a list": ["a", None],
+    "a class": int, "bytes": b"x", "an array": np.zeros((2, 2, 2)),
+}  # fmt: skip
+INSTANCES = (
+    *(SIZES, tb.Histogram(edges=(1e-7, 2e-7), counts=(1.0,)), tb.GaussianHeights(), SURFACE),
+    *(tb.Uncertain.normal(mean=1.0, std=0.1), tb.asperity.ZMC(), tb.particle.Series()),
+    *(tb.table(CONTACT, tolerance=1e-2), tb.solve(CONTACT, F_star=[1e-6, 1e-5])),
+    *(tb.WeibullStrength(sigma_0=1e7, x_0=1e-6, m=3.0), tb.films.Point(R=0.01)),
+    *(tb.films.Oil(eta=0.02, alpha=2e-8), tb.films.HamrockDowson()),
+)
+HOOKS = {"Series.probe"}
+"""Called by the library alone, with a shape of its own."""
+LONG = {"assess", "design", "propagate", "sensitivity", "sweep", "explicit.ensemble"}
+"""Functions that work for seconds before they look at the last of their arguments."""
+RAW = (TypeError, AttributeError, LookupError, ArithmeticError, ValueError, AssertionError)
+
+
+def bound():
+    """Public functions that can be called here, and methods of `INSTANCES`."""
+    for name, function in PUBLIC:
+        parameters = inspect.signature(function).parameters
+        if "self" not in parameters and "cls" not in parameters:
+            yield name, function
+    for instance in INSTANCES:
+        for key in dir(type(instance)):
+            method = inspect.getattr_static(type(instance), key)
+            if not key.startswith("_") and inspect.isfunction(method):
+                yield f"{type(instance).__name__}.{key}", getattr(instance, key)
+
+
+def calls():
+    for name, function in bound():
+        if name in LONG | HOOKS:
+            continue
+        parameters = [
+            each
+            for each in inspect.signature(function).parameters.values()
+            if each.kind is not each.VAR_KEYWORD
+        ]
+        for each in parameters:
+            if "Any" not in str(each.annotation) and each.annotation is not each.empty:
+                yield name, function, parameters, each
+
+
+CALLS = list(calls())
+
+
+def called(function, parameters, wrong, value):
+    """What a call raises, with one argument wrong; None where it is taken."""
+    given = {
+        each.name: SAMPLES.get(each.name, 1e-7)
+        for each in parameters
+        if each.default is each.empty and each.kind is not each.VAR_POSITIONAL
+    }
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            if wrong.kind is wrong.VAR_POSITIONAL:
+                function(*given.values(), value)
+            else:
+                function(**given | {wrong.name: value})
+    except Exception as error:
+        return error
+    return None
+
+
+@pytest.mark.parametrize(
+    ("name", "function", "parameters", "wrong"),
+    CALLS,
+    ids=[f"{name}-{wrong.name}" for name, _, _, wrong in CALLS],
+)
+def test_what_is_no_argument_is_refused_in_words(
+    name, function, parameters, wrong, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)  # some write
+    for kind, value in WRONG.items():
+        error = called(function, parameters, wrong, value)
+        assert error is None or isinstance(error, tb.ThirdBodyError), f"{kind}: {error!r}"
+
+
+def test_most_public_functions_are_called():
+    names = {name for name, *_ in CALLS}
+    assert {"solve", "load_study", "transitions", "sizes.read_sizes", "plot.area"} <= names
+    assert {"ContactTable.to_csv", "LogNormal.ppf", "rough_body.rough_sphere"} <= names
+    assert len(CALLS) > 400
+
+
+@pytest.mark.parametrize("value", [None, 3, {}, object(), b"a"])
+def test_paths_are_asked_for_by_name(value):
+    table = tb.table(CONTACT, tolerance=1e-2)
+    doors = (tb.load_study, tb.sizes.read_sizes, table.to_csv, table.to_abaqus, table.to_c)
+    for door in doors:
+        with pytest.raises(tb.InvalidValue, match=r"^path = .* must be the path of a file$"):
+            door(value)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: tb.transitions(CONTACT, window=3), r"^window = 3 must be 2 values, a number and a number$"),
+        (lambda: tb.transitions(CONTACT, eps_1="a"), r"^eps_1 = 'a' must be a number$"),
+        (lambda: tb.solve_states(CONTACT, pressure=1e6, vary=[1]), r"^vary = a list must be a mapping"),
+        (lambda: tb.sensitivity(CONTACT, of=3, pressure=1e6), r"^of = 3 must be text or a list of texts$"),
+        (lambda: tb.design(CONTACT, vary={}, objective=None), r"^objective = None must be an Objective or a list"),
+        (lambda: tb.sweep(CONTACT, pressure=[1e6], out=3.5), r"^out = 3.5 must be the path of a file or None$"),
+        (lambda: tb.sweep(CONTACT, pressure=[1e6], client=object()), r"^client = .* must be a Client"),
+        (lambda: tb.materials.search(3), r"^query = 3 must be text$"),
+        (lambda: tb.materials[["S45C"]], r"^name = a list must be text$"),
+        (lambda: tb.Finish(Ra=1e-7, process=["ground"]), r"^Finish.process = a list must be text or None$"),
+    ],
+)  # fmt: skip
+def test_an_argument_of_another_kind_is_named(call, words):
+    with pytest.raises(tb.InvalidValue, match=words):
+        call()
+
+
+def test_every_public_function_that_takes_anything_is_marked():
+    """Without a mark it fails in words of Python; methods that the library alone calls may."""
+    bare = {
+        name
+        for name, function in PUBLIC
+        if not hasattr(function, "__wrapped__")
+        and not name.endswith("__init__")
+        and {*inspect.signature(function).parameters} - {"self", "cls"}
+    }
+    assert bare == {
+        *("Assessment.page", "Equilibrium.to_dataset"),  # take a text, whatever it is
+        *(f"outputs.Solved.{key}" for key in ("output", "total", "total_of_particles")),
+        "particle.OneParticle.sinks",
+    }
+
+
+# ---------------------------------------------------------------- words that passed for others
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: tb.solve(CONTACT, F_star=1e-5).modes(basis="are"),
+        lambda: tb.solve(CONTACT, F_star=1e-5).modes(eps_1=1.5),
+        lambda: tb.transitions(CONTACT, basis="are"),
+        lambda: tb.asperity.ZMC().reduced("forces", 1.0),
+        lambda: tb.equal_share_size(
+            CONTACT.replace(
+                particles=tb.Particles(material=SILICA, areal_density=1e9, diameter=SIZES)
+            ),
+            F_star=1e-5,
+            low=-1.0,
+        ),
+        lambda: tb.reference.exponential_gw(1.0, eta=1e12, sigma_s=1e-8, R=-1e-6, E_star=1e11),
+    ],
+)
+def test_words_and_numbers_that_mean_nothing_are_refused(call):
+    with pytest.raises(tb.InvalidValue, match=r"^(basis|eps_1|quantity|low|R) = .* must"):
+        call()
+
+
+def test_words_of_single_contacts_are_refused():
+    from thirdbody.effects.single import dent, heat
+
+    for call in (
+        lambda: heat.spreading(0.1, form="series "),
+        lambda: heat.sudden_share(0.1, kind="maximum"),
+        lambda: heat.sudden_share(0.1, flux="hertzian"),
+        lambda: heat.moving_rise(0.1, flux="hertzian"),
+        lambda: heat.sphere_resistance(0.1, a_2=0.1, r=1.0, k=1.0, ends="uniform"),
+        lambda: dent.sink(SILICA, hardness=1e9, debris="soft"),
+    ):
+        with pytest.raises(tb.InvalidValue, match=r"^\w+ = '.*' must be (one of )?['(]"):
+            call()
+
+
+def test_a_side_of_an_oil_that_does_not_exist_is_refused():
+    """Counted from the end, 0 was surface 2."""
+    from thirdbody.systems.oil_particles import FilmParticles
+
+    oil = FilmParticles.from_iso4406(
+        "18/16/13", surfaces=PAIR, material=SILICA, film=3e-7, entry=1.0
+    )
+    for call in (oil.dents, lambda side: oil.largest(1e-6, side=side)):
+        for side in (0, 3, -1, 1.5, True, None):
+            with pytest.raises(tb.InvalidValue, match=r"^side = .* must be 1 or 2$"):
+                call(side)
+    with pytest.raises(tb.InvalidValue, match=r"^side = -1 must be 0 or 1$"):
+        oil.sinks(-1)
+    with pytest.raises(tb.InvalidValue, match=r"^area = nan must be finite and >= 0$"):
+        oil.largest(float("nan"))
+    assert oil.replace(debris="hard").dents().embedded <= 1.0
+
+
+# ---------------------------------------------------------------- the check itself
+def test_a_failure_with_arguments_that_fit_passes_as_it_is():
+    @names_arguments
+    def broken(load: float) -> float:
+        raise KeyError(load)
+
+    with pytest.raises(KeyError):
+        broken(1.0)
+    with pytest.raises(WrongKind, match="load = 'a' must be a number"):
+        broken("a")
+
+
+def test_what_works_is_never_refused():
+    @names_arguments
+    def lenient(load: float) -> object:
+        return load
+
+    assert lenient("a") == "a"
+
+
+def test_an_outer_function_names_its_own_argument():
+    @names_arguments
+    def inner(R: float) -> float:
+        return R * 1.0
+
+    @names_arguments
+    def outer(radius: float) -> float:
+        return inner(radius)
+
+    with pytest.raises(tb.InvalidValue, match=r"^radius = None must be a number$"):
+        outer(None)
+
+
+@pytest.mark.parametrize("value", [1, 1.5, np.float64(2), np.array(3.0), np.int32(4)])
+def test_numbers_of_all_makes_are_numbers(value):
+    def of_number(x: float, y: "np.ndarray | None" = None): ...
+
+    assert misfits(of_number, (value,), {"y": np.ones(3)}) == []
