@@ -17,6 +17,8 @@ from .one_particle import Side
 from .squashed import FULL, GRADING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..base import AbstractAsperityLaw
     from .one_particle import Array
 
@@ -214,28 +216,39 @@ def squeeze_curve(ratio: float, friction: float, kappa: float) -> SqueezeCurve:
 
 def curve_rows(ratio: Array, friction: Array, kappa: Array) -> tuple[Array, Array]:
     """Series of ln load and ln area of many sides (N, terms), of which `squeeze_curve` has one."""
-    out = np.empty((2, len(ratio), 2 * TERMS))
-    for m in np.unique(friction):
-        here = friction == m
-        softness = 1 / np.maximum(kappa[here], SOFTEST_KAPPA)
-        out[:, here] = _logarithms(np.log(ratio[here]), float(m), softness)
+    out = _logarithms(np.log(ratio), friction, 1 / np.maximum(kappa, SOFTEST_KAPPA))
     out[0, :, 0] -= math.log(math.pi * FULL)
     return out[0], out[1]
 
 
-def _logarithms(x: Array, friction: float, softness: Array) -> Array:
-    """The series of `squeeze_curve` at ln ρ and H/E* (N,): (2, N, terms)."""
-    from numpy.polynomial.chebyshev import chebint
+def _each_at(nodes: Sequence[float], values: Array, at: Array) -> Array:
+    """Monotone cubics through values (nodes, N, terms), each at its own place (N,): (N, terms)."""
     from scipy.interpolate import PchipInterpolator
 
+    cubic, ends = PchipInterpolator(nodes, values, axis=0), np.asarray(nodes, dtype=float)
+    at = np.clip(at, ends[0], ends[-1])
+    piece = np.clip(np.searchsorted(ends, at, side="right") - 1, 0, len(ends) - 2)
+    c, u = cubic.c[:, piece, np.arange(len(at))], (at - ends[piece])[:, None]
+    found: Array = ((c[0] * u + c[1]) * u + c[2]) * u + c[3]
+    return found
+
+
+def _logarithms(x: Array, friction: Array, softness: Array) -> Array:
+    """The series of `squeeze_curve` at ln ρ, m and H/E* (N,): (2, N, terms)."""
+    from numpy.polynomial.chebyshev import chebint
+
     welded, rubbing, elastic = _fans()
-    row = welded(x) + _at_friction(friction, rubbing, x)
-    nodes = np.array([node for node, _ in elastic])
-    cubic = PchipInterpolator(nodes, np.array([fan(softness) for _, fan in elastic]), axis=0)
-    at = np.clip(x, nodes[0], nodes[-1])
-    piece = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, len(nodes) - 2)
-    c, u = cubic.c[:, piece, np.arange(len(x))], (at - nodes[piece])[:, None]
-    row = row + softness[:, None] * (((c[0] * u + c[1]) * u + c[2]) * u + c[3])
+    changes = np.array([fan(x) for fan in rubbing])
+    # at the factor of a run it is that run's, to the last digit
+    row, rest = np.empty(changes.shape[1:]), np.ones(len(x), bool)
+    for i, node in enumerate(_frictions()):
+        here = friction == node
+        row[here], rest = changes[i, here], rest & ~here
+    if rest.any():
+        row[rest] = _each_at(_frictions(), changes[:, rest], friction[rest])
+    row = welded(x) + row
+    of_softness = np.array([fan(softness) for _, fan in elastic])
+    row = row + softness[:, None] * _each_at([node for node, _ in elastic], of_softness, x)
     both = np.stack([row[:, : TERMS + 1], row[:, TERMS + 1 :]])
     # term by term: a product of matrices rounds a row alone and among others differently
     root = np.zeros((2, len(x), TERMS))
