@@ -342,16 +342,17 @@ def second_implementation():
 
 
 def seats_by_sampling():
-    """The rough seat as a mean over heights: 4000 planes weighed by the height density.
+    """The rough seat as a mean over heights: 4080 planes weighed by the height density.
 
-    What is squeezed flat carries no more as planes overlap: panels end where they meet.
+    Panels end where the smallest and the largest particles are squeezed flat.
     """
     contact = dusty(particle_law=tb.particle.Series(shadow="none"))
     d = 150e-9
     rough = contact.roughness
     x, gauss = np.polynomial.legendre.leggauss(40)
-    meet = (d + rough.y_s) / rough.sigma
-    edges = np.concatenate([np.linspace(-8, meet, 51)[:-1], np.linspace(meet, 8, 51)])
+    flat = 1e-3 * (300e-9 + np.array([3, -3]) * 24e-9)
+    large, small, meet = (d + rough.y_s - np.append(flat, 0.0)) / rough.sigma
+    edges = np.concatenate([np.linspace(-8, large, 51), [small], np.linspace(meet, 8, 51)])
     half = np.diff(edges)[:, None] / 2
     zeta = (edges[:-1, None] + half * (1 + x)).ravel()
     weight = np.exp(-(zeta**2) / 2) * (half * gauss).ravel() / np.sqrt(2 * np.pi)

@@ -337,7 +337,7 @@ class Deep(Side):
             lean = -30.0
             if self.own and self.disc(lean)[0] > most:
                 lean = brentq(lambda v: self.disc(v)[0] - most, -30, v_0, xtol=1e-15)
-            self.end = 0.5 * min(-np.expm1(lean) / self.own, 1.0) if self.own else 0.5
+            self.end = 0.5 * min(-np.expm1(lean) / self.own, 0.999) if self.own else 0.4995
         elif ratio < 1:  # the softest were squeezed between rigid surfaces
             over = lambda u: np.divide(*self.table(np.array(u))) - most  # noqa: E731
             self.end = brentq(over, 0.375, 0.475, xtol=1e-16) if over(0.375) < 0 else 0.375

@@ -42,8 +42,8 @@ EARLIEST = SPLITS[1]
 """Squeeze ε from which a surface may have its hardness on a squashed particle."""
 LEAST_PART = 1e-3
 """Part of the squeeze below which a particle takes none of it."""
-DEEPEST = 1.0
-"""Squeeze ε beyond which nothing changes: the planes of equal surfaces meet."""
+DEEPEST = 0.999
+"""Squeeze ε beyond which nothing changes: the planes of equal surfaces all but meet."""
 SOFTEST_KAPPA = 8.0
 """E*/H below which the elastic part of the table is not extrapolated further."""
 
