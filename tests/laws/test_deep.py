@@ -400,3 +400,18 @@ def test_a_side_has_the_same_bits_alone_and_among_others():
         alone = curve_rows(*(values[i : i + 1] for values in cases))
         for one, many in zip(alone, together, strict=True):
             np.testing.assert_array_equal(one[0], many[i])
+
+
+def test_series_of_many_sides_are_those_of_each():
+    """Of every friction factor, one of the runs or between them, alone and among others."""
+    from thirdbody.laws.particle.deep import curve_rows
+
+    friction = np.array([0.0, 0.05, 0.3, 0.5, 0.77, 1.0])
+    ratio, kappa = np.geomspace(0.2, 5.0, 6), np.geomspace(9.0, 300.0, 6)
+    for whole, other in zip(
+        curve_rows(ratio, friction, kappa),
+        zip(*(curve_rows(*(v[i : i + 1] for v in (ratio, friction, kappa))) for i in range(6)),
+            strict=True),
+        strict=True,
+    ):  # fmt: skip
+        np.testing.assert_array_equal(whole, np.concatenate(other))
