@@ -199,6 +199,50 @@ def test_particles_squeezed_to_the_end_have_the_area_of_the_law(seat):
         np.testing.assert_allclose(got[name], want[name], rtol=1e-10, err_msg=name)
 
 
+def test_areas_that_change_order_twice_between_kinks_cast_their_shadow():
+    # at squeezes of 0.9434 and 0.9511, between kinks of one of the sides
+    case = contact("deep").replace(
+        surfaces=tb.MaterialPair(
+            tb.Material(E=196698137306.0, nu=0.219223, H=4347886725.0), tb.Material(E=75242129568.0, nu=0.279017, H=542619517.0)
+        ),
+        particles=tb.Particles(
+            material=tb.Material(E=25799455393.0, nu=0.344171, H=459986321.0), areal_density=1e9,
+            diameter=tb.LogNormal(median=4.5756e-6, gsd=1.4),
+        ),
+    )  # fmt: skip
+    sides = case.particle_law.one(surfaces=case.surfaces, particle=case.particles.material)
+    fine = np.linspace(0.93, sides.kinks[-1], 20_001)
+    first, second = (
+        side.area(own) for side, own in zip(sides.sides, sides.indentations(fine), strict=True)
+    )
+    turns = fine[np.flatnonzero(np.diff(np.sign(first - second)))]
+    assert len(turns) >= 2
+    for turn in turns:
+        assert np.min(np.abs(sides.kinks - turn)) < 1e-5
+    d = np.array([1.6e-6, -1.4e-7])
+    got, want = own_columns(case, {}, "d", d), tb.solve(case, d=d).columns()
+    np.testing.assert_allclose(got["shadow"], want["shadow"], rtol=1e-10)
+
+
+def test_wide_sizes_are_summed_to_the_end_of_the_table():
+    # the last stretch of the table bends most: summed with few nodes it was 6e-9 of the area off
+    case = contact("deep", "plane").replace(
+        surfaces=tb.MaterialPair(
+            tb.Material(E=120437731575.0, nu=0.1973, H=10360650666.0),
+            tb.Material(E=66259395508.0, nu=0.3446, H=1428251779.0),
+        ),
+        particles=tb.Particles(
+            material=tb.Material(E=99746204446.0, nu=0.2098, H=2338896855.0), areal_density=3.76e12,
+            diameter=tb.LogNormal(median=72.9e-9, gsd=2.1029),
+        ),
+        particle_law=LAWS["deep"].replace(seat="plane", friction_factor=0.5),
+    )  # fmt: skip
+    d = np.array([0.25e-7, 1.6e-7])
+    got, want = own_columns(case, {}, "d", d), tb.solve(case, d=d).columns()
+    for name in ("A_sa", "A_sa2", "F_sa_star"):
+        np.testing.assert_allclose(got[name], want[name], rtol=2e-11, err_msg=name)
+
+
 @pytest.mark.parametrize("sizes", list(SIZES))
 def test_a_plane_below_every_gap_is_solved(sizes):
     # asperities carry nearly all, and all particles are squeezed to their whole height

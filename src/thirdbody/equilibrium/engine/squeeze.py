@@ -431,7 +431,7 @@ def _cut_at_crossings(given, sides, panels, p, count):
         a, b = panels[p, n, EDGE], panels[p, n, TO]
         before, place = 0.0, a
         for j in range(9):
-            eps = a + (b - a) * (0.02 + 0.12 * j)
+            eps = a + (b - a) * (1e-4 + 0.124975 * j)
             one, two = _areas_at(sides, panels, p, n, eps)
             sign = 0.0
             if abs(one - two) > 1e-11 * max(one, two):

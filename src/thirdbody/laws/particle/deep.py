@@ -30,7 +30,7 @@ TABLE_ENDS = 0.95
 """Largest squeeze ε of the table."""
 TOGETHER = 0.7
 """Squeeze ε from which collars of the surfaces may touch."""
-SPLITS = (0.45, 0.75, 0.88)
+SPLITS = (0.45, 0.75, 0.88, 0.92)
 """Squeezes at which panels end, so that series of the table resolve it."""
 TERMS = 10
 """Of series of the roots of its slopes."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import math
 from functools import lru_cache
+from itertools import pairwise
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -318,7 +319,10 @@ class SqueezedParticle(OneParticle):
         """Values of ε at which the two contact areas change order."""
         from scipy.optimize import brentq
 
+        # between two kinks areas may change order twice
+        closer = [np.linspace(*ends, 24)[1:-1] for ends in pairwise(self.kinks)]
         grid = np.geomspace(self.kinks[0], self.kinks[-1], 400)
+        grid = np.unique(np.concatenate([grid, *closer]))
         smallest: Number = 1e-13 * self.great_circle
 
         def areas(eps: ArrayLike) -> tuple[Array, Array]:
