@@ -100,7 +100,7 @@ def test_in_words(found):
     share = tb.quantities.say.percent(float(found.state.particle_load_share[1]))
     assert f"particles carry {share} of the load" in text
     assert "128 × 128 points" in text
-    head, lines = explicit_words.compared(found)
+    head, lines = explicit_words.comparison_table(found)
     assert head[0] == "F*"
     assert len(lines) == len(LOADS)
     assert all(len(line) == len(head) for line in lines)

@@ -66,7 +66,7 @@ class TurningPoint:
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
     >>> point = tb.transitions(contact).F_tpca
     >>> point.A.status, f"{point.B.value:.2e}"
-    ('none', '1.67e-04')
+    ('none', '1.62e-04')
     """
 
     A: Critical
@@ -96,7 +96,7 @@ class Transitions:
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=24e-9)))
     >>> found = tb.transitions(contact)
     >>> f"{found.F_cr1.value:.2e}", found.F_cr2.status
-    ('4.73e-06', 'never s-s')
+    ('4.72e-06', 'never s-s')
     """
 
     F_cr1: Critical

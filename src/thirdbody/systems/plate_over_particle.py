@@ -89,7 +89,7 @@ class PlateOverParticle(Value):
     4.3
     >>> found = chuck.over(10e-6, tb.materials["SiO2"])
     >>> f"{found.height * 1e9:.1f} nm instead of 10 µm"
-    '24.8 nm instead of 10 µm'
+    '17.2 nm instead of 10 µm'
     """
 
     plate: Material

@@ -126,7 +126,7 @@ class Best:
     ...     pressure=[1e6, 5e6],
     ... )
     >>> [round(float(x) * 1e9) for x in best.values.values()], best.active, best.at_bound
-    ([125], (), ())
+    ([84], (), ())
     """
 
     values: dict[str, Any]

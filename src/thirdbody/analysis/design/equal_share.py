@@ -65,7 +65,7 @@ def equal_share_size(
     ...     particles=tb.Particles(material=silica, areal_density=1e11,
     ...                            diameter=tb.TruncatedGaussian(mean=300e-9, std=30e-9)))
     >>> round(equal_share_size(contact, pressure=5e6), 3)
-    2.502
+    2.509
     """
     from scipy.optimize import brentq
 
