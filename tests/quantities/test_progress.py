@@ -241,3 +241,17 @@ def test_a_work_that_fails_stops_its_heartbeat(beats):
 )
 def test_durations_in_words(seconds, words):
     assert progress.duration(seconds) == words
+
+
+def test_what_is_compiled_once_counts_in_no_estimate(monkeypatch):
+    now = [100.0]
+    monkeypatch.setattr(progress.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(progress, "_ASIDE", [0.0])
+    cost = progress.Cost(900, lambda states: None, what="states")
+    cost(100)
+    with progress.aside():
+        now[0] += 40.0
+    now[0] += 1.5
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cost(600)

@@ -16,6 +16,7 @@ __all__ = [
     "Cost",
     "Stages",
     "advance",
+    "aside",
     "counted",
     "duration",
     "heartbeat",
@@ -362,6 +363,20 @@ def weighed(share: float) -> Iterator[None]:
         yield
 
 
+_ASIDE = [0.0]
+"""Seconds of this process that count in no estimate."""
+
+
+@contextmanager
+def aside() -> Iterator[None]:
+    """What is done inside, once and for all states to come, counts in no estimate of their time."""
+    begin = time.monotonic()
+    try:
+        yield
+    finally:
+        _ASIDE[0] += time.monotonic() - begin
+
+
 class Cost:
     """How many states of many are solved; warns once it is known that they take long.
 
@@ -390,7 +405,7 @@ class Cost:
 
     def __call__(self, count: float, why: str = "") -> None:
         self.done += count
-        now = time.monotonic()
+        now = time.monotonic() - _ASIDE[0]
         if not self.start:  # the first of them may have been compiled for
             self.start, self.first = now, self.done
         elif self.what and now - self.start > SURE:

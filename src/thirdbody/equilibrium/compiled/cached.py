@@ -23,6 +23,8 @@ from typing import Any
 
 import numpy as np
 
+from ...quantities.progress import aside
+
 __all__ = ["Cached"]
 
 COMPILE = (
@@ -74,7 +76,7 @@ class Cached:
     def __call__(self, *args: Any) -> Any:
         kinds = tuple(map(_kind, args))  # cheap, which the types of records are not
         if kinds not in self._prepared:
-            with self._lock:
+            with self._lock, aside():
                 self._prepare(self._signature(args))
             self._prepared.add(kinds)
         return self.function(*args)
