@@ -87,6 +87,7 @@ def test_no_state_is_told_twice(early, told, monkeypatch):
     """Two blocks of three states, told while they are solved and once they are written."""
     clock = iter(range(1, 100))
     monkeypatch.setattr(progress.time, "monotonic", lambda: float(next(clock)))
+    monkeypatch.setattr(progress, "_ASIDE", [500.0])
     heard = []
     cost = progress.Cost(6, heard.append, early=early)
     for counts, written in (((1, 0.5, 0.5, 1), 3), ((0, 2, 1), 6)):

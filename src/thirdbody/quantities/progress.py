@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import threading
 import time
@@ -400,13 +401,13 @@ class Cost:
     ):
         self.total, self.report, self.what, self.early = total, report, what, early
         self.done, self.told = float(done), done
-        self.start = self.shown = 0.0
-        self.first = 0.0
+        self.start: float | None = None
+        self.shown, self.first = -math.inf, 0.0
 
     def __call__(self, count: float, why: str = "") -> None:
         self.done += count
         now = time.monotonic() - _ASIDE[0]
-        if not self.start:  # the first of them may have been compiled for
+        if self.start is None:  # the first of them may have been compiled for
             self.start, self.first = now, self.done
         elif self.what and now - self.start > SURE:
             whole = (now - self.start) * self.total / max(self.done - self.first, 1e-9)
