@@ -22,13 +22,14 @@ from .fields import (
     COVERED,
     DENSITY,
     F_SA,
+    GAUSSIAN,
     HIGH,
     KIND,
     LEAST,
+    LOGNORMAL,
     LOW,
     NODES,
     OFFSET,
-    ONE_SIZE,
     PLANE,
     POLYNOMIAL,
     PROJECTED,
@@ -38,6 +39,8 @@ from .fields import (
     SEAT_SPAN,
     SHADE,
     SHADOW,
+    SIZE_1,
+    SIZE_2,
     SPAN,
     WIDTH,
 )
@@ -65,6 +68,8 @@ REACH = 9.5
 """Widths of a seat beyond which nothing is summed."""
 WIDE_SPAN = 2.5
 """Widths of a panel from which on it may be as wide as the sizes spread."""
+SMOOTH_END = 7.5
+"""Standard deviations from the mean at which a normal density ends without a jump."""
 VECTOR = 8
 """Numbers that a processor takes at once: loops over the rest are slow."""
 ONSET, REST, ALIKE = 0.4, 0.2, 0.5
@@ -175,12 +180,21 @@ def _fill_up(grid, place, end):
 
 
 @scalar
+def _ends_smoothly(given, p):
+    """Whether the density of the sizes has no jump at its ends, which K would show."""
+    if given[p, KIND] == GAUSSIAN:
+        middle, reach = given[p, SIZE_1], SMOOTH_END * given[p, SIZE_2]
+        return given[p, LOW] <= middle - reach and middle + reach <= given[p, HIGH]
+    return given[p, KIND] == LOGNORMAL
+
+
+@scalar
 def _cut_squeeze(given, panels, p, count, grid, piece, rule):
     """Lay the ends of pieces of the squeeze in which K changes little; where they end, or −1."""
     apart()
     span, last = rule[0, SEAT_SPAN], panels[p, count - 1, TO]
     seat, own = given[p, WIDTH] / given[p, HIGH], 0.0
-    if given[p, KIND] != ONE_SIZE and span >= WIDE_SPAN:
+    if span >= WIDE_SPAN and _ends_smoothly(given, p):
         size = 0.5 * (given[p, LOW] + given[p, HIGH])
         own = scale_of(given, p, size) / size
     a = 0.0
