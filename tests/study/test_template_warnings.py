@@ -4,16 +4,9 @@ from importlib import resources
 
 import pytest
 
+from thirdbody.cli.commands.new import KINDS as TEMPLATES
 from thirdbody.study import load_study, run_study
 
-TEMPLATES = (
-    "ball-screw",
-    "rolling-bearing",
-    "additive",
-    "electrical",
-    "two-body",
-    "measured-surface",
-)
 ADVICE = (
     "solve again with",
     'the asperity law "field"',

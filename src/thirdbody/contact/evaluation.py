@@ -167,21 +167,21 @@ def _how_many(which: NDArray[np.bool_]) -> str:
     return f"{np.count_nonzero(which)} of {len(which)} states"
 
 
-class Later(Sequence[Any]):
+class LaidOutParticles(Sequence[Any]):
     """Particles that are laid out once an output asks for them: many do not."""
 
     def __init__(self, lay_out: Callable[[], Sequence[Any]]):
         self._lay_out = lay_out
 
     @cached_property
-    def _found(self) -> Sequence[Any]:
+    def _items(self) -> Sequence[Any]:
         return self._lay_out()
 
     def __len__(self) -> int:
-        return len(self._found)
+        return len(self._items)
 
     def __getitem__(self, which: Any) -> Any:
-        return self._found[which]
+        return self._items[which]
 
 
 def particles_of(
@@ -280,7 +280,7 @@ def evaluate(
         here = {name: columns[name][part] for name in ("d", "h", "pressure", "A_t")}
         many = None if crowd is None else crowd[part]
         asperities = asperities_of(bound, here["d"], columns["shadow"][part])
-        particles = Later(partial(particles_of, contact, bound, here["d"], many))
+        particles = LaidOutParticles(partial(particles_of, contact, bound, here["d"], many))
         state = Solved(
             contact=contact,
             **here,
