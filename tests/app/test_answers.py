@@ -7,6 +7,7 @@ import re
 import signal
 import time
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 from io import StringIO
 from pathlib import Path
 
@@ -207,6 +208,22 @@ def test_a_call_under_which_every_process_ends_is_no_mistake_of_the_study():
         asyncio.run(go())
     finally:
         solver.close()
+
+
+def test_ctrl_c_does_not_reach_a_process_that_is_being_started():
+    solver = Solver()
+    try:
+        with ThreadPoolExecutor(1) as threads:
+            start = threads.submit(solver._free)
+            while not solver.all and not start.done():
+                time.sleep(0.001)
+            (process,) = solver.all
+            os.kill(process.pid, signal.SIGINT)
+            assert start.result()[0] is process
+        assert process.is_alive()
+    finally:
+        solver.close()
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 def test_a_study_is_read_again_after_nobody_could(tmp_path, monkeypatch):

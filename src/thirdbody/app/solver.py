@@ -16,7 +16,7 @@ import time
 import traceback
 import warnings
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
@@ -70,15 +70,29 @@ def ended(how: list[str]) -> str:
     )
 
 
+@contextlib.contextmanager
+def interrupts_blocked() -> Iterator[None]:
+    """Where processes are started that Ctrl-C must not reach, from their first instruction on.
+
+    It goes to every process of a terminal; the page ends these.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _serve(pipe: Any, warm: Callable[[], Any] | None) -> None:
     """Get ready, then answer calls until the page is gone."""
     with contextlib.suppress(ImportError):
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    with contextlib.suppress(ValueError):
-        # Ctrl-C reaches every process of a terminal; the page ends this one
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # for good, and where no signal can be blocked
     warnings.simplefilter("ignore")
     with contextlib.suppress(Exception):  # what is wrong is told to who asks
         if warm is not None:
@@ -201,7 +215,8 @@ class Solver:
         with self.lock:
             if self.closed:
                 raise asyncio.CancelledError
-            process.start()
+            with interrupts_blocked():
+                process.start()
             self.all.add(process)
             self.starting.add(began)
         theirs.close()
