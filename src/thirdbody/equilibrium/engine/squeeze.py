@@ -55,7 +55,7 @@ SHARED, STEEPEST = 1e-7, 1e4
 leaves the square; power of an indentation like which a load may grow."""
 JUMP, BESIDE = 1e-9, 1e-14
 """Of a load at a kink, at least, and where its sides are looked at; both relative."""
-DEEPEST = 1e3
+DEEPEST, SAME_AREA = 1e3, 1e-5
 
 
 @scalar
@@ -460,9 +460,10 @@ def _last_area(sides, i, load, area):
     apart()
     if sides[i, LIMIT] <= load * (1 + CLOSE):
         return side_at(sides, i, 2 * sides[i, KINKS + int(sides[i, COUNT]) - 1])[1]
-    if sides[i, JUMPS] > 0:
-        return area
-    return side_at(sides, i, inverse(sides, i, load))[1]
+    last = side_at(sides, i, inverse(sides, i, load))[1]
+    if sides[i, JUMPS] > 0 and abs(last - area) > SAME_AREA * area:
+        return area  # the last load lies on a jump: this is its other side
+    return last
 
 
 @scalar

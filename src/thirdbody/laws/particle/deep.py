@@ -30,7 +30,7 @@ TABLE_ENDS = 0.95
 """Largest squeeze ε of the table."""
 TOGETHER = 0.7
 """Squeeze ε from which collars of the surfaces may touch."""
-SPLITS = (0.45, 0.75, 0.88, 0.92)
+SPLITS = (0.087, 0.45, 0.75, 0.88, 0.92)
 """Squeezes at which panels end, so that series of the table resolve it."""
 TERMS = 10
 """Of series of the roots of its slopes."""
@@ -38,7 +38,7 @@ SOFT, RIGID = 0.4, 10.0
 """Hardness ratios up to which surfaces count as rigid, and from which the particle does."""
 SINK_AT = np.linspace(LAW_ENDS, TABLE_ENDS, 19)
 """Squeezes ε of the table, at which sinks stand."""
-EARLIEST = SPLITS[1]
+EARLIEST = SPLITS[2]
 """Squeeze ε from which a surface may have its hardness on a squashed particle."""
 LEAST_PART = 1e-3
 """Part of the squeeze below which a particle takes none of it."""
