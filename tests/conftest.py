@@ -114,3 +114,19 @@ def shared_reference():
         return json.loads(path.read_text("utf-8"))
 
     return load
+
+
+@pytest.fixture
+def blank_pictures(monkeypatch):
+    """Pictures are made and saved with nothing on them, for tests of the files that hold them:
+    to lay one out takes longer than all the rest of a command."""
+    from matplotlib.figure import Figure
+
+    save = Figure.savefig
+
+    def save_blank(figure, *args, **options):
+        figure.clear()
+        figure.set_layout_engine("none")
+        return save(figure, *args, **options)
+
+    monkeypatch.setattr(Figure, "savefig", save_blank)
