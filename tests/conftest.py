@@ -5,6 +5,8 @@ import json
 import os
 import signal
 import sys
+import warnings
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -45,7 +47,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
 
 def pytest_sessionstart(session):
-    """Compile the engine once, before the workers start."""
+    """Compile both engines once, beside each other, before the workers start."""
     if hasattr(session.config, "workerinput"):
         return
     if session.config.getoption("numprocesses", None):
@@ -58,11 +60,18 @@ def pytest_sessionstart(session):
         surfaces=bodies,
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=tb.Particles(material=tb.materials["SiO2"], diameter=dust, areal_density=1e11),
-        particle_law=tb.particle.Series(deep="off"),
     )
-    # harder than both surfaces: particles that are squashed are not for the compiled engine
+    # deep particles are for the engine of columns; where none is deep, and none so soft as to be
+    # squashed, states are for the other
+    laws = [tb.particle.Series(deep=deep) for deep in ("table", "off")]
     vary = {"particles.material.H": np.linspace(8e9, 9e9, 32)}
-    tb.solve_states(contact, F_star=1e-5, vary=vary)
+
+    def compile_for(law):
+        tb.solve_states(contact.replace(particle_law=law), F_star=1e-5, vary=vary)
+
+    with warnings.catch_warnings(), ThreadPoolExecutor() as threads:
+        warnings.simplefilter("ignore")
+        list(threads.map(compile_for, laws))
 
 
 # what a test draws at random is named when it fails: every generator by its seed
