@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import warnings
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -28,6 +29,7 @@ os.fsync = lambda file: os.fstat(file) and None
 
 # what commands print heeds COLUMNS, which workers of the tests set to a width of their own
 os.environ.pop("COLUMNS", None)
+os.unsetenv("COLUMNS")  # readline sets it past Python's record of the environment
 
 # CI: the same examples every time, and the first counterexample as it is; a contact costs up to
 # a second to bind, so shrinking is left to HYPOTHESIS_PROFILE=search, which also looks elsewhere
@@ -104,10 +106,19 @@ def pytest_runtest_makereport():
     return report
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
     """Files with long studies first, so that no worker is left alone with one at the end; whole,
-    so that what the tests of a file share is made once."""
+    so that what the tests of a file share is made once. Cases of which a spread is quick are
+    counted as they stand, so a step that divides no number of values takes each value."""
     long = {item.path for item in items if item.get_closest_marker("slow")}
+    cases = Counter()
+    for item in items:
+        if mark := item.get_closest_marker("spread"):
+            of = item.path, getattr(item, "originalname", item.name)
+            if cases[of] % mark.args[0]:
+                item.add_marker(pytest.mark.slow)
+            cases[of] += 1
     items.sort(key=lambda item: item.path not in long)
 
 

@@ -131,6 +131,7 @@ def test_turning_point_sizes():
     assert state.particle_load_share == pytest.approx(0.5, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_window_is_a_share_and_wider_limits_never_hurt():
     window = Objective(of="particle_load_share", aim="window")
     few = dict(vary={SIZE: (5e-8, 5e-7)}, F_star=LOADS, points=24)
@@ -151,6 +152,7 @@ def scattered(objective, **asked):
     return found.points[objective.label].values[:8]
 
 
+@pytest.mark.slow
 def test_scatter():
     objective = Objective(of="A_t", over_scatter="worst")
     some = dict(vary={SIZE: (5e-8, 5e-7)}, F_star=[1e-5], points=8)

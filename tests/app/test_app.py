@@ -661,6 +661,7 @@ def test_a_length_is_shown_with_its_sign_and_written_without():
     assert value_from("2.8 µm") == value_from("2.8 μm") == "2.8 um"
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("of", ["F_cr1", "n_sa"])
 def test_error_bars_of_critical_loads_and_outputs(of):
     known = {"roughness.sigma": (9e-8, 11e-8)}

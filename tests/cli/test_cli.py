@@ -298,6 +298,7 @@ def test_a_forgotten_unit_is_an_error_before_any_answer():
     assert 'was "120 nm" meant?' in result.stderr
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize(
     "where", [">&-", ">/dev/full", "<&- >&-", ">&- 2>&-", ">/dev/full 2>/dev/full"]
 )
@@ -313,18 +314,12 @@ def test_an_answer_that_cannot_be_written_is_an_error(command, where):
         assert re.fullmatch(r"error: cannot read or write the output: .*\n", told)
 
 
-def test_odd_numbers_of_threads_are_refused():
-    for value in ("abc", "0", "-2", "1.5", "²", "9" * 30):
-        words = [sys.executable, "-m", "thirdbody", "solve", str(DUSTY)]
-        done = subprocess.run(
-            words,
-            env=os.environ | {"THIRDBODY_THREADS": value},
-            capture_output=True,
-            text=True,
-            timeout=300,
-        )
-        assert done.returncode == 2, value
-        assert done.stderr.startswith("error: THIRDBODY_THREADS = ")
+@pytest.mark.spread(3)
+@pytest.mark.parametrize("value", ["abc", "0", "-2", "1.5", "²", "9" * 30])
+def test_odd_numbers_of_threads_are_refused(value):
+    done = process("solve", DUSTY, env=os.environ | {"THIRDBODY_THREADS": value}, timeout=300)
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: THIRDBODY_THREADS = ")
 
 
 # ---------------------------------------------------------------------------- --csv

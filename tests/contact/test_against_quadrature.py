@@ -60,6 +60,7 @@ DUSTS = {
 }
 
 
+@pytest.mark.spread(5)
 @pytest.mark.parametrize("seat", ["plane", "offset", "rough"])
 @pytest.mark.parametrize("dust", DUSTS)
 @pytest.mark.parametrize("second", [HARD, SOFT], ids=["like", "unlike"])

@@ -398,6 +398,7 @@ def test_the_page_is_one_file(dusty, two_body):
     assert "<and>" not in dusty[1].source
 
 
+@pytest.mark.slow
 def test_the_same_study_gives_the_same_bytes(tmp_path, request):
     """In another process too, with another number of threads, hash seed and file name."""
     files = [written(tmp_path, TWO_BODY, name) for name in ("a.toml", "b.toml")]
