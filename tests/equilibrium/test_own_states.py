@@ -329,7 +329,7 @@ def test_particles_that_break_hold_to_the_slow_path(kind, unlike):
 @pytest.mark.parametrize("unlike", [False, True])
 @pytest.mark.parametrize("kind", BREAKING)
 def test_many_random_states_that_break(kind, unlike):
-    hold_breaking(kind, 8, unlike, 9)
+    hold_breaking(kind, 4, unlike, 9)
 
 
 def test_breaking_that_was_not_shown_is_for_the_numpy_engine():
