@@ -136,6 +136,7 @@ def test_sobol_indices_of_a_sum_and_of_a_product():
 
 
 # ---------------------------------------------------------------- brute force
+@pytest.mark.slow
 def test_bands_hold_in_brute_force():
     """Of 200 contacts solved one by one, as many lie below each quantile as it says."""
     columns = ["A_t", "particle_load_share", "d", "A_p"]

@@ -75,6 +75,7 @@ def test_load_and_separation_are_inverse(twin, F):
     assert back.d == pytest.approx(d, abs=1e-9 * twin.interface.rough.sigma)
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("seat", ["plane", "offset", "rough"])
 @pytest.mark.parametrize(("kind", "loads"), [("gaussian", (1e-7, 1e-4)), ("lognormal", (1e-4,))])
 def test_against_a_plain_root_finder(seat, kind, loads):
