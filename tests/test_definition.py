@@ -220,6 +220,7 @@ BREAKING = {
 SHAPES = ((0.25, 35, 1.0), (0.5, 12, 1.3), (0.9, 70, 1.2), (0.05, 5, 1.0))
 
 
+@pytest.mark.spread(4)
 @pytest.mark.parametrize("law", ["gw", "ceb", "zmc", "hermite", "jg", "ke"])
 def test_angular_particles_of_every_law(law):
     for roundness, degrees, flatness in SHAPES:
@@ -239,7 +240,7 @@ def test_angular_particles_of_every_law(law):
             assert difference(case, want, by_tables(case, d, want)) < TOLERANCE, (shape, d)
 
 
-LONG = ("one size rough", "sizes plane")
+LONG = ("one size rough", "one size unlike", "sizes plane")
 
 
 @pytest.mark.parametrize(

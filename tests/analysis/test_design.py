@@ -77,6 +77,7 @@ def test_brute_force(objective):
     assert own == pytest.approx(best.objectives[objective.label], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_two_numbers_and_a_material_beat_a_grid():
     vary = {
         SIZE: (5e-8, 5e-7),

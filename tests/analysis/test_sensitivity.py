@@ -220,6 +220,7 @@ def load_of_largest_share(contact, near):
     return tb.solve(contact, d=root).F_star
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize(
     ("contact", "name", "share", "level"),
     [

@@ -171,6 +171,7 @@ def test_errors_of_the_bands_are_honest():
 
 
 # ---------------------------------------------------------------- critical loads
+@pytest.mark.spread(2)
 @pytest.mark.parametrize(
     ("contact", "inputs", "count"),
     [

@@ -398,6 +398,7 @@ def test_an_output_with_mistakes_blocks_itself_alone(state):
     assert state.answer.contact.roughness.sigma == 99e-9
 
 
+@pytest.mark.check
 def test_the_ranges_of_the_library_are_those_that_count(tmp_path):
     steel = example() | {"surfaces": {"first": "100Cr6", "second": "100Cr6"}}
     offered = _ranges(State(steel, tmp_path))
@@ -697,6 +698,7 @@ def test_error_bars_are_those_of_the_library():
     assert {"".join(each["y"]) for each in bars} == {"RMS of equivalent surface<br>heights"}
 
 
+@pytest.mark.check
 def test_a_bad_request_is_told_and_a_slow_one_is_ended(tmp_path):
     bad = tmp_path / "bad.x3p"
     bad.write_bytes(b"\x00\xffnot a surface" * 50)
@@ -706,6 +708,7 @@ def test_a_bad_request_is_told_and_a_slow_one_is_ended(tmp_path):
         asyncio.run(Job("surface", seconds=0.2).run(file="example", options={}))
 
 
+@pytest.mark.check
 def test_a_file_of_python_objects_is_not_executed(tmp_path):
     import pickle
 

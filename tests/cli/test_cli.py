@@ -298,7 +298,7 @@ def test_a_forgotten_unit_is_an_error_before_any_answer():
     assert 'was "120 nm" meant?' in result.stderr
 
 
-@pytest.mark.spread(3)
+@pytest.mark.check
 @pytest.mark.parametrize(
     "where", [">&-", ">/dev/full", "<&- >&-", ">&- 2>&-", ">/dev/full 2>/dev/full"]
 )
@@ -314,7 +314,7 @@ def test_an_answer_that_cannot_be_written_is_an_error(command, where):
         assert re.fullmatch(r"error: cannot read or write the output: .*\n", told)
 
 
-@pytest.mark.spread(3)
+@pytest.mark.check
 @pytest.mark.parametrize("value", ["abc", "0", "-2", "1.5", "²", "9" * 30])
 def test_odd_numbers_of_threads_are_refused(value):
     done = process("solve", DUSTY, env=os.environ | {"THIRDBODY_THREADS": value}, timeout=300)
@@ -423,6 +423,7 @@ def test_a_full_disk_is_told():
         files.write_text("/dev/full", "nothing")
 
 
+@pytest.mark.check
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 def test_a_full_device_is_told_before_any_work():
     """Nothing is solved, so nothing is warned of."""
@@ -463,6 +464,7 @@ IN_COMPILED = f"exec('try: {INTERRUPT}\\nexcept BaseException as e: raise System
 SWALLOWED = f"exec('try: {INTERRUPT}\\nexcept BaseException: pass')"
 
 
+@pytest.mark.check
 @pytest.mark.skipif(os.name == "nt", reason="signals")
 @pytest.mark.parametrize(
     "statement", [INTERRUPT, IN_FINALIZER, IN_CALLBACK, IN_COMPILED, SWALLOWED]
@@ -489,6 +491,7 @@ def test_interrupt_while_modules_load(tmp_path, module, statement):
     assert list(tmp_path.iterdir()) == [fake]
 
 
+@pytest.mark.check
 @pytest.mark.skipif(os.name == "nt", reason="pipes")
 @pytest.mark.parametrize("more", [("--json",), ()])
 def test_reader_that_goes_away(more):

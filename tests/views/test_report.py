@@ -368,6 +368,7 @@ def test_surfaces_apart(tmp_path):
     assert not re.search(r"\b(nan|inf|None)\b", Page(found.html()).whole)
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("law", ["jkr", "gw", "elliptic-zmc"])
 def test_laws_with_numbers_of_their_own(tmp_path, law):
     numbers = {
@@ -419,6 +420,7 @@ def test_the_same_study_gives_the_same_bytes(tmp_path, request):
 EXPLICIT = (EXAMPLES / "explicit.toml").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_a_study_with_explicit_surfaces_has_one_pressed(tmp_path, no_figures):
     study = load_study(written(tmp_path, EXPLICIT))
     found = report(study)
