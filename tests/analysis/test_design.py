@@ -56,6 +56,7 @@ def brute(case, objective, x):
     return np.array(out)
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize(
     "objective",
     [

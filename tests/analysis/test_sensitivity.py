@@ -65,6 +65,7 @@ CASES = {
 }
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("load", [{"F_star": 1e-5}, {"pressure": 1e7}], ids=["F*", "pressure"])
 @pytest.mark.parametrize("case", CASES)
 def test_every_derivative_equals_differences_of_solved_states(case, load):

@@ -171,11 +171,10 @@ def test_errors_of_the_bands_are_honest():
 
 
 # ---------------------------------------------------------------- critical loads
-@pytest.mark.spread(2)
 @pytest.mark.parametrize(
     ("contact", "inputs", "count"),
     [
-        (DUSTY, RANGES, 50),
+        pytest.param(DUSTY, RANGES, 50, marks=pytest.mark.slow),
         (
             FEW,
             {

@@ -218,6 +218,7 @@ def test_slider_and_load_are_inverse(state, part):
 
 
 # ---------------------------------------------------------------- the same numbers
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_the_script_gives_the_numbers_of_the_page(file, tmp_path, capsys):
     state = State(tomllib.loads(file.read_text()), tmp_path)
@@ -244,6 +245,7 @@ def test_the_script_holds_outputs_and_several_populations(tmp_path):
     assert np.array_equal(names["curves"].outputs["mu"], state.answer.study.solve().outputs["mu"])
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("suffix", ["csv", "json"])
 def test_files_are_those_of_the_command_line(suffix, tmp_path):
     study = example("Oil of code 18/16/13") | {"load": {"pressure": ["1 MPa", "5 MPa"]}}

@@ -145,6 +145,7 @@ def swapped(name):
     return name
 
 
+@pytest.mark.slow
 @settings(max_examples=4, deadline=None)
 @given(
     pressure=st.floats(6, 7.7).map(lambda power: 10.0**power),

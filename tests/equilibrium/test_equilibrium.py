@@ -181,6 +181,7 @@ def crossings(load, F: float, d: np.ndarray) -> list[float]:
     return out
 
 
+@pytest.mark.spread(4)
 @pytest.mark.parametrize(
     ("x_a", "F"),
     [(3e-7, 3e-6), (3e-7, 2e-5), (1e-6, 1e-7), (1e-6, 1e-5), (1e-6, 9e-5), (1e-6, 3e-4)],

@@ -317,7 +317,7 @@ def hold_breaking(kind, count, unlike, seed):
     assert np.all(got["error"][sure] <= 1e-10)
 
 
-@pytest.mark.spread(3)
+@pytest.mark.spread(4)
 @pytest.mark.parametrize(
     ("kind", "unlike"),
     [("plain", True), ("gone", False), ("not confined", False), ("from zero", False)],
@@ -568,7 +568,7 @@ def test_laws_beyond_what_was_shown_are_for_the_numpy_engine():
         own_columns(falls, {"surfaces.first.H": STEEL.H * np.ones(4)}, "F_star", np.full(4, 1e-6))
 
 
-@pytest.mark.spread(3)
+@pytest.mark.spread(4)
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("law", ["hermite", "deep"])
 def test_loads_that_asperities_carry_are_its_own_on_a_rough_seat(law, body):
