@@ -5,6 +5,9 @@ import json
 import os
 import signal
 import sys
+import warnings
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +29,7 @@ os.fsync = lambda file: os.fstat(file) and None
 
 # what commands print heeds COLUMNS, which workers of the tests set to a width of their own
 os.environ.pop("COLUMNS", None)
+os.unsetenv("COLUMNS")  # readline sets it past Python's record of the environment
 
 # CI: the same examples every time, and the first counterexample as it is; a contact costs up to
 # a second to bind, so shrinking is left to HYPOTHESIS_PROFILE=search, which also looks elsewhere
@@ -45,7 +49,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
 
 def pytest_sessionstart(session):
-    """Compile the engine once, before the workers start."""
+    """Compile both engines once, beside each other, before the workers start."""
     if hasattr(session.config, "workerinput"):
         return
     if session.config.getoption("numprocesses", None):
@@ -58,11 +62,18 @@ def pytest_sessionstart(session):
         surfaces=bodies,
         roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
         particles=tb.Particles(material=tb.materials["SiO2"], diameter=dust, areal_density=1e11),
-        particle_law=tb.particle.Series(deep="off"),
     )
-    # harder than both surfaces: particles that are squashed are not for the compiled engine
+    # deep particles are for the engine of columns; where none is deep, and none so soft as to be
+    # squashed, states are for the other
+    laws = [tb.particle.Series(deep=deep) for deep in ("table", "off")]
     vary = {"particles.material.H": np.linspace(8e9, 9e9, 32)}
-    tb.solve_states(contact, F_star=1e-5, vary=vary)
+
+    def compile_for(law):
+        tb.solve_states(contact.replace(particle_law=law), F_star=1e-5, vary=vary)
+
+    with warnings.catch_warnings(), ThreadPoolExecutor() as threads:
+        warnings.simplefilter("ignore")
+        list(threads.map(compile_for, laws))
 
 
 # what a test draws at random is named when it fails: every generator by its seed
@@ -95,10 +106,19 @@ def pytest_runtest_makereport():
     return report
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
     """Files with long studies first, so that no worker is left alone with one at the end; whole,
-    so that what the tests of a file share is made once."""
+    so that what the tests of a file share is made once. Cases of which a spread is quick are
+    counted as they stand, so a step that divides no number of values takes each value."""
     long = {item.path for item in items if item.get_closest_marker("slow")}
+    cases = Counter()
+    for item in items:
+        if mark := item.get_closest_marker("spread"):
+            of = item.path, getattr(item, "originalname", item.name)
+            if cases[of] % mark.args[0]:
+                item.add_marker(pytest.mark.slow)
+            cases[of] += 1
     items.sort(key=lambda item: item.path not in long)
 
 
@@ -114,3 +134,19 @@ def shared_reference():
         return json.loads(path.read_text("utf-8"))
 
     return load
+
+
+@pytest.fixture
+def blank_pictures(monkeypatch):
+    """Pictures are made and saved with nothing on them, for tests of the files that hold them:
+    to lay one out takes longer than all the rest of a command."""
+    from matplotlib.figure import Figure
+
+    save = Figure.savefig
+
+    def save_blank(figure, *args, **options):
+        figure.clear()
+        figure.set_layout_engine("none")
+        return save(figure, *args, **options)
+
+    monkeypatch.setattr(Figure, "savefig", save_blank)

@@ -120,7 +120,8 @@ COMMANDS = [
     ["outputs"],
     ["materials"],
     ["design", study("additive"), "--json", "--csv", "points.csv", "--figure", "points.svg"]
-    + ["--set", 'design.pressure=["2 MPa"]'],
+    + ["--set", 'design.pressure=["2 MPa"]', "--set", "design.points=8"]
+    + ["--set", "design.limits=[]"],
 ]
 CHUNKS = ["--set", "sweep.chunk=3"]
 REDUCED = ["--set", "sweep.reduce={ quantiles = [0.5], mean = true }"]
@@ -190,7 +191,8 @@ def test_every_command_on_every_example(tmp_path, name):
             ["table", path, "--out", "table.csv", "--tolerance", "1e-3"],
             ["assess", path, "--html", "assess.html", "--set", "uncertainty.samples=64"],
             ["report", path, "--out", "report.html", "--set", "uncertainty.samples=64"],
-            ["design", path, "--json", "--csv", "points.csv", "--figure", "points.svg"],
+            ["design", path, "--json", "--csv", "points.csv", "--figure", "points.svg"]
+            + ["--set", "design.points=8"],
             ["sweep", path, "--out", "sweep", "--set", "sweep.chunk=32"],
         ],
         SEEDS[:2],

@@ -40,6 +40,7 @@ def number_of(size, weight):
     return volume / (np.pi / 6 * cube) * 1e-6
 
 
+@pytest.mark.slow
 def test_no_point_of_a_grid_is_better(best):
     study = load_study(EXAMPLE, OFF)
     size, weight = (
@@ -103,6 +104,7 @@ def test_slopes_hold_the_concentration(best):
             assert best.slopes[column][name] == pytest.approx(slope, rel=1e-4, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_command(tmp_path):
     """One JSON object, a table of every point, a figure, and nothing else."""
     command = [sys.executable, "-m", "thirdbody", "design", EXAMPLE, "--json"]

@@ -505,6 +505,7 @@ def test_the_page_is_made_for_small_and_dark_screens(page):
     assert re.findall(r"--[a-z]+", light) == re.findall(r"--[a-z]+", dark)
 
 
+@pytest.mark.slow
 def test_particles_that_break_are_told_with_all_bounds_of_their_fragments():
     """What pieces bear is not known: nothing, their footprint, all of them; and what decides."""
     steel, quartz = tb.materials["S45C"], tb.materials["quartz"]

@@ -337,6 +337,7 @@ def test_command_needs_no_labelled_arrays(tmp_path):
     assert not {"xarray", "pandas", "dask", "pint", "matplotlib"} & set(loaded)
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_command_writes_every_number(tmp_path):
     """--csv is the table of --out, whichever load the study gives."""
     for load in ('load={pressure="3 MPa"}', "load={F_star=[1e-6, 1e-5]}"):
@@ -348,6 +349,7 @@ def test_command_writes_every_number(tmp_path):
     assert run(CLEAN, "--csv", tmp_path / "none" / "c.csv").exit_code == 2
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_command_prints_one_table(tmp_path):
     result = run(CLEAN, "--laws", "ke, jg", "--out", tmp_path / "out")
     assert result.exit_code == 0

@@ -161,6 +161,7 @@ FILES = {
 }  # fmt: skip
 
 
+@pytest.mark.spread(5)
 @pytest.mark.parametrize("damage", DAMAGES)
 @pytest.mark.parametrize(
     ("kind", "name"), [(k, name) for k, names in FILES.items() for name in names]

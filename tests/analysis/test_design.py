@@ -56,6 +56,7 @@ def brute(case, objective, x):
     return np.array(out)
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize(
     "objective",
     [
@@ -77,6 +78,7 @@ def test_brute_force(objective):
     assert own == pytest.approx(best.objectives[objective.label], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_two_numbers_and_a_material_beat_a_grid():
     vary = {
         SIZE: (5e-8, 5e-7),
@@ -131,6 +133,7 @@ def test_turning_point_sizes():
     assert state.particle_load_share == pytest.approx(0.5, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_window_is_a_share_and_wider_limits_never_hurt():
     window = Objective(of="particle_load_share", aim="window")
     few = dict(vary={SIZE: (5e-8, 5e-7)}, F_star=LOADS, points=24)
@@ -151,6 +154,7 @@ def scattered(objective, **asked):
     return found.points[objective.label].values[:8]
 
 
+@pytest.mark.slow
 def test_scatter():
     objective = Objective(of="A_t", over_scatter="worst")
     some = dict(vary={SIZE: (5e-8, 5e-7)}, F_star=[1e-5], points=8)

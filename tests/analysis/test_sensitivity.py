@@ -65,6 +65,7 @@ CASES = {
 }
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("load", [{"F_star": 1e-5}, {"pressure": 1e7}], ids=["F*", "pressure"])
 @pytest.mark.parametrize("case", CASES)
 def test_every_derivative_equals_differences_of_solved_states(case, load):
@@ -220,6 +221,7 @@ def load_of_largest_share(contact, near):
     return tb.solve(contact, d=root).F_star
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize(
     ("contact", "name", "share", "level"),
     [

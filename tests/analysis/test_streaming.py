@@ -228,6 +228,7 @@ def test_blocks_cover_every_state_once(sizes, chunk):
 
 
 # ---------------------------------------------------------------- on disk
+@pytest.mark.spread(3)
 @FORMATS
 @pytest.mark.parametrize("workers", [1, 3])
 def test_streamed_is_in_memory_bit_for_bit(tmp_path, format, workers):
@@ -293,6 +294,7 @@ def stop_after(states):
     return progress
 
 
+@pytest.mark.spread(3)
 @FORMATS
 @pytest.mark.parametrize("workers", [1, 2])
 def test_interrupted_run_goes_on(tmp_path, format, workers):
@@ -483,8 +485,8 @@ def sampled(tmp_path):
 @pytest.mark.parametrize(
     ("format", "step"),
     [
-        pytest.param("zarr", 2, marks=pytest.mark.slow),
-        pytest.param("netcdf", 1, marks=pytest.mark.slow),
+        pytest.param("zarr", 3, marks=pytest.mark.slow),
+        pytest.param("netcdf", 2, marks=pytest.mark.slow),
     ],
 )
 def test_killed_at_any_moment_and_again_equals_unbroken(tmp_path, sampled, format, step):
@@ -662,6 +664,7 @@ def reference(states, over, name):
     }
 
 
+@pytest.mark.spread(3)
 @FORMATS
 @pytest.mark.parametrize("over", [["sample"], ["particle_law.seat", "pressure"]])
 @pytest.mark.parametrize("chunk", [4, 1000])
@@ -686,6 +689,7 @@ def test_reductions_are_numpys(tmp_path, format, over, chunk):
         assert_array_equal(data["quantile"], ALL["quantiles"])
 
 
+@pytest.mark.spread(2)
 @FORMATS
 def test_a_cell_in_many_blocks(tmp_path, format):
     """Without quantiles a cell may be larger than a block; its parts survive a stop."""

@@ -136,6 +136,7 @@ def test_sobol_indices_of_a_sum_and_of_a_product():
 
 
 # ---------------------------------------------------------------- brute force
+@pytest.mark.slow
 def test_bands_hold_in_brute_force():
     """Of 200 contacts solved one by one, as many lie below each quantile as it says."""
     columns = ["A_t", "particle_load_share", "d", "A_p"]
@@ -173,7 +174,7 @@ def test_errors_of_the_bands_are_honest():
 @pytest.mark.parametrize(
     ("contact", "inputs", "count"),
     [
-        (DUSTY, RANGES, 50),
+        pytest.param(DUSTY, RANGES, 50, marks=pytest.mark.slow),
         (
             FEW,
             {

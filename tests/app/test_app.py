@@ -218,6 +218,7 @@ def test_slider_and_load_are_inverse(state, part):
 
 
 # ---------------------------------------------------------------- the same numbers
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_the_script_gives_the_numbers_of_the_page(file, tmp_path, capsys):
     state = State(tomllib.loads(file.read_text()), tmp_path)
@@ -244,6 +245,7 @@ def test_the_script_holds_outputs_and_several_populations(tmp_path):
     assert np.array_equal(names["curves"].outputs["mu"], state.answer.study.solve().outputs["mu"])
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("suffix", ["csv", "json"])
 def test_files_are_those_of_the_command_line(suffix, tmp_path):
     study = example("Oil of code 18/16/13") | {"load": {"pressure": ["1 MPa", "5 MPa"]}}
@@ -398,6 +400,7 @@ def test_an_output_with_mistakes_blocks_itself_alone(state):
     assert state.answer.contact.roughness.sigma == 99e-9
 
 
+@pytest.mark.check
 def test_the_ranges_of_the_library_are_those_that_count(tmp_path):
     steel = example() | {"surfaces": {"first": "100Cr6", "second": "100Cr6"}}
     offered = _ranges(State(steel, tmp_path))
@@ -661,6 +664,7 @@ def test_a_length_is_shown_with_its_sign_and_written_without():
     assert value_from("2.8 µm") == value_from("2.8 μm") == "2.8 um"
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("of", ["F_cr1", "n_sa"])
 def test_error_bars_of_critical_loads_and_outputs(of):
     known = {"roughness.sigma": (9e-8, 11e-8)}
@@ -696,6 +700,7 @@ def test_error_bars_are_those_of_the_library():
     assert {"".join(each["y"]) for each in bars} == {"RMS of equivalent surface<br>heights"}
 
 
+@pytest.mark.check
 def test_a_bad_request_is_told_and_a_slow_one_is_ended(tmp_path):
     bad = tmp_path / "bad.x3p"
     bad.write_bytes(b"\x00\xffnot a surface" * 50)
@@ -705,6 +710,7 @@ def test_a_bad_request_is_told_and_a_slow_one_is_ended(tmp_path):
         asyncio.run(Job("surface", seconds=0.2).run(file="example", options={}))
 
 
+@pytest.mark.check
 def test_a_file_of_python_objects_is_not_executed(tmp_path):
     import pickle
 

@@ -298,6 +298,7 @@ def test_a_forgotten_unit_is_an_error_before_any_answer():
     assert 'was "120 nm" meant?' in result.stderr
 
 
+@pytest.mark.check
 @pytest.mark.parametrize(
     "where", [">&-", ">/dev/full", "<&- >&-", ">&- 2>&-", ">/dev/full 2>/dev/full"]
 )
@@ -313,18 +314,12 @@ def test_an_answer_that_cannot_be_written_is_an_error(command, where):
         assert re.fullmatch(r"error: cannot read or write the output: .*\n", told)
 
 
-def test_odd_numbers_of_threads_are_refused():
-    for value in ("abc", "0", "-2", "1.5", "²", "9" * 30):
-        words = [sys.executable, "-m", "thirdbody", "solve", str(DUSTY)]
-        done = subprocess.run(
-            words,
-            env=os.environ | {"THIRDBODY_THREADS": value},
-            capture_output=True,
-            text=True,
-            timeout=300,
-        )
-        assert done.returncode == 2, value
-        assert done.stderr.startswith("error: THIRDBODY_THREADS = ")
+@pytest.mark.check
+@pytest.mark.parametrize("value", ["abc", "0", "-2", "1.5", "²", "9" * 30])
+def test_odd_numbers_of_threads_are_refused(value):
+    done = process("solve", DUSTY, env=os.environ | {"THIRDBODY_THREADS": value}, timeout=300)
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: THIRDBODY_THREADS = ")
 
 
 # ---------------------------------------------------------------------------- --csv
@@ -428,6 +423,7 @@ def test_a_full_disk_is_told():
         files.write_text("/dev/full", "nothing")
 
 
+@pytest.mark.check
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 def test_a_full_device_is_told_before_any_work():
     """Nothing is solved, so nothing is warned of."""
@@ -468,6 +464,7 @@ IN_COMPILED = f"exec('try: {INTERRUPT}\\nexcept BaseException as e: raise System
 SWALLOWED = f"exec('try: {INTERRUPT}\\nexcept BaseException: pass')"
 
 
+@pytest.mark.check
 @pytest.mark.skipif(os.name == "nt", reason="signals")
 @pytest.mark.parametrize(
     "statement", [INTERRUPT, IN_FINALIZER, IN_CALLBACK, IN_COMPILED, SWALLOWED]
@@ -494,6 +491,7 @@ def test_interrupt_while_modules_load(tmp_path, module, statement):
     assert list(tmp_path.iterdir()) == [fake]
 
 
+@pytest.mark.check
 @pytest.mark.skipif(os.name == "nt", reason="pipes")
 @pytest.mark.parametrize("more", [("--json",), ()])
 def test_reader_that_goes_away(more):

@@ -40,6 +40,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.check
 def test_a_law_of_ones_own_is_solved():
     process("new", "two-body")
     law = '--set=asperity_law={name="abrupt",k=0.4}'

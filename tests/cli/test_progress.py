@@ -9,10 +9,18 @@ from thirdbody.quantities import progress
 from .test_cli import EXAMPLES, run
 
 BY_NAME = {path.stem: path for path in EXAMPLES}
+QUICK_DESIGN = (
+    "--set",
+    "design.points=4",
+    "--set",
+    'design.pressure=["5 MPa"]',
+    "--set",
+    "design.limits=[]",
+)
 LONG = {
     "assess": ("assess", "--set", "uncertainty.samples=64"),
     "report": ("dusty_ball_screw", "--set", "load.F_star.points=2"),
-    "design": ("additive", "--set", "design.points=8"),
+    "design": ("additive", *QUICK_DESIGN),
     "explicit": ("explicit", "--surfaces", "1", "--size", "128", "--set", "load.F_star=1e-5"),
 }
 UNCOUNTED = {
@@ -21,7 +29,7 @@ UNCOUNTED = {
     "film": ("oil_film",),
     "table": ("dusty_ball_screw", "--out", "table.csv", "--tolerance", "1e-2"),
     "explicit": LONG["explicit"],
-    "design": ("additive", "--set", "design.points=4"),
+    "design": ("additive", *QUICK_DESIGN),
 }
 """Commands that show no parts of their work, or only on a terminal."""
 

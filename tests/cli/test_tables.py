@@ -54,6 +54,7 @@ def test_no_number_of_a_study_drawn_at_random_is_broken(width, seed):
     assert_whole(width, "solve", study, *more)
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("width", [60, 80])
 @pytest.mark.parametrize(
     "arguments",
@@ -145,6 +146,7 @@ OFF = [
 """The law and the limit under which the example has its best size inside the range."""
 
 
+@pytest.mark.slow
 def test_design_speaks_the_units_of_its_file():
     done = CliRunner().invoke(cli.app, ["design", str(ADDITIVE), *OFF], env={"COLUMNS": "80"})
     text = " ".join(done.stdout.split())

@@ -60,6 +60,7 @@ DUSTS = {
 }
 
 
+@pytest.mark.spread(5)
 @pytest.mark.parametrize("seat", ["plane", "offset", "rough"])
 @pytest.mark.parametrize("dust", DUSTS)
 @pytest.mark.parametrize("second", [HARD, SOFT], ids=["like", "unlike"])
@@ -78,6 +79,7 @@ def test_materials(seat, dust, second):
     agree(tb.solve(twin.contact, d=twin.d), twin.expected())
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("shadow", ["footprint", "projected", "covered", "none"])
 @pytest.mark.parametrize("seat", ["plane", "rough"])
 @pytest.mark.parametrize("kind", ["gaussian", "lognormal", "weibull", "uniform", "monodisperse"])

@@ -331,6 +331,7 @@ SIZES = {
 }
 
 
+@pytest.mark.spread(5)
 @pytest.mark.parametrize("fragments", FRAGMENTS)
 @pytest.mark.parametrize("name", SIZES)
 def test_tables_are_the_sums(name, fragments):
@@ -392,7 +393,7 @@ def closing(rng, sizes, gaps, strength):
 
 @pytest.mark.parametrize(
     "fragments",
-    [pytest.param(each, marks=pytest.mark.slow if each == "all" else ()) for each in FRAGMENTS],
+    [pytest.param(each, marks=() if each == "gone" else pytest.mark.slow) for each in FRAGMENTS],
 )
 def test_explicit_grains_break_one_by_one(fragments):
     rng = np.random.default_rng(7)
@@ -443,6 +444,7 @@ def outputs_of_all():
             continue
 
 
+@pytest.mark.spread(5)
 @pytest.mark.parametrize("sizes", ABOVE.values(), ids=ABOVE)
 @pytest.mark.parametrize("seat", ["rough", "plane"])
 @pytest.mark.parametrize("fragments", FRAGMENTS)
@@ -510,6 +512,7 @@ def test_pieces_that_bear_nothing_need_no_ratio():
 
 
 # ---------------------------------------------------------------- samples
+@pytest.mark.spread(5)
 @pytest.mark.parametrize("fragments", FRAGMENTS)
 @pytest.mark.parametrize("sigma", [5e-8, 5e-7, 5e-6])
 @pytest.mark.parametrize(

@@ -246,11 +246,12 @@ def test_debris_that_covers_the_surface_is_solved_above_that():
     bound = interface(case)
     ground = bound.asperities.ground
     # short steps from nothing lead to the same ground, but for the lowest, where they creep
-    state = np.zeros((len(ground.h), 14))
+    some = np.arange(1, len(ground.h), 5)
+    state = np.zeros((len(some), 14))
     for _ in range(400):
-        found, u = ground._round(ground.h, state)
+        found, u = ground._round(ground.h[some], state)
         state += 0.1 * (found - state)
-    np.testing.assert_allclose(u[1:], ground.u[1:], atol=1e-6)
+    np.testing.assert_allclose(u, ground.u[some], atol=1e-6)
     low = solved(case, d=(ground.lowest + 1e-9) * rough.sigma - rough.y_s)
     assert low.shadow < 1
     with pytest.raises(NoEquilibrium, match="particles cover too much of the area"):

@@ -57,6 +57,7 @@ def compare(samples, want: float, meaningful: float) -> None:
     assert abs(mean - want) < 4 * error, f"{mean} ± {error} is not {want}"
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("h", [-1.0, 0.0, 1.0, 2.0])
 @pytest.mark.parametrize("interface", [INTERFACE, UNLIKE], ids=["like", "unlike"])
 def test_asperities(interface, h):
@@ -86,6 +87,7 @@ def lognormal(rng, median: float, gsd: float, size: int):
     return median * np.exp(math.log(gsd) * rng.standard_normal(size))
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("interface", [INTERFACE, UNLIKE], ids=["like", "unlike"])
 @pytest.mark.parametrize(
     ("seat", "d", "options"),

@@ -232,6 +232,7 @@ def test_ductile_particles_are_as_wide_as_they_are_squashed():
     assert wide[0] < x
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("deep", ["off", "table"])
 def test_a_film_is_a_contact_with_a_plane_seat(deep):
     """The single-particle route and the contact agree where the gap is one height."""
@@ -469,6 +470,7 @@ def _number_by_hand(value, sizes, *, mean_gap, width, first, cut=math.inf):
     return total
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("seat", ["rough", "plane"])
 @pytest.mark.parametrize("cut", [math.inf, 450e-9])
 def test_percentile_and_deepest_are_those_of_an_integral_by_hand(seat, cut):

@@ -83,6 +83,7 @@ def test_limits_of_a_moving_source(flux, kind, rest, fast):
     assert found == pytest.approx(fast, rel=1.5e-3)
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("Pe", [0.3, 2.0, 8.0])
 @pytest.mark.parametrize("flux", heat.FLUXES)
 def test_moving_source_against_quadrature(Pe, flux):

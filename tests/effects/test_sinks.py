@@ -118,6 +118,7 @@ def test_nothing_embeds_at_equal_hardness():
     assert hard["embedded_1"] > 0
 
 
+@pytest.mark.slow
 def test_depths_of_dents_are_known_at_any_hardness():
     depths = {}
     for ratio in (0.6, 0.999, 1.001, 1.5, 4.0):

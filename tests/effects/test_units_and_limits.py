@@ -120,6 +120,7 @@ def test_change_of_units(scales, pressure, x_a):
         assert other == pytest.approx(value, rel=rel, abs=1e-300, nan_ok=True), (name, unit)
 
 
+@pytest.mark.slow
 @settings(max_examples=4, deadline=None)
 @given(scales=st.tuples(ratios, ratios, ratios, ratios, ratios), gap=st.floats(0.05, 0.9))
 def test_change_of_units_where_particles_break(scales, gap):
@@ -144,6 +145,7 @@ def swapped(name):
     return name
 
 
+@pytest.mark.slow
 @settings(max_examples=4, deadline=None)
 @given(
     pressure=st.floats(6, 7.7).map(lambda power: 10.0**power),

@@ -88,6 +88,7 @@ def balanced(got, F_star, at, bound=1e-12) -> None:
 
 
 # --------------------------------------------------------------------------- balances
+@pytest.mark.spread(4)
 @compiled
 @pytest.mark.parametrize("shape", SIZES)
 @pytest.mark.parametrize("seat", SEATS)
@@ -106,6 +107,7 @@ def test_dust_under_many_loads(seat, shape):
     assert np.all(np.diff(got["d"]) <= 1e-15 * SIZE)
 
 
+@pytest.mark.spread(4)
 @compiled
 @pytest.mark.parametrize("shape", SIZES)
 @pytest.mark.parametrize("seat", SEATS)

@@ -336,6 +336,7 @@ def materials_of_their_own(count: int) -> dict[str, np.ndarray]:
     }
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("seat", ["plane", "rough"])
 def test_states_with_materials_and_shapes_of_their_own(seat):
     """Nodes over the squeeze on a rough seat; on a plane nodes over the sizes."""
@@ -702,6 +703,7 @@ print(out.hexdigest())
 """
 
 
+@pytest.mark.slow
 def test_threads_of_linear_algebra_change_no_bit():
     """A product of matrices shared by threads has other last digits than one that is not."""
     study = Path(__file__).parents[2] / "examples" / "bearing_wear_debris.toml"

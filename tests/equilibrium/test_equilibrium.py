@@ -75,6 +75,7 @@ def test_load_and_separation_are_inverse(twin, F):
     assert back.d == pytest.approx(d, abs=1e-9 * twin.interface.rough.sigma)
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("seat", ["plane", "offset", "rough"])
 @pytest.mark.parametrize(("kind", "loads"), [("gaussian", (1e-7, 1e-4)), ("lognormal", (1e-4,))])
 def test_against_a_plain_root_finder(seat, kind, loads):
@@ -180,6 +181,7 @@ def crossings(load, F: float, d: np.ndarray) -> list[float]:
     return out
 
 
+@pytest.mark.spread(4)
 @pytest.mark.parametrize(
     ("x_a", "F"),
     [(3e-7, 3e-6), (3e-7, 2e-5), (1e-6, 1e-7), (1e-6, 1e-5), (1e-6, 9e-5), (1e-6, 3e-4)],

@@ -315,6 +315,7 @@ def hold_breaking(kind, count, unlike, seed):
     assert np.all(got["error"][sure] <= 1e-10)
 
 
+@pytest.mark.spread(4)
 @pytest.mark.parametrize(
     ("kind", "unlike"),
     [("plain", True), ("gone", False), ("not confined", False), ("from zero", False)],
@@ -327,7 +328,7 @@ def test_particles_that_break_hold_to_the_slow_path(kind, unlike):
 @pytest.mark.parametrize("unlike", [False, True])
 @pytest.mark.parametrize("kind", BREAKING)
 def test_many_random_states_that_break(kind, unlike):
-    hold_breaking(kind, 8, unlike, 9)
+    hold_breaking(kind, 4, unlike, 9)
 
 
 def test_breaking_that_was_not_shown_is_for_the_numpy_engine():
@@ -565,6 +566,7 @@ def test_laws_beyond_what_was_shown_are_for_the_numpy_engine():
         own_columns(falls, {"surfaces.first.H": STEEL.H * np.ones(4)}, "F_star", np.full(4, 1e-6))
 
 
+@pytest.mark.spread(4)
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("law", ["hermite", "deep"])
 def test_loads_that_asperities_carry_are_its_own_on_a_rough_seat(law, body):
@@ -661,6 +663,7 @@ def test_many_random_states(law, seat, body, sizes, unlike):
     hold(contact(law, seat, body, sizes), 20, 8, unlike)
 
 
+@pytest.mark.slow
 def test_laws_of_the_kernel_are_the_laws():
     """Load and area on every branch, by the kernel and by the objects that NumPy asks."""
     from numba import njit

@@ -36,6 +36,7 @@ def ruled(law, bodies, width=0.1):
     return squeeze_rule(law, *sides, tip_radius=0.5, widths=np.array([[width]]), split_areas=True)
 
 
+@pytest.mark.spread(3)
 @laws
 @pytest.mark.parametrize("name", BODIES)
 def test_nodes_integrate_what_one_particle_carries(law, name):

@@ -325,6 +325,7 @@ def run(*arguments):
     return CliRunner().invoke(cli.app, ["explicit", *map(str, arguments)])
 
 
+@pytest.mark.slow
 def test_the_command_writes_what_it_says(tmp_path):
     out = tmp_path / "points"
     done = run(EXAMPLE, *SMALL, "--out", out, "--json")

@@ -66,6 +66,7 @@ def run(out):
     return CliRunner().invoke(cli.app, ["explicit", str(EXAMPLE), *WORDS, "--out", str(out)])
 
 
+@pytest.mark.spread(7)
 @DAMAGES
 @pytest.mark.parametrize(
     "name", ["study.json", "states.csv", "maps.nc", "explicit.json", "explicit.png",

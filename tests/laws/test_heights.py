@@ -188,6 +188,7 @@ def test_impossible_kurtosis_is_refused(skew, kurtosis):
 EDGE = np.random.default_rng(20).random((24, 3)).tolist()
 
 
+@pytest.mark.spread(4)
 @pytest.mark.parametrize("at", EDGE, ids=lambda at: f"{at[0]:.3f}-{at[1]:.3f}")
 def test_edge_of_the_feasible_region(at):
     """At the edge κ = Sk² + 1 a fit is either refused in words or has the moments asked for."""

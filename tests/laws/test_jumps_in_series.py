@@ -47,6 +47,7 @@ def test_in_other_units(law, name):
     np.testing.assert_allclose(other_areas, areas, rtol=1e-11)
 
 
+@pytest.mark.spread(4)
 @pytest.mark.parametrize("name", BODIES)
 @pytest.mark.parametrize("law", UP)
 def test_against_the_indentations_of_both_sides(law, name):

@@ -51,6 +51,7 @@ def test_what_varies():
     assert rules == set(SEATS.values())
 
 
+@pytest.mark.slow
 def test_a_run_writes_what_it_says_and_goes_on(few, tmp_path, monkeypatch):
     done = explicit.reproduce(tmp_path, preset="quick")
     assert {file.name for file in tmp_path.iterdir()} == {*done.files, "surfaces", "study.json"}

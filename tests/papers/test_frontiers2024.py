@@ -7,6 +7,7 @@ import pytest
 from thirdbody.papers import frontiers2024 as study
 from thirdbody.papers.ledger import OWN, SEEN, WORDS
 
+pytestmark = pytest.mark.slow
 READINGS = ("rough", "offset")
 
 

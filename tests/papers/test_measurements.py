@@ -32,15 +32,21 @@ VERDICTS = {
 }
 
 
+# the whole page takes half a minute: what needs it is among the long tests
+whole = pytest.mark.slow
+
+
 @pytest.fixture(scope="module")
 def done(tmp_path_factory):
     return measurements.reproduce(tmp_path_factory.mktemp("measurements"))
 
 
+@whole
 def test_every_measurement_has_its_verdict(done):
     assert {name: word_of(dict(one)) for name, one in done.ledger.items()} == VERDICTS
 
 
+@whole
 def test_the_lost_ones_stand_first(done):
     words = [word_of(dict(done.ledger[row.name])) for row in done.rows]
     assert words == sorted(words, key=WORDS.index)
@@ -79,6 +85,7 @@ def test_no_number_without_its_standing():
         ("williamson1956", "manner", 1.0, 1.0),
     ],
 )
+@whole
 def test_predictions(done, row, claim, low, high):
     band = done.ledger[row][claim].band
     assert low <= band.low * (1 + 1e-9)
@@ -99,6 +106,7 @@ def test_the_load_of_a_particle_decides_whether_it_rolls(coefficients):
     assert loads[1] / loads[0] == pytest.approx(1, abs=0.01)
 
 
+@whole
 def test_the_sharpest_change_of_one_size_is_at_its_cross_section(done):
     """At the load of one that is closed in, over the hardness of the steel."""
     surfaces, dust = tb.MaterialPair(STEEL, STEEL), tb.materials["Al2O3"]
@@ -130,6 +138,7 @@ def test_a_band_is_met_lost_or_undecided():
     assert judged(1.5, undecided="circular") == "undecided"
 
 
+@whole
 def test_the_ledger_is_whole(done):
     found = json.loads((done.out / "measurements.json").read_text("utf-8"))
     assert sum(found["totals"].values()) == len(found["measurements"]) == len(VERDICTS)
@@ -140,6 +149,7 @@ def test_the_ledger_is_whole(done):
     assert all((done.out / name).stat().st_size > 0 for name in done.files)
 
 
+@whole
 def test_the_summary_counts(done):
     text = "\n".join(done.lines())
     assert "17 measurements: 7 lost, 9 undecided, 1 met" in text

@@ -9,7 +9,7 @@ from thirdbody.papers import PAPERS
 from thirdbody.papers import wu2017 as study
 from thirdbody.papers.ledger import NO_SOURCE, OWN, SEEN
 
-pytestmark = pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")]
 READINGS = ("few", "many", "smooth")
 VERDICTS = {
     "grows": ("fail", "fail", "fail"),

@@ -26,6 +26,7 @@ def above(particles, x, gap=1e-6):
 
 
 # ------------------------------------------------------------------------------ ISO 4406
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("level", cl.LEVELS)
 def test_every_code_survives(level):
     wrong = []

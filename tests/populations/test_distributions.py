@@ -404,6 +404,7 @@ def test_all_mistakes_at_once():
     assert len(caught.value.problems) == 3
 
 
+@pytest.mark.spread(7)
 @pytest.mark.parametrize(
     "dist",
     [

@@ -141,6 +141,7 @@ SHAPES = {
 }
 
 
+@pytest.mark.spread(5)
 @pytest.mark.parametrize("weighting", WEIGHTINGS)
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("smallest", [None, 1.5e-6])

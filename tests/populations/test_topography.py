@@ -761,6 +761,7 @@ def test_mistakes_beside_a_topography(part, text, words):
 
 
 # ---------------------------------------------------------------- the command
+@pytest.mark.usefixtures("blank_pictures")
 def test_the_command_prints_and_writes_it_all(tmp_path):
     result = run("surface", "example", "--out", tmp_path / "out", "--csv", tmp_path / "curve.csv")
     assert result.exit_code == 0

@@ -99,6 +99,7 @@ def test_a_block_of_a_sweep_moves_the_bar(slow, monkeypatch):
     assert heard == [24]  # the block is one, and a function hears of states solved for good
 
 
+@pytest.mark.spread(2)
 def test_samples_that_take_long_say_so(slow):
     contact = fresh(slow)
     vary = {"particles.diameter.mean": (290e-9, 310e-9), "particles.material.H": (6e9, 9e9)}

@@ -307,6 +307,7 @@ def test_a_probability_without_an_area_has_a_reason():
     assert not any("without A_n" in note for note in given.notes)
 
 
+@pytest.mark.slow
 def test_what_is_said_last_is_of_the_bodies():
     """States at Hertz's pressures are not the answer where the integral says another thing."""
     from thirdbody.cli.commands.solve import summary as of_solve

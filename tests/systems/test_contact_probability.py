@@ -116,6 +116,7 @@ def test_the_jump_at_the_load_of_one_particle():
     assert at - below >= 0.999 * math.exp(-number) * number * embedded > 0.1
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize(
     "sizes",
     [

@@ -104,6 +104,7 @@ def test_dents_after_many_passes_by_random_throws():
     assert float(co.dents_after(10.0, overrollings=3.0, area=0.0)) == 30.0
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("side", [1, 2])
 @pytest.mark.parametrize(
     "sizes",

@@ -368,6 +368,7 @@ def test_surfaces_apart(tmp_path):
     assert not re.search(r"\b(nan|inf|None)\b", Page(found.html()).whole)
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("law", ["jkr", "gw", "elliptic-zmc"])
 def test_laws_with_numbers_of_their_own(tmp_path, law):
     numbers = {
@@ -398,6 +399,7 @@ def test_the_page_is_one_file(dusty, two_body):
     assert "<and>" not in dusty[1].source
 
 
+@pytest.mark.slow
 def test_the_same_study_gives_the_same_bytes(tmp_path, request):
     """In another process too, with another number of threads, hash seed and file name."""
     files = [written(tmp_path, TWO_BODY, name) for name in ("a.toml", "b.toml")]
@@ -418,6 +420,7 @@ def test_the_same_study_gives_the_same_bytes(tmp_path, request):
 EXPLICIT = (EXAMPLES / "explicit.toml").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_a_study_with_explicit_surfaces_has_one_pressed(tmp_path, no_figures):
     study = load_study(written(tmp_path, EXPLICIT))
     found = report(study)
