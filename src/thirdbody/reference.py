@@ -490,13 +490,38 @@ def elliptic_hertz(ratio: float) -> EllipticHertz:
             return math.log(elliprd(0, 1, kk) / elliprd(0, kk, 1) / ratio)
 
         k = math.exp(brentq(excess, -math.log(ratio) - 1e-9, 0.0, xtol=1e-16, rtol=1e-15))
-    K = float(elliprf(0, k * k, 1))
-    D = float(elliprd(0, k * k, 1)) / 3
-    larger = math.sqrt(ratio)  # R′/R_g
-    return EllipticHertz(
-        k=k,
-        K=K,
-        R_A=2 * larger * k * D / K,
-        root_R_F=math.pi / 2 * math.sqrt(2 * larger * D) * K**-1.5,
-        yield_factor=9 / 4 * k * k * 2 * larger * D * K,
-    )
+    return EllipticHertz(*(float(each) for each in _of_axes(ratio, k)))
+
+
+def _of_axes(ratio, k):
+    """The fields of `EllipticHertz` from λ and the axes' ratio k, numbers or arrays."""
+    K = elliprf(0, k * k, 1)
+    D = elliprd(0, k * k, 1) / 3
+    larger = ratio**0.5  # R′/R_g
+    R_A = 2 * larger * k * D / K
+    root_R_F = math.pi / 2 * (2 * larger * D) ** 0.5 * K**-1.5
+    return k, K, R_A, root_R_F, 9 / 4 * k * k * 2 * larger * D * K
+
+
+def elliptic_hertz_rows(ratio: Array) -> EllipticHertz:
+    """`elliptic_hertz` of many λ at once: fields (N,)."""
+    target = np.log(ratio)
+
+    def excess(log_k: Array) -> Array:
+        kk = np.exp(2 * log_k)
+        return np.log(elliprd(0, 1, kk) / elliprd(0, kk, 1)) - target
+
+    # between 3/2 and 2 of ln λ for each unit of −ln k: secants, each λ until it is met
+    old, log_k = -target / 2, -target / 1.6
+    before, now = excess(old), excess(log_k)
+    for _ in range(20):
+        rest = np.abs(now) > 2e-15
+        if not rest.any():
+            break
+        with np.errstate(invalid="ignore", divide="ignore"):
+            step = now * (log_k - old) / (now - before)
+        step = np.where(rest & np.isfinite(step), step, 0.0)
+        old, before = log_k, now
+        log_k = np.clip(log_k - step, -target, 0.0)
+        now = excess(log_k)
+    return EllipticHertz(*_of_axes(ratio, np.exp(log_k)))

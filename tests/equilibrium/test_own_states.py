@@ -519,6 +519,8 @@ def test_asperity_laws_by_numbers_of_their_own():
         (tb.asperity.CEB(), {"K": 0.6 * turn}),
         (tb.asperity.JG(), {"hardness_ratio": 2.8 * turn}),
         (tb.asperity.EllipticZMC(ratio=2.0), {"k": 0.4 * turn}),
+        (tb.asperity.EllipticZMC(ratio=9.0, area_rule="doubling"), {"ratio": 9.0 * turn}),
+        (tb.asperity.EllipticCEB(ratio=1.06), {"ratio": np.array([1.0, 1.001, 1.06, 40.0])}),
         (tb.asperity.GW(), {}),
     ):
         bare = case.replace(asperity_law=law.replace(K=0.6) if "K" in own else law)
@@ -527,6 +529,83 @@ def test_asperity_laws_by_numbers_of_their_own():
         got, want = own_columns(bare, vary, "F_star", loads), slow(bare, vary, loads)
         assert set(got["doubt"]) == {""}
         assert max(largest_error(got, want, np.ones(4, bool)).values()) <= BOUND, law.name
+
+
+ATTRACTING = {
+    "jkr": tb.asperity.JKR(w=0.05),
+    "jkr, unloading": tb.asperity.JKR(w=0.05, unloading=True),
+    "dmt": tb.asperity.DMT(w=0.05),
+}
+
+
+@pytest.mark.parametrize("heights", ["gaussian", "weibull"])
+@pytest.mark.parametrize("law", ATTRACTING)
+def test_asperities_that_attract_hold_to_the_slow_path(law, heights):
+    """Up to where they pull more than they push, and at given separations beyond."""
+    bare = contact().replace(particles=None, asperity_law=ATTRACTING[law])
+    if heights == "weibull":
+        bare = bare.replace(**{"roughness.heights": HEIGHTS["weibull"]})
+    turn = np.array([0.1, 0.7, 1.0, 1.5, 4.0])
+    vary = {"surfaces.first.E": STEEL.E * turn, "asperity_law.w": 0.05 / turn}
+    loads = np.geomspace(1e-11, 1e-4, 5)
+    got, want = own_columns(bare, vary, "F_star", loads), slow(bare, vary, loads)
+    assert set(got["doubt"]) == {""}
+    assert max(largest_error(got, want, np.ones(5, bool)).values()) <= BOUND
+    assert np.all(got["error"] <= 1e-10)
+    d = np.array([-1.0, 0.5, 2.0, 3.0, 3.5]) * 2e-9
+    vary["asperity_law.w"], vary["roughness.sigma"] = 0.5 / turn, np.full(5, 2e-9)
+    got = own_columns(bare, vary, "d", d)
+    with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
+        want = state_columns(bare, d=d, vary=vary)
+    assert set(got["doubt"]) == {""}
+    assert heights == "weibull" or got["F_star"].min() < 0
+    for name in ("F_star", "A_e"):
+        np.testing.assert_allclose(got[name], want[name], rtol=1e-9, atol=1e-25)
+
+
+@pytest.mark.parametrize("law", ATTRACTING)
+def test_particles_between_asperities_that_attract_are_known_where_those_push(law):
+    """Where they pull, the load may rise with the separation: that is for the scan of the load."""
+    case = contact().replace(asperity_law=ATTRACTING[law])
+    vary = {"surfaces.first.E": STEEL.E * np.linspace(0.8, 1.2, 6)}
+    loads = np.geomspace(1e-8, 1e-3, 6)
+    got, want = own_columns(case, vary, "F_star", loads), slow(case, vary, loads)
+    sure = got["doubt"] == ""
+    assert sure[-1]
+    assert max(largest_error(got, want, sure).values()) <= BOUND
+    assert not np.any(sure[want["F_ss_star"] < 0])
+
+
+@pytest.mark.parametrize("indenter", [None, 70e9])
+def test_coated_asperities_hold_to_the_slow_path(indenter):
+    law = tb.asperity.Coated(E_1=3e11, nu_1=0.25, t=50e-9, E_3=indenter)
+    bare = contact().replace(particles=None, asperity_law=law)
+    vary = {
+        "asperity_law.t": np.geomspace(1e-9, 3e-6, 6),  # beyond the table, and much thicker
+        "surfaces.first.H": STEEL.H * np.linspace(0.5, 1.5, 6),
+    }
+    loads = np.geomspace(1e-8, 1e-4, 6)
+    got, want = own_columns(bare, vary, "F_star", loads), slow(bare, vary, loads)
+    assert set(got["doubt"]) == {""}
+    assert max(largest_error(got, want, np.ones(6, bool)).values()) <= BOUND
+    with pytest.raises(NotCompiled, match="coating"):
+        own_columns(bare, {"asperity_law.E_1": 3e11 * np.ones(6)}, "F_star", loads)
+
+
+@pytest.mark.parametrize("heights", ["gaussian", "exponential"])
+def test_asperities_of_several_shapes_hold_to_the_slow_path(heights):
+    shapes = tb.Ellipticity(ratios=(1.0, 2.0, 9.0), weights=(3, 2, 1), radii=(1.0, 0.7, 1.9))
+    rough = contact().roughness.replace(ellipticity=shapes)
+    if heights == "exponential":
+        rough = rough.replace(heights=HEIGHTS["exponential"])
+    turn, loads = np.linspace(0.8, 1.2, 4), np.geomspace(1e-8, 1e-4, 4)
+    for law in (tb.asperity.EllipticCEB(), tb.asperity.EllipticZMC()):
+        case = contact("hermite").replace(roughness=rough, asperity_law=law)
+        vary = {"roughness.sigma": 1e-7 * turn, "surfaces.first.H": STEEL.H * turn}
+        for every in (case, case.replace(particles=None)):
+            got, want = own_columns(every, vary, "F_star", loads), slow(every, vary, loads)
+            assert set(got["doubt"]) == {""}
+            assert max(largest_error(got, want, np.ones(4, bool)).values()) <= BOUND
 
 
 HEIGHTS = {
@@ -678,7 +757,17 @@ def test_laws_of_the_kernel_are_the_laws():
 
     a = tb.asperity
     y = np.geomspace(1e-3, 400.0, 200)
-    for law in (a.GW(), a.ZMC(), a.Hermite(), a.CEB(), a.KE(), a.JG(), a.EllipticZMC(ratio=3.0)):
+    laws = (
+        a.GW(),
+        a.ZMC(),
+        a.Hermite(),
+        a.CEB(),
+        a.KE(),
+        a.JG(),
+        a.EllipticZMC(ratio=3.0),
+        a.DMT(),
+    )
+    for law in laws:
         rows, tip = np.zeros((1, fields.OF_SIDE)), {"R": 1e-6, "H": 5e9}
         numbers, omega_1 = _law(type(law), law, tip["R"], 1.1e11, tip["H"], 0.3)
         rows[0, : len(numbers)] = numbers

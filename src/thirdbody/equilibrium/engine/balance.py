@@ -18,11 +18,13 @@ from .fields import (
     BREAKS,
     CODE,
     COVERAGE,
+    DMT,
     F_SA,
     F_SS,
     FOOTPRINT,
     HIGH,
     JG,
+    JKR,
     NODES,
     NOT_MONOTONE,
     NOT_RESOLVED,
@@ -47,7 +49,6 @@ from .fields import (
     TOO_MUCH,
     UNSOLVED,
     WIDTH,
-    W,
 )  # fmt: skip
 from .printed import add_printed, only_falls, printed_bound
 from .seats import (
@@ -59,7 +60,7 @@ from .seats import (
 )
 from .sides import scalar
 from .squeeze import EDGE, MOST_PANELS, PANEL, SHARE, TO, lay_panels, particle_at
-from .sums import MOST_HEIGHTS, MOST_SIZES, NEAREST, add_skin, lay_skin, shade
+from .sums import MOST_HEIGHTS, MOST_SIZES, add_skin, lay_skin, shade
 
 __all__ = ["LEVELS", "solve_own"]
 
@@ -95,13 +96,13 @@ RISE = 1e-6
 def total(given, skin, work, laid, rules, level, h, out):
     """Columns at h [σ_s] by the nodes of a level; the load, or NaN where formulas do not reach."""
     apart()
-    heights, sides, panels, grid, sizes, shares, _ = work
+    heights, sides, panels, grid, sizes, shares, _, coating = work
     for k in range(10):
         out[k] = 0.0
     last = len(given)
     nodes = int(rules[level, 0, NODES])
     good = add_skin(
-        skin, heights, laid[last, level, GRID], laid[last, level, GRID_END],
+        skin, coating, heights, laid[last, level, GRID], laid[last, level, GRID_END],
         rules[level, RULE], rules[level, RULE + 1], nodes, h, out,
     )  # fmt: skip
     d = h * skin[0, SIGMA_S]
@@ -124,7 +125,7 @@ def total(given, skin, work, laid, rules, level, h, out):
 def lay(given, skin, work, laid, rules, level):
     """Lay the nodes of one level behind those of the one before; False if there is no room."""
     apart()
-    heights, sides, panels, grid, sizes, shares, _ = work
+    heights, sides, panels, grid, sizes, shares, _, coating = work
     last, good = len(given), True
     place = size = begin = kept = piece = 0
     if level == FINE:
@@ -135,8 +136,8 @@ def lay(given, skin, work, laid, rules, level):
             piece = before[PIECE_END]
     laid[last, level, GRID] = begin
     begin = laid[last, level, GRID_END] = lay_skin(
-        skin, heights, begin, heights.shape[1] // 2, rules[level, RULE], rules[level, RULE + 1],
-        int(rules[level, 0, NODES]), 0.0 * skin[0, W], NEAREST / skin[0, W],
+        skin, coating, heights, begin, heights.shape[1] // 2, rules[level, RULE],
+        rules[level, RULE + 1], int(rules[level, 0, NODES]), -math.inf,
     )  # fmt: skip
     good &= begin >= 0
     for p in range(last):
@@ -177,8 +178,13 @@ def top_of(given, skin):
 
 
 @scalar
-def _imbalance(load, target):
-    """ln of the load over the target."""
+def _imbalance(skin, load, target):
+    """ln of the load over the target; where asperities attract, what is like it at the root.
+
+    Their load may be negative: (sinh⁻¹(load/target) − sinh⁻¹(1))√2.
+    """
+    if DMT <= skin[0, CODE] <= JKR:
+        return math.sqrt(2.0) * (math.asinh(load / target) - math.asinh(1.0))
     return math.log(load / target) if load > 0 else -800.0
 
 
@@ -204,7 +210,7 @@ def search(given, skin, work, laid, rules, target, out):
             if high - low < 1e-13:
                 break
             continue
-        f = _imbalance(load, target)
+        f = _imbalance(skin, load, target)
         if f > 0:
             low, f_low = h, f
         else:
@@ -239,7 +245,8 @@ def polish(given, skin, work, laid, rules, target, h, slope, out):
     old_h = old_f = math.nan
     n = 0
     while n < POLISHED:
-        f = _imbalance(total(given, skin, work, laid, rules, few + 1, h, out), target)
+        load = total(given, skin, work, laid, rules, few + 1, h, out)
+        f = _imbalance(skin, load, target)
         n += 1
         if abs(f) < abs(best_f):
             best, best_f = h, f
@@ -303,10 +310,16 @@ def _falls(given, skin, work, laid, bound, h):
     0.3/σ_s of itself at least: by one over the mean excess of the heights or more, which falls
     with the separation for all heights that the kernel knows, and is 3 σ_s at its lowest; a fifth
     as much by the law of Jackson and Green, whose load may grow like the sixth root of ω only.
+
+    The load of asperities that attract changes its sign once with the separation, as that of one
+    does with its interference, for heights whose density is log-concave (Karlin 1968, Total
+    Positivity, ch. 5): where it is positive it falls, and as fast as without attraction at least.
     """
     apart()
     sigma_s, least = skin[0, SIGMA_S], 0.05 if skin[0, CODE] == JG else 0.3
     d = h * sigma_s
+    if bound < 0:
+        return False
     steepest = covered = 0.0
     for p in range(len(given)):
         if given[p, SEAT] == PRINTED:
@@ -399,7 +412,7 @@ def _come_down(given, skin, work, laid, rules, target, out):
             step *= 0.5
         elif load >= target:
             above = total(given, skin, work, laid, rules, every, high, out)
-            f, f_above = _imbalance(load, target), _imbalance(above, target)
+            f, f_above = _imbalance(skin, load, target), _imbalance(skin, above, target)
             if not f > f_above:
                 return math.nan, 0.0
             slope = (f_above - f) / (high - low)
@@ -425,8 +438,8 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
         unit = 1.0 if k == SHADE else area
         if k % F_SA == 0 and k < SHADE - 1:  # the two loads
             unit = load
-        if unit > 0:
-            worst = max(worst, abs(out[k] - row[k]) / unit)
+        if unit != 0:
+            worst = max(worst, abs((out[k] - row[k]) / unit))
     error = SAFE * worst * worst
     for p in range(len(given)):  # shares of unlike sides are corrected once
         if given[p, SEAT] == PRINTED:
@@ -503,7 +516,8 @@ def _own_state(given, skin, work, laid, rules, ready, target, h, row, out):
                 return h, count, fate, 0.0 if fate == TOO_MUCH else math.inf
         else:
             count += 1
-            if not total(given, skin, work, laid, own, few + 1, h, row) >= 0:
+            load = total(given, skin, work, laid, own, few + 1, h, row)
+            if load != load:
                 return h, count, UNSOLVED, math.inf
         error = estimate(given, skin, work, laid, own, h, slope, row, out)
         if error <= ASKED:
@@ -524,30 +538,33 @@ def _alike(numbers, others):
 
 @Cached
 @njit(nogil=True, cache=True, error_model="numpy", no_cfunc_wrapper=True)
-def solve_own(skins, parts, bodies, rules, inside, target, h, count, fate, error, rows):
-    """Solve states by their own numbers: skins (N, ...), parts (N, P, ...), bodies (N, 2P, ...).
+def solve_own(skins, parts, bodies, rules, inside, coating, target, h, count, fate, error, rows):
+    """Solve states by their own numbers: skins (N, K, ...), parts (N, P, ...), bodies
+    (N, 2P, ...).
 
-    ``inside`` says what particles that break have inside. For the loads target [Pa], or where
+    ``inside`` says what particles that break have inside, ``coating`` how asperities do that are
+    coated. For the loads target [Pa], or where
     they are zero at the separations ``h`` [σ_s]. Fills ``h``, the evaluations ``count``, ``fate``,
     the estimated ``error`` and the columns ``rows`` (N, 10).
     """
     most = parts.shape[1]
     sides = np.zeros((2 * most, SIDE))
     work = (
-        np.zeros((5, 2 * MOST_HEIGHTS)),
+        np.zeros((5, 2 * MOST_HEIGHTS * skins.shape[1])),
         sides,
         np.empty((most, MOST_PANELS, PANEL)),
         np.empty((GRID_ROWS, MOST_NODES)),
         np.empty((4, MOST_SIZES)),
         np.empty(MOST_WHOLE if inside[0, 0] > 0 else 1),
         inside,
+        coating,
     )
     laid = np.zeros((most + 1, 2, 9), np.int64)
     ready = np.full(1, NOTHING)
     out = np.empty(10)
     for i in range(len(target)):
         if i == 0 or not (
-            _alike(skins[i], skins[i - 1])
+            _alike(skins[i].ravel(), skins[i - 1].ravel())
             and _alike(parts[i].ravel(), parts[i - 1].ravel())
             and _alike(bodies[i].ravel(), bodies[i - 1].ravel())
         ):
@@ -556,5 +573,5 @@ def solve_own(skins, parts, bodies, rules, inside, target, h, count, fate, error
                 for k in range(bodies.shape[2]):
                     sides[s, k] = bodies[i, s, k]
         h[i], count[i], fate[i], error[i] = _own_state(
-            parts[i], skins[i : i + 1], work, laid, rules, ready, target[i], h[i], rows[i], out
+            parts[i], skins[i], work, laid, rules, ready, target[i], h[i], rows[i], out
         )

@@ -15,7 +15,8 @@ from ...contact.contact import Contact
 from ...contact.particle_sums import printed_numbers
 from ...errors import NotCompiled
 from ...laws import asperity, particle
-from ...laws.asperity.elliptic import elliptic_hertz
+from ...laws.asperity.elliptic import hertz_of
+from ...laws.asperity.layer import ElasticLayer, table_of
 from ...laws.particle.deep import curve_rows, sink_rows, squashed_part
 from ...laws.particle.tension import _bends, _equator
 from ...numerics.quadrature import gauss_legendre
@@ -91,18 +92,18 @@ def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[An
     if kind in (a.ZMC, a.Hermite):
         code = f.ZMC if kind is a.ZMC else f.HERMITE
         return [code, law.k, law.rho, 1.0, 2.0], law.yield_interference(R=R, E_star=E, H=H)
-    if kind is a.EllipticZMC and not np.ndim(law.ratio):
-        r = elliptic_hertz(law.ratio).R_A
+    if kind is a.EllipticZMC:
+        r = hertz_of(law.ratio).R_A
         full = 2.0 if law.area_rule == "volume" else 2 * r
         return [f.ZMC, law.k, law.rho, r, full], law.yield_interference(R=R, E_star=E, H=H)
-    if kind in (a.CEB, a.KE, a.EllipticCEB) and not np.ndim(getattr(law, "ratio", 1.0)):
+    if kind in (a.CEB, a.KE, a.EllipticCEB):
         K = law.K if law.K is not None else 0.454 + 0.41 * (nu if law.nu is None else law.nu)
         omega_1 = (math.pi * K * H / (2 * E)) ** 2 * R
         if kind is a.KE:
             return [f.KE, K, 0, 0, 0], omega_1
         if kind is a.CEB:
             return [f.CEB, K, 1.0, 2.0, 0], omega_1
-        hertz = elliptic_hertz(law.ratio)
+        hertz = hertz_of(law.ratio)
         slope = 2.0 if law.area_rule == "volume" else 2 * hertz.R_A
         return [f.CEB, K, hertz.R_A, slope, 0], hertz.yield_factor * (2 / 3 * K * H / E) ** 2 * R
     if kind is a.JG:
@@ -112,7 +113,34 @@ def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[An
             raise NotCompiled("the law jg, far beyond its fits")
         over_R = (math.pi * C * strain / 2) ** 2
         return [f.JG, C, 0.14 * np.exp(23 * strain), over_R, law.hardness_ratio], over_R * R
+    if kind is a.Coated:
+        moduli = (law.E_1, law.nu_1, law.E_2, law.nu_2, law.E_3, law.nu_3)
+        if any(np.ndim(each) for each in moduli):
+            raise NotCompiled("a table of its own for each coating")
+        unit = law.E_1_star * law.t / (math.pi * R * H)
+        return [f.COATED, unit, 0, 0, 0], law.yield_interference(R=R, E_star=E, H=H)
+    if kind in (a.JKR, a.DMT):
+        unit = law.yield_interference(R=R, E_star=E, H=H)
+        load = law.w / (unit * H)  # over that of a pressure H on πR times the unit of ω
+        code = [f.JKR, load] if kind is a.JKR else [f.DMT, 2 * load]
+        return [*code, 0, 0, 0], unit
     raise NotCompiled(f"the law {law.name} is known to the NumPy engine alone")
+
+
+NO_COATING = np.zeros((1, 2 * f.COATING_TERMS))
+PIECES = 256
+"""Of the table of a coating: load to 1e-14 of it and area to 6e-13, for E_1/E_2 up to 1e3."""
+
+
+@lru_cache(maxsize=8)
+def coating_of(layer: ElasticLayer) -> Array:
+    """What the kernel knows of coated asperities of these materials."""
+    table, out = table_of(layer), np.zeros((1 + PIECES, 2 * f.COATING_TERMS))
+    out[0, f.BENDS], out[0, f.STEPS] = table.beta, PIECES / table.table.edges[-1]
+    out[0, f.TOP], out[0, f.THIN] = table.top, table.thin
+    out[0, f.REST : f.REST + 4] = *table.load_rest, *table.area_rest
+    out[1:] = table.pieces(PIECES, f.COATING_TERMS)
+    return out
 
 
 def _filled(rows: Array, values: Mapping[int, Any]) -> None:
@@ -203,8 +231,8 @@ class Numbers:
 
     Attributes
     ----------
-    skins, parts, bodies : array (N, ...), (N, P, ...), (N, 2P, ...)
-        Of asperities, populations and sides.
+    skins, parts, bodies : array (N, K, ...), (N, P, ...), (N, 2P, ...)
+        Of asperities of each shape, populations and sides.
 
     Raises
     ------
@@ -215,8 +243,13 @@ class Numbers:
     def __init__(self, contact: Contact, arrays: Mapping[str, Array], count: int):
         self.contact, self.count = contact, count
         self.varied = contact.with_arrays(arrays)
-        self.skins = np.zeros((count, f.OF_ASPERITIES))
-        self._add_asperities()
+        shapes = contact.roughness.ellipticity
+        classes = shapes.classes if shapes else [(None, 1.0, 1.0)]
+        self.skins = np.zeros((count, len(classes), f.OF_ASPERITIES))
+        self.coating = NO_COATING
+        """What asperities that are coated do, if they are."""
+        for k, (ratio, radius, share) in enumerate(classes):
+            self._add_asperities(self.skins[:, k], ratio, radius, share)
         bare = contact.two_body and "particles.areal_density" not in arrays
         found = [] if bare else self._populations()
         self.inside = np.zeros((1, 1))
@@ -230,24 +263,28 @@ class Numbers:
         for p, each in enumerate(found):
             self._add_particles(p, *each)
 
-    def _add_asperities(self) -> None:
+    def _add_asperities(
+        self, rows: Array, ratio: float | None, radius: float, share: float
+    ) -> None:
+        """Fill in the numbers of asperities of one shape, by its λ, R_g/R and share."""
         rough, surfaces, law = self.varied.roughness, self.varied.surfaces, self.varied.asperity_law
-        if rough.ellipticity:
-            raise NotCompiled("asperities of several shapes")
-        E, (H, nu) = surfaces.E_star, _softer(surfaces.first, surfaces.second)
-        numbers, omega_1 = _law(type(self.contact.asperity_law), law, rough.R, E, H, nu)
-        area = rough.density * math.pi * rough.R * omega_1
-        _filled(self.skins, dict(enumerate(numbers)))
-        _filled(
-            self.skins,
-            {
-                **{f.W: omega_1 / rough.sigma_s, f.FORCE: area * H, f.AREA: area},
-                **{f.SIGMA_S: rough.sigma_s, f.SIGMA: rough.sigma},
-                **_heights(rough.heights),
-            },
-        )
-        if self.skins[:, f.W].min() < 1e-9 or self.skins[:, f.W].max() > 1e9:
+        own = self.contact.asperity_law
+        if ratio is not None:
+            law = law.replace(ratio=ratio)
+        E, (H, nu), R = surfaces.E_star, _softer(surfaces.first, surfaces.second), radius * rough.R
+        numbers, omega_1 = _law(type(own), law, R, E, H, nu)
+        area, w = share * rough.density * math.pi * R * omega_1, omega_1 / rough.sigma_s
+        _filled(rows, dict(enumerate(numbers)))
+        _filled(rows, {f.W: w, f.FORCE: area * H, f.AREA: area, f.FINEST: math.inf})
+        _filled(rows, {f.SIGMA_S: rough.sigma_s, f.SIGMA: rough.sigma, **_heights(rough.heights)})
+        if rows[:, f.W].min() < 1e-9 or rows[:, f.W].max() > 1e9:
             raise NotCompiled("asperities that yield at once, or never")
+        if type(own) is asperity.JKR:  # stretched asperities reach above their height
+            rows[:, f.START] = own.start
+            rows[:, f.LAID_FROM] -= own.start * rows[:, f.W]
+        if type(own) is asperity.Coated:
+            self.coating = coating_of(own.layer)
+            rows[:, f.FINEST] = (0.5 / self.coating[0, f.BENDS]) ** 2
 
     def _populations(self) -> list[tuple[Any, Any, Any, Any, float, Any]]:
         """Particles and law, as they are and with arrays in them; a share and its sizes."""

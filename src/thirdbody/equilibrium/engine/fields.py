@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-GW, ZMC, HERMITE, CEB, KE, JG = range(6)
-"""Laws of one contact."""
+GW, ZMC, HERMITE, CEB, KE, JG, DMT, JKR, COATED = range(9)
+"""Laws of one contact; the last three of asperities alone."""
 SPHERE, SQUASHED, DEEP, FACED = range(4)
 """What a side of a particle is."""
 ONE_SIZE, GAUSSIAN, LOGNORMAL, UNIFORM, POWER = range(5)
@@ -24,7 +24,14 @@ W, FORCE, AREA, SIGMA_S, SIGMA = range(5, 10)
 HEIGHTS, SHAPE, MIDDLE, SPREAD, LOWEST_HEIGHT, LAID_FROM, STEP, LAST = range(10, 18)
 """Kind of heights, shape, and mean and standard deviation of the plain variable; lower end; the
 separation below which it shows in the nodes; width of a panel over t = ω/σ_s, and where t ends."""
-OF_ASPERITIES = 18
+START, FINEST = 18, 19
+"""Reduced interference at which contact begins, and the width of the first panel from there, at
+most."""
+OF_ASPERITIES = 20
+BENDS, STEPS, TOP, THIN, REST = range(5)
+"""Of a coating's table: β of ln(1 + β√y), pieces per unit of it, the last √y, its limit, and four
+numbers of what follows; the pieces are the next rows, powers of load and area side by side."""
+COATING_TERMS = 8
 
 # ------------------------------------------------------------------ given, of a side
 FORM, DELTA_1, UNIT, FULL, TIP, HILL, HARDER, TAKEN = range(5, 13)

@@ -101,7 +101,7 @@ def solve(
         here = slice(start, start + AT_ONCE)
         solve_own(
             *(numbers.skins[here], numbers.parts[here], numbers.bodies[here], rules()),
-            numbers.inside,
+            *(numbers.inside, numbers.coating),
             *(goal[here], h[here], evaluations[here], fate[here], error[here], rows[here]),
         )
 

@@ -19,6 +19,7 @@ from .fields import (
     COUNT,
     DEEP,
     DELTA_1,
+    DMT,
     END,
     FACE_AREA,
     FACE_PRESSURE,
@@ -69,6 +70,7 @@ doubled = scalar(formulas.doubled)
 zmc_spread = scalar(formulas._spread)
 plastic_ceb = scalar(formulas.plastic_ceb)
 kogut = scalar(formulas.kogut)
+pulled = scalar(formulas.pulled)
 green_middle = scalar(formulas.green_middle)
 HALVINGS, STEEPEST = 60, 1e-15
 OF_CAP, OF_WIDTH, OF_PRESSURE = 0.0, 1.0, 2.0
@@ -106,7 +108,7 @@ def hermite_middle(y, k, rho, r, full):
 def breaks(rows, i):
     """How many breakpoints the law of a row has."""
     code = rows[i, CODE]
-    if code == GW:
+    if code == GW or code >= DMT:
         return 0
     if ZMC <= code <= HERMITE:
         return 2
@@ -178,6 +180,8 @@ def law_at(rows, i, y):
         if y < 110:
             return kogut(y, 2 / 3 * first, 1.40, 1.263, 0.94, 1.146)
         return doubled(y, 2.0)
+    if code == DMT:
+        return pulled(y, first)
     if y < 1.9:
         return elastic(y, 2 / 3 * first / rows[i, LAW_4], 1.0)
     return green_middle(y, first, rows[i, LAW_2], rows[i, LAW_3], rows[i, LAW_4])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from ...laws.asperity import formulas
 from ..compiled.machine import apart, exp, normal_cdf
 from .breakage import mark_sizes
 from .densities import density, scale_of
@@ -12,23 +13,30 @@ from .fields import (
     A_SA,
     A_SA2,
     AREA,
+    BENDS,
     BREADTH,
     BREAKS,
+    COATED,
+    COATING_TERMS,
+    CODE,
     DENSITY,
     EQUAL,
     EXPONENT,
     EXPONENTIAL,
     F_SA,
     F_SS,
+    FINEST,
     FOOTPRINT,
     FORCE,
     GAUSSIAN_HEIGHTS,
     HEIGHTS,
     HIGH,
+    JKR,
     KEPT,
     KIND,
     LAID_FROM,
     LAST,
+    LAW_1,
     LIMIT,
     LOGNORMAL,
     LOW,
@@ -39,6 +47,7 @@ from .fields import (
     POWER,
     PROJECTED,
     RATIO,
+    REST,
     SHADE,
     SHADOW,
     SHAPE,
@@ -47,7 +56,11 @@ from .fields import (
     SIZE_RULE,
     SIZE_SPAN,
     SPREAD,
+    START,
     STEP,
+    STEPS,
+    THIN,
+    TOP,
     WIDTH,
     W,
 )  # fmt: skip
@@ -57,7 +70,6 @@ from .squeeze import CLOSE, LAST_1, LAST_2, REGIME, TO, particle_at
 __all__ = [
     "MOST_HEIGHTS",
     "MOST_SIZES",
-    "NEAREST",
     "ROOT_2PI",
     "above",
     "add_last",
@@ -76,19 +88,59 @@ NEAREST, CLOSEST = 0.3, 1e-5
 """First panel over heights [σ_s], and over the distance to the lower end of the heights."""
 
 
+adhesive, stretched = scalar(formulas.adhesive), scalar(formulas.stretched)
+stretched_from, coated_beyond = scalar(formulas.stretched_from), scalar(formulas.coated_beyond)
+
+
 # ------------------------------------------------------------------------------ asperities
 @scalar
-def lay_skin(skin, heights, count, until, gauss, weights, nodes, start, first):
-    """Nodes over the interference of asperities: t, weighted load and area; where they end.
+def _coated(coating, y, unit):
+    """Load and area of a coated asperity."""
+    apart()
+    root = math.sqrt(y)
+    if root > coating[0, TOP]:
+        load, area = coated_beyond(
+            coating[0, TOP] / root, coating[0, THIN], coating[0, REST], coating[0, REST + 1],
+            coating[0, REST + 2], coating[0, REST + 3],
+        )  # fmt: skip
+        return unit * load * root * y, area * y
+    place = math.log(1 + coating[0, BENDS] * root) * coating[0, STEPS]
+    n = min(int(place), len(coating) - 2)
+    x, load, area = 2 * (place - n) - 1, 0.0, 0.0
+    for k in range(COATING_TERMS - 1, -1, -1):
+        load = load * x + coating[n + 1, k]
+        area = area * x + coating[n + 1, COATING_TERMS + k]
+    return unit * load * root * y, area * y
 
-    From a reduced interference ``start`` on, with a first panel of a width ``first``, to the end of
-    the heights there; −1 if they would take more than ``until`` nodes.
+
+@scalar
+def _node(skin, row, coating, start, x):
+    """y at a node x of a panel, what dx has of dy, load and area there.
+
+    x is e of `adhesive`; of other laws it is √(y − start), or y where that is NaN.
     """
     apart()
-    row = len(skin) - 1  # a number and no constant, for which numba would compile twice
-    w = skin[row, W]
+    code = skin[row, CODE]
+    if code == JKR:
+        load, area = adhesive(x, skin[row, LAW_1])
+        return stretched(x), x * (3 + x * (3 + x)), load, area
+    y, slope = (x, 1.0) if start != start else (start + x * x, 2 * x)
+    load, area = _coated(coating, y, skin[row, LAW_1]) if code == COATED else law_at(skin, row, y)
+    return y, slope, load, area
+
+
+@scalar
+def _lay_shape(skin, row, coating, heights, count, until, gauss, weights, nodes, off):
+    """As `lay_skin`, of the asperities of one shape."""
+    apart()
+    w, start = skin[row, W], skin[row, START]
+    first, number = NEAREST / w, breaks(skin, row)
+    if off > -math.inf:
+        first *= min(max(w * start - off, CLOSEST), 1.0)
+        start = max(start, off / w)
+    first = min(first, skin[row, FINEST])
     step, end = skin[row, STEP] / w, start + skin[row, LAST] / w
-    number = breaks(skin, row)
+    load_unit, area_unit = skin[row, FORCE] / skin[0, FORCE], skin[row, AREA] / skin[0, AREA]
     a = start
     while a < end:
         b = a + first if a == start else min(start + (a - start) * 4.0, a + step)
@@ -102,21 +154,40 @@ def lay_skin(skin, heights, count, until, gauss, weights, nodes, start, first):
             b = end
         if count + nodes > until:
             return -1
-        regime = regime_of_branch(skin, row, branch_of(skin, row, 0.5 * (a + b)))
-        rooted = a == start
-        low, half = (0.0, 0.5 * math.sqrt(b - a)) if rooted else (a, 0.5 * (b - a))
+        regime = 0
+        if number > 0:
+            regime = regime_of_branch(skin, row, branch_of(skin, row, 0.5 * (a + b)))
+        rooted = start if a == start else math.nan
+        low, high = (0.0, math.sqrt(b - a)) if a == start else (a, b)
+        if skin[row, CODE] == JKR:
+            low, high = stretched_from(a), stretched_from(b)
+        half = 0.5 * (high - low)
         for j in range(nodes):
-            y, weight = low + half * (1 + gauss[j]), half * weights[j]
-            if rooted:
-                y, weight = start + y * y, 2 * y * weight
-            load, area = law_at(skin, row, y)
-            weight *= w / ROOT_2PI
+            y, slope, load, area = _node(skin, row, coating, rooted, low + half * (1 + gauss[j]))
+            weight = half * weights[j] * slope * w / ROOT_2PI
             heights[T, count] = w * y
-            heights[OF_LOAD, count] = weight * load
-            heights[OF_AREA, count] = weight * area
+            heights[OF_LOAD, count] = weight * load * load_unit
+            heights[OF_AREA, count] = weight * area * area_unit
             heights[ITS_REGIME, count] = regime
             count += 1
         a = b
+    return count
+
+
+@scalar
+def lay_skin(skin, coating, heights, count, until, gauss, weights, nodes, off):
+    """Nodes over the interference of asperities: t, weighted load and area; where they end.
+
+    To the end of the heights; from their lower end on, which lies ``off`` above the separation
+    [σ_s], −∞ where that does not show. −1 if they would take more than ``until`` nodes. Loads and
+    areas of every shape are in units of the first.
+    """
+    apart()
+    for row in range(len(skin)):
+        if count >= 0:
+            count = _lay_shape(
+                skin, row, coating, heights, count, until, gauss, weights, nodes, off
+            )
     return count
 
 
@@ -148,19 +219,16 @@ def _weigh_other(skin, heights, begin, end, h):
 
 
 @scalar
-def add_skin(skin, heights, begin, end, gauss, weights, nodes, h, out):
+def add_skin(skin, coating, heights, begin, end, gauss, weights, nodes, h, out):
     """Load and areas of the asperities at h [σ_s], into the first four columns.
 
     Where the lower end of the heights lies among the nodes, or close to them, they are laid anew.
     """
     apart()
     if h < skin[0, LAID_FROM]:
-        w, off = skin[0, W], skin[0, LOWEST_HEIGHT] - h
-        begin = int(heights[T, 0] * 0) + MOST_HEIGHTS  # no constant, for numba
-        start, first = max(off, 0.0) / w, NEAREST * min(max(-off, CLOSEST), 1.0) / w
-        end = lay_skin(
-            skin, heights, begin, begin + MOST_HEIGHTS, gauss, weights, nodes, start, first
-        )
+        begin = heights.shape[1] // 2
+        off, until = skin[0, LOWEST_HEIGHT] - h, heights.shape[1]
+        end = lay_skin(skin, coating, heights, begin, until, gauss, weights, nodes, off)
         if end < 0:
             return False
     if skin[0, HEIGHTS] == GAUSSIAN_HEIGHTS:

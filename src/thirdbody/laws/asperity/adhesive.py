@@ -11,6 +11,7 @@ import numpy as np
 from ...errors import InvalidValue
 from ...quantities.value import quantity
 from ..base import AbstractAsperityLaw, Branch
+from . import formulas
 from .gw import GW
 
 __all__ = ["DMT", "JKR"]
@@ -95,27 +96,15 @@ class JKR(AbstractAsperityLaw):
 
     @property
     def breakpoints(self) -> tuple[float, ...]:
-        return ()
+        """y = 2, up to where adhesion bends it; the formula is one."""
+        return (2.0,)
 
     @property
     def valid_to(self) -> float:
         """Hertz's ω where the mean pressure is 0.4 H, ZMC's first yield: (0.3πH/E*)²R over X."""
         return (0.3 / _filled(self)) ** 2
 
-    @staticmethod
-    def _root(y):
-        """e = s − 1 ≥ 0, with s⁴/4 − s = y as e²(3/2 + e + e²/4) = y + ¾: nothing cancels.
-
-        Newton from above; e to 4e-16, however near the parting at e = 0.
-        """
-        q = y + 0.75
-        e = np.minimum(np.sqrt(q / 1.5), (4 * q) ** 0.25)
-        for _ in range(20):
-            step = (e * e * (1.5 + e * (1 + e / 4)) - q) / np.maximum(e * (3 + e * (3 + e)), 1e-300)
-            e = e - step
-            if np.all(np.abs(step) <= 4e-16 * e):
-                break
-        return e
+    _root = staticmethod(formulas.stretched_from)
 
     @property
     def branches(self) -> tuple[Branch, ...]:
@@ -127,10 +116,13 @@ class JKR(AbstractAsperityLaw):
             return unit * s * s * (s**3 - 3) / np.maximum(e * (3 + e * (3 + e)), 1e-300)
 
         def force(y):
-            cube = (1 + self._root(y)) ** 3
-            return unit * cube * (cube / 6 - 1)
+            return formulas.adhesive(self._root(y), unit)[0]
 
-        return (Branch("elastic", force, lambda y: (1 + self._root(y)) ** 4 / 4, stiffness),)
+        def area(y):
+            return formulas.adhesive(self._root(y), unit)[1]
+
+        one = Branch("elastic", force, area, stiffness)
+        return (one, one)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -189,4 +181,8 @@ class DMT(GW):
     @property
     def branches(self) -> tuple[Branch, ...]:
         pull = _filled(self)
-        return (Branch("elastic", lambda y: y**1.5 - pull, lambda y: y, lambda y: 1.5 * y**0.5),)
+
+        def force(y):
+            return formulas.pulled(y, pull)[0]
+
+        return (Branch("elastic", force, lambda y: y, lambda y: 1.5 * y**0.5),)

@@ -7,12 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...quantities.value import choice, quantity
-from ...reference import elliptic_hertz
+from ...reference import elliptic_hertz, elliptic_hertz_rows
 from ..base import Branch, Jump
 from .yielding import PeakPressureLaw
 from .zmc import ZMC
 
-__all__ = ["EllipticCEB", "EllipticZMC"]
+__all__ = ["EllipticCEB", "EllipticZMC", "hertz_of"]
+
+
+def hertz_of(ratio):
+    """`elliptic_hertz` of one λ, or of many (N,)."""
+    return elliptic_hertz_rows(ratio) if np.ndim(ratio) else elliptic_hertz(float(ratio))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,7 +77,7 @@ class EllipticCEB(PeakPressureLaw):
     def yield_interference(self, *, R, E_star, H):
         """ω_c where the mean Hertz pressure is ⅔KH [m]."""
         p = 2 / 3 * self.yield_factor * H
-        return elliptic_hertz(self.ratio).yield_factor * (p / E_star) ** 2 * R
+        return hertz_of(self.ratio).yield_factor * (p / E_star) ** 2 * R
 
     @property
     def breakpoints(self) -> tuple[float, ...]:
@@ -146,7 +151,7 @@ class EllipticZMC(ZMC):
 
     def yield_interference(self, *, R, E_star, H):
         """ω_1 where the mean Hertz pressure is kH [m]."""
-        return elliptic_hertz(self.ratio).yield_factor * (self.k * H / E_star) ** 2 * R
+        return hertz_of(self.ratio).yield_factor * (self.k * H / E_star) ** 2 * R
 
     @property
     def _ends(self) -> tuple[float, float]:

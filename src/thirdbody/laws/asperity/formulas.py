@@ -10,6 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 __all__ = [
+    "adhesive",
+    "coated_beyond",
     "doubled",
     "elastic",
     "green_middle",
@@ -17,6 +19,9 @@ __all__ = [
     "hertz_zmc",
     "kogut",
     "plastic_ceb",
+    "pulled",
+    "stretched",
+    "stretched_from",
     "zmc_middle",
 ]
 
@@ -24,6 +29,41 @@ __all__ = [
 def elastic(y, factor, r):
     """Hertz: load factor·r·y^(3/2), area r·y, with r = 1 for a round tip."""
     return factor * r * y * np.sqrt(y), r * y
+
+
+def pulled(y, pull):
+    """`DMT`: Hertz in units of his load at y = 1, less what pulls outside the contact."""
+    return y * np.sqrt(y) - pull, y
+
+
+def stretched(e):
+    """y of `JKR` at e = s − 1: s⁴/4 − s + ¾ is e²(3/2 + e + e²/4), so nothing cancels."""
+    return e * e * (1.5 + e * (1 + e / 4)) - 0.75
+
+
+def stretched_from(y):
+    """e = s − 1 ≥ 0 of `JKR` at y ≥ −¾: Newton from above, to 4e-16 however near the parting."""
+    q = np.maximum(y + 0.75, 0.0)
+    e = np.minimum(np.sqrt(q / 1.5), np.sqrt(np.sqrt(4 * q)))
+    for _ in range(7):
+        rest = e * e * (1.5 + e * (1 + e / 4)) - q
+        e = e - rest / np.maximum(e * (3 + e * (3 + e)), 1e-300)
+    return e
+
+
+def adhesive(e, unit):
+    """`JKR` at e = s − 1."""
+    s = 1 + e
+    cube = s * s * s
+    return unit * cube * (cube / 6 - 1), 0.25 * cube * s
+
+
+def coated_beyond(q, thin, load_1, load_2, area_1, area_2):
+    """Load over y^(3/2) and area over y of `Coated` beyond its table, which ends at 1 = q.
+
+    Joined to it with their slopes: limit + c q + e q², 1 + (c − e ln q) q.
+    """
+    return 4 / 3 * thin + (load_1 + load_2 * q) * q, 1 + (area_1 - area_2 * np.log(q)) * q
 
 
 def hertz_zmc(y, k, r):

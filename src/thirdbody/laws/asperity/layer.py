@@ -29,19 +29,21 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.polynomial.chebyshev import cheb2poly
 from scipy.special import spherical_jn
 
 from ...errors import InvalidValue
-from ...numerics.chebyshev import PiecewiseChebyshev
+from ...numerics.chebyshev import PiecewiseChebyshev, chebyshev_transform
 from ...numerics.quadrature import gauss_legendre, panel_rule
 from ...quantities.value import Value, quantity
+from . import formulas
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     Array = NDArray[np.float64]
 
-__all__ = ["ElasticLayer"]
+__all__ = ["ElasticLayer", "table_of"]
 
 THINNEST = 2.0**10
 """Contact radius over thickness up to which the equation is solved; beyond, see `reduced`."""
@@ -145,7 +147,7 @@ class ElasticLayer(Value):
         better for E_1/E_2 between 1e-2 and 1e2.
         """
         root = np.sqrt(np.maximum(np.asarray(y, dtype=float), 0.0))
-        load, area, stiffness = _table(self)(root.ravel()).T.reshape(3, *root.shape)
+        load, area, stiffness = table_of(self)(root.ravel()).T.reshape(3, *root.shape)
         return load * root**3, area * root**2, stiffness * root
 
 
@@ -294,14 +296,27 @@ class _Table:
         if np.any(thin):
             # F/y^1.5 = limit + c/r + e/r², (a/t)²/y = 1 + (c + e ln r)/r, joined with slope
             q = self.top / root[thin]
+            rest = self.load_rest + self.area_rest
+            out[thin, 0], out[thin, 1] = formulas.coated_beyond(q, self.thin, *rest)
             c, e = self.load_rest
-            out[thin, 0] = 4 / 3 * self.thin + c * q + e * q**2
             out[thin, 2] = 2 * self.thin + c * q + 0.5 * e * q**2
-            c, e = self.area_rest
-            out[thin, 1] = 1 + (c - e * np.log(q)) * q
         return out
+
+    def pieces(self, count: int, terms: int) -> Array:
+        """Powers of load and area on so many even pieces of ln(1 + βr): (count, 2 terms).
+
+        The variable of a piece runs from −1 to 1.
+        """
+        x, transform = chebyshev_transform(terms)
+        edges = np.linspace(0.0, self.table.edges[-1], count + 1)
+        places = edges[:-1, None] + 0.5 * (1 + x) * np.diff(edges)[:, None]
+        values = self.table(places.ravel())[:, :2].reshape(count, terms, 2)
+        powers = np.stack([np.pad(p, (0, terms - len(p))) for p in map(cheb2poly, np.eye(terms))])
+        series = np.einsum("ij,pjk->pki", powers.T @ transform, values)
+        return series.reshape(count, 2 * terms)
 
 
 @lru_cache(maxsize=64)
-def _table(layer: ElasticLayer) -> _Table:
+def table_of(layer: ElasticLayer) -> _Table:
+    """The cached table of a set of materials."""
     return _Table(layer)
