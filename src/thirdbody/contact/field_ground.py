@@ -347,6 +347,12 @@ class GroundedPart(Part):
         return make_interp_spline(h, rows, k=5), float(h[-1])
 
     @property
+    def separations(self) -> Array:
+        """Separations over σ of the table at which something is carried, from the lowest up."""
+        _, last = self._spline
+        return self.ground.h[self.ground.h <= last]
+
+    @property
     def marks(self) -> Array:
         return np.empty(0)
 
@@ -385,12 +391,17 @@ class GroundedPart(Part):
         sigma = self.ground.field.sigma
         return self.factor / sigma ** np.arange(3) * self._derivatives(d, (0, shadow))
 
-    def columns(self, d: Array) -> Array:
+    def reduced(self, d: Array) -> Array:
+        """Columns per factor inside the table, areas with what its splines overshoot: (N, 7)."""
         spline, last = self._spline
-        h = self._h(d)
-        value = spline(np.clip(h, self.ground.h[0], max(last, self.ground.h[0])))
+        value = spline(np.clip(self._h(d), self.ground.h[0], max(last, self.ground.h[0])))
         value[:, 0] = np.exp(value[:, 0])
-        value[:, 1:] = np.maximum(value[:, 1:], 0.0) * value[:, :1]
+        value[:, 1:] *= value[:, :1]
+        return value
+
+    def columns(self, d: Array) -> Array:
+        _, last = self._spline
+        h, value = self._h(d), np.maximum(self.reduced(d), 0.0)
         value[h > last] = 0.0
         value[h < self.ground.h[0]] = np.nan
         return self.factor * value
@@ -450,6 +461,10 @@ class LiftedSum(FieldSum):
 
     def _lifted(self, d: Array) -> Array:
         return d + self.sigma * self._at(d)
+
+    def lifted(self, h: Array) -> Array:
+        """Separations over σ that asperities see at h (N,)."""
+        return h + self._at(self.sigma * h - self.rough.y_s + self.centre)
 
     def load(self, d: Array) -> Array:
         F = self.plain.load(self._lifted(d))
