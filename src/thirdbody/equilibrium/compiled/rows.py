@@ -126,7 +126,10 @@ class InterfaceRows(Rows):
             part["offset"] = source.offset
             if isinstance(source, GroundedPart):
                 if (series := grounded_series(source)) is not None:
-                    part["kind"], part["upper"] = layout.ROUGH, self._panels.add_average(series, shadow)
+                    part["kind"], part["upper"] = (
+                        layout.ROUGH,
+                        self._panels.add_average(series, shadow),
+                    )
                     part["least"], part["reach"] = series.edges[[0, -1]]
                 continue
             average = plane = source.average

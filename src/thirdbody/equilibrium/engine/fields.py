@@ -4,6 +4,8 @@ from __future__ import annotations
 
 GW, ZMC, HERMITE, CEB, KE, JG = range(6)
 """Laws of one contact."""
+FIELD = 100
+"""In the place of a law: the surface is one field of heights."""
 SPHERE, SQUASHED, DEEP, FACED = range(4)
 """What a side of a particle is."""
 ONE_SIZE, GAUSSIAN, LOGNORMAL, UNIFORM, POWER = range(5)
@@ -25,6 +27,15 @@ HEIGHTS, SHAPE, MIDDLE, SPREAD, LOWEST_HEIGHT, LAID_FROM, STEP, LAST = range(10,
 """Kind of heights, shape, and mean and standard deviation of the plain variable; lower end; the
 separation below which it shows in the nodes; width of a panel over t = ω/σ_s, and where t ends."""
 OF_ASPERITIES = 18
+
+# ------------------------------------------------------------------ given, of one field of heights
+CHI, ABOVE_FIELD, WIDER, IS_SOFT, OF_TABLE = range(18, 23)
+"""In more columns: H/(E*g), the remainder ε of high separations, what it adds to the pressure, and
+whether the table goes down to low separations."""
+HEIGHTS_OF_TABLE, COLUMNS_OF_TABLE = 30, 3
+"""At separations of the table: ln Φ over that of the plastic surface, s_0 − h, and the part of the
+area that is pressed with H."""
+OF_FIELD = OF_TABLE + HEIGHTS_OF_TABLE * COLUMNS_OF_TABLE
 
 # ------------------------------------------------------------------ given, of a side
 FORM, DELTA_1, UNIT, FULL, TIP, HILL, HARDER, TAKEN = range(5, 13)

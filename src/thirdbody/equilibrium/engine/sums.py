@@ -7,6 +7,7 @@ import math
 from ..compiled.machine import apart, exp, normal_cdf
 from .breakage import mark_sizes
 from .densities import density, scale_of
+from .field import add_field, lay_field
 from .fields import (
     A_E,
     A_SA,
@@ -14,12 +15,14 @@ from .fields import (
     AREA,
     BREADTH,
     BREAKS,
+    CODE,
     DENSITY,
     EQUAL,
     EXPONENT,
     EXPONENTIAL,
     F_SA,
     F_SS,
+    FIELD,
     FOOTPRINT,
     FORCE,
     GAUSSIAN_HEIGHTS,
@@ -86,6 +89,9 @@ def lay_skin(skin, heights, count, until, gauss, weights, nodes, start, first):
     """
     apart()
     row = len(skin) - 1  # a number and no constant, for which numba would compile twice
+    if skin[row, CODE] == FIELD:
+        lay_field(heights)
+        return count
     w = skin[row, W]
     step, end = skin[row, STEP] / w, start + skin[row, LAST] / w
     number = breaks(skin, row)
@@ -154,6 +160,8 @@ def add_skin(skin, heights, begin, end, gauss, weights, nodes, h, out):
     Where the lower end of the heights lies among the nodes, or close to them, they are laid anew.
     """
     apart()
+    if skin[0, CODE] == FIELD:
+        return add_field(skin, heights, h, out)
     if h < skin[0, LAID_FROM]:
         w, off = skin[0, W], skin[0, LOWEST_HEIGHT] - h
         begin = int(heights[T, 0] * 0) + MOST_HEIGHTS  # no constant, for numba
