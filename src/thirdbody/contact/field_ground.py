@@ -245,14 +245,20 @@ class Ground:
 
     def _lift(self, h: Array, beta: Array) -> Array:
         """w where particles carry β: (M,)."""
-        w = np.zeros(len(h))
+        w = before = np.zeros(len(h))
+        miss = np.full(len(h), np.nan)
         for _ in range(12):
             _, weights = self._of_asperities(h + w)
-            before, w = w, self.twice * np.sum(weights * beta, axis=1)
-            w = np.maximum(w, self.h[0] - h)
-            if np.max(np.abs(w - before), initial=0.0) < 1e-12:
-                break
-        return w
+            found = np.maximum(self.twice * np.sum(weights * beta, axis=1), self.h[0] - h)
+            last, miss = miss, found - w
+            if np.max(np.abs(miss), initial=0.0) < 1e-12:
+                return found
+            # a chord through the last two, where it is no longer than two plain steps
+            with np.errstate(divide="ignore", invalid="ignore"):
+                chord = miss * (w - before) / (last - miss)
+            short = np.abs(chord) <= 2 * np.abs(miss)
+            before, w = w, w + np.where(short, chord, miss)
+        return found
 
     def _solved(self) -> tuple[Array, Array]:
         """All separations at once; those not found so from the ones above, one by one."""
