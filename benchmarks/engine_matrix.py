@@ -129,6 +129,8 @@ def of_particles() -> Iterator[tuple[str, tb.Contact, tuple[str, ...]]]:
         yield f"LogNormal {seat}", contact(wide, seat=seat), inputs
     one = hard.replace(diameter=tb.Monodisperse(mean=300e-9))
     inputs = (ROUGHNESS[0], SIZES[0], BODY[0])
+    field = contact().replace(asperity_law=tb.asperity.Field())
+    yield "field, Series rough", field, (*ROUGHNESS, DENSITY, SIZES[0], BODY[0], SURFACE[0])
     yield "Monodisperse plane", contact(one, seat="plane"), inputs
     both = (hard, soft.replace(areal_density=5e10))
     yield "two populations", contact(both), (ROUGHNESS[0], *SURFACE)
@@ -158,6 +160,8 @@ def of_asperities() -> Iterator[tuple[str, tb.Contact, tuple[str, ...]]]:
         name = type(heights).__name__.removesuffix("Heights")
         rough = bare.roughness.replace(heights=heights)
         yield f"heights {name}", bare.replace(roughness=rough), three[:2]
+    field = bare.replace(asperity_law=law.Field())
+    yield "asperity field", field, (*ROUGHNESS, *SURFACE)
     shapes = tb.Ellipticity(ratios=(1.0, 3.0))
     rough = bare.roughness.replace(ellipticity=shapes)
     elliptic = bare.replace(roughness=rough, asperity_law=law.EllipticCEB())

@@ -108,7 +108,7 @@ def modes(contact: tb.Contact) -> Figure:
     """Contact mode over particle size and load."""
     sizes, loads = np.geomspace(0.1, 10, 1000), np.geomspace(1e-7, 1e-3, 800)
     made = Figure(figsize=(7, 4), layout="constrained")
-    plot.mode_map(contact, sizes, loads, ax=made.add_subplot())
+    plot.mode_map(contact, F_star=loads, ratio=sizes, ax=made.add_subplot())
     return made
 
 

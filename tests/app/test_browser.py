@@ -40,6 +40,16 @@ pytestmark = pytest.mark.check
 PATIENCE = 90_000
 FILM = Path(__file__).parents[2] / "examples" / "oil_film.toml"
 AT = 2e-5
+LINES_STAND = """
+() => [...document.querySelectorAll("[data-at] .js-plotly-plot")].every((plot) => {
+  const { xaxis, _size: size } = plot._fullLayout, line = plot.querySelector(".here");
+  const x = xaxis._offset + xaxis.d2p(Number(plot.closest("[data-at]").dataset.at));
+  const near = (found, wanted) => Math.abs(parseFloat(found) - wanted) < 1;
+  return line && near(line.style.left, x) && near(line.style.top, size.t)
+    && near(line.style.height, size.h);
+})
+"""
+"""Whether the line of the operating load stands where the axis says, as high as the figure."""
 STUDY = example() | {
     "uncertainty": {"inputs": {"roughness.sigma": {"low": "95 nm", "high": "105 nm"}}},
     "outputs": {"counts": {}, "friction": {"m_ss": 0.2, "m_sa": 0.3}},
@@ -264,6 +274,7 @@ def test_numbers_are_those_of_the_library_and_sliders_move_them(visit):
     area = drawn(page, "area")
     assert area[0]["y"] == curves.A_t.tolist()
     assert area[0]["x"] == (curves.pressure * 1e-6).tolist()
+    when(page, LINES_STAND)
     shares = {trace["name"]: trace["y"] for trace in drawn(page, "shares")}
     assert shares["of the load"] == (100 * curves.particle_load_share).tolist()
     critical = tb.transitions(check(STUDY).contact)

@@ -269,11 +269,6 @@ def test_one_warning_for_crowded_contacts():
         tb.solve(contact(0.1, law=tb.asperity.ZMC()), F_star=2e-3)
 
 
-def test_the_engine_says_why_it_is_numpy():
-    state = solved(contact(density=0), F_star=np.geomspace(1e-5, 1e-3, 5001))
-    assert state.engine == "numpy: the law field is not compiled"
-
-
 def test_a_seat_of_its_own_height_and_width():
     """Particles on high narrow seats carry more, at any ground."""
     seats = [

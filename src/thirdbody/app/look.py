@@ -208,12 +208,14 @@ new MutationObserver(() => {
     plot.dataset.sized = "";
     sized.observe(plot);
   }
-  for (const plot of document.querySelectorAll("[data-at] .js-plotly-plot:not([data-here])"))
-    if (plot.on) {
-      plot.dataset.here = "";
-      plot.on("plotly_afterplot", () => here(plot));
+  for (const plot of document.querySelectorAll("[data-at] .js-plotly-plot")) {
+    plot.followed ??= () => here(plot);
+    // a plot that is made anew forgets who listens
+    if (plot.on && !plot._ev.listeners("plotly_afterplot").includes(plot.followed)) {
+      plot.on("plotly_afterplot", plot.followed);
       here(plot);
     }
+  }
 }).observe(document.body, { childList: true, subtree: true });
 new MutationObserver(() => document.querySelectorAll("[data-at] .js-plotly-plot").forEach(here))
   .observe(document.body, { subtree: true, attributeFilter: ["data-at"] });

@@ -52,6 +52,8 @@ STEP = 0.2
 """Distance of separations of the table over σ, or over the width of the seat."""
 ROUNDS, CLOSE, MEMORY = 60, 1e-9, 4
 """Of the iteration: the most, the last change of u/σ, and how many steps it remembers."""
+CHORDS, SET_IN = 40, 1e-14
+"""Of the search for the ground on which particles begin to be squeezed, and how near [σ]."""
 SPOTS = 0.25
 """Width of panels of gaps of single particles over that of the seat."""
 HIGHEST_SEAT = 4.0
@@ -70,16 +72,17 @@ FEWEST = 12
 """Separations that a table must keep."""
 
 
-def heights(u: Array, zeta: Array) -> tuple[Array, Array]:
-    """Σ u_n he_n and its slope at ζ (N, M) for u (N, 13), constant far from the mean plane."""
+def heights(u: Array, zeta: Array) -> Array:
+    """Σ u_n he_n at ζ (N, M) for u (N, 13), constant far from the mean plane."""
     x = np.clip(zeta, -HIGHEST_SEAT, HIGHEST_SEAT)
-    after = later = slope_after = slope_later = np.zeros_like(x)
+    after = later = np.zeros_like(x)
     for n in range(MOMENTS, -1, -1):  # Clenshaw
-        a, b = x / math.sqrt(n + 1), math.sqrt((n + 1) / (n + 2))
-        slope = a * slope_after + after / math.sqrt(n + 1) - b * slope_later
-        value = u[:, n : n + 1] + a * after - b * later
-        later, after, slope_later, slope_after = after, value, slope_after, slope
-    return after, np.where(x == zeta, slope_after, 0.0)
+        value = after * (1 / math.sqrt(n + 1))
+        value *= x
+        value -= math.sqrt((n + 1) / (n + 2)) * later
+        value += u[:, n : n + 1]
+        later, after = after, value
+    return after
 
 
 class Seat:
@@ -102,24 +105,47 @@ class Seat:
         low, high = self.mean - DENSITY * self.width, self.mean + DENSITY * self.width
         top = self.unit * self.average.average.top
         grid = np.linspace(low, high, 69)
-        below = (
-            h[:, None] - self.height(grid) + heights(u, np.broadcast_to(grid, (len(h), 69)))[0]
-            < top
+        wide = (
+            h[:, None] - self.height(grid) + heights(u, np.broadcast_to(grid, (len(h), 69))) - top
         )
-        first = np.argmax(below, axis=1)
-        first = np.where(below.any(axis=1), first, 68)
-        left, right = grid[np.maximum(first - 1, 0)], grid[first]
-        for _ in range(45):
-            middle = 0.5 * (left + right)
-            under = h - self.height(middle) + heights(u, middle[:, None])[0][:, 0] < top
-            left, right = np.where(under, left, middle), np.where(under, middle, right)
+        first = np.argmax(wide < 0, axis=1)
+        first = np.where((wide < 0).any(axis=1), first, 68)
+        right = self._first_squeezed(h, u, grid, wide, first)
         root, weight = panel_rule(np.sqrt(PANELS), NODES)
         span = np.maximum(high - right, 0.0)[:, None]
         zeta = right[:, None] + span * root**2
         z = (zeta - self.mean) / self.width
         normal = np.exp(-0.5 * z * z) / (self.width * math.sqrt(2 * math.pi))
         weight = 2 * span * root * weight * normal
-        return zeta, h[:, None] - self.height(zeta) + heights(u, zeta)[0], weight
+        return zeta, h[:, None] - self.height(zeta) + heights(u, zeta), weight
+
+    def _first_squeezed(
+        self, h: Array, u: Array, grid: Array, wide: Array, first: NDArray[np.intp]
+    ) -> Array:
+        """The lowest ground on which the largest particle is squeezed: ζ (N,).
+
+        By chords with the weight of an end that stays halved, from the cells of a grid, over which
+        ``wide`` says how much wider than the particle gaps are.
+        """
+        rows, before = np.arange(len(h)), np.maximum(first - 1, 0)
+        left, right = grid[before], grid[first]
+        f_left, f_right = wide[rows, before], wide[rows, first]
+        crosses = (f_left >= 0) & (f_right < 0)
+        f_left, f_right = np.where(crosses, f_left, 1.0), np.where(crosses, f_right, -1.0)
+        top = self.unit * self.average.average.top
+        last = np.zeros(len(h), np.intp)
+        for _ in range(CHORDS):
+            zeta = (left * f_right - right * f_left) / (f_right - f_left)
+            f = h - self.height(zeta) + heights(u, zeta[:, None])[:, 0] - top
+            under = f < 0
+            f_left = np.where(under & (last == 1), 0.5 * f_left, f_left)
+            f_right = np.where(~under & (last == -1), 0.5 * f_right, f_right)
+            left, f_left = np.where(under, left, zeta), np.where(under, f_left, f)
+            right, f_right = np.where(under, zeta, right), np.where(under, f, f_right)
+            last = np.where(under, 1, -1)
+            if not np.any(crosses & (np.abs(f) > SET_IN)):
+                break
+        return np.where(crosses, zeta, grid[first])
 
     def sums(self, h: Array, u: Array) -> tuple[Array, Array]:
         """Columns per factor (N, 7), and the loads' moments (N, 13), at h (N,)."""
@@ -219,14 +245,20 @@ class Ground:
 
     def _lift(self, h: Array, beta: Array) -> Array:
         """w where particles carry β: (M,)."""
-        w = np.zeros(len(h))
+        w = before = np.zeros(len(h))
+        miss = np.full(len(h), np.nan)
         for _ in range(12):
             _, weights = self._of_asperities(h + w)
-            before, w = w, self.twice * np.sum(weights * beta, axis=1)
-            w = np.maximum(w, self.h[0] - h)
-            if np.max(np.abs(w - before), initial=0.0) < 1e-12:
-                break
-        return w
+            found = np.maximum(self.twice * np.sum(weights * beta, axis=1), self.h[0] - h)
+            last, miss = miss, found - w
+            if np.max(np.abs(miss), initial=0.0) < 1e-12:
+                return found
+            # a chord through the last two, where it is no longer than two plain steps
+            with np.errstate(divide="ignore", invalid="ignore"):
+                chord = miss * (w - before) / (last - miss)
+            short = np.abs(chord) <= 2 * np.abs(miss)
+            before, w = w, w + np.where(short, chord, miss)
+        return found
 
     def _solved(self) -> tuple[Array, Array]:
         """All separations at once; those not found so from the ones above, one by one."""
@@ -347,6 +379,12 @@ class GroundedPart(Part):
         return make_interp_spline(h, rows, k=5), float(h[-1])
 
     @property
+    def separations(self) -> Array:
+        """Separations over σ of the table at which something is carried, from the lowest up."""
+        _, last = self._spline
+        return self.ground.h[self.ground.h <= last]
+
+    @property
     def marks(self) -> Array:
         return np.empty(0)
 
@@ -385,12 +423,17 @@ class GroundedPart(Part):
         sigma = self.ground.field.sigma
         return self.factor / sigma ** np.arange(3) * self._derivatives(d, (0, shadow))
 
-    def columns(self, d: Array) -> Array:
+    def reduced(self, d: Array) -> Array:
+        """Columns per factor inside the table, areas with what its splines overshoot: (N, 7)."""
         spline, last = self._spline
-        h = self._h(d)
-        value = spline(np.clip(h, self.ground.h[0], max(last, self.ground.h[0])))
+        value = spline(np.clip(self._h(d), self.ground.h[0], max(last, self.ground.h[0])))
         value[:, 0] = np.exp(value[:, 0])
-        value[:, 1:] = np.maximum(value[:, 1:], 0.0) * value[:, :1]
+        value[:, 1:] *= value[:, :1]
+        return value
+
+    def columns(self, d: Array) -> Array:
+        _, last = self._spline
+        h, value = self._h(d), np.maximum(self.reduced(d), 0.0)
         value[h > last] = 0.0
         value[h < self.ground.h[0]] = np.nan
         return self.factor * value
@@ -450,6 +493,10 @@ class LiftedSum(FieldSum):
 
     def _lifted(self, d: Array) -> Array:
         return d + self.sigma * self._at(d)
+
+    def lifted(self, h: Array) -> Array:
+        """Separations over σ that asperities see at h (N,)."""
+        return h + self._at(self.sigma * h - self.rough.y_s + self.centre)
 
     def load(self, d: Array) -> Array:
         F = self.plain.load(self._lifted(d))

@@ -378,7 +378,8 @@ def _compiled(bound: Interface, target: Array) -> tuple[Array, Index, Statuses, 
     batch = engine.batch(bound)
     which = np.zeros(len(target), np.int64)
     h, iterations, fate, columns = batch.solve(which, target)
-    d = bound.asperities.centre + bound.asperities.sigma_s * h
+    of_kernel = batch.rows.interfaces[0]
+    d = of_kernel["centre"] + of_kernel["sigma_s"] * h
     status = Statuses.ok(len(d))
     residual = np.abs((columns["F_ss"] + columns["F_sa"]) / target - 1)
     rest = np.flatnonzero((fate != 0) | ~(residual <= RESIDUAL))

@@ -25,7 +25,7 @@ from .crowding import crowded
 from .engine.columns import Numbers
 from .engine.run import DOUBTS, own_columns
 from .solve import SOLVER, given_load, solve_untold
-from .status import SENTENCES, Status
+from .status import SENTENCES, TABLE_ENDS, Status
 
 if TYPE_CHECKING:
     import xarray
@@ -312,8 +312,9 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
         why = str(error)
         try:
             return _by_own(contact, numbers, load, loads)
-        except NotCompiled:
-            pass
+        except NotCompiled as other:
+            if contact.asperity_law.of_surface:  # such surfaces share no nodes
+                return _by_groups(contact, arrays, load, loads, str(other))
         odd = np.zeros(len(loads), bool)
         for name, values in numbers.items():
             if _unnumbered(name).startswith(DEMANDING):
@@ -439,7 +440,10 @@ def _with_words(contact: Contact, columns: Columns) -> Columns:
     code[(code == Status.OK) & crowded(contact, columns["A_t"])] = Status.CROWDED
     code[doubt != ""] = Status.UNSOLVED
     path = np.where(doubt, doubt, "compiled")
-    return columns | {"status": SENTENCES[code], CODE: code, "engine": path}
+    words = SENTENCES[code]
+    if contact.asperity_law.of_surface:
+        words[code == Status.TOO_MUCH] = TABLE_ENDS
+    return columns | {"status": words, CODE: code, "engine": path}
 
 
 def _without_doubts(

@@ -13,7 +13,7 @@ from ..contact.asperity_sums import SEARCHED, ReducedSum
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["DEEPEST", "MOST_AREA", "SENTENCES", "WORDS", "Status", "Statuses"]
+__all__ = ["DEEPEST", "MOST_AREA", "SENTENCES", "TABLE_ENDS", "WORDS", "Status", "Statuses"]
 
 DEEPEST = SEARCHED
 """Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
@@ -86,6 +86,11 @@ SENTENCES = np.array(
     dtype=object,
 )
 """Of each status, the sentence where no more is known."""
+TABLE_ENDS = (
+    "no equilibrium: the load is beyond the most this model carries down to the separation where "
+    "the table of the law field ends; check the unit of the load, or let an oil film carry it"
+)
+"""The same of a load that is too much for one field of heights."""
 
 
 @dataclass(frozen=True, eq=False)

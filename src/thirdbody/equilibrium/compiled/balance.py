@@ -19,16 +19,15 @@ from .kernels import (
     row_of,
     state_of,
 )
-from .machine import exact, inlined
+from .machine import exact, inlined, record
 
 __all__ = ["OK", "TOO_LITTLE", "TOO_MUCH", "UNSOLVED", "solve_states"]
 
 OK, TOO_MUCH = int(Status.OK), int(Status.TOO_MUCH)
 TOO_LITTLE, UNSOLVED = int(Status.TOO_LITTLE), int(Status.UNSOLVED)
 """What became of a state: the other codes are for those to say who give and judge states."""
-LOWEST, MOST, STEPS = -3.0, 120, 30
-"""Lowest separation searched [σ_s], and the most evaluations of the load, of which those after
-STEPS only halve the bracket."""
+MOST, STEPS = 120, 30
+"""The most evaluations of the load, of which those after STEPS only halve the bracket."""
 ROUNDING = 1e-16
 """Error [σ_s] that a third-order step may leave behind."""
 RESIDUAL, WORST = 2e-13, 1e-3
@@ -89,8 +88,8 @@ def _root(state, target, h, row):
     are evaluated where the root seems to be, and tell whether it is: where the load hardly
     changes, a step says little. A root balances the load, or as well as an ulp of h can.
     """
-    top = highest(state)
-    low, high, held = LOWEST, top, False  # held: the load at the lower end is known to be enough
+    top, lowest = highest(state), record(state.interface, 0).lowest
+    low, high, held = lowest, top, False  # held: the load at the lower end is known to be enough
     over, under = math.inf, target  # imbalance at both ends
     h = min(max(h, low), high)
     few = has_few(state)
@@ -101,13 +100,13 @@ def _root(state, target, h, row):
             count += 1
         if F >= target:
             low, over, held = h, F - target, True
-        elif h == LOWEST and not few:
+        elif h == lowest and not few:
             return h, count, TOO_MUCH
         else:
             high, under = h, target - F
         unit = max(1.0, abs(h))
         pinched = high - low <= EPSILON * unit
-        step = (0.5 * (low + high) if held or n % 4 == 0 else LOWEST) - h
+        step = (0.5 * (low + high) if held or n % 4 == 0 else lowest) - h
         bisected, explained = True, False
         if F > 0 and F1 < -FLAT * F and n <= STEPS:
             f, slope = math.log(F / target), F1 / F
@@ -122,16 +121,16 @@ def _root(state, target, h, row):
             bend = size / (last * last * last)
         if few:
             h += step
-            if h == LOWEST or size < CLOSE or n > 20:
+            if h == lowest or size < CLOSE or n > 20:
                 few = NO
-                low, high, held = LOWEST, top, False
+                low, high, held = lowest, top, False
                 over, under = math.inf, target
                 last = 1.0
                 continue
         else:
             if pinched:
                 if not held:
-                    h = LOWEST
+                    h = lowest
                     continue
                 h = low if over <= under else high
             elif not (explained and bisected):
@@ -140,7 +139,7 @@ def _root(state, target, h, row):
             small = not bisected and size < 1e-3 and bend * size * size * size <= ROUNDING
             if pinched or explained or small or size <= ULP * unit:
                 if _balances(state, h, target, row, pinched or explained):
-                    fate = TOO_LITTLE if top - h < 1e-12 * (top - LOWEST) else OK
+                    fate = TOO_LITTLE if top - h < 1e-12 * (top - lowest) else OK
                     return h, count, fate
                 if pinched:
                     fate = TOO_LITTLE if high == top else UNSOLVED

@@ -80,6 +80,7 @@ INTERFACE = _record(
     ("force", "f8"),  # unit of load [Pa]
     ("area", "f8"),  # unit of area over nominal area
     ("highest", "f8"),  # separation [σ_s] above which asperities carry nothing
+    ("lowest", "f8"),  # separation [σ_s] below which nothing is searched
     ("coverage", "f8"),  # of all particles, where that is the shadow
 )
 """The asperities of an interface, and what its particles have in common."""

@@ -10,8 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...contact.asperity_sums import AsperitySum, GaussianSum, GaussianSums, gaussian_sums, scales
+from ...contact.asperity_sums import (
+    SEARCHED,
+    AsperitySum,
+    GaussianSum,
+    GaussianSums,
+    gaussian_sums,
+    scales,
+)
 from ...contact.contact import Contact
+from ...contact.field_ground import GroundedPart
 from ...contact.field_sums import FieldSum
 from ...contact.interface import Interface
 from ...contact.particle_averages import SeatAverage, size_average
@@ -25,6 +33,7 @@ from ...populations.materials import reduced_modulus, softer_hardness
 from ...populations.particles import Particles
 from ...populations.shape import Angular
 from . import layout
+from .field_series import asperity_numbers, asperity_series, beside_gaussian, grounded_series
 from .inputs import MATERIALS, SHAPES, bare, common_law, own_particles, size_factor, squashed
 from .layout import INTERFACE, NONE, PART, RULE
 from .size_rules import FEW_SIZES, MOST_WIDTHS, densest, few_on_seats, seat_rule, size_rules
@@ -89,7 +98,12 @@ class InterfaceRows(Rows):
 
     def _add_asperities(self, row: np.void, asperities: Any) -> None:
         if isinstance(asperities, FieldSum):
-            raise NotCompiled("the law field is not compiled")
+            series = asperity_series(asperities)
+            row["kind"] = layout.GAUSSIAN
+            row["panels"] = self._panels.add(series, series, beside_gaussian(series), 4)
+            for name, value in asperity_numbers(asperities).items():
+                row[name] = value
+            return
         if not isinstance(asperities, AsperitySum) or pulls(asperities.reduced.law):
             raise NotCompiled("asperities of several shapes, or that attract")
         reduced = asperities.reduced
@@ -101,12 +115,23 @@ class InterfaceRows(Rows):
         row["panels"] = self._panels.add(reduced, table, load, 4)
         row["sigma_s"], row["centre"] = asperities.sigma_s, asperities.centre
         row["force"], row["area"] = asperities.units[:2]
-        row["highest"] = asperities.highest
+        row["highest"], row["lowest"] = asperities.highest, SEARCHED
 
     def _add_particles(self, row: np.void, parts: Records, particles: SeatedParticles) -> None:
         shadow = row["shadow"] = _column(particles.shadow)
         row["coverage"] = particles.coverage if particles.shadow == "covered" else 0.0
         for part, source in zip(parts, particles.parts, strict=False):
+            part["terms"] = part["inverse"] = NONE
+            part["size"], part["factor"] = source.scale, source.factor
+            part["offset"] = source.offset
+            if isinstance(source, GroundedPart):
+                if (series := grounded_series(source)) is not None:
+                    part["kind"], part["upper"] = (
+                        layout.ROUGH,
+                        self._panels.add_average(series, shadow),
+                    )
+                    part["least"], part["reach"] = series.edges[[0, -1]]
+                continue
             average = plane = source.average
             if isinstance(average, SeatAverage):
                 plane = average.average
@@ -122,9 +147,7 @@ class InterfaceRows(Rows):
                     part["lower"] = self._panels.add_average(average.lower, shadow)
                 part["least"], part["reach"] = average.bottom, average.top
                 part["top"], part["powers"] = average.top, average.powers
-            part["terms"] = part["inverse"] = NONE
-            part["size"], part["factor"] = source.scale, source.factor
-            part["offset"], part["floor"] = source.offset, plane.floor
+            part["floor"] = plane.floor
 
 
 def _column(shadow: str) -> int:
@@ -169,7 +192,7 @@ class StateRows(Rows):
         """Lay out the panels, and say what that is in the fields of an `INTERFACE`."""
         rough, surfaces = self.varied.roughness, self.varied.surfaces
         if isinstance(contact.asperity_law, Field):
-            raise NotCompiled("the law field is not compiled")
+            raise NotCompiled("surfaces of the law field share no nodes")
         law = common_law(contact.asperity_law, rough, surfaces)
         if not isinstance(rough.heights, GaussianHeights) or rough.ellipticity or pulls(law):
             raise NotCompiled(
@@ -189,6 +212,7 @@ class StateRows(Rows):
             **{"panels": sums["panels"], "inverse": sums["inverse"], "across": across},
             **{"sigma_s": rough.sigma_s, "centre": datum * rough.sigma},
             **{"force": units[..., 0], "area": units[..., 1], "highest": GaussianSum.highest},
+            "lowest": SEARCHED,
         }
 
     def _add_particles(self, contact: Contact, arrays: Mapping[str, Array]) -> dict[str, Any]:

@@ -17,6 +17,8 @@ from ...errors import NotCompiled
 from ...laws import asperity, particle
 from ...laws.asperity.elliptic import hertz_of
 from ...laws.asperity.layer import ElasticLayer, table_of
+from ...laws.field.formulas import area_factor, hardness_ratio, remainder_height
+from ...laws.field.table import ALPHAS, SOFT, rows_of
 from ...laws.particle.deep import curve_rows, sink_rows, squashed_part
 from ...laws.particle.tension import _bends, _equator
 from ...numerics.quadrature import gauss_legendre
@@ -248,16 +250,26 @@ class Numbers:
         self.skins = np.zeros((count, len(classes), f.OF_ASPERITIES))
         self.coating = NO_COATING
         """What asperities that are coated do, if they are."""
-        for k, (ratio, radius, share) in enumerate(classes):
-            self._add_asperities(self.skins[:, k], ratio, radius, share)
+        self.origin: Any = 0.0
+        """Where the separations of the kernel begin, over the datum of d [m]."""
+        self.deepest = -DEEPEST
+        """Lowest separation that may be given, in the unit of the kernel."""
+        if type(contact.asperity_law) is asperity.Field:
+            self._add_field()
+        else:
+            for k, (ratio, radius, share) in enumerate(classes):
+                self._add_asperities(self.skins[:, k], ratio, radius, share)
         bare = contact.two_body and "particles.areal_density" not in arrays
         found = [] if bare else self._populations()
+        if found and self.skins[0, 0, f.CODE] == f.FIELD:
+            raise NotCompiled("the ground of particles on a field of heights is a table of its own")
         self.inside = np.zeros((1, 1))
         """What particles that break have inside, if any do."""
         self.centre = 0.0
         """Mean asperity height over the datum of d [m]."""
         if found:
             self.centre = found[0][3].centre * self.varied.roughness.sigma
+            self.origin = self.centre
         self.parts = np.zeros((count, len(found), f.OF_PARTICLES))
         self.bodies = np.zeros((count, 2 * len(found), f.OF_SIDE))
         for p, each in enumerate(found):
@@ -285,6 +297,40 @@ class Numbers:
         if type(own) is asperity.Coated:
             self.coating = coating_of(own.layer)
             rows[:, f.FINEST] = (0.5 / self.coating[0, f.BENDS]) ** 2
+
+    def _add_field(self) -> None:
+        """Fill in one field of heights, whose separations are those of the mean planes over σ."""
+        rough, surfaces, law = (
+            self.varied.roughness,
+            self.varied.surfaces,
+            self.contact.asperity_law,
+        )
+        if law.spectrum is not None:
+            raise NotCompiled("a field of a spectrum of its own has tables of its own")
+        E, H = surfaces.E_star, _softer(surfaces.first, surfaces.second)[0]
+        chi = np.broadcast_to(hardness_ratio(rough, E_star=E, H=H), self.count)
+        alpha = np.array(np.broadcast_to(rough.alpha, self.count), dtype=float)
+        if np.any((alpha < ALPHAS[0]) | (alpha > ALPHAS[1])):
+            raise NotCompiled("bandwidths outside the table of the law field")
+        self.skins = np.zeros((self.count, 1, f.OF_FIELD))
+        skin = self.skins[:, 0]
+        remains = remainder_height(chi, alpha) if law.remainder else 0.0
+        _filled(
+            skin,
+            {
+                **{f.CODE: f.FIELD, f.FORCE: E * rough.slope, f.AREA: 1.0, f.W: 1.0},
+                **{f.SIGMA_S: rough.sigma, f.SIGMA: rough.sigma, f.CHI: chi},
+                **{f.ABOVE_FIELD: remains, f.WIDER: area_factor(alpha), f.IS_SOFT: chi <= SOFT},
+            },
+        )
+        for soft in (True, False):
+            if len(some := np.flatnonzero((chi <= SOFT) == soft)):
+                rows = rows_of(chi[some], alpha[some], soft=soft, columns=slice(f.COLUMNS_OF_TABLE))
+                flat = rows.swapaxes(1, 2).reshape(len(some), f.COLUMNS_OF_TABLE, -1)
+                for k in range(f.COLUMNS_OF_TABLE):
+                    begin = f.OF_TABLE + k * f.HEIGHTS_OF_TABLE
+                    skin[some, begin : begin + flat.shape[2]] = flat[:, k]
+        self.origin, self.deepest = -np.asarray(rough.y_s), -math.inf
 
     def _populations(self) -> list[tuple[Any, Any, Any, Any, float, Any]]:
         """Particles and law, as they are and with arrays in them; a share and its sizes."""

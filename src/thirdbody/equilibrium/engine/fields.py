@@ -4,6 +4,8 @@ from __future__ import annotations
 
 GW, ZMC, HERMITE, CEB, KE, JG, DMT, JKR, COATED = range(9)
 """Laws of one contact; the last three of asperities alone."""
+FIELD = 100
+"""In the place of a law: the surface is one field of heights."""
 SPHERE, SQUASHED, DEEP, FACED = range(4)
 """What a side of a particle is."""
 ONE_SIZE, GAUSSIAN, LOGNORMAL, UNIFORM, POWER = range(5)
@@ -32,6 +34,15 @@ BENDS, STEPS, TOP, THIN, REST = range(5)
 """Of a coating's table: β of ln(1 + β√y), pieces per unit of it, the last √y, its limit, and four
 numbers of what follows; the pieces are the next rows, powers of load and area side by side."""
 COATING_TERMS = 8
+
+# ------------------------------------------------------------------ given, of one field of heights
+CHI, ABOVE_FIELD, WIDER, IS_SOFT, OF_TABLE = range(OF_ASPERITIES, OF_ASPERITIES + 5)
+"""In more columns: H/(E*g), the remainder ε of high separations, what it adds to the pressure, and
+whether the table goes down to low separations."""
+HEIGHTS_OF_TABLE, COLUMNS_OF_TABLE = 30, 3
+"""At separations of the table: ln Φ over that of the plastic surface, s_0 − h, and the part of the
+area that is pressed with H."""
+OF_FIELD = OF_TABLE + HEIGHTS_OF_TABLE * COLUMNS_OF_TABLE
 
 # ------------------------------------------------------------------ given, of a side
 FORM, DELTA_1, UNIT, FULL, TIP, HILL, HARDER, TAKEN = range(5, 13)

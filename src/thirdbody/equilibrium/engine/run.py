@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...contact.asperity_sums import ReducedSum
 from ...contact.contact import Contact
 from ...contact.interface import together
 from ..columns import as_columns
@@ -56,12 +55,12 @@ def own_columns(
     count = len(loads)
     numbers = Numbers(contact, arrays, count)
     E, rough = numbers.varied.E_ss, numbers.varied.roughness
-    sigma_s = np.broadcast_to(rough.sigma_s, count)
+    unit, origin = numbers.skins[:, 0, f.SIGMA_S], numbers.origin
     target = None if load == "d" else loads * E if load == "F_star" else loads
-    given = np.full(count, np.nan) if target is not None else (loads - numbers.centre) / sigma_s
+    given = np.full(count, np.nan) if target is not None else (loads - origin) / unit
     h, evaluations, fate, error, rows = solve(numbers, target, given, threads)
     if target is None:
-        deep = given < -ReducedSum.DEEPEST
+        deep = given < numbers.deepest
         fate[deep], evaluations[deep] = Status.TOO_DEEP, 0
     bad = fate != f.OK
     h[bad] = np.nan
@@ -71,7 +70,7 @@ def own_columns(
     part = dict(zip(names, columns[4:], strict=True))
     part["shadow"] = np.minimum(part["shadow"], 1.0)
     raw = together(columns[0], list(columns[1:4]), part)
-    d = np.where(bad, np.nan, loads) if target is None else numbers.centre + sigma_s * h
+    d = np.where(bad, np.nan, loads) if target is None else origin + unit * h
     star = loads if load == "F_star" else None
     found = as_columns(
         raw, d, rough.y_s - numbers.centre, rough.sigma, E, target=target, F_star=star

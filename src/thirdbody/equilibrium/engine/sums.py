@@ -8,6 +8,7 @@ from ...laws.asperity import formulas
 from ..compiled.machine import apart, exp, normal_cdf
 from .breakage import mark_sizes
 from .densities import density, scale_of
+from .field import add_field, lay_field
 from .fields import (
     A_E,
     A_SA,
@@ -25,6 +26,7 @@ from .fields import (
     EXPONENTIAL,
     F_SA,
     F_SS,
+    FIELD,
     FINEST,
     FOOTPRINT,
     FORCE,
@@ -183,6 +185,9 @@ def lay_skin(skin, coating, heights, count, until, gauss, weights, nodes, off):
     areas of every shape are in units of the first.
     """
     apart()
+    if skin[0, CODE] == FIELD:
+        lay_field(heights)
+        return count
     for row in range(len(skin)):
         if count >= 0:
             count = _lay_shape(
@@ -225,6 +230,8 @@ def add_skin(skin, coating, heights, begin, end, gauss, weights, nodes, h, out):
     Where the lower end of the heights lies among the nodes, or close to them, they are laid anew.
     """
     apart()
+    if skin[0, CODE] == FIELD:
+        return add_field(skin, heights, h, out)
     if h < skin[0, LAID_FROM]:
         begin = heights.shape[1] // 2
         off, until = skin[0, LOWEST_HEIGHT] - h, heights.shape[1]

@@ -24,7 +24,48 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["area", "hardness_ratio", "load", "remainder", "stiffness"]
+__all__ = [
+    "area",
+    "area_factor",
+    "hardness_ratio",
+    "load",
+    "mean_pressure",
+    "pressed",
+    "remainder",
+    "remainder_at",
+    "remainder_height",
+    "stiffness",
+]
+
+
+# ---------------------------------------------------------------- of numbers or arrays
+# by NumPy or compiled: each is written here once
+def mean_pressure(y, slope, energy, bearing):
+    """⟨f⟩ = −Φ′ of Φ = P e^y; bearing is −P′, and slope is y′."""
+    return np.exp(y) * (bearing - energy * slope)
+
+
+def remainder_height(chi, alpha):
+    """The remainder ε of high separations."""
+    return (0.10 + 0.04 * np.log(alpha)) * chi / (chi + 0.28 + 5 / alpha**2)
+
+
+def remainder_at(height, bearing):
+    """The remainder ε where the part Q of the surface is higher."""
+    return height * np.maximum(1 - 2 * bearing, 0.0)
+
+
+def area_factor(alpha):
+    """What ε adds to the real pressure, over what it adds to the load."""
+    return 2.9 - 0.7 * np.log(alpha)
+
+
+def pressed(ratio, more):
+    """The real pressure over H, where the field without the remainder has this ratio."""
+    return np.minimum(ratio * (1 + more * (1 - ratio**4)), 1.0)
+
+
+# ---------------------------------------------------------------- of a surface
 
 
 def hardness_ratio(rough: Roughness, *, E_star: float, H: float) -> float:
@@ -42,10 +83,11 @@ def remainder(h: Array, *, chi: float, alpha: float) -> Array:
     is fitted to 54 clean surfaces pressed point by point (α = 3, 5, 15; χ = 0.02 to ∞); nothing
     else is.
     """
-    height = (0.10 + 0.04 * math.log(alpha)) * chi / (chi + 0.28 + 5 / alpha**2)
+    height = remainder_height(chi, alpha)
     density = np.exp(-0.5 * h * h) / math.sqrt(2 * math.pi)
-    out = height * np.stack([1 - 2 * ndtr(-h), 2 * density, -2 * h * density], axis=-1)
-    return np.where(h[:, None] > 0, out, 0.0)
+    more = height * np.stack([2 * density, -2 * h * density], axis=-1)
+    own = remainder_at(height, ndtr(-h))[:, None]
+    return np.concatenate([own, np.where(h[:, None] > 0, more, 0.0)], axis=1)
 
 
 def load(surface: FieldSurface, h: Array, *, remains: bool) -> Array:
@@ -76,8 +118,7 @@ def area(surface: FieldSurface, h: Array, *, remains: bool) -> tuple[Array, Arra
     whole = carried
     if remains:
         e = remainder(h, chi=surface.chi, alpha=surface.alpha)[:, 0]
-        more = (2.9 - 0.7 * math.log(surface.alpha)) * e * (1 - ratio**4)
-        ratio = np.minimum(ratio * (1 + more), 1.0)
+        ratio = pressed(ratio, area_factor(surface.alpha) * e)
         whole = carried * (1 + e)
     plastic = np.clip(columns[:, PLASTIC], 0.0, 1.0)
     return whole / (surface.chi * ratio), np.where(ratio >= 1, 1.0, plastic)

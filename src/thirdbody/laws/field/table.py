@@ -17,6 +17,7 @@ from scipy.special import erfcx, ndtr
 
 from ...errors import InvalidValue
 from .conduction import TERMS, patch_stiffness
+from .formulas import mean_pressure
 from .programme import MOMENTS
 from .spectrum import Spectrum, rolled_off
 
@@ -26,7 +27,15 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["ALPHAS", "FieldSurface", "bearing", "field_of", "plastic_energy"]
+__all__ = [
+    "ALPHAS",
+    "FieldSurface",
+    "bearing",
+    "field_of",
+    "plastic_energy",
+    "rows_of",
+    "separations",
+]
 
 ALPHAS = (2.5, 30.0)
 """Bandwidths of the table."""
@@ -166,11 +175,11 @@ class FieldSurface:
         P = plastic_energy(h, self.chi)
         P1, P2, P3 = -self.chi * ndtr(-h), self.chi * density, -self.chi * h * density
         e = np.exp(y[0])
-        first = P1 + P * y[1]
+        first = mean_pressure(y[0], y[1], P, -P1)
         second = P2 + 2 * P1 * y[1] + P * (y[2] + y[1] ** 2)
         third = P3 + 3 * P2 * y[1] + 3 * P1 * (y[2] + y[1] ** 2)
         third = third + P * (y[3] + 3 * y[1] * y[2] + y[1] ** 3)
-        return np.stack([-e * first, -e * second, -e * third], axis=-1)
+        return np.stack([first, -e * second, -e * third], axis=-1)
 
     @cached_property
     def _stiffness(self) -> BSpline:
@@ -215,33 +224,76 @@ def field_of(chi: float, alpha: float) -> FieldSurface:
             f"asperity_law field: the bandwidth alpha = {alpha:.4g} must be from {low:g} to "
             f"{high:g}, as far as its table goes; use another law"
         )
-    data = stored()
-    h, known, every = data["h"], data["chi"], data["rows"]
-    at = min(max(chi, LEAST), MOST)
-    if at <= SOFT:
-        some, most = h == h, known <= 1.3 * SOFT
-    else:
-        some, most = h >= HARD, known == known
-    across = _lagrange(np.log(data["alpha"]), math.log(alpha))
-    rows = np.tensordot(across, every[:, most][:, :, some], 1)
+    soft = chi <= SOFT
+    rows = rows_of(np.array([chi]), np.array([alpha]), soft=soft)[0]
+    spectrum = rolled_off(alpha)
+    return FieldSurface(chi=chi, alpha=alpha, h=separations(soft), rows=rows, spectrum=spectrum)
+
+
+def separations(soft: bool) -> Array:
+    """Separations of the table for χ up to `SOFT`, or beyond: (M,)."""
+    h = stored()["h"]
+    return h if soft else h[h >= HARD]
+
+
+@lru_cache(maxsize=2)
+def _along_chi(soft: bool) -> tuple[Array, Array]:
+    """Knots, and coefficients (α, χ, h, columns), of cubic splines over ln χ."""
     from scipy.interpolate import make_interp_spline
 
-    rows = make_interp_spline(np.log(known[most]), rows, k=3)(math.log(at))
-    if chi < LEAST:
-        plain = plastic_rows(h[some])
-        rows = plain + (rows - plain) * (chi / LEAST)
-    if chi > MOST:
-        rows[:, LOW] += math.log(MOST / chi)  # Φ itself no longer changes
-    rows[:, PLASTIC] = np.clip(rows[:, PLASTIC], 0.0, 1.0)
-    rows[:, TAU] = np.clip(rows[:, TAU], 0.0, 1.0)
-    return FieldSurface(chi=chi, alpha=alpha, h=h[some], rows=rows, spectrum=rolled_off(alpha))
+    data = stored()
+    some = np.isin(data["h"], separations(soft))
+    most = data["chi"] <= 1.3 * SOFT if soft else data["chi"] > 0
+    spline = make_interp_spline(
+        np.log(data["chi"][most]), data["rows"][:, most][:, :, some], k=3, axis=1
+    )
+    return spline.t, np.moveaxis(spline.c, 0, 1)
 
 
-def _lagrange(nodes: Array, x: float) -> Array:
-    """Weights of the polynomial through Chebyshev's points with both ends: (N,)."""
-    if np.any(hit := np.abs(nodes - x) < 1e-14):
-        return hit.astype(float)
+AT_ONCE = 512
+"""Surfaces whose numbers stay in the cache of a processor."""
+
+
+def rows_of(chi: Array, alpha: Array, *, soft: bool, columns: slice = slice(None)) -> Array:
+    """The table at χ and α (N,), all of them on one side of `SOFT`: (N, M, columns)."""
+    from scipy.interpolate import BSpline
+
+    h = separations(soft)
+    known, coefficients = _along_chi(soft)
+    every = np.ascontiguousarray(coefficients[..., columns])
+    size = every.shape[2:]
+    every = every.reshape(*every.shape[:2], -1)
+    inside = np.log(np.clip(chi, LEAST, MOST))
+    basis = BSpline.design_matrix(inside, known, 3)
+    place, part = basis.indices.reshape(-1, 4), basis.data.reshape(-1, 4)
+    across = _lagrange(np.log(stored()["alpha"]), np.log(alpha))
+    # number by number and not by products of matrices, whose last digit hangs on their size
+    rows = np.empty((len(chi), every.shape[2]))
+    for begin in range(0, len(chi), AT_ONCE):
+        here = slice(begin, begin + AT_ONCE)
+        total = np.zeros((len(place[here]), every.shape[2]))
+        for of_alpha, weight in zip(every, across[here].T, strict=True):
+            for near, value in zip(place[here].T, part[here].T, strict=True):
+                total += (weight * value)[:, None] * of_alpha[near]
+        rows[here] = total
+    rows = rows.reshape(len(chi), *size)
+    plain = plastic_rows(h)[:, columns]
+    rows = plain + (rows - plain) * np.minimum(chi / LEAST, 1.0)[:, None, None]
+    kept = np.arange(COLUMNS)[columns].tolist()
+    if LOW in kept:  # Φ itself no longer changes
+        rows[:, :, kept.index(LOW)] -= np.log(np.maximum(chi / MOST, 1.0))[:, None]
+    for column in (PLASTIC, TAU):
+        if column in kept:
+            rows[:, :, kept.index(column)] = np.clip(rows[:, :, kept.index(column)], 0.0, 1.0)
+    return rows
+
+
+def _lagrange(nodes: Array, x: Array) -> Array:
+    """Weights of the polynomials through Chebyshev's points with both ends at x (N,): (N, M)."""
+    off = x[:, None] - nodes
+    hit = np.abs(off) < 1e-14
     weight = (-1.0) ** np.arange(len(nodes))
     weight[[0, -1]] *= 0.5
-    weight = weight / (x - nodes)
-    return weight / weight.sum()
+    weight = weight / np.where(hit, 1.0, off)
+    weight = np.where(hit.any(axis=1)[:, None], hit, weight)
+    return weight / weight.sum(axis=1)[:, None]
