@@ -25,6 +25,7 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium, quantity_of
 from ..equilibrium.modes import EPS_1, EPS_2
 from ..equilibrium.solve import given_load, solve
+from ..equilibrium.status import CriticalStatus
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue
 from ..quantities import notebook
@@ -406,7 +407,7 @@ def _of_critical(
     found: Any = transitions(contact)
     for part in name.split("."):
         found = getattr(found, part)
-    why = "" if found.status == "found" else found.status
+    why = "" if found.status == CriticalStatus.FOUND else found.status
     if not why and not share:
         why = "the strongest bend is taken from a grid of loads and has no derivative"
     if why:
