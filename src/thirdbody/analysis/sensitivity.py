@@ -42,6 +42,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Sensitivity", "sensitivity"]
 
+TO = "to = {!r}"
+"""How the place of an input is written."""
 AT_ONCE = 500
 """Loads differentiated at a time."""
 CRITICAL = {
@@ -184,7 +186,7 @@ def _default_inputs(contact: Contact) -> list[str]:
 def _moves(contact: Contact, label: str) -> bool:
     """Whether an input may change: not so the height of a seat that has none."""
     try:
-        _room(contact, input_of(contact, label), FULL.steps[0])
+        _room(contact, input_of(contact, label, TO), FULL.steps[0])
     except InvalidValue:
         return False
     return True
@@ -286,7 +288,7 @@ def sensitivity(
     if given or plain:
         load, _, _ = given_load(contact, pressure, F_star, d)
     labels = _labels(contact, to, load)
-    moved = [input_of(contact, name) for name in dict.fromkeys(labels) if name != load]
+    moved = [input_of(contact, name, TO) for name in dict.fromkeys(labels) if name != load]
 
     rule = QUICK if quick else FULL
     with watched("sensitivity", 2 * rule.reach * len(moved), progress):

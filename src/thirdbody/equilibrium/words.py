@@ -50,8 +50,9 @@ CRITICAL = {
 """What happens at each critical load."""
 FEW, MANY = 0.1, 1e7
 """Share of contacts below which they are one in so many, and how many are written out."""
-BELOW = (CriticalStatus.NEVER_P_S, CriticalStatus.ALWAYS_S_S)
-ABOVE = (CriticalStatus.ALWAYS_P_S, CriticalStatus.NEVER_S_S)
+Side = tuple[CriticalStatus, CriticalStatus]
+BELOW: Side = (CriticalStatus.NEVER_P_S, CriticalStatus.ALWAYS_S_S)
+ABOVE: Side = (CriticalStatus.ALWAYS_P_S, CriticalStatus.NEVER_S_S)
 """Statuses of critical loads that lie below, or above, every load searched."""
 RARE = "rare"
 """Stands for the mode of contacts of which many meet no particle."""
@@ -185,7 +186,7 @@ def happens(name: str) -> str:
     return CRITICAL[critical_name(name)]
 
 
-def _side(value: float | None, status: str) -> tuple[str, str] | None:
+def _side(value: float | None, status: str) -> Side | None:
     """Statuses of the side of the window on which a critical load lies; None inside."""
     for side, there in ((BELOW, 0.0), (ABOVE, math.inf)):
         if status in side or (not status and value == there):
