@@ -16,7 +16,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, tell_of_range
+from ..errors import InvalidValue, Problem, tell_of_range
 from ..laws import asperity, particle
 from ..laws.base import Law
 from ..quantities.installed import offers
