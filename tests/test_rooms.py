@@ -1,5 +1,6 @@
 """What `lint-imports` cannot see of the rooms of the house."""
 
+import ast
 from pathlib import Path
 
 import pytest
@@ -15,3 +16,35 @@ def test_no_module_but_the_top_answers_for_names_it_has_not():
         path for path in folder.rglob("*.py") if "\ndef __getattr__(" in path.read_text("utf-8")
     ]
     assert found == [folder / "__init__.py"]
+
+
+AT_THE_RIM = ("__init__.py", "app/", "cli/")
+"""What may import by a string: the top, the page and the command line."""
+
+
+def _imports_by_string(path):
+    """Lines that import a module of the house by a name that is put together or quoted."""
+    tree = ast.parse(path.read_text("utf-8"))
+    for node in ast.walk(tree):
+        called = isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2]
+        if called in ("import_module", "__import__", "resolve_name", "run_module"):
+            yield node.lineno, called
+        asked = ast.unparse(node) if isinstance(node, ast.Subscript) else ""
+        if asked.startswith("sys.modules[") and "thirdbody" in asked:
+            yield node.lineno, asked
+
+
+def test_no_room_is_reached_through_a_string():
+    """`lint-imports` sees imports alone, so a door made of text would be hidden from it."""
+    folder = ROOT / "src" / "thirdbody"
+    found = {
+        path.relative_to(folder).as_posix(): list(_imports_by_string(path))
+        for path in sorted(folder.rglob("*.py"))
+    }
+    inside = {name: lines for name, lines in found.items() if lines}
+    assert any(name.startswith("cli/") for name in inside)  # the search finds what is there
+    hidden = {n: lines for n, lines in inside.items() if not n.startswith(AT_THE_RIM)}
+    assert hidden.pop("papers/measurements/listed.py")
+    # packages of others, by the name that their extra has
+    assert hidden.pop("analysis/sweep/streaming.py")
+    assert hidden == {}

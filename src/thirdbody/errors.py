@@ -8,12 +8,15 @@ from __future__ import annotations
 import os
 import sys
 import warnings
+from collections.abc import Callable
 from types import FrameType
+from typing import Any
 
 __all__ = [
     "InvalidValue",
     "NoEquilibrium",
     "NoTransition",
+    "Problem",
     "RangeWarning",
     "SlowWarning",
     "ThirdBodyError",
@@ -25,15 +28,111 @@ class ThirdBodyError(Exception):
     """Base class of every error that this library raises on purpose."""
 
 
+class Problem(str):
+    """One mistake in an input: its parts, and as text the sentence that they make.
+
+    Whoever knows more of a mistake (which table of a file, which argument) moves it with `under`
+    or `at`, and never has to read the sentence.
+
+    Parameters
+    ----------
+    path : str
+        Dotted place of the mistake in ``owner``; "" where it is not of one place.
+    rule : str
+        What is wrong, or what is allowed, as a clause that follows place and value. One that
+        begins with a colon is a sentence of its own, one that begins with "=" says the value.
+    value : str, optional
+        The value, as a reader sees it; None where the rule needs none.
+    hint : str, optional
+        The likely cause, or what to do.
+    owner : str, optional
+        What ``path`` is a part of: a class, a table of a study file.
+
+    Examples
+    --------
+    >>> found = Problem("sigma", "must be > 0", "-1", hint="m are meant", owner="Roughness")
+    >>> str(found), found.place
+    ('Roughness.sigma = -1 must be > 0; m are meant', 'Roughness.sigma')
+    >>> str(found.under("roughness"))
+    'roughness.sigma = -1 must be > 0; m are meant'
+    """
+
+    path: str
+    rule: str
+    value: str | None
+    hint: str
+    owner: str
+
+    def __new__(
+        cls, path: str, rule: str, value: str | None = None, *, hint: str = "", owner: str = ""
+    ) -> Problem:
+        place = ".".join(filter(None, (owner, path)))
+        start = place if value is None else f"{place} = {value}"
+        blank = " " if start and rule[:1] != ":" else ""
+        rule = rule if start else rule.removeprefix(": ")
+        self = super().__new__(cls, f"{start}{blank}{rule}" + (f"; {hint}" if hint else ""))
+        self.path, self.rule, self.value, self.hint, self.owner = path, rule, value, hint, owner
+        return self
+
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]:
+        return (), vars(self)
+
+    @classmethod
+    def of(cls, owner: str, sentence: str) -> Problem:
+        """A mistake in ``owner`` from a sentence that may begin with it, and a dot and a field.
+
+        >>> Problem.of("Roughness", "Roughness.R and sigma are no lengths").place
+        'Roughness.R'
+        """
+        rest = sentence.removeprefix(owner)
+        if isinstance(sentence, Problem) and sentence.place:
+            return sentence
+        if not owner or rest == sentence or rest[:1] not in ". :":
+            return Problem("", sentence)
+        path, _, rule = rest[1:].partition(" ") if rest[0] == "." else ("", "", rest)
+        if path[-1:] == ":":
+            path, rule = path[:-1], f": {rule}"
+        return Problem(path, rule.removeprefix(" "), owner=owner)
+
+    @property
+    def place(self) -> str:
+        """The dotted place, from the outermost name that is known."""
+        return ".".join(filter(None, (self.owner, self.path)))
+
+    def changed(self, **changes: Any) -> Problem:
+        """The same mistake with some of its parts changed."""
+        return Problem(**{**vars(self), **changes})
+
+    def worded(self, how: Callable[[str], str]) -> Problem:
+        """The same mistake in other words, at the same place."""
+        value = None if self.value is None else how(self.value)
+        return self.changed(rule=how(self.rule), value=value, hint=how(self.hint))
+
+    def under(self, owner: str) -> Problem:
+        """The same mistake where what it is a part of goes by another name."""
+        whole = not self.path and not self.owner
+        return self.changed(owner=owner, rule=f": {self.rule}" if whole else self.rule)
+
+    def at(self, place: str) -> Problem:
+        """The same mistake at another place altogether."""
+        return self.changed(path=place, value=None, owner="") if self.place else self.under(place)
+
+
 class InvalidValue(ThirdBodyError, ValueError):
     """An input has no meaning: negative, NaN, wrong dimension, unknown name.
 
-    ``problems`` holds one sentence per mistake, so that a user mends all of them at once.
+    ``problems`` holds one `Problem` per mistake, so that a user mends all of them at once.
     """
 
     def __init__(self, *problems: str):
-        self.problems = problems
+        self.problems = tuple(
+            each if isinstance(each, Problem) else Problem("", each) for each in problems
+        )
         super().__init__("\n".join(problems))
+
+    def under(self, owner: str) -> InvalidValue:
+        """The same mistakes where what they are a part of goes by another name."""
+        return type(self)(*(each.under(owner) for each in self.problems))
 
 
 class NoEquilibrium(ThirdBodyError, RuntimeError):

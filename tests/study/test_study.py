@@ -492,7 +492,7 @@ def test_rules_of_the_objects_are_told_with_the_keys_of_the_file(problems, old, 
             ["particles.edges", "increase"],
         ),
         ('"histogram"\nedges = ["1 GPa"]\ncounts = "x"', ["particles.edges[0]", "pressure"]),
-        ('"uniform"\nlow = "3 nm"\nhigh = "1 nm"', ["particles.high", "above particles.low"]),
+        ('"uniform"\nlow = "3 nm"\nhigh = "1 nm"', ["particles.high", "above low = 3e-09"]),
         ('"mixture"\nweights = [1]\nparts = []', ["particles.parts = []", "list of size"]),
         (
             '"mixture"\nweights = [1]\nparts = [{ distribution = "monodisperse", mean = -1 }]',

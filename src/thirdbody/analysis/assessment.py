@@ -11,7 +11,7 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.critical_loads import CRITICAL
-from ..equilibrium.status import Status
+from ..equilibrium.status import CriticalStatus, Status
 from ..equilibrium.words import (
     critical_load,
     critical_name,
@@ -221,7 +221,7 @@ class Assessment:
         for name in (name for name in CRITICAL if name in found.bands):
             nominal, (low, _, high) = found.nominal[name], self._band(name)
             status = found.critical_status[name]
-            exists = status.get("found", 0.0)
+            exists = status.get(CriticalStatus.FOUND, 0.0)
             rows.append(
                 (
                     critical_name(name),

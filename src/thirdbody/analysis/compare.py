@@ -13,7 +13,6 @@ theirs.
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import json
 import math
 import re
@@ -29,10 +28,11 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..equilibrium.columns import COLUMNS, Equilibrium
 from ..equilibrium.solve import given_load, solve
-from ..errors import InvalidValue, RangeWarning
+from ..errors import InvalidValue, Problem, RangeWarning
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
 from ..quantities.carried import takes_units
 from ..quantities.files import csv_of, with_units
+from ..quantities.nearest import guess
 from ..quantities.say import percent
 
 if TYPE_CHECKING:
@@ -297,7 +297,7 @@ def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persso
         asked = [laws]
     else:
         asked = list(laws)
-    problems = []
+    problems: list[str] = []
     found: list[Any] = [own]
     for item in asked:
         if isinstance(item, AbstractAsperityLaw):
@@ -307,10 +307,10 @@ def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persso
         elif isinstance(item, str) and item in REGISTRY:
             found.append(own if item == own.name else _usual(REGISTRY[item]))
         else:
-            near = difflib.get_close_matches(str(item), REGISTRY, n=1, cutoff=0.4)
-            guess = f"; did you mean {near[0]!r}?" if near else ""
+            hint = guess(str(item), REGISTRY, show=repr, otherwise=None, cutoff=0.4)
             known = ", ".join([*(law.name for law in by_year), Persson.name])
-            problems.append(f"laws: {item!r} names no asperity law ({known}){guess}")
+            rule = f": {item!r} names no asperity law ({known})"
+            problems.append(Problem("laws", rule, hint=hint))
     if not asked:
         problems.append("laws is empty; give at least one law, or leave it out for all")
     if problems:

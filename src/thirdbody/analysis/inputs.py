@@ -12,8 +12,8 @@ import numpy as np
 from ..contact.contact import Contact
 from ..contact.output import AbstractOutput
 from ..equilibrium.columns import COLUMNS
-from ..equilibrium.states import carries, varied
-from ..errors import InvalidValue
+from ..equilibrium.states import carries, unknown_inputs, varied
+from ..errors import InvalidValue, Problem
 from ..populations.roughness import ETA_R_SIGMA
 from ..quantities.say import listed
 from ..quantities.value import Value
@@ -75,32 +75,33 @@ class Input(NamedTuple):
         return {name: value + scale * t for name, value, scale in parts}
 
 
-def input_of(contact: Contact, label: str) -> Input:
-    """The input of a dotted name, or of several joined by "+"."""
+def input_of(contact: Contact, label: str, where: str = "vary[{!r}]") -> Input:
+    """The input of a dotted name, or of several joined by "+"; mistakes say ``where`` it stands."""
     names = tuple(name.strip() for name in label.split("+"))
     known = inputs(contact)
-    if problems := [_no_input(contact, name, known) for name in names if name not in known]:
+    if problems := [_no_input(contact, name, known, where) for name in names if name not in known]:
         raise InvalidValue(*problems)
     values = tuple(known[name] for name in names)
     if len(names) > 1:
         if problems := [
-            f"to = {label!r} moves its inputs by one factor, but {name} is zero"
+            Problem(where.format(label), f"moves its inputs by one factor, but {name} is zero")
             for name, value in zip(names, values, strict=True)
             if value == 0
         ]:
             raise InvalidValue(*problems)
         return Input(label, names, values, values)
-    return Input(label, names, values, (_scale(contact, names[0], values[0]),))
+    return Input(label, names, values, (_scale(contact, names[0], values[0], where),))
 
 
-def _scale(contact: Contact, name: str, value: float) -> float:
+def _scale(contact: Contact, name: str, value: float, where: str) -> float:
     """By how much an input changes when it changes a lot."""
     about = declared(contact, name)
     if value > 0 and 0 in (about["gt"], about["ge"]):
         return value
     usual = {"1": 1.0, "m": contact.roughness.sigma}.get(about["unit"], 0.0)
     if not (scale := max(abs(value), usual)):
-        raise InvalidValue(f"to = {name!r} is zero; give it a value to say what a small change is")
+        hint = "give it a value to say what a small change is"
+        raise InvalidValue(Problem(where.format(name), "is zero", hint=hint))
     return scale
 
 
@@ -169,27 +170,19 @@ def _named(contact: Contact, name: str) -> tuple[str, str]:
     return meaning, next((said for of, said in BODIES.items() if name.startswith(f"{of}.")), "")
 
 
-def _no_input(contact: Contact, name: str, known: Iterable[str]) -> str:
+def _no_input(contact: Contact, name: str, known: Iterable[str], where: str) -> Problem:
     """Why a name is not an input that can be varied."""
-    import difflib
-
-    if contact.two_body and name.startswith("particle"):
-        return f"to = {name!r} says nothing of a contact without particles"
-    try:
-        owner = contact.part(name)
-    except InvalidValue:
-        near = difflib.get_close_matches(name, list(known), n=1)
-        guess = f"did you mean {near[0]!r}?" if near else f"the inputs are {', '.join(known)}"
-        return f"to = {name!r} is not an input; {guess}"
+    if unknown := next(unknown_inputs(contact, [name], list(known), where), None):
+        return unknown
+    place = where.format(name)
     if name in ("roughness.eta", "roughness.eta_R_sigma"):
-        given = "eta_R_sigma" if name.endswith("eta") else "eta"
-        return f"to = {name!r} is not given; the density follows from 'roughness.{given}', use that"
-    if owner is None:
-        return (
-            f"to = {name!r} is None: the contact finds it from its other inputs; vary those, or "
-            "give it a value"
-        )
-    return f"to = {name!r} is not a number that could change a little"
+        other = "eta_R_sigma" if name.endswith("eta") else "eta"
+        hint = f"the density follows from 'roughness.{other}', use that"
+        return Problem(place, "is not given", hint=hint)
+    if contact.part(name) is None:
+        hint = "vary those, or give it a value"
+        return Problem(place, "is None: the contact finds it from its other inputs", hint=hint)
+    return Problem(place, "is not a number that could change a little")
 
 
 # -------------------------------------------------------------------------- differences
@@ -215,4 +208,5 @@ def _room(contact: Contact, moved: Input, step: float, reach: int = FULL_REACH) 
             why = why or str(refused)
         else:
             return offsets
-    raise InvalidValue(f"to = {moved.label!r} can be moved to neither side: {why}")
+    place = f"to = {moved.label!r}"
+    raise InvalidValue(Problem(place, f"can be moved to neither side: {why}"))

@@ -25,6 +25,7 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium, quantity_of
 from ..equilibrium.modes import EPS_1, EPS_2
 from ..equilibrium.solve import given_load, solve
+from ..equilibrium.status import CriticalStatus
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue
 from ..quantities import notebook
@@ -41,6 +42,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Sensitivity", "sensitivity"]
 
+TO = "to = {!r}"
+"""How the place of an input is written."""
 AT_ONCE = 500
 """Loads differentiated at a time."""
 CRITICAL = {
@@ -183,7 +186,7 @@ def _default_inputs(contact: Contact) -> list[str]:
 def _moves(contact: Contact, label: str) -> bool:
     """Whether an input may change: not so the height of a seat that has none."""
     try:
-        _room(contact, input_of(contact, label), FULL.steps[0])
+        _room(contact, input_of(contact, label, TO), FULL.steps[0])
     except InvalidValue:
         return False
     return True
@@ -285,7 +288,7 @@ def sensitivity(
     if given or plain:
         load, _, _ = given_load(contact, pressure, F_star, d)
     labels = _labels(contact, to, load)
-    moved = [input_of(contact, name) for name in dict.fromkeys(labels) if name != load]
+    moved = [input_of(contact, name, TO) for name in dict.fromkeys(labels) if name != load]
 
     rule = QUICK if quick else FULL
     with watched("sensitivity", 2 * rule.reach * len(moved), progress):
@@ -406,7 +409,7 @@ def _of_critical(
     found: Any = transitions(contact)
     for part in name.split("."):
         found = getattr(found, part)
-    why = "" if found.status == "found" else found.status
+    why = "" if found.status == CriticalStatus.FOUND else found.status
     if not why and not share:
         why = "the strongest bend is taken from a grid of loads and has no derivative"
     if why:

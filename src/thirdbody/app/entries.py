@@ -10,7 +10,7 @@ from nicegui import ui
 
 import thirdbody as tb
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.say import number, value_of
 from .fields import VARIANTS, Field, fields_of, known_keys, options_of, text_of, value_from
 from .state import State
@@ -71,7 +71,7 @@ class Entries:
         """Called when other entries are needed than before."""
         self.shown: dict[str, Entry] = {}
         self.rest: Any = None
-        self.left: tuple[Any, list[str]] = (None, [])
+        self.left: tuple[Any, list[Problem]] = (None, [])
         """Where mistakes without a field stand, and which."""
 
     # ------------------------------------------------------------------ mistakes
@@ -80,8 +80,8 @@ class Entries:
         left = list(self.state.problems)
         for name, (widget, read, show, whole) in self.shown.items():
             inner = f"{name}." if whole else name
-            mine = [t for t in left if about_of(t) == name or about_of(t).startswith(inner)]
-            left = [text for text in left if text not in mine]
+            mine = [p for p in left if about_of(p) == name or about_of(p).startswith(inner)]
+            left = [each for each in left if each not in mine]
             path = tuple(int(step) if step.isdecimal() else step for step in name.split("."))
             now = self.state.get(*path)
             if read is not None:
@@ -278,7 +278,6 @@ class Entries:
         self.text((*place, field.name), field, to)
 
 
-def about_of(problem: str) -> str:
-    """The entry that a sentence is about: it begins with its place."""
-    first = problem.split(" ", 1)[0].rstrip(":,")
-    return first.split("[", 1)[0]
+def about_of(problem: Problem) -> str:
+    """The entry that a mistake is about: a list has one for all of its items."""
+    return problem.place.partition("[")[0]

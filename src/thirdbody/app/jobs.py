@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from .solver import TRIES, Died, ended, ended_by
 from .text import without_paths
 
@@ -115,7 +115,8 @@ class Job:
                 if "done" in said and self.report is not None:
                     self.report(float(said["done"]))
                 elif "problems" in said:
-                    raise InvalidValue(*(without_paths(str(text)) for text in said["problems"]))
+                    wrong = (Problem(**parts) for parts in said["problems"])
+                    raise InvalidValue(*(each.worded(without_paths) for each in wrong))
                 elif "result" in said:
                     result = said["result"]
                     for name in {"warnings", "notes"} & result.keys():

@@ -18,7 +18,7 @@ import numpy as np
 
 import thirdbody as tb
 
-from ..errors import InvalidValue, RangeWarning, ThirdBodyError
+from ..errors import InvalidValue, Problem, RangeWarning, ThirdBodyError
 from ..study import Study, check
 from ..study.body import pressed
 from ..systems.bodies import Pressed
@@ -156,7 +156,7 @@ class Answer:
         return bool(self.loads[0] <= at <= self.loads[-1])
 
 
-Looked = tuple["Answer | None", list[str], dict[str, tb.Material] | None]
+Looked = tuple["Answer | None", list[Problem], dict[str, tb.Material] | None]
 
 
 def look(study: dict[str, Any], folder: Path, surface: dict[str, Any] | None = None) -> Looked:
@@ -164,7 +164,7 @@ def look(study: dict[str, Any], folder: Path, surface: dict[str, Any] | None = N
 
     ``surface`` is what `worker.roughness` found in the measured files of the study.
     """
-    answer, problems, library = None, list[str](), None
+    answer, problems, library = None, list[Problem](), None
     try:
         refuse_large(study)
         refuse_foreign_files(study, folder)
@@ -185,20 +185,20 @@ def look(study: dict[str, Any], folder: Path, surface: dict[str, Any] | None = N
     except InvalidValue as error:
         problems += error.problems
     except (ThirdBodyError, OSError) as error:
-        problems += [str(error)]
-    problems = [without_paths(text) for text in dict.fromkeys(problems)]
+        problems += [Problem("", str(error))]
+    problems = [each.worded(without_paths) for each in dict.fromkeys(problems)]
     if (more := len(problems) - MOST_TOLD) > 0:
-        problems[MOST_TOLD:] = [f"and {more} more mistakes"]
+        problems[MOST_TOLD:] = [Problem("", f"and {more} more mistakes")]
     return answer, problems, library
 
 
-def _checked(study: dict[str, Any], folder: Path) -> tuple[Study, list[str]]:
+def _checked(study: dict[str, Any], folder: Path) -> tuple[Study, list[Problem]]:
     """The study without the outputs that have mistakes, and those; other mistakes are raised."""
     try:
         return check(study, folder=folder), []
     except InvalidValue as error:
         outputs = study.get("outputs")
-        places = [text.split(" ", 1)[0].rstrip(":,").split(".") for text in error.problems]
+        places = [each.place.split(".") for each in error.problems]
         if not isinstance(outputs, dict) or any(place[0] != "outputs" for place in places):
             raise
         wrong = {name for place in places for name in place[1:2]}
@@ -268,7 +268,7 @@ class State:
         self.library: Mapping[str, tb.Material] = tb.materials
         """The materials that the study can name."""
         self.reading: Job | None = None
-        self.problems: list[str] = []
+        self.problems: list[Problem] = []
         self.answer: Answer | None = None
         self.current = True
         """Whether the answer is that of the study, not of a former one."""
@@ -380,7 +380,7 @@ class State:
         except Died:
             raise  # which says nothing of the study: it is read when it is asked for again
         except InvalidValue as error:
-            found = None, [without_paths(text) for text in error.problems], None
+            found = None, [each.worded(without_paths) for each in error.problems], None
         self._take(study, found)
 
     def _take(self, study: dict[str, Any], found: Looked) -> None:
@@ -434,7 +434,8 @@ class State:
         except InvalidValue as error:
             found = {"problems": list(error.problems)}
         except Stopped:
-            found = {"problems": ["roughness.topography: the reading was cancelled"]}
+            cancelled = Problem("roughness.topography", ": the reading was cancelled")
+            found = {"problems": [cancelled]}
         finally:
             self.reading = None
         self.surfaces = {key: found}

@@ -56,17 +56,20 @@ def main() -> None:
         out.write(json.dumps(line, allow_nan=False) + "\n")
         out.flush()
 
-    from ..errors import ThirdBodyError
+    from ..errors import InvalidValue, ThirdBodyError
+
+    def refuse(*problems: str) -> None:
+        tell(problems=[vars(each) for each in InvalidValue(*problems).problems])
 
     try:
         task = TASKS[asked.pop("task")]
         tell(result=_finite(task(report=lambda part: tell(done=part), **asked)))
     except ThirdBodyError as error:
-        tell(problems=list(getattr(error, "problems", None) or [str(error)]))
+        refuse(*(getattr(error, "problems", None) or [str(error)]))
     except MemoryError:
-        tell(problems=["this needs more memory than the page allows"])
+        refuse("this needs more memory than the page allows")
     except Exception as error:  # readers of files raise whatever comes to their mind
-        tell(problems=[f"this failed: {type(error).__name__}: {error}"])
+        refuse(f"this failed: {type(error).__name__}: {error}")
 
 
 def _limit() -> None:

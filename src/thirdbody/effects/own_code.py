@@ -16,7 +16,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, tell_of_range
+from ..errors import InvalidValue, Problem, tell_of_range
 from ..laws import asperity, particle
 from ..laws.base import Law
 from ..quantities.installed import offers
@@ -113,17 +113,16 @@ def _looked_over(where: str, run: Callable[[], Any], file: Path | None) -> list[
         ]
         for kind, name, law, taken in found:
             if taken is not None:
-                raise InvalidValue(
-                    f"{where}: there is a {kind} {name!r} already, {taken.__module__}."
-                    f"{taken.__name__}; choose another name"
-                )
+                other = f"{taken.__module__}.{taken.__name__}"
+                rule = f": there is a {kind} {name!r} already, {other}"
+                raise InvalidValue(Problem(where, rule, hint="choose another name"))
             _complete(where, kind, law)
         return [law for _, _, law, _ in found]
     except Exception as error:
         for _, registry, known in before:
             registry.clear()
             registry.update(known)
-        if isinstance(error, InvalidValue) and str(error).startswith(where):
+        if isinstance(error, InvalidValue) and error.problems[0].place == where:
             raise
         raise InvalidValue(f"{where}{_place(error, file)}: {_why(error)}") from None
 
@@ -135,7 +134,7 @@ def _complete(where: str, kind: str, law: type[Law]) -> None:
     missing = [name for name in needed if not hasattr(law, name)]
     missing += sorted(getattr(law, "__abstractmethods__", ())) if inspect.isabstract(law) else []
     if missing:
-        raise InvalidValue(f"{where}: {law.__name__} lacks {', '.join(missing)}")
+        raise InvalidValue(Problem(where, f": {law.__name__} lacks {', '.join(missing)}"))
 
 
 def _why(error: Exception) -> str:

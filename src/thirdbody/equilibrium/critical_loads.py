@@ -15,7 +15,7 @@ from ..quantities.carried import takes_units
 from .load_scan import load_scan
 from .modes import EPS_1, EPS_2, WINDOW
 from .states import FEWEST, carries, state_columns, varied
-from .status import DEEPEST
+from .status import DEEPEST, CriticalStatus
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -193,11 +193,11 @@ def _critical_loads(
         return _crossing(shares, t, (area, load)[column], which, cell[which], column, level), which
 
     def entry(
-        cases: Sequence[tuple[NDArray[np.bool_], str, float]], loads: tuple[Array, Any]
+        cases: Sequence[tuple[NDArray[np.bool_], CriticalStatus, float]], loads: tuple[Array, Any]
     ) -> tuple[Array, NDArray[np.str_]]:
-        value, status = np.full(count, np.nan), np.full(count, "found", dtype="<U12")
+        value, status = np.full(count, np.nan), np.full(count, CriticalStatus.FOUND, dtype="<U12")
         value[loads[1]] = loads[0]
-        for rows, word, number in (*cases, (lost, "none", np.nan)):
+        for rows, word, number in (*cases, (lost, CriticalStatus.NONE, np.nan)):
             value[rows], status[rows] = number, word
         return value, status
 
@@ -207,7 +207,7 @@ def _critical_loads(
     never, always = below[:, 0], np.all(~below, axis=1)
     cell = np.maximum(np.argmax(below, 1) - 1, 0)
     out["F_cr1"] = entry(
-        [(never, "never p-s", 0.0), (always, "always p-s", np.inf)],
+        [(never, CriticalStatus.NEVER_P_S, 0.0), (always, CriticalStatus.ALWAYS_P_S, np.inf)],
         load_at(~never & ~always, cell, 0, level),
     )
     level = math.log(EPS_2 / (1 - EPS_2))
@@ -215,7 +215,7 @@ def _critical_loads(
     last = NODES - 1 - np.argmax(above[:, ::-1], 1)
     none, end = np.all(~above, axis=1), above[:, -1]
     out["F_cr2"] = entry(
-        [(none, "always s-s", 0.0), (end, "never s-s", np.inf)],
+        [(none, CriticalStatus.ALWAYS_S_S, 0.0), (end, CriticalStatus.NEVER_S_S, np.inf)],
         load_at(~none & ~end, last, 0, level),
     )
     out["F_tpca.A"] = _peak(shares, area, t, lost, entry)
@@ -223,7 +223,7 @@ def _critical_loads(
     changes = above[:, 1:] != above[:, :-1]
     last = NODES - 2 - np.argmax(changes[:, ::-1], 1)
     none = np.all(~changes, axis=1)
-    out["F_tpca.B"] = entry([(none, "none", np.nan)], load_at(~none, last, 1, 0.0))
+    out["F_tpca.B"] = entry([(none, CriticalStatus.NONE, np.nan)], load_at(~none, last, 1, 0.0))
     return out
 
 
@@ -289,7 +289,7 @@ def _peak(
         args=(which.astype(float),),
         tolerances={"xatol": EXACT_PEAK},
     )
-    return entry([(~good, "none", np.nan)], (shares.load(answer.x, which), which))
+    return entry([(~good, CriticalStatus.NONE, np.nan)], (shares.load(answer.x, which), which))
 
 
 def carrying(contact: Contact, vary: Mapping[str, Any]) -> tuple[Contact, dict[str, Any]]:

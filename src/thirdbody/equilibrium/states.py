@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from itertools import chain
 from typing import TYPE_CHECKING, Any
@@ -13,12 +13,13 @@ from numpy.typing import ArrayLike, NDArray
 from ..contact.contact import Contact
 from ..contact.evaluation import Solver, evaluate
 from ..contact.interface import Interface, interface
-from ..errors import InvalidValue, NotCompiled
+from ..errors import InvalidValue, NotCompiled, Problem
 from ..populations.materials import BULK
 from ..populations.shape import Angular
 from ..quantities.carried import takes_units
+from ..quantities.nearest import guess, near_path
 from ..quantities.progress import Cost, reporting, solved, solving, weighed
-from ..quantities.value import warn_of_slip
+from ..quantities.value import paths_of, warn_of_slip
 from .columns import CODE, COLUMNS, as_columns, dataset, quantity_of
 from .compiled import batch as engine
 from .crowding import crowded
@@ -30,7 +31,7 @@ from .status import SENTENCES, TABLE_ENDS, Status
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["solve_states", "state_columns", "varied"]
+__all__ = ["solve_states", "state_columns", "unknown_inputs", "varied"]
 
 
 @takes_units
@@ -148,6 +149,8 @@ def _given(
 ) -> tuple[str, NDArray[np.float64], dict[str, NDArray[Any]]]:
     """Which load is given, its values and those of every varied input, all (N,)."""
     load, _, _ = given_load(contact, pressure, F_star, d)
+    if problems := list(unknown_inputs(contact, vary or ())):
+        raise InvalidValue(*problems)
     given = {"pressure": pressure, "F_star": F_star, "d": d}[load]
     inputs = {load: np.asarray(given, float), **{k: np.asarray(v) for k, v in (vary or {}).items()}}
     try:
@@ -164,6 +167,40 @@ def _given(
             for extreme in dict.fromkeys((float(values.min()), float(values.max()))):
                 warn_of_slip(name, told, extreme)
     return load, loads, arrays
+
+
+def unknown_inputs(
+    contact: Contact,
+    names: Iterable[str],
+    known: Sequence[str] = (),
+    where: str = "vary[{!r}]",
+) -> Iterator[Problem]:
+    """A mistake for each name that is no input of a contact.
+
+    Parameters
+    ----------
+    contact : Contact
+    names : iterable of str
+        Dotted names.
+    known : sequence of str, optional
+        Names of what may vary; every field of the contact by default.
+    where : str, optional
+        How the place of a name is written.
+    """
+    for name in names:
+        place = where.format(name)
+        if contact.two_body and name.startswith("particle"):
+            yield Problem(place, "says nothing of a contact without particles")
+            continue
+        try:
+            contact.part(name)
+        except InvalidValue:
+            paths = known or list(paths_of(contact))
+            above = name.rpartition(".")[0]
+            beside = [path for path in paths if path.rpartition(".")[0] == above]
+            meant = near_path(name, paths)
+            hint = guess("", beside or paths, meant=meant, show=repr, otherwise="the inputs are ")
+            yield Problem(place, "is not an input", hint=hint)
 
 
 def _columns(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:

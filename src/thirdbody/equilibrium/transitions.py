@@ -17,6 +17,7 @@ from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
 from .load_scan import load_scan
 from .modes import EPS_1, EPS_2, WINDOW, need_shares
+from .status import CriticalStatus
 from .words import happens
 
 __all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]
@@ -190,11 +191,11 @@ def transitions(
     need_one("basis", basis, "area", "load")
     need_shares(eps_1=eps_1, eps_2=eps_2)
     if contact.two_body:
-        none = Critical(value=None, status="none")
+        none = Critical(value=None, status=CriticalStatus.NONE)
         two_body = TurningPoint(none, none, none)
         return Transitions(
-            Critical(value=None, status="never p-s"),
-            Critical(value=0.0, status="always s-s"),
+            Critical(value=None, status=CriticalStatus.NEVER_P_S),
+            Critical(value=0.0, status=CriticalStatus.ALWAYS_S_S),
             two_body,
         )
 
@@ -203,7 +204,7 @@ def transitions(
     carried = np.exp([scan.log_F[0], scan.log_F.max()]) / contact.E_ss
     low, high = max(low, 1.0001 * carried[0]), min(high, 0.9999 * carried[1])
     if low >= high:
-        none = Critical(value=None, status="none: no load of the window can be carried")
+        none = Critical(value=None, status=CriticalStatus.NOT_CARRIED)
         return Transitions(none, none, TurningPoint(none, none, none))
 
     def states(loads: Array) -> tuple[Array, Array, Array]:
@@ -246,15 +247,16 @@ def _crossing(
         if b / a - 1 < 1e-9:
             break
     step = np.ptp(share(np.array([a, b])))
-    return Critical(value=float(np.sqrt(a * b)), status="jump" if step > 1e-4 else "found")
+    status = CriticalStatus.JUMP if step > 1e-4 else CriticalStatus.FOUND
+    return Critical(value=float(np.sqrt(a * b)), status=status)
 
 
 def _first_critical(loads: Array, S: Array, share, threshold: float) -> Critical:
     if S[0] < threshold:
-        return Critical(value=None, status="never p-s")
+        return Critical(value=None, status=CriticalStatus.NEVER_P_S)
     below = np.flatnonzero(S < threshold)
     if not len(below):
-        return Critical(value=None, status="always p-s")
+        return Critical(value=None, status=CriticalStatus.ALWAYS_P_S)
     i = below[0]
     return _crossing(loads[i - 1], loads[i], share, threshold, last=False)
 
@@ -262,10 +264,10 @@ def _first_critical(loads: Array, S: Array, share, threshold: float) -> Critical
 def _second_critical(loads: Array, S: Array, share, threshold: float) -> Critical:
     above = np.flatnonzero(S >= threshold)
     if not len(above):
-        return Critical(value=0.0, status="always s-s")
+        return Critical(value=0.0, status=CriticalStatus.ALWAYS_S_S)
     i = above[-1]
     if i == len(loads) - 1:
-        return Critical(value=None, status="never s-s")
+        return Critical(value=None, status=CriticalStatus.NEVER_S_S)
     return _crossing(loads[i], loads[i + 1], share, threshold, last=True)
 
 
@@ -273,20 +275,20 @@ def _recurrence(loads: Array, S: Array, share, threshold: float) -> Critical:
     peak = int(np.argmax(S))
     interior = 0 < peak < len(S) - 1
     if not interior or max(S[0], S[-1]) > 0.9 * S[peak] or S[peak] < 1e-6:
-        return Critical(value=None, status="none")
+        return Critical(value=None, status=CriticalStatus.NONE)
     a, b = loads[peak - 1], loads[peak + 1]
     for _ in range(6):
         fine = np.geomspace(a, b, 33)
         top = int(np.clip(np.argmax(share(fine)), 1, 31))
         a, b = fine[top - 1], fine[top + 1]
-    return Critical(value=float(np.sqrt(a * b)), status="found")
+    return Critical(value=float(np.sqrt(a * b)), status=CriticalStatus.FOUND)
 
 
 def _equal_loads(loads: Array, shares: Array, load_share) -> Critical:
     above = shares >= 0.5
     changes = np.flatnonzero(above[1:] != above[:-1])
     if not len(changes):
-        return Critical(value=None, status="none")
+        return Critical(value=None, status=CriticalStatus.NONE)
     i = changes[-1]
     sign = 1.0 if above[i] else -1.0
 
@@ -301,8 +303,8 @@ def _bend(loads: Array, area: Array, S: Array, eps_1: float, eps_2: float) -> Cr
     hybrid = np.flatnonzero((S < 1 - eps_1) & (S > eps_2))
     inside = hybrid[(hybrid > 0) & (hybrid < len(loads) - 1)]
     if not len(inside):
-        return Critical(value=None, status="none")
+        return Critical(value=None, status=CriticalStatus.NONE)
     x, y = np.log(loads), np.log(area)
     bend = np.abs(y[inside + 1] - 2 * y[inside] + y[inside - 1]) / (x[1] - x[0]) ** 2
     best = inside[int(np.argmax(bend))]
-    return Critical(value=float(loads[best]), status="found")
+    return Critical(value=float(loads[best]), status=CriticalStatus.FOUND)

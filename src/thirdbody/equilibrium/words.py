@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from ..quantities.say import number, percent, plural, value_of
 from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S, WINDOW
+from .status import CriticalStatus, Status
 
 __all__ = [
     "BANDS",
@@ -49,7 +50,9 @@ CRITICAL = {
 """What happens at each critical load."""
 FEW, MANY = 0.1, 1e7
 """Share of contacts below which they are one in so many, and how many are written out."""
-BELOW, ABOVE = ("never p-s", "always s-s"), ("always p-s", "never s-s")
+Side = tuple[CriticalStatus, CriticalStatus]
+BELOW: Side = (CriticalStatus.NEVER_P_S, CriticalStatus.ALWAYS_S_S)
+ABOVE: Side = (CriticalStatus.ALWAYS_P_S, CriticalStatus.NEVER_S_S)
 """Statuses of critical loads that lie below, or above, every load searched."""
 RARE = "rare"
 """Stands for the mode of contacts of which many meet no particle."""
@@ -183,7 +186,7 @@ def happens(name: str) -> str:
     return CRITICAL[critical_name(name)]
 
 
-def _side(value: float | None, status: str) -> tuple[str, str] | None:
+def _side(value: float | None, status: str) -> Side | None:
     """Statuses of the side of the window on which a critical load lies; None inside."""
     for side, there in ((BELOW, 0.0), (ABOVE, math.inf)):
         if status in side or (not status and value == there):
@@ -237,5 +240,5 @@ def unsolved(statuses: Sequence[str]) -> list[str]:
     return [
         f"{statuses.count(status)} of {plural(len(statuses), 'state')} unsolved: {status}"
         for status in dict.fromkeys(statuses)
-        if status != "ok"
+        if status != Status.OK.sentence
     ]

@@ -17,7 +17,6 @@ from .seats import SeatHeights
 
 if TYPE_CHECKING:
     import xarray
-    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
@@ -87,18 +86,6 @@ class ExplicitState:
     def columns(self) -> dict[str, NDArray[Any]]:
         """Every column as a 1-D array."""
         return {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
-
-    def plot(self) -> Figure:
-        """Pressure, gap, a section and the shares of the particles; see `thirdbody.plot.explicit`.
-
-        Returns
-        -------
-        matplotlib.figure.Figure
-        """
-        from importlib import import_module
-
-        # figures stand above the physics, which never needs them: found only when asked for
-        return import_module("thirdbody.views.plot").explicit(self)
 
     @names_arguments
     def to_netcdf(self, path: str | os.PathLike[str]) -> None:

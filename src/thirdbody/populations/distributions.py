@@ -340,7 +340,7 @@ class Uniform(Distribution):
         if self.high > self.low:
             return []
         return [
-            f"Uniform.high = {self.high:g} must be above Uniform.low = {self.low:g} [m]; "
+            f"Uniform.high = {self.high:g} must be above low = {self.low:g} [m]; "
             "for one single size use Monodisperse"
         ]
 

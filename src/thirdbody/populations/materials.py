@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import os
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -18,6 +17,7 @@ import numpy as np
 from ..errors import InvalidValue
 from ..quantities.arguments import names_arguments
 from ..quantities.files import read_bytes
+from ..quantities.nearest import guess, near
 from ..quantities.value import Value, quantity
 
 __all__ = ["Material", "MaterialLibrary", "MaterialPair", "materials"]
@@ -312,16 +312,16 @@ class MaterialLibrary(Mapping[str, Material]):
             for other in entry.get("aliases", ()):
                 known.setdefault(other.casefold(), own)
                 known.setdefault(other.split()[-1].casefold(), own)
-        found = difflib.get_close_matches(str(name).casefold(), known, n=1, cutoff=0.6)
-        return known[found[0]] if found else None
+        meant = near(str(name), known)
+        return known[meant] if meant else None
 
     @names_arguments
     def __getitem__(self, name: str) -> Material:
         entries = self.entries()
         if name not in entries:
-            near = self.near(name)
-            guess = f"did you mean {near!r}?" if near else "materials.search('steel') finds names"
-            raise UnknownMaterial(f"material {name!r} is not in the library; {guess}")
+            meant = self.near(name)
+            hint = f"did you mean {meant!r}?" if meant else "materials.search('steel') finds names"
+            raise UnknownMaterial(f"material {name!r} is not in the library; {hint}")
         return _material(name, entries[name])
 
     def _ipython_key_completions_(self) -> list[str]:
@@ -391,9 +391,7 @@ def _in_si(where: str, entry: dict[str, Any], problems: list[str]) -> dict[str, 
         elif key == "sources" and not (isinstance(value, dict) and _texts(list(value.values()))):
             problems.append(f"{where}.sources = {value!r} must be a table of text")
         elif key not in known:
-            near = difflib.get_close_matches(key, known, n=1)
-            guess = f"did you mean {near[0]}?" if near else f"known here: {', '.join(known)}"
-            problems.append(f"{where}.{key} is not a known key; {guess}")
+            problems.append(f"{where}.{key} is not a known key; {guess(key, known)}")
     for key in _NEEDED:
         if entry.get(key, "") == "":
             example = "where the numbers come from" if key == "source" else NUMBERS[key]["meaning"]

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, Self
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.units import to_si
 from ..quantities.value import Value, quantity
 from .distributions import Distribution
@@ -373,7 +373,7 @@ def _read(name: str, value: float | str, unit: str) -> float:
     try:
         return to_si(value, unit)
     except InvalidValue as error:
-        raise InvalidValue(f"{name} = {error}") from None
+        raise InvalidValue(Problem(name, f"= {error}")) from None
 
 
 def _optional(name: str, value: float | str | None, unit: str) -> float | None:
@@ -383,5 +383,5 @@ def _optional(name: str, value: float | str | None, unit: str) -> float | None:
 def _gap(value: float | str) -> float:
     gap = _read("gap", value, "m")
     if not (math.isfinite(gap) and gap > 0):
-        raise InvalidValue(f"gap = {value!r} must be > 0 [m]; um are 1e-6 or '1 um'")
+        raise InvalidValue(Problem("gap", "must be > 0 [m]; um are 1e-6 or '1 um'", repr(value)))
     return gap

@@ -152,7 +152,7 @@ class Roughness(Value):
 
     def _problems(self) -> list[str]:
         if self.eta is not None and self.eta_R_sigma is not None:
-            return ["Roughness.eta and Roughness.eta_R_sigma say the same thing; give one of them"]
+            return ["Roughness.eta and eta_R_sigma say the same thing; give one of them"]
         if not isinstance(self.heights, Heights):
             return [f"Roughness.heights = {self.heights!r} must be a height distribution"]
         if not isinstance(self.ellipticity, Ellipticity | None):

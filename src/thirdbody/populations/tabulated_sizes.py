@@ -54,7 +54,7 @@ class Histogram(Distribution):
         e, c = self.edges, self.counts
         out = []
         if not all(math.isfinite(v) for v in (*e, *c)):
-            return ["Histogram.edges and Histogram.counts must be finite numbers"]
+            return ["Histogram.edges and counts must be finite numbers"]
         if len(e) != len(c) + 1 or not c:
             out.append(f"Histogram has {len(e)} edges and {len(c)} counts; n bins have n + 1 edges")
         if any(b <= a for a, b in zip(e, e[1:], strict=False)) or (e and e[0] < 0):

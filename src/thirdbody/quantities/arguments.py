@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..errors import InvalidValue, WrongKind
+from ..errors import InvalidValue, Problem, WrongKind
 
 __all__ = [
     "FAILURES",
@@ -88,7 +88,8 @@ def need_one(name: str, value: Any, *options: str | int) -> None:
         two = len(options) == 2
         known = (" or " if two else ", ").join(map(repr, options))
         shown = repr(value) if isinstance(value, str) else _shown(value)
-        raise InvalidValue(f"{name} = {shown} must be {'' if two else 'one of '}{known}")
+        rule = f"must be {'' if two else 'one of '}{known}"
+        raise InvalidValue(Problem(name, rule, shown))
 
 
 def need_place(name: str, value: Any, count: int) -> None:
@@ -108,9 +109,8 @@ def need_place(name: str, value: Any, count: int) -> None:
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     if not whole or not -count <= value < count:
         values = "1 value" if count == 1 else f"{count} values"
-        raise InvalidValue(
-            f"{name} = {_shown(value)} must be a place in {values}: 0 to {count - 1}"
-        )
+        rule = f"must be a place in {values}: 0 to {count - 1}"
+        raise InvalidValue(Problem(name, rule, _shown(value)))
 
 
 def need_positive(**values: Any) -> None:
@@ -128,7 +128,7 @@ def need_positive(**values: Any) -> None:
     thirdbody.errors.InvalidValue: R = -1e-06 must be finite and > 0
     """
     problems = [
-        f"{name} = {_shown(value)} must be finite and > 0"
+        Problem(name, "must be finite and > 0", _shown(value))
         for name, value in values.items()
         if not np.all((np.asarray(value) > 0) & np.isfinite(value))
     ]
@@ -158,7 +158,7 @@ def refuse_misfits(
     numbers : container of str, optional
         Arguments that are numbers by their documentation, where the signature does not say.
     where : str, optional
-        What stands before the names: "Finish.".
+        What the arguments belong to: "Finish".
 
     Raises
     ------
@@ -168,7 +168,7 @@ def refuse_misfits(
     if isinstance(error, InvalidValue) and not isinstance(error, WrongKind):
         return
     if problems := misfits(function, args, named, numbers=numbers):
-        raise WrongKind(*(where + each for each in problems)) from None
+        raise WrongKind(*(each.changed(owner=where) for each in problems)) from None
 
 
 def misfits(
@@ -177,8 +177,8 @@ def misfits(
     named: Mapping[str, Any],
     *,
     numbers: Container[str] = (),
-) -> list[str]:
-    """Arguments that are not what the signature of a function says, a sentence each.
+) -> list[Problem]:
+    """Arguments that are not what the signature of a function says, a mistake each.
 
     Examples
     --------
@@ -207,7 +207,7 @@ def misfits(
         for each in value if parameter.kind is parameter.VAR_POSITIONAL else [value]:
             if not _fits(node, each, space):
                 words = " or ".join(dict.fromkeys(_words(node, space)))
-                problems.append(f"{name} = {_shown(each)} must be {words}")
+                problems.append(Problem(name, f"must be {words}", _shown(each)))
     return problems
 
 

@@ -24,7 +24,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from .arguments import FAILURES, refuse_misfits
 from .kinds import kind_of, needed, registry, spelled
 
@@ -390,15 +390,15 @@ def _of(units: Mapping[str, str | None], name: str, value: Any, problems: list[s
     unit = units.get(name)
     if unit is None:
         shown = " ".join(str(value).split())
-        problems.append(
-            f"{name} = {shown if len(shown) <= 60 else '[...]'} carries a unit, which is not "
-            "understood here; give the number alone, lengths, pressures and all else in SI"
-        )
+        rule = "carries a unit, which is not understood here"
+        hint = "give the number alone, lengths, pressures and all else in SI"
+        shown = shown if len(shown) <= 60 else "[...]"
+        problems.append(Problem(name, rule, shown, hint=hint))
         return value
     try:
         return in_si(value, unit)
     except InvalidValue as error:
-        problems += [f"{name} = {problem}" for problem in error.problems]
+        problems += [Problem(name, f"= {problem}") for problem in error.problems]
         return value
 
 

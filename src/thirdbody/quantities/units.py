@@ -6,7 +6,6 @@ Quantities that carry a unit of their own are taken as well.
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from collections.abc import Mapping
@@ -15,6 +14,7 @@ from typing import Any, NoReturn
 
 from ..errors import InvalidValue
 from .kinds import KINDS, is_usual, kind_of_parsed, one_spelling, registry
+from .nearest import near
 
 __all__ = ["EXAMPLES", "comma_may_part_thousands", "quantity_to_si", "say", "to_si"]
 
@@ -265,8 +265,7 @@ def _unknown(body: str, shown: str, unit: str) -> str:
                 f"{shown} is a hardness number, not a pressure; one unit of {word} is 1 kgf/mm^2, "
                 f"so write {shown.replace(word, 'kgf/mm^2')}"
             )
-        folded = {name.lower(): name for name in reversed(_USUAL)}
-        near = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.7)
-        guess = f"did you mean {folded[near[0]]}?" if near else f"it must be {_need_text(unit)}"
-        return f"{shown} has the unit {word}, which is not known (case matters); {guess}"
+        meant = near(word, _USUAL, cutoff=0.7)
+        hint = f"did you mean {meant}?" if meant else f"it must be {_need_text(unit)}"
+        return f"{shown} has the unit {word}, which is not known (case matters); {hint}"
     return f"{shown} has a unit that cannot be read; it must be {_need_text(unit)}"

@@ -10,16 +10,17 @@ from __future__ import annotations
 import dataclasses
 import math
 import types
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import MISSING, field
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from ..errors import InvalidValue, NotCompiled, tell_of_range
+from ..errors import InvalidValue, NotCompiled, Problem, tell_of_range
 from .arguments import FAILURES, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
+from .nearest import guess
 
 if TYPE_CHECKING:
     import numpy as np
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
     from .notebook import Row
 
-__all__ = ["Value", "choice", "items_of", "quantity", "sequences", "several"]
+__all__ = ["Value", "choice", "items_of", "paths_of", "quantity", "sequences", "several"]
 
 
 def quantity(
@@ -239,11 +240,12 @@ class Value:
 
     def __post_init__(self) -> None:
         problems: list[str] = []
+        owner = type(self).__name__
         for name, about, words in _declarations(type(self)):  # type: ignore[arg-type]
             value = getattr(self, name)
             why = None
             if type(value) is not float and (told := masked_words(value) or huge_words(value)):
-                problems.append(f"{type(self).__name__}.{name} {told}")
+                problems.append(Problem(name, told, owner=owner))
                 continue
             if type(value) is not float and carries_unit(value):
                 value, told = _without_unit(type(self), name, value)
@@ -261,20 +263,24 @@ class Value:
             if why:
                 shown = " ".join(repr(value).split())
                 shown = shown if len(shown) <= 100 else shown[:96] + " ..."
-                problems.append(f"{type(self).__name__}.{name} = {shown} {why}")
+                problems.append(Problem(name, why, shown, owner=owner))
         if not problems:
             try:
-                problems = self._problems()
+                problems = [Problem.of(owner, each) for each in self._problems()]
             except FAILURES as error:
                 kind = type(self)
                 held = {name: getattr(self, name) for name in kind.__dataclass_fields__}  # type: ignore[attr-defined]
-                refuse_misfits(error, kind, (), held, where=f"{kind.__name__}.")
+                refuse_misfits(error, kind, (), held, where=kind.__name__)
                 raise
         if problems:
             raise InvalidValue(*problems)
 
     def _problems(self) -> list[str]:
-        """Mistakes that concern several fields at once; subclasses override."""
+        """Mistakes that concern several fields at once; subclasses override.
+
+        A text begins with the name of the class, a dot and the field that it is about, or with
+        the name alone. The classes inside have said what is wrong with them.
+        """
         return []
 
     def _repr_html_(self) -> str:
@@ -291,8 +297,7 @@ class Value:
         for key, value in changes.items():
             head, _, rest = key.partition(".")
             if head not in names:
-                known = ", ".join(sorted(names))
-                raise InvalidValue(f"{type(self).__name__} has no field {head!r}; it has {known}")
+                raise InvalidValue(_no_field(self, head, names))
             if rest:
                 inner.setdefault(head, {})[rest] = value
             else:
@@ -352,8 +357,7 @@ class Value:
         for key, values in changes.items():
             head, _, rest = key.partition(".")
             if head not in fields:
-                known = ", ".join(sorted(fields))
-                raise InvalidValue(f"{type(self).__name__} has no field {head!r}; it has {known}")
+                raise InvalidValue(_no_field(self, head, fields))
             if rest:
                 inner.setdefault(head, {})[rest] = values
                 continue
@@ -362,7 +366,8 @@ class Value:
                 raise NotCompiled(f"{type(self).__name__}.{head} is not a quantity")
             for extreme in (float(values.min()), float(values.max())):
                 if why := problem_with(about, extreme):
-                    raise InvalidValue(f"{type(self).__name__}.{head} = {extreme!r} {why}")
+                    owner = type(self).__name__
+                    raise InvalidValue(Problem(head, why, repr(extreme), owner=owner))
             now[head] = values
         for head, deeper in inner.items():
             part = getattr(self, head)
@@ -416,6 +421,23 @@ def _taker(member: Any) -> Any:
     return None
 
 
+def _no_field(value: Value, name: str, names: Iterable[str]) -> Problem:
+    hint = guess(name, sorted(names), show=repr, otherwise="it has ")
+    return Problem("", f"has no field {name!r}", hint=hint, owner=type(value).__name__)
+
+
+def paths_of(value: Value, prefix: str = "") -> Iterator[str]:
+    """Dotted names of every field of a value and of the values in it, for `Value.part`."""
+    for item in dataclasses.fields(value):  # type: ignore[arg-type]
+        name, part = f"{prefix}{item.name}", getattr(value, item.name)
+        yield name
+        several = enumerate(part) if isinstance(part, tuple) else ((None, part),)
+        for place, each in several:
+            if isinstance(each, Value):
+                label = getattr(each, "name", "") or place
+                yield from paths_of(each, f"{name}." if place is None else f"{name}.{label}.")
+
+
 def _without_unit(kind: type[Value], name: str, value: Any) -> tuple[Any, str]:
     """The value of a field in SI where it carries a unit, and why it cannot be."""
     item = kind.__dataclass_fields__[name]  # type: ignore[attr-defined]
@@ -430,7 +452,7 @@ def _without_unit(kind: type[Value], name: str, value: Any) -> tuple[Any, str]:
             )
         return in_si(value, about["unit"]), ""
     except InvalidValue as error:
-        return value, f"{kind.__name__}.{name} = {error}"
+        return value, Problem(name, f"= {error}", owner=kind.__name__)
 
 
 def items_of(given: Any) -> tuple[Any, ...]:
@@ -457,7 +479,7 @@ def sequences(value: Value, *names: str) -> None:
         some = given if type(given) in (list, tuple) else ()
         told = masked_words(given) or next(filter(None, map(huge_words, some)), "")
         if told:
-            told = f"{type(value).__name__}.{name} {told}"
+            told = Problem(name, told, owner=type(value).__name__)
         elif carries_unit(given):
             given, told = _without_unit(type(value), name, given)
         if told:
@@ -466,14 +488,15 @@ def sequences(value: Value, *names: str) -> None:
         try:
             object.__setattr__(value, name, tuple(float(item) for item in given))
         except (TypeError, ValueError, OverflowError):
-            where = f"{type(value).__name__}.{name}"
-            problems.append(f"{where} = {given!r} must be a sequence of numbers")
+            rule, owner = "must be a sequence of numbers", type(value).__name__
+            problems.append(Problem(name, rule, repr(given), owner=owner))
             continue
         unit = type(value).__dataclass_fields__[name].metadata["several"]["unit"]  # type: ignore[attr-defined]
         for i, number in enumerate(getattr(value, name)):
             positive = unit == "m" and number > 0  # a size; the first class may begin at 0
             if math.isfinite(number) and (why := why_extreme(number, unit, positive=positive)):
-                problems.append(f"{type(value).__name__}.{name}[{i}] = {number!r} {why}")
+                owner = type(value).__name__
+                problems.append(Problem(f"{name}[{i}]", why, repr(number), owner=owner))
     if problems:
         raise InvalidValue(*problems)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.units import say
 from .one_value import count, number, word
 from .reader import Key, Reader, plain
@@ -60,14 +60,19 @@ def _range(
     wrong = []
     if low >= high:
         wrong.append(
-            f"{path} is an empty range: from = {say(data['from'])} must be below "
-            f"to = {say(data['to'])}"
+            Problem(
+                path,
+                f"is an empty range: from = {say(data['from'])} must be below "
+                f"to = {say(data['to'])}",
+            )
             + ("; exchange them" if low > high else "; for one value write it alone")
         )
     if log and low <= 0:
         wrong.append(
-            f'{path}.from = {say(data["from"])} must be > 0 with spacing = "log"; '
-            'use spacing = "linear"'
+            Problem(
+                f"{path}.from",
+                f'= {say(data["from"])} must be > 0 with spacing = "log"; use spacing = "linear"',
+            )
         )
     reader.problems += wrong
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..populations.measured import cleanliness
 from ..populations.particles import Particles
 from ..quantities.units import say
 from ..quantities.value import quantity
 from .fields import about_of
+from .mistakes import clash
 from .one_value import number
 from .reader import Key, Reader, plain
 
@@ -48,20 +48,21 @@ def amount(reader: Reader, path: str, data: Any, kind: str, own: dict[str, Key])
     if by_volume:
         own["areal_density"] = own["areal_density"]._replace(required=False)
 
-    def entries_of(*keys: str) -> list[str]:
-        return [f"{path}.{key} = {say(given[key])}" for key in keys if key in given]
+    def present(*keys: str) -> list[str]:
+        return [key for key in keys if key in given]
 
-    wrong = []
+    wrong: list[str] = []
     for pair in ((kind if coded else "concentration", "areal_density"), ("gap", "film")):
-        if len(both := entries_of(*pair)) > 1:
-            wrong.append(f"{', '.join(both)}: only one of these can be given; remove the other")
-    if by_volume and not entries_of("gap", "film"):
-        wrong.append(
-            f"{path}.gap is missing: the height of the fluid whose particles are trapped, e.g. "
-            f'gap = "1 um"; {kind if coded else "concentration"} counts them per volume'
-        )
-    if not by_volume and (idle := entries_of(*names)):
-        wrong.append(f"{idle[0]} has no effect without {path}.concentration")
+        if len(both := present(*pair)) > 1:
+            rule = "only one of these can be given; remove the other"
+            wrong.append(clash(path, given, both, rule))
+    if by_volume and not present("gap", "film"):
+        what = kind if coded else "concentration"
+        rule = 'is missing: the height of the fluid whose particles are trapped, e.g. gap = "1 um"'
+        wrong.append(Problem(f"{path}.gap", rule, hint=f"{what} counts them per volume"))
+    if not by_volume and (idle := present(*names)):
+        rule = f"has no effect without {path}.concentration"
+        wrong.append(Problem(f"{path}.{idle[0]}", rule, say(given[idle[0]])))
     return wrong
 
 
@@ -83,11 +84,7 @@ def complaints_of(path: str) -> Iterator[None]:
     try:
         yield
     except InvalidValue as error:
-        sentences = (text.removeprefix("Particles.") for text in error.problems)
-        keyed = re.compile(r"[a-z_]+ (=|is missing)")
-        raise InvalidValue(
-            *(f"{path}{'.' if keyed.match(text) else ': '}{text}" for text in sentences)
-        ) from None
+        raise error.under(path) from None
 
 
 def _concentration(path: str) -> Callable[[Any], cleanliness.Concentration]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,8 +10,9 @@ from pydantic import TypeAdapter, ValidationError
 from ..analysis.design.problem import Limit, Objective, Suspension
 from ..analysis.design.search import AMOUNT
 from ..equilibrium.columns import about
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..populations.measured import cleanliness
+from ..quantities.nearest import guess
 from ..quantities.units import say, to_si
 from .amounts import amounts
 from .concentration import AMOUNT as OF_FLUID
@@ -22,7 +22,7 @@ from .one_value import count, number, numbers, switch, word
 from .reader import Key, Reader, Table, get, plain
 from .surfaces import material
 from .uncertainty import named
-from .vocabulary import LOADS, near
+from .vocabulary import LOADS
 
 __all__ = ["TABLE"]
 
@@ -53,9 +53,13 @@ def design(reader: Reader, path: str, data: Any) -> Any:
         read = amounts(reader, f"{path}.{name}", declared, get(data, name), sampled=True)
         keys[name] = Key(read, False, about_of(name, declared))
     if all(get(data, name) is not None for name in ("F_star", "pressure")):
-        reader.problems.append(f"{path}.F_star and {path}.pressure: only one of these can be given")
+        reader.problems.append(
+            Problem(f"{path}.F_star", f"and {path}.pressure: only one of these can be given")
+        )
     if get(data, "scatter") is True and "uncertainty" not in reader.whole:
-        reader.problems.append(f"{path}.scatter = true needs a table [uncertainty]: what scatters")
+        reader.problems.append(
+            Problem(f"{path}.scatter", "= true needs a table [uncertainty]: what scatters")
+        )
     fluid = _fluid(reader)
 
     def build(values: dict[str, Any]) -> dict[str, Any]:
@@ -198,9 +202,8 @@ def _one(where: str, entry: Any, kind: type[Objective] | type[Limit]) -> Any:
             if key == "of":
                 continue
             if key not in own:
-                meant = near(key, own)
-                hint = f"; did you mean {meant}?" if meant else f"; known are of, {', '.join(own)}"
-                raise InvalidValue(f"{where}.{key} is not a known key{hint}")
+                hint = guess(key, ("of", *own))
+                raise InvalidValue(Problem(f"{where}.{key}", "is not a known key", hint=hint))
             if key in WORDS:
                 values[key] = word(f"{where}.{key}", WORDS[key])(value)
             else:
@@ -213,9 +216,7 @@ def _one(where: str, entry: Any, kind: type[Objective] | type[Limit]) -> Any:
     try:
         return kind(**values)
     except InvalidValue as error:
-        raise InvalidValue(
-            *(f"{where}: {re.sub(rf'^{kind.__name__}[. ]', '', text)}" for text in error.problems)
-        ) from None
+        raise error.under(where) from None
 
 
 def _unit(of: str) -> str:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..populations.finish import STATED, Finish, assumption_sentence, processes
 from ..populations.roughness import Roughness
 from ..quantities.units import say
 from .fields import about_of
-from .mistakes import retold
+from .mistakes import in_file
 from .one_value import number, word
 from .reader import Key, Reader, get, plain
 
@@ -43,19 +43,29 @@ def drawn(reader: Reader, path: str, data: dict[str, Any]) -> Any:
         )
     elif not pair and not sides:
         reader.problems.append(
-            f'{path} has no height; give Ra, Rq or Rz of the pair, e.g. Ra = "0.2 um", or of each '
-            f"face, [{path}.first] and [{path}.second]"
+            Problem(
+                path,
+                'has no height; give Ra, Rq or Rz of the pair, e.g. Ra = "0.2 um", or of each '
+                f"face, [{path}.first] and [{path}.second]",
+            )
         )
     elif pair == ["sigma"]:
         reader.problems.append(
-            f"{path}.process = {say(data.get('process'))} goes with the height of a drawing; write "
-            f"Rq = {say(data['sigma'])} instead of sigma"
+            Problem(
+                f"{path}.process",
+                "goes with the height of a drawing; write "
+                f"Rq = {say(data['sigma'])} instead of sigma",
+                say(data.get("process")),
+            )
         )
     elif len(sides) == 1:
         other = next(face for face in FACES if face not in sides)
         reader.problems.append(
-            f"{path}.{other} is missing: give both faces, or for a smooth one against {sides[0]} "
-            f"the height alone, {path}.Ra"
+            Problem(
+                f"{path}.{other}",
+                f"is missing: give both faces, or for a smooth one against {sides[0]} "
+                f"the height alone, {path}.Ra",
+            )
         )
     refused = len(reader.problems) > wrong
 
@@ -66,13 +76,14 @@ def drawn(reader: Reader, path: str, data: dict[str, Any]) -> Any:
         sizes = {name: values.pop(name) for name in STATED if name in values}
         given = [values.pop(face) for face in FACES if face in values] or [sizes]
         where = [f"{path}.{face}" for face in sides] or [path]
-        faces, problems = [], []
+        faces: list[Finish] = []
+        problems: list[str] = []
         for place, each in zip(where, given, strict=True):
             try:
                 told = {"process": common} if common and "process" not in each else {}
                 faces.append(Finish(**each, **told))
             except InvalidValue as error:
-                problems += [retold(text, "Finish", place, each) for text in error.problems]
+                problems += in_file(error, Finish, place, each).problems
         if problems:
             raise InvalidValue(*problems)
         try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..populations.ellipticity import FACES, Ellipticity
 from ..quantities.units import say
 from .fields import about_of
@@ -48,16 +48,20 @@ def ellipticity(reader: Reader, path: str, data: Any) -> Any:
     keys["angle"] = Key(plain(_angle(reader, f"{path}.angle")), True, example)
     if len({"R_first", "R_second"} & data.keys()) == 1:
         reader.problems.append(
-            f"{path} has the radius of one face only; give both R_first and R_second, or "
-            "neither where they are equal"
+            Problem(
+                path,
+                "has the radius of one face only; give both R_first and R_second, or "
+                "neither where they are equal",
+            )
         )
 
     def build(values: dict[str, Any]) -> Ellipticity:
         try:
             return Ellipticity.combined(**{names.get(k, k): v for k, v in values.items()})
         except InvalidValue as error:
+            keys = {name: f"{path}.{key}" for key, name in names.items()}
             raise InvalidValue(
-                *(text.replace("first_ratio", f"{path}.first") for text in error.problems)
+                *(p.changed(path=keys.get(p.path, p.path)) for p in error.problems)
             ) from None
 
     return reader.table(path, keys, build)

@@ -10,7 +10,7 @@ from ..errors import InvalidValue
 from ..populations.heights import Heights
 from ..quantities.units import say
 from .fields import needed_fields
-from .mistakes import retold
+from .mistakes import in_file
 from .one_value import word
 from .reader import Reader, plain
 from .vocabulary import HEIGHTS
@@ -27,9 +27,7 @@ def heights(reader: Reader, path: str, data: Any) -> Any:
             with np.errstate(all="ignore"):
                 _ = made.pieces  # some shapes exist in no member of the family
         except InvalidValue as error:
-            raise InvalidValue(
-                *(retold(text, type(made).__name__, path, values) for text in error.problems)
-            ) from None
+            raise in_file(error, type(made), path, values) from None
         return made
 
     if isinstance(data, dict):

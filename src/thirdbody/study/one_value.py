@@ -7,9 +7,11 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Any, Protocol
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
+from ..quantities.nearest import guess
 from ..quantities.units import EXAMPLES, quantity_to_si, say
 from ..quantities.value import allowed_range, problem_with, unit_meant
+from .mistakes import wrong
 from .vocabulary import in_words, near
 
 __all__ = [
@@ -55,14 +57,14 @@ def number(reader: Notes, path: str, about: dict[str, Any]) -> Callable[[Any], f
         except InvalidValue as error:
             elsewhere = "; a load in Pa goes under the key pressure"
             cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
-            raise InvalidValue(f"{path} = {error}{cause}") from None
+            raise InvalidValue(Problem(path, f"= {error}{cause}")) from None
         if not math.isfinite(found):
             allowed = allowed_range(about).removeprefix("must be ")
             allowed = "" if allowed.startswith("a finite") else f"; it must be {allowed}"
-            raise InvalidValue(f"{path} = {say(value)} is not a finite number{allowed}")
+            raise wrong(path, f"is not a finite number{allowed}", value)
         if why := problem_with(about, found):
             meant = "" if about["hint"] else f"; it is the {about['meaning']}"
-            raise InvalidValue(f"{path} = {say(value)} {in_words(why)}{meant}")
+            raise wrong(path, in_words(why) + meant, value)
         _plausible(reader, path, about, value, found)
         return found
 
@@ -81,11 +83,9 @@ def _plausible(reader: Notes, path: str, about: dict[str, Any], value: Any, numb
             "case matter)"
         )
         return
-    raise InvalidValue(
-        f"{path} = {say(value)} has no unit, so it would be {number:g} {unit}, which is not "
-        f'plausible; was "{number:g} {meant}" meant? With its unit any value is taken: '
-        f'"{number:g} {unit}"'
-    )
+    rule = f"has no unit, so it would be {number:g} {unit}, which is not plausible"
+    any_value = f'With its unit any value is taken: "{number:g} {unit}"'
+    raise wrong(path, rule, value, hint=f'was "{number:g} {meant}" meant? {any_value}')
 
 
 def has_unit(value: Any) -> bool:
@@ -101,9 +101,7 @@ def count(path: str, *, least: int = 1, most: int = MOST_POINTS) -> Callable[[An
     def read(value: Any) -> int:
         whole = isinstance(value, (int, float)) and not isinstance(value, bool)
         if not (whole and value == value // 1 and least <= value <= most):
-            raise InvalidValue(
-                f"{path} = {say(value)} must be a whole number from {least} to {most}"
-            )
+            raise wrong(path, f"must be a whole number from {least} to {most}", value)
         return int(value)
 
     return read
@@ -115,10 +113,14 @@ def word(path: str, options: Iterable[str]) -> Callable[[Any], str]:
     def read(value: Any) -> str:
         if isinstance(value, str) and value in options:
             return value
-        meant = near(str(value), options)
-        raise InvalidValue(
-            f"{path} = {say(value)} must be one of {', '.join(map(say, options))}"
-            + (f"; did you mean {say(meant)}?" if meant else "")
+        rule = f"must be one of {', '.join(map(say, options))}"
+        raise wrong(
+            path,
+            rule,
+            value,
+            hint=guess(
+                str(value), options, meant=near(str(value), options), show=say, otherwise=None
+            ),
         )
 
     return read
@@ -132,7 +134,7 @@ def words(path: str, options: Iterable[str] | None) -> Callable[[Any], list[str]
         if options is not None:
             return [word(path, options)(item) for item in values]
         if not all(isinstance(item, str) for item in values):
-            raise InvalidValue(f"{path} = {say(value)} must be a list of names in quotes")
+            raise wrong(path, "must be a list of names in quotes", value)
         return values
 
     return read
@@ -146,7 +148,7 @@ def word_or_number(path: str) -> Callable[[Any], str | float]:
             isinstance(value, (int, float)) and not isinstance(value, bool)
         ):
             return value
-        raise InvalidValue(f"{path} = {say(value)} must be a word in quotes or a number")
+        raise wrong(path, "must be a word in quotes or a number", value)
 
     return read
 
@@ -157,7 +159,7 @@ def text(path: str) -> Callable[[Any], str]:
     def read(value: Any) -> str:
         if isinstance(value, str):
             return value
-        raise InvalidValue(f'{path} = {say(value)} must be text in quotes, e.g. "{value}"')
+        raise wrong(path, f'must be text in quotes, e.g. "{value}"', value)
 
     return read
 
@@ -168,7 +170,7 @@ def switch(path: str) -> Callable[[Any], bool]:
     def read(value: Any) -> bool:
         if isinstance(value, bool):
             return value
-        raise InvalidValue(f"{path} = {say(value)} must be true or false, without quotes")
+        raise wrong(path, "must be true or false, without quotes", value)
 
     return read
 
@@ -181,9 +183,7 @@ def numbers(path: str, unit: str, *, usual: float | None = None) -> Callable[[An
 
     def read(value: Any) -> tuple[float, ...]:
         if not isinstance(value, list):
-            raise InvalidValue(
-                f"{path} = {say(value)} must be a list, e.g. [{EXAMPLES[unit]}, ...]"
-            )
+            raise wrong(path, f"must be a list, e.g. [{EXAMPLES[unit]}, ...]", value)
         out: list[float] = []
         problems: list[str] = []
         for i, item in enumerate(value):
@@ -203,6 +203,6 @@ def refused(path: str, why: str) -> Callable[[Any], Any]:
     """A key that is known and has no place here."""
 
     def read(value: Any) -> Any:
-        raise InvalidValue(f"{path} = {say(value)} {why}")
+        raise wrong(path, why, value)
 
     return read

@@ -6,12 +6,13 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..populations.particles import Particles
 from ..quantities.units import say
 from .concentration import amount, laden
 from .counted import COUNTED, counted
 from .laws import particle_law
+from .mistakes import clash
 from .reader import Key, Reader, Table, get
 from .shape import OF_SIZES, shape
 from .strength import strength
@@ -39,8 +40,12 @@ def particles(reader: Reader, path: str, data: Any) -> Any:
         name = get(table, "name")
         if isinstance(name, str) and name and named.setdefault(name, i) != i:
             reader.problems.append(
-                f"{path}.{i}.name = {say(name)} is the name of {path}.{named[name]} as well; "
-                "results could not tell them apart"
+                Problem(
+                    f"{path}.{i}.name",
+                    f"is the name of {path}.{named[name]} as well; "
+                    "results could not tell them apart",
+                    say(name),
+                )
             )
     several = tuple(_population(reader, f"{path}.{i}", table) for i, table in enumerate(data))
     return Annotated[tuple[several], AfterValidator(tuple)]  # type: ignore[valid-type]
@@ -62,8 +67,7 @@ def _population(reader: Reader, path: str, data: Any) -> Any:
     kind = given[0] if given else "distribution"
     wrong = amount(reader, path, data, kind, own)
     if len(given) > 1:
-        shown = ", ".join(f"{path}.{key} = {say(data[key])}" for key in given)
-        wrong.append(f"{shown}: each of these gives the sizes; keep one of them")
+        wrong.append(clash(path, data, given, "each of these gives the sizes; keep one of them"))
     reader.problems += wrong
     own |= {key: Key(Any, False, "") for key in COUNTED}
     if kind != "distribution":

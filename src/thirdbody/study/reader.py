@@ -17,7 +17,7 @@ from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.units import say
 from .fields import UNITS_OF_LISTS, about_of, filled_in, needed_fields
-from .mistakes import Known, retold
+from .mistakes import Known, clash, in_file
 from .one_value import number, numbers, switch, text, word, word_or_number
 from .vocabulary import near
 
@@ -199,8 +199,8 @@ class Reader:
         """Tell of keys that say the same thing twice; the ones to leave out."""
         given = [key for key in ONE_OF[group or path] if get(data, key) is not None]
         if len(given) > 1:
-            shown = ", ".join(f"{path}.{key} = {say(data[key])}" for key in given)
-            self.problems.append(f"{shown}: only one of these can be given; remove the other")
+            rule = "only one of these can be given; remove the other"
+            self.problems.append(clash(path, data, given, rule))
         return given[1:]
 
     def make(self, kind: type, path: str, values: dict[str, Any]) -> Any:
@@ -208,9 +208,7 @@ class Reader:
         try:
             return kind(**values)
         except InvalidValue as error:
-            raise InvalidValue(
-                *(retold(problem, kind.__name__, path, values) for problem in error.problems)
-            ) from None
+            raise in_file(error, kind, path, values) from None
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
+from ..equilibrium.status import CriticalStatus
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
 from ..errors import InvalidValue, RangeWarning, ThirdBodyError
 from ..systems.bodies import Pressed
@@ -206,7 +207,7 @@ def _transitions(contact: Contact) -> Transitions:
     try:
         return transitions(contact)
     except ThirdBodyError as error:
-        none = Critical(value=None, status=f"none: {str(error).splitlines()[0]}")
+        none = Critical(value=None, status=f"{CriticalStatus.NONE}: {str(error).splitlines()[0]}")
         return Transitions(none, none, TurningPoint(none, none, none))
 
 

@@ -9,7 +9,7 @@ from pydantic import AfterValidator
 from ..errors import InvalidValue
 from ..populations.particles import Particles
 from ..populations.strength import WeibullStrength
-from ..quantities.units import say
+from .mistakes import clash
 from .one_value import number, refused
 from .reader import Key, Reader, plain
 
@@ -64,8 +64,8 @@ def _read(reader: Reader, path: str, data: Any, asked: _OfMaterial) -> Any:
     elif "at" in data:
         keys["x_0"] = keys["x_0"]._replace(required=False)
         if "x_0" in data:
-            shown = f"{path}.at = {say(data['at'])}, {path}.x_0 = {say(data['x_0'])}"
-            reader.problems.append(f"{shown}: both are the size of the test; keep one of them")
+            rule = "both are the size of the test; keep one of them"
+            reader.problems.append(clash(path, data, ("at", "x_0"), rule))
 
     def build(values: dict[str, Any]) -> WeibullStrength | None:
         if "at" in values:

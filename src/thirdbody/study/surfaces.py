@@ -7,10 +7,13 @@ from typing import Any
 from ..errors import InvalidValue
 from ..populations.materials import Material, MaterialLibrary, MaterialPair, materials
 from ..quantities.units import say
+from .mistakes import wrong
 from .one_value import text
 from .reader import Key, Reader, Table, get, plain
 
 __all__ = ["OWN_MATERIALS", "TABLE", "material"]
+
+OTHER = 'another material is written { E = "205 GPa", nu = 0.29, H = "5 GPa" }'
 
 
 def surfaces(reader: Reader, path: str, data: Any) -> Any:
@@ -37,12 +40,11 @@ def material(reader: Reader, path: str, data: Any) -> Any:
             return known[value]
         near = known.near(str(value))
         some = ", ".join(list(known)[:3])
-        raise InvalidValue(
-            f"{path} = {say(value)} is not a material of the library "
-            f"({some} and {len(known) - 3} more: thirdbody materials)"
-            + (f"; did you mean {say(near)}?" if near else "")
-            + '; another material is written { E = "205 GPa", nu = 0.29, H = "5 GPa" }'
+        rule = (
+            f"is not a material of the library ({some} and {len(known) - 3} more: thirdbody "
+            "materials)" + (f"; did you mean {say(near)}?" if near else "")
         )
+        raise wrong(path, rule, value, hint=OTHER)
 
     return plain(from_library)
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import numpy as np
 
 from ..analysis.sweep.make_plan import make_plan
 from ..analysis.sweep.plan import Plan
+from ..analysis.sweep.reduction import KEYS
 from ..contact.contact import Contact
 from ..contact.output import every_column
 from ..equilibrium.columns import COLUMNS
@@ -126,16 +126,12 @@ def plan(
     try:
         return make_plan(contact, **given)
     except InvalidValue as error:
-        back = {inner: outer for outer, inner in translated.items()}
-
-        def named_in_study(problem: str) -> str:
-            problem = re.sub(
-                r"vary\['([^']+)'\]", lambda m: f"sweep.vary.{back.get(m[1], m[1])}", problem
-            )
-            problem = re.sub(r"reduce\['(\w+)'\]", r"sweep.reduce.\1", problem)
-            return re.sub(r"^(design|samples|seed|chunk|reduce)\b(?!\.)", r"sweep.\1", problem)
-
-        raise InvalidValue(*map(named_in_study, error.problems)) from None
+        places = {f"vary[{inner!r}]": f"sweep.vary.{name}" for name, inner in translated.items()}
+        places |= {f"reduce[{key!r}]": f"sweep.reduce.{key}" for key in KEYS}
+        places |= {key: f"sweep.{key}" for key in ("design", "samples", "seed", "chunk", "reduce")}
+        raise InvalidValue(
+            *(each.changed(path=places.get(each.path, each.path)) for each in error.problems)
+        ) from None
 
 
 def ends(asked: dict[str, Any]) -> tuple[str, np.ndarray] | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 import tomllib
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any
 
 from ..errors import InvalidValue
 from ..quantities.files import read_bytes
+from ..quantities.nearest import near
 
 __all__ = ["read", "value_of"]
 
@@ -20,10 +20,8 @@ def read(path: Path) -> dict[str, Any]:
         content = read_bytes(path, "a study file")
         text = content.decode("utf-8-sig")
     except FileNotFoundError:
-        near = difflib.get_close_matches(
-            path.name, [p.name for p in _toml_files(path)], n=1, cutoff=0.75
-        )
-        guess = f"; did you mean {path.with_name(near[0])}?" if near else ""
+        meant = near(path.name, [p.name for p in _toml_files(path)], cutoff=0.75)
+        guess = f"; did you mean {path.with_name(meant)}?" if meant else ""
         raise InvalidValue(f"cannot read {path}: there is no such file{guess}") from None
     except IsADirectoryError:
         raise InvalidValue(f"cannot read {path}: it is a folder, not a study file") from None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -76,12 +75,7 @@ def topography(reader: Reader, path: str, data: dict[str, Any]) -> Any:
             return both.replace(ellipticity=shapes["ellipticity"])
         except InvalidValue as error:
             raise InvalidValue(
-                *(
-                    f"{path}.{told}"
-                    if re.match(r"(cutoff|detrend|unit|spacing|channel)\b", told)
-                    else f"{path}.topography: {told}"
-                    for told in error.problems
-                )
+                *(p.under(path if p.path else f"{path}.topography") for p in error.problems)
             ) from None
 
     return reader.table(path, keys, build)

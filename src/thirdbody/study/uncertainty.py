@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from ..analysis.uncertainty.inputs import KINDS, Uncertain, Uncertainty
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
+from ..quantities.nearest import guess, near_path
 from ..quantities.units import say
 from .inputs import Input, inputs_of
 from .one_value import count, number, word
 from .reader import Key, Reader, Table, get, plain
-from .vocabulary import LOADS, near
+from .vocabulary import LOADS
 
 __all__ = ["TABLE"]
 
@@ -75,11 +76,9 @@ def named(
         raise InvalidValue(f"{where}: {name} {why}")
     if table == "particles" and "particles" not in whole:
         raise InvalidValue(f"{where}: there is no [particles] table, so {name} is no input")
-    meant = near(name, known)
-    raise InvalidValue(
-        f"{where}: {name} is not a number of this study"
-        + (f"; did you mean {meant}?" if meant else f"; it has {', '.join(listed)}")
-    )
+    meant = near_path(name, known)
+    hint = guess("", listed, meant=meant, otherwise="it has ")
+    raise InvalidValue(Problem(where, f": {name} is not a number of this study", hint=hint))
 
 
 def _uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) -> Uncertain:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable
 
@@ -24,6 +23,7 @@ from ..populations.heights import (
     JohnsonHeights,
     WeibullHeights,
 )
+from ..quantities import nearest
 from ..quantities.study_words import in_study_words
 from ..quantities.value import quantity
 
@@ -73,11 +73,9 @@ ALSO_CALLED = {
 
 def near(word: str, options: Iterable[str]) -> str | None:
     """The option that was probably meant."""
-    folded = {option.lower(): option for option in options}
-    known = (name for name in ALSO_CALLED.get(word.lower(), ()) if name in folded)
-    word = next(known, word)
-    found = difflib.get_close_matches(word.lower(), folded, n=1, cutoff=0.6)
-    return folded[found[0]] if found else None
+    options = list(options)
+    known = (name for name in ALSO_CALLED.get(word.lower(), ()) if name in options)
+    return nearest.near(next(known, word), options)
 
 
 def in_words(sentence: str) -> str:

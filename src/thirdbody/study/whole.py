@@ -184,7 +184,7 @@ def _checked_study(data: dict[str, Any], folder: Path, tables: Iterable[Table]) 
     try:
         return TypeAdapter(model).validate_python(data)
     except ValidationError as error:
-        problems = [*reader.known.tell(error), *reader.problems]
+        problems = [*reader.known.problems(error), *reader.problems]
     raise InvalidValue(*dict.fromkeys(problems))
 
 

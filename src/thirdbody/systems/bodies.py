@@ -318,6 +318,8 @@ class Pressed:
         ``real_area``, ``particle_load_share`` and ``peak_pressure`` of those that hold some, and of
         those that hold none. Real area and load share above are means over both, and the largest
         pressure is that of the greater part.
+    crowded_share : float
+        Part of the load at places that are crowded [1]; ``note`` says what that means.
     """
 
     kind: str
@@ -335,12 +337,12 @@ class Pressed:
     particles_held: float | None = None
     with_particles: dict[str, float | None] | None = None
     without_particles: dict[str, float | None] | None = None
+    crowded_share: float = 0.0
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Where contacts have grown together, and where the bodies themselves yield."""
-        crowd = self.real_area is not None and self.note.startswith("crowded")
-        close = (f"under {value_of(self.force, 'N')}: {self.note}",) if crowd else ()
+        close = (f"under {value_of(self.force, 'N')}: {self.note}",) if self.crowded_share else ()
         if self.maximum <= self.yields:
             return close
         if self.kind == "flat":
@@ -399,7 +401,8 @@ class Pressed:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, ready for JSON."""
-        return {name: getattr(self, name) for name in self.__dataclass_fields__}
+        names = (name for name in self.__dataclass_fields__ if name != "crowded_share")
+        return {name: getattr(self, name) for name in names}
 
 
 @takes_units
@@ -514,7 +517,7 @@ def _values(contact: Contact, found: Any, length: float) -> dict[str, Any]:
         "real_area": length * found.real_area,
         "particle_load_share": share,
         "peak_pressure": found.peak_pressure,
-        "note": "" if found.status == "ok" else found.status,
+        **_crowd(found.crowded_share, found.status),
     }
 
 
@@ -528,7 +531,7 @@ def _over_pressure(contact: Contact, shape: Point | Line | None, hertz: Hertz) -
     if not known.all():
         return {"note": np.atleast_1d(state.status)[~known].tolist()[0]}
     load = weights @ pressure
-    _, crowd = crowded_places(contact, np.atleast_1d(state.A_t), weights * pressure)
+    crowd = crowded_places(contact, np.atleast_1d(state.A_t), weights * pressure)
     share = None
     if not contact.two_body:
         share = float(weights @ (pressure * np.atleast_1d(state.particle_load_share)) / load)
@@ -537,8 +540,13 @@ def _over_pressure(contact: Contact, shape: Point | Line | None, hertz: Hertz) -
         "real_area": float(hertz.area) * float(weights @ np.atleast_1d(state.A_t)),
         "particle_load_share": share,
         "peak_pressure": float(hertz.maximum),
-        "note": "" if crowd == "ok" else crowd,
+        **_crowd(*crowd),
     }
+
+
+def _crowd(share: float | None, status: str) -> dict[str, Any]:
+    """The part of the load at crowded places, and what that means."""
+    return {"crowded_share": share, "note": status} if share else {}
 
 
 def _places(

@@ -72,10 +72,10 @@ def design_task(
     drawn = None
     if scatter and not problems:
         try:
-            moved = drawn_inputs(contact, scatter, load, loads)
+            moved = drawn_inputs(contact, scatter, load, loads, "scatter[{!r}]")
             drawn = moved, latin(samples, len(moved.known), seed, 0, samples)
         except InvalidValue as error:
-            problems += [text.replace("vary[", "scatter[") for text in error.problems]
+            problems += error.problems
     if problems:
         raise InvalidValue(*problems)
     return Task(
@@ -109,7 +109,7 @@ def _choices(
             else:
                 variables[name] = _variable(contact, name, allowed)
         except InvalidValue as error:
-            problems += [text.replace("to = ", "vary: ") for text in error.problems]
+            problems += error.problems
     if not vary:
         problems.append(
             'vary is empty; say what may be chosen, e.g. {"roughness.sigma": (5e-8, 3e-7)}'

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from ...contact.contact import Contact
 from ...equilibrium.columns import columns_of, quantity_of
 from ...equilibrium.solve import given_load, only_one
-from ...errors import InvalidValue
+from ...equilibrium.states import unknown_inputs
+from ...errors import InvalidValue, Problem
 from ...numerics.sampling import DESIGNS, Span
 from ...quantities.value import Value, problem_with
 from .plan import CHUNK, Arrays, Listed, Plan, Sampled
@@ -44,17 +45,24 @@ def make_plan(
     entries: dict[str, Any] = dict(vary or {})
     problems = _not_known("design", design, ("grid", "zip", *DESIGNS))
     if load in entries:
-        raise InvalidValue(f"vary[{load!r}] is the load, which is given already")
+        raise InvalidValue(Problem(f"vary[{load!r}]", "is the load, which is given already"))
+    problems += unknown_inputs(contact, entries)
     listed, spans, slips = _inputs(contact, load, entries | {load: loads}, design)
     problems += slips
     if design in DESIGNS and not spans and not problems:
         problems.append(
-            f"design = {design!r} samples ranges and none is given; a range is (low, high) or "
-            "{'low': ..., 'high': ..., 'scale': 'log'}"
+            Problem(
+                "design",
+                "samples ranges and none is given; a range is (low, high) or "
+                "{'low': ..., 'high': ..., 'scale': 'log'}",
+                repr(design),
+            )
         )
     problems += _sampling_problems(design, samples, seed)
     if isinstance(chunk, bool) or not isinstance(chunk, int) or chunk < 1:
-        problems.append(f"chunk = {chunk!r} must be a whole number of states, at least 1")
+        problems.append(
+            Problem("chunk", "must be a whole number of states, at least 1", repr(chunk))
+        )
     problems += _unequal_lengths(listed) if design == "zip" else []
     known = columns_of(contact)
     problems += [p for name in columns or () for p in _not_known("column", name, known)]
@@ -88,8 +96,11 @@ def _inputs(
         if isinstance(entry, Mapping) or (design in DESIGNS and isinstance(entry, tuple)):
             if design not in DESIGNS:
                 problems.append(
-                    f"{label} = {entry!r} is a range to be sampled, which needs design = 'latin' "
-                    "or 'sobol'"
+                    Problem(
+                        label,
+                        "is a range to be sampled, which needs design = 'latin' or 'sobol'",
+                        repr(entry),
+                    )
                 )
                 continue
             span, why = _span(label, entry)
@@ -99,7 +110,7 @@ def _inputs(
         else:
             values = _as_array(entry)
             if not len(values):
-                problems.append(f"{label} is empty; give at least one value")
+                problems.append(Problem(label, "is empty; give at least one value"))
             listed[name] = values
         if name == load:
             problems += _refused_loads(contact, load, entry, values)
@@ -125,7 +136,7 @@ def _unequal_lengths(listed: Arrays) -> list[str]:
     if len({size for size in sizes.values() if size != 1}) <= 1:
         return []
     shown = ", ".join(f"{name} {size}" for name, size in sizes.items())
-    return [f"design = 'zip' needs inputs of one length, and got {shown}"]
+    return [Problem("design", f"needs inputs of one length, and got {shown}", "'zip'")]
 
 
 def _with_whole_cells(plan: Plan) -> Plan:
@@ -148,40 +159,42 @@ def _span(label: str, entry: Any) -> tuple[Span | None, list[str]]:
     keys = {"low": entry[0], "high": entry[-1]} if pair and len(entry) == 2 else {}
     keys = keys if pair else dict(entry)
     if not {"low", "high"} <= set(keys) <= {"low", "high", "scale"}:
-        return None, [f"{label} = {entry!r} must be (low, high) or have the keys low, high, scale"]
+        return None, [
+            Problem(label, "must be (low, high) or have the keys low, high, scale", repr(entry))
+        ]
     low, high, scale = keys["low"], keys["high"], keys.get("scale", "linear")
     problems = _not_known(f"{label} scale", scale, ("linear", "log"))
     for end in (low, high):
         about = {"unit": "SI", "gt": None, "ge": None, "lt": None, "le": None, "hint": ""}
         if problem_with(about, end):
-            problems.append(f"{label}: {end!r} must be a finite number in SI units")
+            problems.append(Problem(label, f": {end!r} must be a finite number in SI units"))
     if problems:
         return None, problems
     if not low < high:
-        return None, [f"{label}: low = {low:g} must be below high = {high:g}"]
+        return None, [Problem(label, f": low = {low:g} must be below high = {high:g}")]
     if scale == "log" and low <= 0:
-        return None, [f"{label}: low = {low:g} must be > 0 with scale = 'log'"]
+        return None, [Problem(label, f": low = {low:g} must be > 0 with scale = 'log'")]
     return Span(float(low), float(high), scale), []
 
 
 def _sampling_problems(design: str, samples: Any, seed: Any) -> list[str]:
-    out = []
+    out: list[str] = []
     if design in DESIGNS:
         if isinstance(samples, bool) or not isinstance(samples, int) or samples < 1:
-            out.append(f"samples = {samples!r} must be a whole number, at least 1")
+            out.append(Problem("samples", "must be a whole number, at least 1", repr(samples)))
         elif samples > 2**48:
-            out.append(f"samples = {samples:,} must be at most {2**48:,}")
+            out.append(Problem("samples", f"must be at most {2**48:,}", f"{samples:,}"))
         if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
-            out.append(f"seed = {seed!r} must be a whole number, at least 0")
+            out.append(Problem("seed", "must be a whole number, at least 0", repr(seed)))
     elif samples is not None:
-        out.append(f"samples = {samples!r} goes with design = 'latin' or 'sobol'")
+        out.append(Problem("samples", "goes with design = 'latin' or 'sobol'", repr(samples)))
     return out
 
 
 def _not_known(what: str, word: Any, options: Sequence[str]) -> list[str]:
     if word in options:
         return []
-    return [f"{what} = {word!r} must be one of {', '.join(map(repr, options))}"]
+    return [Problem(what, f"must be one of {', '.join(map(repr, options))}", repr(word))]
 
 
 def _as_array(entry: Any) -> NDArray[Any]:
@@ -207,7 +220,7 @@ def _refused(contact: Contact, label: str, name: str, values: NDArray[Any]) -> l
     some = values[values != 0] if name in ABSENT else values
     ends = [] if not len(some) else [some.min(), some.max()]
     bad = [value for value in ends if problem_with(about, value)]
-    return [f"{label}: {value:g} {problem_with(about, value)}" for value in bad[:1]]
+    return [Problem(label, f": {value:g} {problem_with(about, value)}") for value in bad[:1]]
 
 
 def _refused_loads(contact: Contact, load: str, entry: Any, values: NDArray[Any]) -> list[str]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...equilibrium.columns import about
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 
 __all__ = ["Reduction"]
 
@@ -59,37 +59,45 @@ class Reduction:
     ) -> Reduction:
         """From what a user writes; ``dims`` are the dimensions and the inputs along each."""
         problems = [
-            f"reduce[{key!r}] is not known; it has {', '.join(KEYS)}"
+            Problem(f"reduce[{key!r}]", f"is not known; it has {', '.join(KEYS)}")
             for key in asked
             if key not in KEYS
         ]
         over: list[str] = []
         given = asked.get("over", ["sample"] if "sample" in dims else None)
         if given is None:
-            problems.append("reduce['over'] is missing: the varied inputs to reduce over")
+            problems.append(
+                Problem("reduce['over']", "is missing: the varied inputs to reduce over")
+            )
         for name in [given] if isinstance(given, str) else given or ():
             home = next((dim for dim, inputs in dims.items() if name in (dim, *inputs)), None)
             if home is None:
                 known = ", ".join(dict.fromkeys(n for dim in dims for n in (dim, *dims[dim])))
-                problems.append(f"reduce['over'] names {name!r}, which is not varied: {known}")
+                problems.append(
+                    Problem("reduce['over']", f"names {name!r}, which is not varied: {known}")
+                )
             else:
                 over.append(home)
         quantiles = tuple(float(q) for q in np.atleast_1d(asked.get("quantiles", ())))
         problems += [
-            f"reduce['quantiles'] = {q:g} must be from 0 to 1" for q in quantiles if not 0 <= q <= 1
+            Problem("reduce['quantiles']", "must be from 0 to 1", f"{q:g}")
+            for q in quantiles
+            if not 0 <= q <= 1
         ]
         exceed = dict(asked.get("exceed", {}))
         for name, threshold in exceed.items():
             if name not in columns:
-                problems.append(
-                    f"reduce['exceed'] names {name!r}, which is not among the columns "
-                    f"{', '.join(columns)}"
-                )
+                rule = f"names {name!r}, which is not among the columns {', '.join(columns)}"
+                problems.append(Problem("reduce['exceed']", rule))
             elif isinstance(threshold, bool) or not isinstance(threshold, (int, float)):
-                problems.append(f"reduce['exceed'][{name!r}] = {threshold!r} must be a number")
+                problems.append(
+                    Problem(f"reduce['exceed'][{name!r}]", "must be a number", repr(threshold))
+                )
         extrema, mean = asked.get("extrema", False), asked.get("mean", False)
         if not (set(asked) - {"over"}):
-            problems.append("reduce keeps nothing: give quantiles, exceed, extrema or mean")
+            problems.append(
+                Problem("reduce", "keeps nothing: give quantiles, exceed, extrema or mean")
+            )
         if problems:
             raise InvalidValue(*problems)
         return Reduction(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...contact.contact import Contact
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...quantities.carried import takes_units
 from ...quantities.value import problem_with
 from ..inputs import Input as Moved
@@ -246,8 +246,14 @@ class Drawn(NamedTuple):
         return [math.nan if isinstance(m, str) else m.values[0] for m in self.moved]
 
 
-def drawn_inputs(contact: Contact, inputs: Mapping[str, Any], load: str, loads: ArrayLike) -> Drawn:
-    """The uncertain inputs, every mistake in them told."""
+def drawn_inputs(
+    contact: Contact,
+    inputs: Mapping[str, Any],
+    load: str,
+    loads: ArrayLike,
+    where: str = "vary[{!r}]",
+) -> Drawn:
+    """The uncertain inputs; mistakes say ``where`` they stand."""
     moved: list[Moved | str] = []
     known: list[Uncertain] = []
     taken: dict[str, str] = {}
@@ -257,33 +263,35 @@ def drawn_inputs(contact: Contact, inputs: Mapping[str, Any], load: str, loads: 
             'vary is empty; say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}'
         )
     for label, given in inputs.items():
-        where = f"vary[{label!r}]"
+        place = where.format(label)
         try:
             each: Moved | str = label
             if label not in ("pressure", "F_star", "d"):
-                each = input_of(contact, label)
+                each = input_of(contact, label, where)
             elif label != load:
-                problems.append(f"{where}: the given load is {load}; only that can be uncertain")
+                problems.append(f"{place}: the given load is {load}; only that can be uncertain")
                 continue
             elif np.ndim(loads):
-                problems.append(f"{where}: give one load where the load is uncertain")
+                problems.append(f"{place}: give one load where the load is uncertain")
                 continue
             one = given if isinstance(given, Uncertain) else _between(*given)
         except InvalidValue as error:
-            problems += [f"{where}: {text.removeprefix('to = ')}" for text in error.problems]
+            said = [why if why.place and not why.owner else Problem(place, f": {why}")
+                    for why in error.problems]  # fmt: skip
+            problems += said
             continue
         except TypeError:
             problems.append(
-                f"{where} = {given!r} must be (low, high), or one of Uncertain.uniform, "
+                f"{place} = {given!r} must be (low, high), or one of Uncertain.uniform, "
                 "log_uniform, normal, lognormal"
             )
             continue
         names = (each,) if isinstance(each, str) else each.names
         for name in names:
             if name in taken:
-                problems.append(f"{where} and vary[{taken[name]!r}] both move {name}")
+                problems.append(f"{place} and {where.format(taken[name])} both move {name}")
             taken[name] = label
-        problems += [f"{where}: {text}" for text in _beyond(contact, each, one)]
+        problems += [f"{place}: {text}" for text in _beyond(contact, each, one)]
         moved.append(each)
         known.append(one)
     if problems:

@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 
 __all__ = ["KINDS", "command"]
 
@@ -39,14 +39,13 @@ def command(
 ) -> None:
     """A commented study file that runs at once, to be changed into your own."""
     from ...quantities.files import need_folders, write_text
+    from ...quantities.nearest import guess
     from ...quantities.units import say
-    from ...study.vocabulary import near
 
-    problems = []
+    problems: list[str] = []
     if kind not in KINDS:
-        meant = near(kind, KINDS)
-        guess = f"; did you mean {meant}?" if meant else ""
-        problems.append(f"KIND {kind} must be one of {', '.join(KINDS)}{guess}")
+        hint = guess(kind, KINDS, otherwise=None)
+        problems.append(Problem("KIND", f"{kind} must be one of {', '.join(KINDS)}", hint=hint))
     elif measured is not None and kind != "measured-surface":
         problems.append(f"FILE {measured} goes with measured-surface; {kind} needs none")
     if measured is not None and not measured.is_file():

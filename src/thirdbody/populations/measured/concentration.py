@@ -6,7 +6,7 @@ import math
 import re
 from typing import NamedTuple
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...quantities.carried import takes_units
 from ...quantities.units import say, to_si
 from ..distributions import Distribution
@@ -69,7 +69,7 @@ def concentration(value: float | str, by: str = "number") -> Concentration:
     """
     kinds = ("number", "mass", "volume", "mass per volume")
     if by not in kinds:
-        raise InvalidValue(f"by = {say(by)} must be one of {', '.join(map(say, kinds))}")
+        raise InvalidValue(Problem("by", f"must be one of {', '.join(map(say, kinds))}", say(by)))
     if isinstance(value, str):
         amount, by = _read(value)
     else:
@@ -144,7 +144,7 @@ def particles_in(
     """
     for name, density in (("particle_density", particle_density), ("oil_density", oil_density)):
         if density is not None and not (math.isfinite(density) and density > 0):
-            raise InvalidValue(f"{name} = {density!r} must be > 0 [kg/m^3]; water is 1000")
+            raise InvalidValue(Problem(name, "must be > 0 [kg/m^3]; water is 1000", repr(density)))
     amount, by = found
     if by == "number":
         return amount

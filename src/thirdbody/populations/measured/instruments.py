@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...quantities.say import value_of
 from ...quantities.units import to_si
 
@@ -191,7 +191,7 @@ def _channel(reader: Any, path: Path, channel: int | str | None) -> Any:
     if str(channel).isdigit() and int(channel) < len(channels):
         return channels[int(channel)]
     shown = ", ".join(f"{i} ({name})" for i, name in enumerate(names))
-    raise InvalidValue(f"channel = {channel!r} is not in {path}; it has {shown}")
+    raise InvalidValue(Problem("channel", f"is not in {path}; it has {shown}", repr(channel)))
 
 
 def _lacking(

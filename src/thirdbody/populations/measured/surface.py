@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...quantities.arguments import need_one
 from ...quantities.carried import takes_units
 from ...quantities.say import percent, signed, value_of
@@ -246,9 +246,13 @@ class Topography:
         if cutoff == 0 or least * (1 - 1e-9) <= cutoff <= most:
             return float(cutoff)
         raise InvalidValue(
-            f"cutoff = {value_of(cutoff, 'm')} must be between {value_of(least, 'm')} "
-            f"({LEAST_CUTOFF} points) and {value_of(most, 'm')} (half of the shorter side) of "
-            f"{self.source}, or 0 for the heights as sampled"
+            Problem(
+                "cutoff",
+                f"must be between {value_of(least, 'm')} "
+                f"({LEAST_CUTOFF} points) and {value_of(most, 'm')} (half of the shorter side) of "
+                f"{self.source}, or 0 for the heights as sampled",
+                value_of(cutoff, "m"),
+            )
         )
 
     @property
@@ -336,7 +340,9 @@ class Topography:
         if isinstance(ellipticity, str):
             if ellipticity != "measured":
                 raise InvalidValue(
-                    f'ellipticity = {ellipticity!r} must be "measured" or an Ellipticity'
+                    Problem(
+                        "ellipticity", 'must be "measured" or an Ellipticity', repr(ellipticity)
+                    )
                 )
             rough = self.roughness(cutoff=cutoff, heights=heights)
             tips = Ellipticity.from_curvatures(self.summits_at(cutoff).principal, R=rough.R)
@@ -346,7 +352,9 @@ class Topography:
             return rough.replace(ellipticity=ellipticity)
         if heights != "measured":
             if isinstance(heights, str):
-                raise InvalidValue(f'heights = {heights!r} must be "measured" or a distribution')
+                raise InvalidValue(
+                    Problem("heights", 'must be "measured" or a distribution', repr(heights))
+                )
             return moments.roughness(heights=heights)
         summits = self.summits_at(cutoff)
         law = summits.distribution()
@@ -390,7 +398,11 @@ class Topography:
             return known[points_per_octave]
         if not (isinstance(points_per_octave, int) and 1 <= points_per_octave <= 100):
             raise InvalidValue(
-                f"points_per_octave = {points_per_octave!r} must be a whole number from 1 to 100"
+                Problem(
+                    "points_per_octave",
+                    "must be a whole number from 1 to 100",
+                    repr(points_per_octave),
+                )
             )
         low, high = LEAST_CUTOFF * max(self.spacing), min(self.size) / LONGEST
         steps = max(int(points_per_octave * math.log2(high / low) + 1e-9), 1)

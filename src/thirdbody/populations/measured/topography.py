@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...quantities.carried import takes_units
 from ...quantities.say import percent, value_of
 from ...quantities.units import to_si
@@ -134,22 +134,24 @@ def _options(
     cutoff: Any, detrend: Any, unit: str | None, spacing: Any, resolution: Any
 ) -> tuple[float | None, tuple[float, ...] | None]:
     """The unit [m] and the spacing [m] given, or None, when every option has a meaning."""
-    problems = []
+    problems: list[str] = []
     if detrend is not None and detrend not in FORMS:
-        problems.append(f"detrend = {detrend!r} must be one of {', '.join(FORMS)}")
+        problems.append(Problem("detrend", f"must be one of {', '.join(FORMS)}", repr(detrend)))
     for name, value in (("cutoff", cutoff), ("resolution", resolution)):
         lowest = "at least 0" if name == "cutoff" else "above 0"
         if value is not None and not (
             is_number(value) and (value > 0 or (value == 0 and name == "cutoff"))
         ):
-            problems.append(f"{name} = {value!r} must be a finite length {lowest} [m]")
+            problems.append(Problem(name, f"must be a finite length {lowest} [m]", repr(value)))
     steps = None
     if spacing is not None:
         given = spacing if isinstance(spacing, (tuple, list)) else (spacing,)
         if len(given) in (1, 2) and all(is_number(d) and d > 0 for d in given):
             steps = tuple(float(d) for d in given)
         else:
-            problems.append(f"spacing = {spacing!r} must be one length above 0 [m], or two of them")
+            problems.append(
+                Problem("spacing", "must be one length above 0 [m], or two of them", repr(spacing))
+            )
     scale = None
     if unit is not None:
         try:

@@ -1,0 +1,65 @@
+"""The name that was probably meant: one maker of "did you mean"."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterable
+
+__all__ = ["guess", "near", "near_path"]
+
+
+def near(word: str, options: Iterable[str], *, cutoff: float = 0.6) -> str | None:
+    """The option that is most like a word, whatever its case; None where none is.
+
+    >>> near("Sigm", ["R", "sigma"]), near("x", ["R", "sigma"])
+    ('sigma', None)
+    """
+    folded = {option.casefold(): option for option in reversed(list(options))}
+    found = difflib.get_close_matches(word.casefold(), folded, n=1, cutoff=cutoff)
+    return folded[found[0]] if found else None
+
+
+def near_path(name: str, paths: Iterable[str]) -> str | None:
+    """The dotted name that was probably meant.
+
+    A sibling with a like name comes first, then the same last name below the same first one.
+
+    >>> paths = ["particles.areal_density", "particles.diameter.mean", "roughness.sigma"]
+    >>> near_path("roughness.sigm", paths), near_path("particles.mean", paths)
+    ('roughness.sigma', 'particles.diameter.mean')
+    >>> near_path("particles.colour", paths), near_path("rougness.sigma", paths)
+    (None, 'roughness.sigma')
+    """
+    owner, _, last = name.rpartition(".")
+    every = [(path, *path.rpartition(".")[::2]) for path in paths]
+    beside = {own: path for path, above, own in every if above == owner}
+    if meant := near(last, beside):
+        return beside[meant]
+    if below := [path for path, _, _ in every if path.startswith(f"{name}.")]:
+        return near(name, below, cutoff=0.0)
+    start = owner.partition(".")[0]
+    inside = [(path, own) for path, _, own in every if path.startswith(start)]
+    same = [path for path, own in inside if own.casefold() == last.casefold()]
+    if same:
+        return near(name, same, cutoff=0.0)
+    return None if beside else near(name, (path for path, _, _ in every))
+
+
+def guess(
+    word: str,
+    options: Iterable[str],
+    *,
+    meant: str | None = None,
+    show: Callable[[str], str] = str,
+    otherwise: str | None = "known here: ",
+    cutoff: float = 0.6,
+) -> str:
+    """The option that was probably meant, as a question; else all of them after ``otherwise``.
+
+    >>> guess("sigm", ["R", "sigma"]), guess("x", ["R", "sigma"], otherwise="it has ")
+    ('did you mean sigma?', 'it has R, sigma')
+    """
+    options = list(options)
+    if meant := meant or near(word, options, cutoff=cutoff):
+        return f"did you mean {show(meant)}?"
+    return "" if otherwise is None else f"{otherwise}{', '.join(options)}"

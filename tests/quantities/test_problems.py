@@ -1,0 +1,135 @@
+"""What a mistake is: a record with its place, of which the sentence is made where it is shown."""
+
+import ast
+import copy
+import pickle
+import tomllib
+from pathlib import Path
+
+import pytest
+from steel_and_dust import DUSTY as CONTACT
+
+import thirdbody as tb
+from thirdbody.errors import Problem
+from thirdbody.study.overrides import override
+from thirdbody.study.whole import check
+
+SRC = Path(tb.__file__).parent
+MISSPELT = {"roughness.sigm": (1e-7, 2e-7)}
+NOT_AN_INPUT = "{} is not an input; did you mean 'roughness.sigma'?"
+READ_BACK = {"startswith", "endswith", "removeprefix", "removesuffix", "replace", "split"}
+READ_BACK |= {"partition", "rpartition", "match", "search", "sub", "fullmatch"}
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: tb.sweep(CONTACT, F_star=1e-4, vary={"roughness.sigm": [1e-7]}),
+        lambda: tb.solve_states(CONTACT, F_star=1e-4, vary={"roughness.sigm": [1e-7]}),
+        lambda: tb.critical_loads(CONTACT, vary={"roughness.sigm": [1e-7]}, count=1),
+        lambda: tb.propagate(CONTACT, F_star=1e-4, vary=MISSPELT),
+        lambda: tb.design(
+            CONTACT, F_star=1e-4, vary=MISSPELT, objective=tb.Objective(of="A_t", aim="smallest")
+        ),
+    ],
+    ids=["sweep", "solve_states", "critical_loads", "propagate", "design"],
+)
+def test_one_mistake_has_one_sentence(call):
+    with pytest.raises(tb.InvalidValue) as told:
+        call()
+    (problem,) = told.value.problems
+    assert problem.place == "vary['roughness.sigm']"
+    assert problem == NOT_AN_INPUT.format(problem.place)
+
+
+def test_sensitivity_names_its_own_argument():
+    with pytest.raises(tb.InvalidValue) as told:
+        tb.sensitivity(CONTACT, F_star=1e-4, of="A_t", to=["roughness.sigm"])
+    assert told.value.problems == (NOT_AN_INPUT.format("to = 'roughness.sigm'"),)
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("sigma", "roughness.sigma"),
+        ("particles.mean", "particles.diameter.mean"),
+        ("surfaces.first.conductivity", "surfaces.first.thermal_conductivity"),
+        ("particles.0.mean", "particles.diameter.mean"),
+        ("surfaces.first", None),
+    ],
+)
+def test_the_input_that_was_meant(name, meant):
+    try:
+        tb.solve_states(CONTACT, F_star=1e-4, vary={name: [1e-7]})
+    except tb.InvalidValue as error:
+        hint = error.problems[0].hint
+        assert hint == ("" if meant is None else f"did you mean {meant!r}?")
+
+
+def test_a_mistake_keeps_its_parts():
+    with pytest.raises(tb.InvalidValue) as told:
+        tb.Roughness(sigma=-1.0, R=2e-6)
+    (problem,) = told.value.problems
+    assert (problem.owner, problem.path, problem.value) == ("Roughness", "sigma", "-1.0")
+    assert str(problem).startswith(f"Roughness.sigma = -1.0 {problem.rule}")
+    for same in (pickle.loads(pickle.dumps(problem)), copy.copy(problem)):
+        assert same == problem
+        assert vars(same) == vars(problem)
+    assert problem.under("roughness").place == "roughness.sigma"
+    assert pickle.loads(pickle.dumps(told.value)).problems[0].place == "Roughness.sigma"
+
+
+def test_a_mistake_of_no_place_gets_one():
+    told = tb.InvalidValue("too many").under("particles").problems[0]
+    assert (told, told.place) == ("particles: too many", "particles")
+    assert told.under("debris") == "debris: too many"
+
+
+@pytest.mark.parametrize(
+    ("changed", "place"),
+    [
+        ('roughness.sigma = "5 furlong"', "roughness.sigma"),
+        ('load.presure = "1 MPa"', "load.presure"),
+        ('particles.mean = "-1 nm"', "particles.mean"),
+        ('surfaces.first = "S45"', "surfaces.first"),
+        ("roughness.R = -1.0", "roughness.R"),
+        (
+            'design.objective = { of = "A_t", aim = "window", low = 2, high = 1 }',
+            "design.objective",
+        ),
+    ],
+)
+def test_a_study_says_where_each_mistake_is(changed, place, tmp_path):
+    study = SRC / "data" / "studies" / "ball-screw.toml"
+    data = override(tomllib.loads(study.read_text("utf-8")), [changed.replace(" = ", "=", 1)])
+    with pytest.raises(tb.InvalidValue) as told:
+        check(data, folder=tmp_path)
+    assert any(each.place.startswith(place) for each in told.value.problems), told.value.problems
+
+
+def test_one_maker_of_did_you_mean():
+    asks = [path for path in SRC.rglob("*.py") if "difflib" in path.read_text("utf-8")]
+    assert asks == [SRC / "quantities" / "nearest.py"]
+
+
+def _loops(tree):
+    """Names that stand for a mistake, and what is done with each."""
+    for node in ast.walk(tree):
+        of = getattr(node, "generators", None) or ([node] if isinstance(node, ast.For) else [])
+        for loop in of:
+            if ast.unparse(loop.iter).endswith(".problems"):
+                yield ast.unparse(loop.target), node
+
+
+def test_no_room_reads_a_mistake_back():
+    """Its parts are there: a sentence is made where it is shown, and taken apart nowhere."""
+    found = []
+    for path in sorted(SRC.rglob("*.py")):
+        for name, node in _loops(ast.parse(path.read_text("utf-8"))):
+            for call in (n for n in ast.walk(node) if isinstance(n, ast.Call)):
+                method = ast.unparse(call.func).rpartition(".")
+                of_name = method[0] == name or any(ast.unparse(a) == name for a in call.args)
+                if method[2] in READ_BACK and of_name:
+                    found.append(f"{path.relative_to(SRC)}:{call.lineno}")
+    assert found == []
+    assert Problem("", "text").rule == "text"
