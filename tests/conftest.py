@@ -1,6 +1,7 @@
 """What all tests share."""
 
 import gc
+import importlib
 import json
 import os
 import signal
@@ -150,3 +151,11 @@ def blank_pictures(monkeypatch):
         return save(figure, *args, **options)
 
     monkeypatch.setattr(Figure, "savefig", save_blank)
+
+
+@pytest.fixture
+def short_search(monkeypatch):
+    """A design is refined by a few steps from one start, for tests of what is done with it."""
+    search = importlib.import_module("thirdbody.analysis.design.search")
+    monkeypatch.setattr(search, "STARTS", 1)
+    monkeypatch.setattr(search, "STEPS", 5)

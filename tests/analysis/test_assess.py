@@ -385,6 +385,7 @@ def test_of_two_changes_the_nearer_comes_first():
 
 
 # ---------------------------------------------------------------- what comes out
+@pytest.mark.check
 def test_the_same_seed_gives_the_same_bytes(tmp_path, monkeypatch):
     """In another process too, with another number of threads and another hash seed."""
     files = [tmp_path / name for name in ("here.html", "there.html")]

@@ -280,6 +280,7 @@ def test_figure_of_one_load_has_points():
     drawn.draw_without_rendering()
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_files_appear_together_or_not_at_all(clean, tmp_path, monkeypatch):
     folder = tmp_path / "new" / "out"
     assert [path.name for path in save(clean, folder)] == [

@@ -191,6 +191,7 @@ def quiet():
     return warnings.catch_warnings(action="error", category=UserWarning)
 
 
+@pytest.mark.spread(5)
 @pytest.mark.parametrize("damage", DAMAGES)
 @pytest.mark.parametrize(
     ("kind", "name"),

@@ -311,6 +311,7 @@ def test_interrupted_run_goes_on(tmp_path, format, workers):
     assert all(kept[path] == when for path, when in done.items())
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"study": "other"}', "\0\0\0"])
 def test_broken_marker_is_solved_again(tmp_path, text):
     asked = dict(**GRID, chunk=9, out=tmp_path)
@@ -594,6 +595,7 @@ def test_an_interrupted_design_goes_on_with_the_right_points(monkeypatch):
     assert_array_equal(sobol(64, 3, 7, 8, 16), whole[8:16])
 
 
+@pytest.mark.check
 def test_locked_by_another_process_as_long_as_it_lives(tmp_path):
     process = start(tmp_path, pause=600)
     wait_for(process, tmp_path, 1)
@@ -881,6 +883,7 @@ def test_command_refuses_all_at_once(tmp_path):
     assert not (tmp_path / "o").exists()
 
 
+@pytest.mark.check
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT for one process")
 def test_command_is_interrupted(tmp_path):
     file = tmp_path / "study.toml"

@@ -27,7 +27,7 @@ STUDY, EXPLICIT, DESIGN, FILM, ASSESS = (
 )
 
 # of the files alone: what a picture shows, and what a search finds, is for other tests
-pytestmark = pytest.mark.usefixtures("blank_pictures", "best_once")
+pytestmark = pytest.mark.usefixtures("blank_pictures", "short_search", "best_once")
 
 
 @pytest.fixture(scope="module")

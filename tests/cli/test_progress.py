@@ -34,6 +34,7 @@ UNCOUNTED = {
 """Commands that show no parts of their work, or only on a terminal."""
 
 
+@pytest.mark.usefixtures("short_search")
 @pytest.mark.parametrize("name", UNCOUNTED)
 def test_long_work_says_in_a_pipe_that_it_goes_on(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
@@ -47,6 +48,7 @@ def test_long_work_says_in_a_pipe_that_it_goes_on(name, tmp_path, monkeypatch):
     assert (done.exit_code, done.stdout) == (quiet.exit_code, quiet.stdout)
 
 
+@pytest.mark.usefixtures("short_search")
 @pytest.mark.parametrize("name", LONG)
 def test_a_pipe_is_told_nothing(name, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -109,6 +109,7 @@ def test_json_and_a_file_of_states_exclude_each_other(tmp_path):
     assert "exclude each other" in done.stderr
 
 
+@pytest.mark.usefixtures("short_search")
 def test_points_of_a_design_have_units(tmp_path):
     file = tmp_path / "points.csv"
     easy = ("--set", "design.points=4", "--set", "design.limits=[]")

@@ -238,7 +238,7 @@ def test_where_nothing_touches_nothing_is_the_mean_of_few():
     assert "holds 0.3 contacts on average" in told
 
 
-@pytest.mark.spread(2)
+@pytest.mark.slow
 @pytest.mark.parametrize("conduct", ["insulate", "conduct"])
 def test_outputs_alone_and_among_others(conduct):
     """Contacts of their own that an output asks for are solved by another engine among many."""

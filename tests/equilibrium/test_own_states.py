@@ -349,6 +349,7 @@ CLASSES = {
 }
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize(
     ("kind", "law", "seat"),
     [("bins", "hermite", "rough"), ("powers", "deep", "plane"), ("mixture", "hermite", "plane")],
@@ -385,6 +386,7 @@ def test_seats_that_are_narrow_or_wide(sigma, std, body):
     assert max(largest_error(got, want, sure).values()) <= BOUND
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize(
     ("median", "gsd"), [(1e-7, 1.2), (1e-7, 1.5), (1e-7, 2.0), (4e-7, 1.2), (4e-7, 1.5)]
 )

@@ -92,6 +92,7 @@ def test_predictions(done, row, claim, low, high):
     assert band.high * (1 - 1e-9) <= high
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("coefficients", trezona1999.COEFFICIENTS)
 def test_the_load_of_a_particle_decides_whether_it_rolls(coefficients):
     """Where a tenth rolls the load on particles over their number is the same at both loads.
