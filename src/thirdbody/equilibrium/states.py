@@ -373,7 +373,7 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
 def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
     """Whether states that differ in these inputs each need tables of their own: 0.1 s a state.
 
-    Or nearly so: of particles that break, each takes 5 to 10 ms by the compiled engine.
+    Or nearly so: of particles that break, each takes 1 to 3 ms by the compiled engine.
     """
     names = [name for name in vary if name not in LOADS]
     if not any(_unnumbered(name).startswith(DEMANDING) for name in names):

@@ -55,6 +55,7 @@ from .seats import (
     GRID_ROWS,
     MOST_NODES,
     add_part,
+    gather_gaps,
     lay_broken,
     lay_pieces,
 )
@@ -71,7 +72,7 @@ COARSE, FINE, LEVELS = 0, 1, 2
 and `every`, numbers and no constants, for which numba would compile what takes them twice."""
 NOTHING = -1
 """In place of a level: nothing is laid."""
-COUNT, GRID, GRID_END, SIZED, SIZED_END, WHOLE, WHOLE_END, PIECE_BEGIN, PIECE_END = range(9)
+COUNT, GRID, GRID_END, SIZED, SIZED_END, WHOLE, WHOLE_END, PIECE_BEGIN, PIECE_END, GAPS = range(10)
 """What is laid of a part, a level: its panels; where nodes, sizes, what is whole and pieces begin
 and end. The row after the last part is of the asperities."""
 ASKED = 1e-10
@@ -156,6 +157,13 @@ def lay(given, skin, work, laid, rules, level):
                         size, shares, kept,
                     )  # fmt: skip
                     good &= kept >= 0
+                own[GAPS] = place
+                if good:
+                    place = gather_gaps(
+                        given, p, grid, own[GRID], own[GAPS], sizes, own[SIZED], size, shares,
+                        own[WHOLE], rules[laid.shape[1] - 2],
+                    )  # fmt: skip
+                    good &= place >= 0
             else:
                 piece, place, size = lay_pieces(
                     given, sides, panels, p, own[COUNT], grid, place, sizes, size, piece,
@@ -559,7 +567,7 @@ def solve_own(skins, parts, bodies, rules, inside, coating, target, h, count, fa
         inside,
         coating,
     )
-    laid = np.zeros((most + 1, 2, 9), np.int64)
+    laid = np.zeros((most + 1, 2, 10), np.int64)
     ready = np.full(1, NOTHING)
     out = np.empty(10)
     for i in range(len(target)):

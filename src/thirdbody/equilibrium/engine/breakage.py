@@ -28,6 +28,7 @@ from .sides import exact, scalar
 from .squeeze import (
     CLOSE,
     EDGE,
+    KINKED,
     MOST_PANELS,
     PANEL,
     PULLED,
@@ -47,6 +48,8 @@ numbers of bends and of pieces of its series; the bends are the next row."""
 FIRST_PIECE, BEGIN, END, COEFFICIENTS = 2, 0, 1, 2
 K_FACTOR = 4
 SAMPLES, CLOSER, SEARCHED, RESOLVED = 32, 14, 60, 1e-10
+FALLS = 2e-10
+"""Part of σ_t by which it must fall to be held: more than its series are off."""
 STEEP = 6.0
 GENERATIONS = 40
 NEGLIGIBLE = 1e-15
@@ -91,8 +94,12 @@ def tension_now(given, sides, panels, p, n, eps, inside):
 
 
 @scalar
-def _cut(panels, p, count, eps):
-    """Cut the panel in which ε lies; how many panels there are then."""
+def _cut(panels, p, count, eps, kinked):
+    """Cut the panel in which ε lies; how many panels there are then.
+
+    Both parts keep the series of the tension on the whole, but for the first panel, whose variable
+    is another. ``kinked`` says whether a formula changes there, of how many generations ago.
+    """
     apart()
     n = 0
     while n < count and panels[p, n, TO] < eps:
@@ -101,106 +108,109 @@ def _cut(panels, p, count, eps):
         return count
     a, b = panels[p, n, EDGE], panels[p, n, TO]
     if eps - a < 1e-12 * b or b - eps < 1e-12 * b:
+        n -= eps - a < 1e-12 * b
+        if n >= 0 and kinked > 0 and not 0 < panels[p, n, KINKED] <= kinked:
+            panels[p, n, KINKED] = kinked
         return count
     for m in range(count + 1, n, -1):
         for k in range(PANEL):
             panels[p, m, k] = panels[p, m - 1, k]
     panels[p, n, TO] = panels[p, n + 1, EDGE] = eps
+    panels[p, n, KINKED] = kinked
+    if a == 0:
+        panels[p, n, RATE] = panels[p, n + 1, RATE] = 0.0
     return count + 1
+
+
+@scalar
+def _cap_at(given, sides, panels, p, n, eps, side):
+    """Cap on one side at ε on panel n."""
+    apart()
+    found = particle_at(given, sides, panels, p, n, eps)
+    return cap_of(found[1] if side == 0 else found[2])
+
+
+@scalar
+def _reaches(given, sides, panels, p, n, side, s, f_high):
+    """ε on panel n at which the cap is s, which it exceeds by ``f_high`` at the end: by chords."""
+    apart()
+    low, high = panels[p, n, EDGE], panels[p, n, TO]
+    f_low = (_cap_at(given, sides, panels, p, n, low, side) if low > 0 else 0.0) - s
+    last = 0
+    for step in range(4 * SEARCHED):
+        if high - low <= 1e-13 * high or f_high <= 0 or f_low >= 0:
+            break
+        eps = (low * f_high - high * f_low) / (f_high - f_low)
+        if not low < eps < high or step % 8 == 7:
+            eps = 0.5 * (low + high)
+        f = _cap_at(given, sides, panels, p, n, eps, side) - s
+        if f < 0:
+            low, f_low = eps, f
+            if last == -1:
+                f_high *= 0.5
+            last = -1
+        else:
+            high, f_high = eps, f
+            if last == 1:
+                f_low *= 0.5
+            last = 1
+            if f < 1e-14:
+                break
+    return high
 
 
 @scalar
 def _cut_at_bends(given, sides, panels, p, count, inside):
     """Panels cut where a cap reaches a bend of G; their number."""
     apart()
-    for k in range(int(inside[0, BENDS])):
-        s = inside[1, k]
-        for side in range(1 if given[p, EQUAL] == 1 else 2):
-            n = 0
-            while n < count:
-                a, b = panels[p, n, EDGE], panels[p, n, TO]
-                found = particle_at(given, sides, panels, p, n, b)
-                if cap_of(found[1] if side == 0 else found[2]) >= s:
-                    for _ in range(SEARCHED):
-                        eps = 0.5 * (a + b)
-                        found = particle_at(given, sides, panels, p, n, eps)
-                        if cap_of(found[1] if side == 0 else found[2]) < s:
-                            a = eps
-                        else:
-                            b = eps
-                    count = _cut(panels, p, count, b)
-                    break
+    for side in range(1 if given[p, EQUAL] == 1 else 2):
+        n, k = int(panels[p, 0, EDGE]), 0  # 0, and no constant
+        while n < count and k < int(inside[0, BENDS]):
+            s = inside[1, k]
+            beyond = _cap_at(given, sides, panels, p, n, panels[p, n, TO], side) - s
+            if beyond < 0:
                 n += 1
+                continue
+            eps = _reaches(given, sides, panels, p, n, side, s, beyond)
+            count = _cut(panels, p, count, eps, 1.0)
+            k += 1
     return count
 
 
 @scalar
-def _peak(given, sides, panels, p, n, low, high, inside):
-    """ε between two at which the tension is largest, by golden sections."""
-    apart()
-    part = 0.5 * (math.sqrt(5.0) - 1)
-    a, b = high - part * (high - low), low + part * (high - low)
-    f_a = tension_now(given, sides, panels, p, n, a, inside)
-    f_b = tension_now(given, sides, panels, p, n, b, inside)
-    for _ in range(SEARCHED):
-        if f_a >= f_b:
-            high, b, f_b = b, a, f_a
-            a = high - part * (high - low)
-            f_a = tension_now(given, sides, panels, p, n, a, inside)
-        else:
-            low, a, f_a = a, b, f_b
-            b = low + part * (high - low)
-            f_b = tension_now(given, sides, panels, p, n, b, inside)
-    return 0.5 * (low + high)
+def _place_on(panels, p, n, eps):
+    """Variable of the series on panel n."""
+    if panels[p, n, EDGE] == 0:
+        return 2 * math.sqrt(eps / panels[p, n, TO]) - 1
+    return panels[p, n, RATE] * math.log(eps) + panels[p, n, START]
 
 
 @scalar
-def _find_held(given, sides, panels, p, count, inside):
-    """Panels cut where the tension begins to fall and where it is met again; their number."""
+def _sum_series(panels, p, n, x):
+    """Sum of the series on panel n."""
     apart()
-    n, most = int(panels[p, 0, EDGE]), 0.0  # 0, and no constant
-    while n < count:
-        a, b = panels[p, n, EDGE], panels[p, n, TO]
-        begin = tension_now(given, sides, panels, p, n, a + 1e-9 * (b - a), inside)
-        held = begin < most * (1 - 1e-12)
-        panels[p, n, PULLED] = most if held else 0.0
-        before, last, best = a, a, begin
-        for j in range(SAMPLES + CLOSER + 1):
-            u = (j + 0.5) / SAMPLES
-            if j >= SAMPLES:  # before a kink it may fall a little
-                u = 1.0 if j == SAMPLES + CLOSER else 1 - 0.25 / SAMPLES * 0.5 ** (j - SAMPLES)
-            eps = a + (b - a) * (u * u if a == 0 else u)
-            value = tension_now(given, sides, panels, p, n, eps, inside)
-            if held and value > most:
-                low, high = last, eps
-                for _ in range(SEARCHED):
-                    eps = 0.5 * (low + high)
-                    if tension_now(given, sides, panels, p, n, eps, inside) > most:
-                        high = eps
-                    else:
-                        low = eps
-                count = _cut(panels, p, count, high)
-                break
-            if not held and value < best * (1 - 1e-12):
-                top = _peak(given, sides, panels, p, n, before, eps, inside)
-                best = max(best, tension_now(given, sides, panels, p, n, top, inside))
-                if top - a > 1e-6 * (b - a):
-                    count = _cut(panels, p, count, top)
-                    break
-                held, most = True, max(most, best)  # it falls from the beginning
-                panels[p, n, PULLED] = most
-            before, last, best = last, eps, max(best, value)
-        if not held:
-            most = max(most, best)
-        n += 1
-    return count
+    b, c = 0.0, 0.0
+    for k in range(TERMS - 1, 0, -1):
+        b, c = panels[p, n, TENSION + k] + 2 * x * b - c, b
+    return panels[p, n, TENSION] + x * b - c
+
+
+@scalar
+def _pull_at(panels, p, n, eps):
+    """σ_t at ε on panel n, by its series."""
+    return eps * math.sqrt(eps) * _sum_series(panels, p, n, _place_on(panels, p, n, eps))
 
 
 @scalar
 def _fill_tension(given, sides, panels, p, n, rule, inside):
-    """Series of ln(σ_t/ε^1.5) on panel n; the size of its last two terms."""
+    """Series of σ_t/ε^1.5 on panel n; the size of its last two terms over its own."""
     apart()
-    first, last = panels[p, n, EDGE], panels[p, n, TO]
+    first, last, most = panels[p, n, EDGE], panels[p, n, TO], 0.0
+    panels[p, n, RATE] = 1.0
+    if first > 0:
+        low = math.log(first)
+        panels[p, n, RATE] = 2 / (math.log(last) - low)
+        panels[p, n, START] = -panels[p, n, RATE] * low - 1
     for k in range(TERMS):
         panels[p, n, TENSION + k] = 0.0
     for j in range(TERMS):
@@ -208,11 +218,129 @@ def _fill_tension(given, sides, panels, p, n, rule, inside):
         eps = 0.25 * last * (x + 1) ** 2
         if first > 0:
             eps = first * math.exp(0.5 * (x + 1) * math.log(last / first))
-        value = tension_now(given, sides, panels, p, n, eps, inside)
-        value = math.log(max(value, 1e-300)) - 1.5 * math.log(eps)
+        value = tension_now(given, sides, panels, p, n, eps, inside) / (eps * math.sqrt(eps))
+        most = max(most, value)
         for k in range(TERMS):
             panels[p, n, TENSION + k] += rule[1 + k, j] * value
-    return abs(panels[p, n, TENSION + TERMS - 1]) + abs(panels[p, n, TENSION + TERMS - 2])
+    tail = abs(panels[p, n, TENSION + TERMS - 1]) + abs(panels[p, n, TENSION + TERMS - 2])
+    return tail / most if most > 0 else 0.0
+
+
+@scalar
+def _take_logarithm(panels, p, n, rule):
+    """Series of ln(σ_t/ε^1.5) on panel n in place of that of σ_t/ε^1.5."""
+    apart()
+    found = panels[p, len(panels[p]) - 1]  # room that no panel has
+    for j in range(TERMS):
+        found[TENSION + j] = math.log(max(_sum_series(panels, p, n, rule[0, j]), 1e-300))
+    for k in range(TERMS):
+        panels[p, n, TENSION + k] = 0.0
+        for j in range(TERMS):
+            panels[p, n, TENSION + k] += rule[1 + k, j] * found[TENSION + j]
+
+
+@scalar
+def _fill(given, sides, panels, p, count, rule, inside):
+    """Fill in the series on every panel without one, halved until they are resolved.
+
+    How many panels there are then, or −1 where there is no room.
+    """
+    apart()
+    step = 2 ** min(1.0, STEEP / given[p, MODULUS])
+    n = int(panels[p, 0, EDGE])  # 0, and no constant
+    while n < count:
+        a, b = panels[p, n, EDGE], panels[p, n, TO]
+        if panels[p, n, RATE] != 0:
+            n += 1
+            continue
+        wide = a > 0 and b > step * a * (1 + 1e-9)
+        tail = 0.0
+        if not wide:
+            tail = _fill_tension(given, sides, panels, p, n, rule, inside)
+        if (wide or tail > RESOLVED) and b > a * (1 + 1e-6):
+            if count >= MOST_PANELS - 3:
+                return -1
+            count = _cut(panels, p, count, math.sqrt(a * b) if a > 0 else 0.25 * b, 0.0)
+            panels[p, n, RATE] = panels[p, n + 1, RATE] = 0.0
+            continue
+        n += 1
+    return count
+
+
+@scalar
+def _peak(panels, p, n, low, high):
+    """ε between two at which the tension is largest, by golden sections."""
+    apart()
+    part = 0.5 * (math.sqrt(5.0) - 1)
+    a, b = high - part * (high - low), low + part * (high - low)
+    f_a, f_b = _pull_at(panels, p, n, a), _pull_at(panels, p, n, b)
+    for _ in range(SEARCHED):
+        if high - low <= 1e-10 * high:
+            break
+        if f_a >= f_b:
+            high, b, f_b = b, a, f_a
+            a = high - part * (high - low)
+            f_a = _pull_at(panels, p, n, a)
+        else:
+            low, a, f_a = a, b, f_b
+            b = low + part * (high - low)
+            f_b = _pull_at(panels, p, n, b)
+    return 0.5 * (low + high)
+
+
+@scalar
+def _find_held(given, sides, panels, p, count, rule, inside):
+    """Panels cut where the tension begins to fall and where it is met again; their number.
+
+    By its series; −1 where there is no room.
+    """
+    apart()
+    n, most = int(panels[p, 0, EDGE]), 0.0  # 0, and no constant
+    while n < count:
+        if panels[p, n, RATE] == 0:
+            count = _fill(given, sides, panels, p, count, rule, inside)
+            if count < 0:
+                return -1
+        a, b = panels[p, n, EDGE], panels[p, n, TO]
+        begin = _pull_at(panels, p, n, a + 1e-9 * (b - a))
+        held, cut = begin < most * (1 - FALLS), False
+        panels[p, n, PULLED] = most if held else 0.0
+        before, last, best = a, a, begin
+        for j in range(SAMPLES + CLOSER + 1):
+            u = (j + 0.5) / SAMPLES
+            if j >= SAMPLES:  # before a kink it may fall a little
+                u = 1.0 if j == SAMPLES + CLOSER else 1 - 0.25 / SAMPLES * 0.5 ** (j - SAMPLES)
+            eps = a + (b - a) * (u * u if a == 0 else u)
+            value = _pull_at(panels, p, n, eps)
+            if held and value > most:
+                low, high = last, eps
+                for _ in range(SEARCHED):
+                    eps = 0.5 * (low + high)
+                    if _pull_at(panels, p, n, eps) > most:
+                        high = eps
+                    else:
+                        low = eps
+                cut = high - a > 1e-12 * b and b - high > 1e-12 * b
+                count = _cut(panels, p, count, high, 1.0)
+                break
+            if not held and value < best * (1 - FALLS):
+                top = _peak(panels, p, n, before, eps)
+                best = max(best, _pull_at(panels, p, n, top))
+                if top - a > 1e-6 * (b - a):
+                    cut = b - top > 1e-12 * b
+                    count = _cut(panels, p, count, top, 1.0)
+                    break
+                held, most = True, max(most, best)  # it falls from the beginning
+                panels[p, n, PULLED] = most
+            before, last, best = last, eps, max(best, value)
+        if cut and panels[p, n, RATE] == 0:  # the first panel, whose series is to be made anew
+            count = _fill(given, sides, panels, p, count, rule, inside)
+            if count < 0:
+                return -1
+        if not held:
+            most = max(most, best)
+        n += 1
+    return count
 
 
 @scalar
@@ -221,15 +349,7 @@ def met_on(panels, p, n, eps):
     apart()
     if panels[p, n, PULLED] > 0:
         return panels[p, n, TENSION]
-    log_eps = math.log(eps)
-    if panels[p, n, EDGE] == 0:
-        x = 2 * math.sqrt(eps / panels[p, n, TO]) - 1
-    else:
-        x = panels[p, n, RATE] * log_eps + panels[p, n, START]
-    b, c = 0.0, 0.0
-    for k in range(TERMS - 1, 0, -1):
-        b, c = panels[p, n, TENSION + k] + 2 * x * b - c, b
-    return panels[p, n, TENSION] + x * b - c + 1.5 * log_eps
+    return _sum_series(panels, p, n, _place_on(panels, p, n, eps)) + 1.5 * math.log(eps)
 
 
 @scalar
@@ -342,40 +462,43 @@ def lay_tension(given, sides, panels, p, count, rule, inside):
     last = panels[p, count - 1, TO]
     if last > 1 + CLOSE:
         return -1
+    for n in range(count):
+        panels[p, n, RATE] = panels[p, n, PULLED] = 0.0
+        panels[p, n, KINKED] = 1.0
     count = _cut_at_bends(given, sides, panels, p, count, inside)
-    count = _find_held(given, sides, panels, p, count, inside)
+    count = _fill(given, sides, panels, p, count, rule, inside)
+    if count > 0:
+        count = _find_held(given, sides, panels, p, count, rule, inside)
+    if count < 0:
+        return -1
     # where parents of what is squeezed so reach a kink of theirs, and their parents
-    ratio, n = given[p, RATIO], count - 1
+    ratio, n, most = given[p, RATIO], count - 1, _generations(given, p)
     while given[p, KEPT] > 0 and n >= 0:
-        left, before = (1 - panels[p, n, TO]) / ratio, count
-        if left < 1 - 1e-12:
-            count = _cut(panels, p, count, 1 - left)
+        left, before, born = (1 - panels[p, n, TO]) / ratio, count, panels[p, n, KINKED]
+        if left < 1 - 1e-12 and 0 < born <= most:
+            count = _cut(panels, p, count, 1 - left, born + 1)
         if count >= MOST_PANELS - 3:
             return -1
         n += count - before - 1
-    step = 2 ** min(1.0, STEEP / given[p, MODULUS])
-    n = int(panels[p, 0, EDGE])  # 0, and no constant
-    while n < count:
-        a, b = panels[p, n, EDGE], panels[p, n, TO]
-        wide = a > 0 and b > step * a * (1 + 1e-9)
-        tail = 0.0
-        if panels[p, n, PULLED] == 0 and not wide:
-            tail = _fill_tension(given, sides, panels, p, n, rule, inside)
-        if (wide or tail > RESOLVED) and b > a * (1 + 1e-6):
-            if count >= MOST_PANELS - 3:
-                return -1
-            count = _cut(panels, p, count, math.sqrt(a * b) if a > 0 else 0.25 * b)
-            continue
-        n += 1
+    count = _fill(given, sides, panels, p, count, rule, inside)
+    if count < 0:
+        return -1
     for n in range(count):
         if panels[p, n, PULLED] > 0:
             panels[p, n, TENSION] = math.log(panels[p, n, PULLED])
-        elif panels[p, n, EDGE] > 0:
-            low = math.log(panels[p, n, EDGE])
-            panels[p, n, RATE] = 2 / (math.log(panels[p, n, TO]) - low)
-            panels[p, n, START] = -panels[p, n, RATE] * low - 1
+        else:
+            _take_logarithm(panels, p, n, rule)
     _find_least(given, panels, p, count)
     return count
+
+
+@scalar
+def _generations(given, p):
+    """How many generations of pieces there may be, at most, from the largest size down."""
+    least = min(max(given[p, LOW], 1e-5 * given[p, SIZE_1]), given[p, UNBROKEN]) * given[p, RATIO]
+    if not least > 0:
+        return GENERATIONS
+    return min(math.ceil(math.log(least / given[p, HIGH]) / math.log(given[p, RATIO])), GENERATIONS)
 
 
 @scalar

@@ -71,7 +71,9 @@ def rules() -> Array:
     _add_series(out[-1], TERMS)
     for i, asked in enumerate(itertools.chain(*NODES)):
         out[i, 0, :6] = asked
-        for row, count in ((f.RULE, asked[0]), (f.SIZE_RULE, asked[2])):
+        narrow = out[i, 0, f.NARROW_NODES] = asked[0] // 2
+        each = (f.RULE, asked[0]), (f.SIZE_RULE, asked[2]), (f.NARROW_RULE, int(narrow))
+        for row, count in each:
             out[i, row, :count], out[i, row + 1, :count] = gauss_legendre(count)
         _add_series(out[i], asked[4])
     return out

@@ -25,9 +25,10 @@ from .fields import (
     GAUSSIAN,
     HIGH,
     KIND,
-    LEAST,
     LOGNORMAL,
     LOW,
+    NARROW_NODES,
+    NARROW_RULE,
     NODES,
     OFFSET,
     PLANE,
@@ -52,6 +53,7 @@ __all__ = [
     "GRID_ROWS",
     "MOST_NODES",
     "add_part",
+    "gather_gaps",
     "lay_broken",
     "lay_pieces",
 ]
@@ -79,15 +81,15 @@ on; 1 − ε from which on sizes may lie as close as before."""
 
 # ------------------------------------------------------------------------------ once a state
 @scalar
-def _lay_between(given, sides, panels, p, n, a, b, grid, place, rule):
+def _lay_between(given, sides, panels, p, n, a, b, grid, place, gauss, weights, nodes):
     """Gauss nodes between two ends on panel n, of what a particle carries; where they end."""
     apart()
     seen = 0.0
     if given[p, BREAKS] == 1 and given[p, SHADOW] == PROJECTED:
         seen = 0.25 * math.pi * given[p, BREADTH]
     regime = FIRST + int(panels[p, n, REGIME])
-    for j in range(int(rule[0, NODES])):
-        x, weight = 1 + rule[RULE, j], rule[RULE + 1, j]
+    for j in range(nodes):
+        x, weight = 1 + gauss[j], weights[j]
         if a == 0:
             root = 0.5 * math.sqrt(b) * x
             eps, weight = root * root, root * math.sqrt(b) * weight
@@ -109,17 +111,21 @@ def _lay_between(given, sides, panels, p, n, a, b, grid, place, rule):
 def lay_broken(given, sides, panels, p, count, grid, place, sizes, size, rule):
     """Nodes over ε and sizes of particles that break; where both end, −1 where there is no room."""
     apart()
-    nodes = int(rule[0, NODES])
     step = rule[0, SPAN] * given[p, WIDTH] / given[p, HIGH]
     for n in range(count):
         first, last = panels[p, n, EDGE], panels[p, n, TO]
+        nodes, row = int(rule[0, NODES]), int(0 * rule[0, NODES]) + RULE  # no constant, for numba
+        if last - first <= NARROW * min(first, 1 - last):
+            nodes, row = int(rule[0, NARROW_NODES]), row + NARROW_RULE - RULE
         parts = max(1, math.ceil((last - first) / step))
         if place + parts * nodes > MOST_NODES:
             return -1, size
         for m in range(parts):
             a = first + (last - first) * m / parts
             b = first + (last - first) * (m + 1) / parts
-            place = _lay_between(given, sides, panels, p, n, a, b, grid, place, rule)
+            place = _lay_between(
+                given, sides, panels, p, n, a, b, grid, place, rule[row], rule[row + 1], nodes
+            )
     return place, lay_sizes(given, p, sizes, size, rule, 1.0)
 
 
@@ -166,17 +172,6 @@ def _gather(grid, first, begin, end, a, b, rule):
             found[m] = total[m]
     for m in range(nodes):
         grid[EPS, first + m] = a + 0.5 * (b - a) * (1 + rule[POLYNOMIAL, m])
-
-
-@scalar
-def _fill_up(grid, place, end):
-    """Nodes that carry nothing, up to a whole number of vectors; where they end."""
-    while (end - place) % VECTOR != 0:
-        for row in range(LOAD, SUM):
-            grid[row, end] = 0.0
-        grid[EPS, end] = grid[EPS, end - 1]
-        end += 1
-    return end
 
 
 @scalar
@@ -236,7 +231,9 @@ def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, piece, 
         end = begin
         for n in range(panel, panel + parts):
             low, high = max(a, panels[p, n, EDGE]), min(b, panels[p, n, TO])
-            end = _lay_between(given, sides, panels, p, n, low, high, grid, end, rule)
+            end = _lay_between(
+                given, sides, panels, p, n, low, high, grid, end, rule[RULE], rule[RULE + 1], nodes
+            )
         if begin > place:
             _gather(grid, place, begin, end, a, b, rule)
             end = place + most
@@ -262,23 +259,119 @@ def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, piece, 
 
 
 # ------------------------------------------------------------------------------ at a separation
-@exact
-def _sum_whole(grid, begin, end, sizes, first, last, gap, width, shares, place, step):
-    """K of what is whole; ``place`` of the first node, ``step`` between sizes."""
+NARROW = 0.15
+"""Width of a panel, over what is on either side of it, up to which half the nodes do."""
+CELL = 1.5
+"""Widths of a seat over which sixteen nodes give its density to 1e-13 of the largest."""
+
+
+@summed
+def _find_moments(x, v, now, before, moments):
+    """Σ v T_k(x) of an even number of Chebyshev polynomials."""
     apart()
-    # rows of their own, from zero: only then do loops over them become vectors
-    eps, total = grid[EPS, begin:end], grid[SUM, begin:end]
-    for i in range(len(total)):
-        total[i] = 0.0
+    for i in range(len(x)):
+        now[i], before[i] = 1.0, x[i]
+    for k in range(0, len(moments), 2):
+        one = other = 0.0
+        for i in range(len(x)):
+            first, second = now[i], before[i]
+            one += v[i] * first
+            other += v[i] * second
+            first = 2 * x[i] * second - first
+            now[i] = first
+            before[i] = 2 * x[i] * first - second
+        moments[k], moments[k + 1] = one, other
+
+
+@exact
+def _fill_gaps(x, v, sizes, weights, left, shares, source, wide):
+    """Gaps that a squeeze leaves of sizes, and how many particles are there."""
+    apart()
+    for j in range(len(x)):
+        x[j] = sizes[j] * left
+        v[j] = weights[j] * shares[source + wide * j]
+
+
+@exact
+def _add_columns(grid, i, start, moments):
+    """Add what node i over ε gives to a cell: its columns times moments."""
+    apart()
+    for row in range(LOAD, SUM):
+        column = grid[row, i]
+        if column != 0:
+            out = grid[row, start : start + len(moments)]
+            for k in range(len(moments)):
+                out[k] += column * moments[k]
+
+
+@scalar
+def gather_gaps(given, p, grid, begin, end, sizes, first, last, shares, whole, rule):
+    """Gather pairs of a squeeze and a size by the gap they leave; where what is gathered ends.
+
+    A seat weighs a pair by its gap x(1 − ε) alone, smoothly: what stands at the pairs is handed to
+    the nodes of polynomials over the gap, behind the nodes over ε, weights of the sizes and all.
+    −1 where there is no room.
+    """
+    apart()
+    nodes, width, wide = int(rule[0, SEAT_NODES]), given[p, WIDTH], end - begin
+    low = sizes[0, first] * (1 - grid[EPS, end - 1])
+    high = sizes[0, last - 1] * (1 - grid[EPS, begin])
+    cells = max(1, math.ceil((high - low) / (CELL * width)))
+    step, place = (high - low) / cells, end + cells * nodes
+    scratch = place + VECTOR
+    if scratch + max(last - first, nodes) > MOST_NODES:
+        return -1
+    for row in range(LOAD, SUM):
+        for k in range(end, place):
+            grid[row, k] = 0.0
     for j in range(first, last):
         x = sizes[0, j]
-        c = sizes[1, j] * x * x * x / (ROOT_2PI * width)
-        start, rate = (gap - x) / width, x / width
-        whole = shares[place : place + len(eps)]
-        for i in range(len(eps)):
-            z = start + rate * eps[i]
-            total[i] += c * whole[i] * exp(max(-0.5 * z * z, -700.0))
-        place += step
+        sizes[2, j] = sizes[1, j] * x * x * x / (ROOT_2PI * width)
+    count = last - first
+    x, v = grid[EPS, scratch : scratch + count], grid[LOAD, scratch : scratch + count]
+    now, before = grid[SECOND, scratch : scratch + count], grid[LARGER, scratch : scratch + count]
+    moments = grid[FIRST, scratch : scratch + nodes]
+    for i in range(begin, end):
+        left = 1 - grid[EPS, i]
+        _fill_gaps(
+            x, v, sizes[0, first:last], sizes[2, first:last], left, shares, whole + i - begin, wide
+        )
+        j = 0
+        while j < count:
+            cell = max(0, min(int((x[j] - low) / step), cells - 1))
+            until = low + (cell + 1) * step if cell < cells - 1 else math.inf
+            middle, n = low + (cell + 0.5) * step, j
+            while n < count and (n == j or x[n] < until):
+                x[n] = (x[n] - middle) * 2 / step
+                n += 1
+            _find_moments(x[j:n], v[j:n], now[j:n], before[j:n], moments)
+            _add_columns(grid, i, end + cell * nodes, moments)
+            j = n
+    values = grid[SUM, scratch : scratch + nodes]
+    for cell in range(cells):
+        start = end + cell * nodes
+        for row in range(LOAD, SUM):
+            for m in range(nodes):
+                values[m] = 0.0
+            for k in range(nodes):
+                for m in range(nodes):
+                    values[m] += grid[row, start + k] * rule[POLYNOMIAL + 1 + k, m]
+            for m in range(nodes):
+                grid[row, start + m] = values[m]
+        for m in range(nodes):
+            grid[EPS, start + m] = low + (cell + 0.5 * (1 + rule[POLYNOMIAL, m])) * step
+    return place
+
+
+@exact
+def _weigh_gaps(grid, begin, end, gap, width):
+    """Densities of the seat at nodes over the gap, without what stands in the nodes."""
+    apart()
+    # rows of their own, from zero: only then do loops over them become vectors
+    own, total = grid[EPS, begin:end], grid[SUM, begin:end]
+    for i in range(len(total)):
+        z = (gap - own[i]) / width
+        total[i] = exp(max(-0.5 * z * z, -700.0))
 
 
 @exact
@@ -344,21 +437,10 @@ def _add_rough(given, sides, panels, p, count, grid, sizes, piece, until, gap, o
 def _add_broken(given, sides, panels, p, count, grid, own, sizes, gap, shares, out):
     """What a part that breaks carries on a rough seat; ``own`` is what is laid of it."""
     apart()
-    width, begin, end, first, last, place = given[p, WIDTH], own[1], own[2], own[3], own[4], own[5]
-    # only nodes that some seat reaches: those of x(1 − ε) within REACH widths of the gap
-    most, least = gap + REACH * width, gap - REACH * width
-    smallest = max(given[p, LEAST], 1e-300)
-    low = 1 - most / (smallest if most > 0 else given[p, HIGH])
-    high = 1 - least / (given[p, HIGH] if least > 0 else smallest)
-    a, b = begin, end
-    while a < b and grid[EPS, a] < low:
-        a += 1
-    while b > a and grid[EPS, b - 1] > high:
-        b -= 1
-    start = place + a - begin
-    _sum_whole(grid, a, b, sizes, first, last, gap, width, shares, start, end - begin)
-    place += (last - first) * (end - begin)
-    _add_nodes(given, p, grid, a, b, out)
+    width, first, last = given[p, WIDTH], own[3], own[4]
+    place = own[5] + (last - first) * (own[9] - own[1])
+    _weigh_gaps(grid, own[9], own[2], gap, width)
+    _add_nodes(given, p, grid, own[9], own[2], out)
     edge, squeezed = panels[p, count - 1, TO], 0.0
     for j in range(first, last):
         x = sizes[0, j]
@@ -375,7 +457,7 @@ def add_part(given, sides, panels, p, own, grid, sizes, shares, d, rule, out):
     """What part p carries at a separation d [m]; False where its formulas do not reach.
 
     ``own`` says what of it is laid: panels; where nodes, sizes and what is whole begin and end;
-    pieces.
+    pieces; where nodes over the gap begin, the last of the nodes.
     """
     apart()
     gap, count = d + given[p, OFFSET], own[0]

@@ -23,6 +23,7 @@ from .sides import prepare, regime_of, scalar, side_at
 
 __all__ = [
     "EDGE",
+    "KINKED",
     "LAST_1",
     "LAST_2",
     "MOST_PANELS",
@@ -43,9 +44,10 @@ EDGE, TO, REGIME, HELD, FROM, UNTIL, SHARE = range(7)
 holds side 1 (side 2 if negative, none if 0); ends and coefficients of the share of side 1."""
 LAST_1, LAST_2 = FROM, UNTIL
 """Of the row behind the last panel: areas over x² on both surfaces of all that is squeezed more."""
-PULLED, RATE, START, TENSION = range(SHARE + TERMS, SHARE + TERMS + 4)
+PULLED, RATE, START, KINKED, TENSION = range(SHARE + TERMS, SHARE + TERMS + 5)
 """Tension [Pa] that holds on a panel on which less is met, or 0; place on the panel, as a rate of
-ln ε and where it starts; series of the logarithm of the tension."""
+ln ε and where it starts; whether a formula changes at the end, of how many generations ago; series
+of the logarithm of the tension."""
 PANEL = TENSION + TERMS
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""

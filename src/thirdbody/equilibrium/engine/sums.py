@@ -45,6 +45,8 @@ from .fields import (
     LOWEST_HEIGHT,
     MIDDLE,
     MODULUS,
+    NARROW_NODES,
+    NARROW_RULE,
     ONE_SIZE,
     POWER,
     PROJECTED,
@@ -86,6 +88,8 @@ MOST_SIZES, MOST_HEIGHTS = 16_384, 1536
 T, OF_LOAD, OF_AREA, ITS_REGIME = range(4)
 """Rows of the nodes over heights: t = ω/σ_s, weighted load and area, regime."""
 ROOT_2PI = math.sqrt(2 * math.pi)
+NARROW = 0.15
+"""Width of a panel over sizes of pieces, in usual ones, up to which few nodes do."""
 NEAREST, CLOSEST = 0.3, 1e-5
 """First panel over heights [σ_s], and over the distance to the lower end of the heights."""
 
@@ -116,19 +120,36 @@ def _coated(coating, y, unit):
 
 
 @scalar
-def _node(skin, row, coating, start, x):
-    """y at a node x of a panel, what dx has of dy, load and area there.
-
-    x is e of `adhesive`; of other laws it is √(y − start), or y where that is NaN.
-    """
+def _fill_panel(skin, row, coating, heights, count, gauss, weights, nodes, start, a, b):
+    """Nodes of a panel of y: y, its weight, load and area; by the root of y − a where it begins."""
     apart()
-    code = skin[row, CODE]
-    if code == JKR:
-        load, area = adhesive(x, skin[row, LAW_1])
-        return stretched(x), x * (3 + x * (3 + x)), load, area
-    y, slope = (x, 1.0) if start != start else (start + x * x, 2 * x)
-    load, area = _coated(coating, y, skin[row, LAW_1]) if code == COATED else law_at(skin, row, y)
-    return y, slope, load, area
+    code, rooted = skin[row, CODE], a == start
+    low, half = (0.0, 0.5 * math.sqrt(b - a)) if rooted else (a, 0.5 * (b - a))
+    for j in range(nodes):
+        y, weight = low + half * (1 + gauss[j]), half * weights[j]
+        if rooted:
+            y, weight = start + y * y, 2 * y * weight
+        load, area = (
+            _coated(coating, y, skin[row, LAW_1]) if code == COATED else law_at(skin, row, y)
+        )
+        heights[T, count], heights[4, count] = y, weight
+        heights[OF_LOAD, count], heights[OF_AREA, count] = load, area
+        count += 1
+
+
+@scalar
+def _fill_stretched(skin, row, heights, count, gauss, weights, nodes, a, b):
+    """As `_fill_panel`, of `JKR`, with its e as the variable: there is no root to find."""
+    apart()
+    low = stretched_from(a)
+    half = 0.5 * (stretched_from(b) - low)
+    for j in range(nodes):
+        e = low + half * (1 + gauss[j])
+        load, area = adhesive(e, skin[row, LAW_1])
+        heights[T, count] = stretched(e)
+        heights[4, count] = half * weights[j] * e * (3 + e * (3 + e))
+        heights[OF_LOAD, count], heights[OF_AREA, count] = load, area
+        count += 1
 
 
 @scalar
@@ -159,19 +180,19 @@ def _lay_shape(skin, row, coating, heights, count, until, gauss, weights, nodes,
         regime = 0
         if number > 0:
             regime = regime_of_branch(skin, row, branch_of(skin, row, 0.5 * (a + b)))
-        rooted = start if a == start else math.nan
-        low, high = (0.0, math.sqrt(b - a)) if a == start else (a, b)
         if skin[row, CODE] == JKR:
-            low, high = stretched_from(a), stretched_from(b)
-        half = 0.5 * (high - low)
-        for j in range(nodes):
-            y, slope, load, area = _node(skin, row, coating, rooted, low + half * (1 + gauss[j]))
-            weight = half * weights[j] * slope * w / ROOT_2PI
-            heights[T, count] = w * y
-            heights[OF_LOAD, count] = weight * load * load_unit
-            heights[OF_AREA, count] = weight * area * area_unit
-            heights[ITS_REGIME, count] = regime
-            count += 1
+            _fill_stretched(skin, row, heights, count, gauss, weights, nodes, a, b)
+        else:
+            _fill_panel(
+                skin, row, coating, heights, count, gauss, weights, nodes, start, a, b
+            )  # fmt: skip
+        for j in range(count, count + nodes):
+            weight = heights[4, j] * w / ROOT_2PI
+            heights[T, j] *= w
+            heights[OF_LOAD, j] *= weight * load_unit
+            heights[OF_AREA, j] *= weight * area_unit
+            heights[ITS_REGIME, j] = regime
+        count += nodes
         a = b
     return count
 
@@ -263,9 +284,11 @@ def add_skin(skin, coating, heights, begin, end, gauss, weights, nodes, h, out):
 
 # ------------------------------------------------------------------------------ sizes
 @scalar
-def _lay_pieces(given, p, sizes, count, gauss, weights, nodes, span, low, high):
+def _lay_pieces(given, p, sizes, count, rule, low, high):
     """Nodes over sizes between two jumps of the number of pieces; where they end, or −1."""
     apart()
+    gauss, weights = rule[SIZE_RULE], rule[SIZE_RULE + 1]
+    nodes, span = int(rule[0, SIZE_NODES]), rule[0, SIZE_SPAN]
     middle = math.sqrt(low * high)
     own = middle / max(2.0, 2 * given[p, MODULUS] * given[p, EXPONENT])
     y, ratio, shrunk = middle, given[p, RATIO], 1.0
@@ -278,6 +301,8 @@ def _lay_pieces(given, p, sizes, count, gauss, weights, nodes, span, low, high):
         shrunk *= ratio
     step = span / math.sqrt(1 / (own * own) + 1 / given[p, WIDTH] ** 2)
     parts = max(1, math.ceil((high - low) / step - 1e-9))
+    if high - low <= NARROW * step:
+        nodes, gauss, weights = int(rule[0, NARROW_NODES]), rule[NARROW_RULE], rule[NARROW_RULE + 1]
     if count + parts * nodes > MOST_SIZES:
         return -1
     half = 0.5 * (high - low) / parts
@@ -307,9 +332,7 @@ def lay_sizes(given, p, sizes, begin, rule, thick):
         marked = mark_sizes(given, p, sizes[2])
         count = begin
         for k in range(marked - 1):
-            count = _lay_pieces(
-                given, p, sizes, count, gauss, weights, nodes, span, sizes[2, k], sizes[2, k + 1]
-            )
+            count = _lay_pieces(given, p, sizes, count, rule, sizes[2, k], sizes[2, k + 1])
             if count < 0:
                 return -1
         return count
