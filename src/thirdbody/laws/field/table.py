@@ -17,8 +17,8 @@ from scipy.special import erfcx, ndtr
 
 from ...errors import InvalidValue
 from .conduction import TERMS, patch_stiffness
-from .formulas import mean_pressure
 from .programme import MOMENTS
+from .reduced import mean_pressure
 from .spectrum import Spectrum, rolled_off
 
 if TYPE_CHECKING:
@@ -290,8 +290,8 @@ def rows_of(chi: Array, alpha: Array, *, soft: bool, columns: slice = slice(None
 
 def _lagrange(nodes: Array, x: Array) -> Array:
     """Weights of the polynomials through Chebyshev's points with both ends at x (N,): (N, M)."""
-    off = x[:, None] - nodes
-    hit = np.abs(off) < 1e-14
+    off = np.asarray(x)[:, None] - nodes
+    hit: NDArray[np.bool_] = np.less(np.abs(off), 1e-14)
     weight = (-1.0) ** np.arange(len(nodes))
     weight[[0, -1]] *= 0.5
     weight = weight / np.where(hit, 1.0, off)
