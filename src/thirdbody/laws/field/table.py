@@ -290,10 +290,10 @@ def rows_of(chi: Array, alpha: Array, *, soft: bool, columns: slice = slice(None
 
 def _lagrange(nodes: Array, x: Array) -> Array:
     """Weights of the polynomials through Chebyshev's points with both ends at x (N,): (N, M)."""
-    off = np.asarray(x)[:, None] - nodes
-    hit: NDArray[np.bool_] = np.less(np.abs(off), 1e-14)
+    off = x[:, None] - nodes
+    hit = np.abs(off) < 1e-14
     weight = (-1.0) ** np.arange(len(nodes))
     weight[[0, -1]] *= 0.5
     weight = weight / np.where(hit, 1.0, off)
-    weight = np.where(hit.any(axis=1)[:, None], hit, weight)
+    weight = np.where(np.any(hit, axis=1, keepdims=True), hit, weight)
     return weight / weight.sum(axis=1)[:, None]
