@@ -17,7 +17,8 @@ from ...errors import NotCompiled
 from ...laws import asperity, particle
 from ...laws.asperity.elliptic import hertz_of
 from ...laws.asperity.layer import ElasticLayer, table_of
-from ...laws.field.formulas import area_factor, hardness_ratio, remainder_height
+from ...laws.field.formulas import hardness_ratio
+from ...laws.field.reduced import area_factor, remainder_height
 from ...laws.field.table import ALPHAS, SOFT, rows_of
 from ...laws.particle.deep import curve_rows, sink_rows, squashed_part
 from ...laws.particle.tension import _bends, _equator
@@ -302,11 +303,8 @@ class Numbers:
 
     def _add_field(self) -> None:
         """Fill in one field of heights, whose separations are those of the mean planes over σ."""
-        rough, surfaces, law = (
-            self.varied.roughness,
-            self.varied.surfaces,
-            self.contact.asperity_law,
-        )
+        rough, surfaces = self.varied.roughness, self.varied.surfaces
+        law: Any = self.contact.asperity_law
         if law.spectrum is not None:
             raise NotCompiled("a field of a spectrum of its own has tables of its own")
         E, H = surfaces.E_star, _softer(surfaces.first, surfaces.second)[0]

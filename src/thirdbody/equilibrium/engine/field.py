@@ -7,7 +7,7 @@ import math
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from ...laws.field import formulas
+from ...laws.field import reduced
 from ...laws.field.table import separations
 from ..compiled.machine import apart, normal_cdf
 from .fields import (
@@ -54,9 +54,9 @@ def _fill_pieces() -> None:
 
 
 _fill_pieces()
-mean_pressure = scalar(formulas.mean_pressure)
-remainder_at = scalar(formulas.remainder_at)
-pressed = scalar(formulas.pressed)
+mean_pressure = scalar(reduced.mean_pressure)
+remainder_at = scalar(reduced.remainder_at)
+pressed = scalar(reduced.pressed)
 
 
 @scalar

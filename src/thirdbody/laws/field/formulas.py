@@ -15,6 +15,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from .conduction import patch_remainder
+from .reduced import area_factor, pressed, remainder_at, remainder_height
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,48 +25,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = [
-    "area",
-    "area_factor",
-    "hardness_ratio",
-    "load",
-    "mean_pressure",
-    "pressed",
-    "remainder",
-    "remainder_at",
-    "remainder_height",
-    "stiffness",
-]
-
-
-# ---------------------------------------------------------------- of numbers or arrays
-# by NumPy or compiled: each is written here once
-def mean_pressure(y, slope, energy, bearing):
-    """⟨f⟩ = −Φ′ of Φ = P e^y; bearing is −P′, and slope is y′."""
-    return np.exp(y) * (bearing - energy * slope)
-
-
-def remainder_height(chi, alpha):
-    """The remainder ε of high separations."""
-    return (0.10 + 0.04 * np.log(alpha)) * chi / (chi + 0.28 + 5 / alpha**2)
-
-
-def remainder_at(height, bearing):
-    """The remainder ε where the part Q of the surface is higher."""
-    return height * np.maximum(1 - 2 * bearing, 0.0)
-
-
-def area_factor(alpha):
-    """What ε adds to the real pressure, over what it adds to the load."""
-    return 2.9 - 0.7 * np.log(alpha)
-
-
-def pressed(ratio, more):
-    """The real pressure over H, where the field without the remainder has this ratio."""
-    return np.minimum(ratio * (1 + more * (1 - ratio**4)), 1.0)
-
-
-# ---------------------------------------------------------------- of a surface
+__all__ = ["area", "hardness_ratio", "load", "remainder", "stiffness"]
 
 
 def hardness_ratio(rough: Roughness, *, E_star: float, H: float) -> float:

@@ -125,6 +125,8 @@ class _State(NamedTuple):
     moments: Array
     turns: Array
     """What is zero at the maximum: gain of the modes singular at s_0 and s_1, slope in τ."""
+    form: Array
+    """Coefficients of f: of θ/π, and c_j."""
 
 
 class _Basis:
@@ -196,7 +198,7 @@ class _Basis:
         )
         second = np.where(edges.elastic, 0.0, lacks(1 - self.cos))
         turns = np.stack([lacks(1 + self.cos), second, turn / energy], axis=1)
-        return _State(energy, a, turns)
+        return _State(energy, a, turns, f)
 
 
 def _best(stiff: Array, gain: Array, chi: Array, elastic: NDArray[np.bool_]) -> Array:

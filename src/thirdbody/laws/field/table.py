@@ -17,8 +17,8 @@ from scipy.special import erfcx, ndtr
 
 from ...errors import InvalidValue
 from .conduction import TERMS, patch_stiffness
-from .formulas import mean_pressure
 from .programme import MOMENTS
+from .reduced import mean_pressure
 from .spectrum import Spectrum, rolled_off
 
 if TYPE_CHECKING:
@@ -295,5 +295,5 @@ def _lagrange(nodes: Array, x: Array) -> Array:
     weight = (-1.0) ** np.arange(len(nodes))
     weight[[0, -1]] *= 0.5
     weight = weight / np.where(hit, 1.0, off)
-    weight = np.where(hit.any(axis=1)[:, None], hit, weight)
+    weight = np.where(np.any(hit, axis=1, keepdims=True), hit, weight)
     return weight / weight.sum(axis=1)[:, None]
