@@ -13,7 +13,7 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.status import CriticalStatus
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
-from ..errors import InvalidValue, RangeWarning, ThirdBodyError
+from ..errors import InvalidValue, RangeWarning, ThirdBodyError, note_of
 from ..systems.bodies import Pressed
 from ..systems.film_conditions import FilmConditions
 from ..systems.film_formulas import full_range
@@ -50,7 +50,7 @@ def run_study(study: Study) -> dict[str, Any]:
         state = study.solve()
         critical = _transitions(study.contact)
         forced = [] if study.body is None else pressed(study.body, study.forces, study.contact)  # type: ignore[arg-type]
-    sentences = [*study.notes, *state.warnings, *(str(item.message) for item in heard)]
+    sentences = [*study.notes, *state.warnings, *(note_of(item.message) for item in heard)]
     sentences += [sentence for each in forced for sentence in each.warnings]
     states = {name: _plain_numbers(column) for name, column in state.columns().items()}
     states["mode"] = [mode or None for mode in states["mode"]]
@@ -131,7 +131,7 @@ def run_film(study: Study) -> dict[str, Any]:
         curve = given.stribeck_columns(contact)
         changes = given.regime_speeds(contact)
     states = {name: _plain_numbers(column) for name, column in curve.items()}
-    sentences = [*study.notes, *(str(item.message) for item in heard)]
+    sentences = [*study.notes, *(note_of(item.message) for item in heard)]
     return {
         "title": study.title,
         "version": __version__,

@@ -16,7 +16,7 @@ from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, Settings, StudyFile, not_a_folder, read_study
 from ..show import finite, terminal
-from ..streams import NO_ANSWER, TableFiles, warn, write_figure
+from ..streams import NO_ANSWER, TableFiles, warn, warn_of, write_figure
 
 __all__ = ["command"]
 
@@ -81,8 +81,7 @@ def command(
         if out is not None:
             release_folder(out)
         raise
-    for sentence in result.data["warnings"][len(asked.notes) :]:
-        warn(sentence)
+    warn_of(result.data["warnings"][len(asked.notes) :])
     if out is not None:
         _write(out, result)
     if as_json:

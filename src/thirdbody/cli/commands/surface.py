@@ -14,7 +14,7 @@ from ...quantities.say import number, signed, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, Force, ParquetFile, XlsxFile, metres, not_a_folder
 from ..show import ALL, finite, terminal
-from ..streams import TableFiles, warn
+from ..streams import TableFiles, warn_of
 
 __all__ = ["command"]
 
@@ -87,8 +87,7 @@ def command(
         refuse_strangers(out, "surface.json", "surface.png", "surface.svg")
     found = from_topography(file, detrend=detrend, unit=unit, channel=channel, **lengths)
     result = found.to_dict()
-    for sentence in found.warnings:
-        warn(sentence)
+    warn_of(found.warnings)
     files.write(finite(result["curve"]), result["units"])
     written = files.paths + ([] if out is None else _write_surface(out, found, result, force))
     if as_json:
