@@ -5,10 +5,12 @@ A message says what, where, what is allowed, and the likely cause.
 
 from __future__ import annotations
 
+import math
 import os
+import re
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from types import FrameType
 from typing import Any
 
@@ -16,10 +18,14 @@ __all__ = [
     "InvalidValue",
     "NoEquilibrium",
     "NoTransition",
+    "Note",
     "Problem",
     "RangeWarning",
     "SlowWarning",
     "ThirdBodyError",
+    "code_of",
+    "note_of",
+    "ranked",
     "tell_of_range",
 ]
 
@@ -118,6 +124,81 @@ class Problem(str):
         return self.changed(path=place, value=None, owner="") if self.place else self.under(place)
 
 
+class Note(str):
+    """What an answer leaves open: its sentence, its effect on the answer, and what to do.
+
+    Parameters
+    ----------
+    what : str
+        Where the model ends, and what is known of it there.
+    code : str, optional
+        What it is about, the same whatever its numbers are.
+    effect : float, optional
+        By how much the answer may be wrong, relative [1]; NaN where nobody knows.
+    action : str, optional
+        What to do about it.
+
+    Examples
+    --------
+    >>> note = Note("A_t reaches 0.3", code="area", effect=0.17, action="press it point by point")
+    >>> str(note)
+    'A_t reaches 0.3; press it point by point'
+    """
+
+    code: str
+    effect: float
+    action: str
+
+    def __new__(
+        cls, what: str, *, code: str = "", effect: float = math.nan, action: str = ""
+    ) -> Note:
+        self = super().__new__(cls, f"{what}; {action}" if action else what)
+        self.code, self.effect, self.action = code, effect, action
+        return self
+
+    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, Any]]:
+        return (str(self),), {"code": self.code, "effect": self.effect}
+
+
+UNKNOWN = 0.2
+"""Effect among which one that nobody knows is ranked."""
+
+
+NUMBERS = re.compile(r"\d+(\.\d+)?(?= %)|\d+\.\d+(e[+-]\d+)?|\d+e[+-]\d+")
+"""Numbers of a sentence in which states differ, unlike those of names."""
+
+
+def code_of(note: str) -> str:
+    """What a note is about; of a sentence that does not say, the sentence without its numbers.
+
+    >>> code_of(Note("A_t reaches 0.3", code="area")), code_of("12 % of the load")
+    ('area', ' % of the load')
+    """
+    return getattr(note, "code", "") or NUMBERS.sub("", note)
+
+
+def note_of(message: Warning | str) -> str:
+    """The note that a warning carries."""
+    return next(iter(getattr(message, "args", ())), str(message))
+
+
+def ranked(notes: Iterable[str]) -> list[str]:
+    """Notes by their effect on the answer, the largest first; of each code the worst alone.
+
+    >>> ranked(["b", Note("a", code="area", effect=0.1), Note("c", code="area", effect=0.3)])
+    ['c', 'b']
+    """
+
+    def effect(note: str) -> float:
+        known = isinstance(note, Note) and not math.isnan(note.effect)
+        return note.effect if known else UNKNOWN  # type: ignore[attr-defined]
+
+    worst: dict[str, str] = {}
+    for note in sorted(notes, key=effect, reverse=True):
+        worst.setdefault(code_of(note), note)
+    return list(worst.values())
+
+
 class InvalidValue(ThirdBodyError, ValueError):
     """An input has no meaning: negative, NaN, wrong dimension, unknown name.
 
@@ -155,7 +236,10 @@ class NotCompiled(Exception):
 
 
 class RangeWarning(UserWarning):
-    """A model is used outside the range for which it was derived or published."""
+    """A model is used outside the range for which it was derived or published.
+
+    Its first argument is the `Note` that it tells.
+    """
 
 
 class SlowWarning(UserWarning):

@@ -22,11 +22,12 @@ from ..equilibrium.words import (
     two_bodies,
 )
 from ..quantities import notebook
+from ..quantities.plain_data import plain_data
 from ..quantities.say import listed, number, percent, span, times, value_of
 from ..quantities.tables import WIDER, Table
 from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
-from .uncertainty.propagation import OUTPUTS, Propagation, about_result, plain
+from .uncertainty.propagation import OUTPUTS, Propagation, about_result
 from .uncertainty.samples import crowded_samples
 
 __all__ = ["WORDS", "Assessment", "Change", "Section", "Stop", "printed"]
@@ -141,7 +142,7 @@ class Assessment:
             "version": __version__,
             "contact": found.contact.to_dict(),
             "mode": self.mode,
-            **plain(
+            **plain_data(
                 {
                     "propagation": found.to_dict(),
                     "decisive": self.decisive,

@@ -15,7 +15,6 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
-import re
 import warnings
 from collections.abc import Iterable
 from types import SimpleNamespace
@@ -27,8 +26,9 @@ from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..equilibrium.columns import COLUMNS, Equilibrium
+from ..equilibrium.doubts import BEYOND
 from ..equilibrium.solve import given_load, solve
-from ..errors import InvalidValue, Problem, RangeWarning
+from ..errors import InvalidValue, Problem, RangeWarning, code_of
 from ..laws.asperity import REGISTRY, AbstractAsperityLaw
 from ..quantities.carried import takes_units
 from ..quantities.files import csv_of, with_units
@@ -273,17 +273,11 @@ def _without_repeats(solved: list[_Solved]) -> tuple[list[list[str]], tuple[str,
     What is told of the own law, with other numbers, is not told again of the others.
     """
     common = solved[0].heard
-    known = {_numberless(text) for text in common}
+    known = {code_of(text) for text in common}
     notes = [
-        note + [text for text in heard if _numberless(text) not in known]
-        for _, note, heard in solved
+        note + [text for text in heard if code_of(text) not in known] for _, note, heard in solved
     ]
     return notes, common
-
-
-def _numberless(sentence: str) -> str:
-    """A sentence without its numbers."""
-    return re.sub(r"-?\d+(\.\d*)?(e[+-]?\d+)?", "#", sentence)
 
 
 def _rows(contact: Contact, laws: Any) -> dict[str, AbstractAsperityLaw | Persson | type]:
@@ -383,7 +377,7 @@ def _solved(
         count = "no state" if len(bad) == len(status) else f"{len(bad)} state(s) not"
         note.insert(0, f"{count} solved: {bad[0]}")
     # the note tells of the range already, in parts of the area
-    heard = tuple(text for text in state.warnings if not (law.beyond and law.beyond in text))
+    heard = tuple(text for text in state.warnings if code_of(text) != BEYOND)
     return _Solved(state, note, heard)
 
 

@@ -14,7 +14,6 @@ numbers cancel.
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -31,6 +30,7 @@ from ..errors import InvalidValue
 from ..quantities import notebook
 from ..quantities.arguments import need_place
 from ..quantities.carried import takes_units
+from ..quantities.plain_data import plain_data
 from ..quantities.progress import watched
 from .differences import FULL, QUICK, Entry, Places, Rule
 from .inputs import NUMBERS, Input, _room, input_of, inputs
@@ -108,7 +108,7 @@ class Sensitivity:
     def to_dict(self) -> dict[str, Any]:
         """Everything but the contact, ready for JSON: None for NaN, lists for arrays."""
         names = (item.name for item in dataclasses.fields(self) if item.name != "contact")
-        return {name: _plain(getattr(self, name)) for name in names}
+        return {name: plain_data(getattr(self, name)) for name in names}
 
     @takes_units
     def table(self, at: int = 0) -> str:
@@ -154,14 +154,6 @@ class Sensitivity:
             for to in self.inputs
         ]
         return notebook.card("Elasticities d ln c/d ln p", rows)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: _plain(part) for name, part in value.items()}
-    if isinstance(value, np.ndarray):
-        return [_plain(part) for part in value.tolist()]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _default_inputs(contact: Contact) -> list[str]:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..quantities.plain_data import plain_data
 from ..views.plot.style import MODE_COLOURS, OKABE_ITO, REGIMES
 
 __all__ = [
@@ -232,8 +233,8 @@ def clipped(curves: Iterable[Any]) -> np.ndarray:
 
 def listed(values: Any) -> list[float | None]:
     """Numbers for JSON, None where there is none."""
-    array = np.atleast_1d(np.asarray(values, dtype=float))
-    return [x if np.isfinite(x) else None for x in array.tolist()]
+    numbers: list[float | None] = plain_data(np.atleast_1d(np.asarray(values, dtype=float)))
+    return numbers
 
 
 def span(values: Any, *, log: bool = False, padded: bool = True) -> list[float] | None:

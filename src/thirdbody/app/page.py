@@ -13,7 +13,7 @@ from typing import Any
 from nicegui import background_tasks, events, run, ui
 from starlette.datastructures import QueryParams
 
-from ..errors import InvalidValue, ThirdBodyError
+from ..errors import InvalidValue, ThirdBodyError, ranked
 from .address import FOLLOW, TRAVELLED, Address, files_in, surface_in
 from .examples import EXAMPLES, example
 from .folders import Folders
@@ -40,6 +40,8 @@ TURN = '() => setDark(!document.body.classList.contains("body--dark"))'
 
 
 GETTING = "Getting ready: the page loads and compiles what it needs, once after its start."
+MOST_NOTES = 3
+"""Notes that are shown unfolded."""
 LEAST = 0.5
 """Seconds of starting that are told of."""
 WITHOUT_ANSWER = ("surface", "dust", "take_away")
@@ -317,15 +319,18 @@ class Page:
 
     def _note(self, notes: list[str], remark: str) -> None:
         """Notes of the answer, and a remark of the page, below the tab."""
-        known = [with_micro(without_paths(f"Note: {text}")) for text in notes[:6]]
-        known += [remark] * bool(remark)
-        if known == self.said:
+        known = [with_micro(without_paths(f"Note: {text}")) for text in ranked(notes)]
+        if [*known, remark] == self.said:
             return
-        self.said = known
+        self.said = [*known, remark]
         self.notes.clear()
         with self.notes:
-            for text in known:
+            for text in (*known[:MOST_NOTES], *[remark] * bool(remark)):
                 ui.label(text).classes("hint")
+            if rest := known[MOST_NOTES:]:
+                with ui.expansion(f"{len(rest)} more of less effect").classes("hint"):
+                    for text in rest:
+                        ui.label(text)
 
     # ------------------------------------------------------------------ what happens
     def _opened(self, name: str | None) -> None:

@@ -18,7 +18,7 @@ import numpy as np
 
 import thirdbody as tb
 
-from ..errors import InvalidValue, Problem, RangeWarning, ThirdBodyError
+from ..errors import InvalidValue, Problem, RangeWarning, ThirdBodyError, note_of
 from ..study import Study, check
 from ..study.body import pressed
 from ..systems.bodies import Pressed
@@ -100,7 +100,7 @@ class Answer:
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always", RangeWarning)
             state = tb.solve(contact, **{self.load: values})
-        self.notes += [str(item.message) for item in heard]
+        self.notes += [note_of(item.message) for item in heard]
         self.notes = list(dict.fromkeys(self.notes))
         return state
 

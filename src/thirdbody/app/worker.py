@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from ..quantities import progress
+from ..quantities.plain_data import plain_data
 
 __all__ = [
     "TASKS",
@@ -63,7 +64,7 @@ def main() -> None:
 
     try:
         task = TASKS[asked.pop("task")]
-        tell(result=_finite(task(report=lambda part: tell(done=part), **asked)))
+        tell(result=plain_data(task(report=lambda part: tell(done=part), **asked)))
     except ThirdBodyError as error:
         refuse(*(getattr(error, "problems", None) or [str(error)]))
     except MemoryError:
@@ -84,22 +85,9 @@ def _limit() -> None:
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def _finite(value: Any) -> Any:
-    """Plain data with None for numbers that are not finite."""
-    if isinstance(value, dict):
-        return {str(key): _finite(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray):
-        return _finite(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return [_finite(item) for item in value]
-    if isinstance(value, np.generic):
-        return _finite(value.item())
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
 def in_little(task: str, asked: dict[str, Any]) -> dict[str, Any]:
     """A task that is short, without progress."""
-    return _finite(TASKS[task](**asked, report=lambda part: None))
+    return plain_data(TASKS[task](**asked, report=lambda part: None))
 
 
 def _study(study: dict[str, Any], folder: str) -> Any:
@@ -162,7 +150,7 @@ def compared(contact: Any, load: str, loads: list[float]) -> dict[str, Any]:
     for name in ("F_star", "pressure", "note", "status"):
         if name in table.coords:
             columns[name] = table[name].values
-    return _finite(
+    return plain_data(
         {
             "laws": [str(law) for law in table.law.values],
             "load": load,

@@ -17,7 +17,7 @@ from typing import Annotated
 import typer
 
 from .commands import COMMANDS
-from .options import OwnCode, load_own_code, with_own_code
+from .options import OwnCode, load_own_code, with_common_options
 from .streams import Commands, open_closed_streams, refuse_full_output, without_output
 
 __all__ = ["app", "main"]
@@ -69,4 +69,5 @@ def options(
 
 
 for name in COMMANDS:
-    app.command(name)(with_own_code(import_module(f".commands.{name}", __name__).command))
+    module = import_module(f".commands.{name}", __name__)
+    app.command(name)(with_common_options(module.command, warns=hasattr(module, "warn_of")))

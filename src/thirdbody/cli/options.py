@@ -13,7 +13,7 @@ import typer
 
 from ..errors import InvalidValue
 from ..quantities.installed import offers
-from .streams import remark, warn
+from .streams import SHOWS_ALL, remark, warn
 
 if TYPE_CHECKING:
     from ..study import Study
@@ -30,7 +30,7 @@ __all__ = [
     "metres",
     "not_a_folder",
     "read_study",
-    "with_own_code",
+    "with_common_options",
 ]
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")]
@@ -63,6 +63,11 @@ OwnCode = Annotated[
 ]
 
 
+Verbose = Annotated[
+    bool, typer.Option("--verbose", help="Show every warning, not only the three that matter most.")
+]
+
+
 def load_own_code(files: Iterable[Path] | None) -> None:
     """Laws and outputs of one's own: of installed packages, then of these files."""
     # asked by name first: loading takes a while, and most have none
@@ -74,19 +79,25 @@ def load_own_code(files: Iterable[Path] | None) -> None:
             load_file(file)
 
 
-def with_own_code(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The command with an option ``--import``, whose files are loaded before anything is read."""
+def with_common_options(command: Callable[..., Any], *, warns: bool) -> Callable[..., Any]:
+    """The command with the option ``--import`` and, where its answer ``warns``, ``--verbose``.
 
-    def run(*, own_code: list[Path] | None = None, **arguments: Any) -> Any:
+    The files of ``--import`` are loaded before anything is read.
+    """
+
+    def run(*, own_code: list[Path] | None = None, verbose: bool = False, **arguments: Any) -> Any:
+        SHOWS_ALL.set(verbose)
         load_own_code(own_code)
         return command(**arguments)
 
     run.__name__, run.__doc__ = command.__name__, command.__doc__
     signature = inspect.signature(command, eval_str=True)
-    added = inspect.Parameter(
-        "own_code", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=OwnCode
-    )
-    whole = signature.replace(parameters=[*signature.parameters.values(), added])
+    common = {"own_code": (None, OwnCode)} | ({"verbose": (False, Verbose)} if warns else {})
+    added = [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind)
+        for name, (default, kind) in common.items()
+    ]
+    whole = signature.replace(parameters=[*signature.parameters.values(), *added])
     run.__signature__ = whole  # type: ignore[attr-defined]
     run.__annotations__ = {name: each.annotation for name, each in whole.parameters.items()}
     return run

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 from typing import TYPE_CHECKING, Any
@@ -14,7 +13,7 @@ from .streams import LEAST
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["ALL", "MOST_ROWS", "finite", "some", "terminal", "usual"]
+__all__ = ["ALL", "MOST_ROWS", "some", "terminal", "usual"]
 
 MOST_ROWS = 20
 """Rows of a table that a terminal shows."""
@@ -48,12 +47,3 @@ def usual(value: Any, unit: str) -> str:
     if isinstance(value, float):
         return value_of(value, unit or "1", WHOLE)
     return say(value)
-
-
-def finite(value: Any) -> Any:
-    """Plain data with None for numbers that are not finite."""
-    if isinstance(value, dict):
-        return {key: finite(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value

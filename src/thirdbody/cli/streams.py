@@ -18,13 +18,15 @@ import sys
 import textwrap
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import typer
 from typer.core import TyperGroup
 
-from ..errors import InvalidValue, NoEquilibrium, NoTransition
+from ..errors import InvalidValue, NoEquilibrium, NoTransition, ranked
+from ..quantities.say import plural
 from ..quantities.study_words import in_study_words
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
@@ -36,11 +38,16 @@ __all__ = [
     "open_closed_streams",
     "refuse_full_output",
     "warn",
+    "warn_of",
     "without_output",
     "write_figure",
 ]
 
 BAD_INPUT, NO_ANSWER, BROKEN_PIPE = 2, 3, 141
+MOST_SHOWN = 3
+"""Notes that are shown where not all are asked for."""
+SHOWS_ALL: ContextVar[bool] = ContextVar("shows_all", default=False)
+"""Whether a command shows every note."""
 LEAST = 40
 """Width that messages are wrapped to at least."""
 
@@ -122,6 +129,16 @@ def warn(message: Warning | str, *_: Any, **__: Any) -> None:
     """A warning: one line of a pipe or file, as many lines of a terminal as it takes."""
     sentence = in_study_words(" ".join(str(message).split()))
     print(_wrap_line(f"warning: {sentence}"), file=sys.stderr)
+
+
+def warn_of(notes: Iterable[str]) -> None:
+    """What an answer leaves open: what matters most to it, and how much more there is."""
+    worst = ranked(notes)
+    shown = worst if SHOWS_ALL.get() else worst[:MOST_SHOWN]
+    for note in shown:
+        warn(note)
+    if left := len(worst) - len(shown):
+        remark(f"{plural(left, 'more warning')} of less effect on the answer; --verbose shows all")
 
 
 def _wrap_line(line: str) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..errors import code_of
 from ..quantities.say import number
 from .output import AbstractOutput
 
@@ -29,8 +29,6 @@ __all__ = ["Solved", "Solver"]
 
 AT_ONCE = 4096
 """States whose spots are laid out together."""
-NUMBERS = re.compile(r"\d+(\.\d+)?(?= %)|\d+\.\d+(e[+-]\d+)?|\d+e[+-]\d+")
-"""In a warning: of several that differ in these alone, that of the smallest d is told."""
 
 
 class Solver(NamedTuple):
@@ -297,7 +295,7 @@ def evaluate(
             for name, value in found.items():
                 values[name][part] = value
             for note in said:
-                notes.setdefault(NUMBERS.sub("", note), note)
+                notes.setdefault(code_of(note), note)
         for population, own in zip(contact.populations, parts, strict=False):
             mine = [spots for spots in particles if spots.population is population]
             alone = replace(state, asperities=[], particles=mine, counted=None)
@@ -307,5 +305,5 @@ def evaluate(
                 for name, value in found.items():
                     own.setdefault(name, np.full(len(columns["d"]), np.nan))[part] = value
         for note in _about_few(state):
-            notes.setdefault(NUMBERS.sub("", note), note)
+            notes.setdefault(code_of(note), note)
     return values, list(notes.values())

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Note
 from ..laws.particle.deep import TABLE_BEGINS, DeepSide
 from ..laws.particle.tension import tension
 from ..numerics.roots import bracketed_root
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
 __all__ = ["about_pressed", "buried", "most_buried"]
 
+OTHER_FRICTION = (
+    "solve again with particle_law.friction_factor = 0.05 and 1 to see what the friction does"
+)
 WIDE = 0.2
 """Contact radius over that of a squashed particle from which it presses less than the law says;
 Chaudhri, Hutchings, Makin 1984, doi:10.1080/01418618408236551 (abstract seen)."""
@@ -164,20 +167,22 @@ def _about_computed(contact: Contact, d: Array) -> list[str]:
                 collars += float(part.load_in_gaps(d, touch)[0])
     if total <= 0 or min(far / total, 1.0) <= TOLD:
         return []
-    text = (
+    what = (
         f"up to {percent(min(far / total, 1.0), digits=2)} of the particles' load is on particles "
         f"squeezed by more than {TABLE_BEGINS:g} of their radius a side: their law is held to a "
         "computation there within ±10 % (friction of the grain's faces, smooth to rough: "
-        f"{_signed(less)} … {_signed(more)} %), to no measurement; solve again with "
-        "particle_law.friction_factor = 0.05 and 1 to see what the friction does"
+        f"{_signed(less)} … {_signed(more)} %), to no measurement"
     )
+    effect = max(0.1, -less, more)
+    out: list[str] = [Note(what, code="squeezed", effect=effect, action=OTHER_FRICTION)]
     if min(collars / total, 1.0) > TOLD:
-        text += (
-            f". On up to {percent(min(collars / total, 1.0), digits=2)} the collars that both "
-            "surfaces push up around a grain may touch: what they carry is not counted, and "
-            "the particles' part of the load is too small there; fewer or smaller grains avoid it"
+        what = (
+            f"on up to {percent(min(collars / total, 1.0), digits=2)} of the particles' load the "
+            "collars that both surfaces push up around a grain may touch: what they carry is not "
+            "counted, and the particles' part of the load is too small there"
         )
-    return [text]
+        out.append(Note(what, code="collars", action="fewer or smaller grains avoid it"))
+    return out
 
 
 @lru_cache(maxsize=512)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..errors import Note
 from ..laws.base import AbstractParticleLaw, SeatedLaw
 from ..laws.field.formulas import hardness_ratio
 from ..quantities.say import percent
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-__all__ = ["about_area", "chi_of", "crowded", "crowded_places"]
+__all__ = ["AREA", "about_area", "chi_of", "crowded", "crowded_places"]
 
 CLOSE = 0.05
 """Real area above which summits grow together that this model counts one by one; the numbers are
@@ -30,6 +31,12 @@ HARD, ELASTIC = 0.25, 2.0
 cancelling, and above which pressed surfaces were elastic."""
 CLOSE_HARD = 0.005
 """Real area from which that was seen: the smallest that was pressed."""
+
+
+AREA = "area"
+"""What the codes of notes on the real area begin with."""
+FIELD = 'the asperity law "field" was within 3 % there'
+POINTS = "explicit.solve (thirdbody explicit) presses it point by point"
 
 
 def chi_of(contact: Contact) -> float:
@@ -113,46 +120,52 @@ def crowded_places(contact: Contact, A_t: Array, load: Array) -> tuple[float, st
     return share, f"{Status.CROWDED.sentence}; so it is where {percent(share)} of the load is"
 
 
-def about_area(contact: Contact, most: float, chi: Sequence[float] = ()) -> list[str]:
+def about_area(contact: Contact, most: float, chi: Sequence[float] = ()) -> list[Note]:
     """What states whose real area reaches this leave out; ``chi`` of contacts that differ."""
-    out: list[str] = []
+    out: list[Note] = []
     if not _counts_summits(contact):
         if most > MOST_AREA:
-            out.append(
+            what = (
                 f"A_t reaches {most:.3g}: the law of one field was held against surfaces pressed "
                 f"point by point up to {MOST_AREA:g} only"
             )
+            out.append(Note(what, code=AREA, action=POINTS))
         return out
     if most > 0.2:
-        out.append(
+        what = (
             f"A_t reaches {most:.3g}: above 0.2 neighbouring contacts interact, "
             "which this model neglects"
         )
+        out.append(Note(what, code=f"{AREA}.close", action=POINTS))
     if not any(_lies_anywhere(contact.law_of(p)) for p in contact.populations):
         return out
     given = sorted(chi) or [chi_of(contact)]
     hard = [one for one in given if HARD < one < ELASTIC]
     if given[0] <= HARD and most > CLOSE:
-        out.append(
+        what = (
             f"A_t reaches {most:.3g}: pressed point by point, surfaces with more than "
             f"{CLOSE:g} were 0.04 to 0.65 sigma further apart than this model says, and their "
             "particles carried 7 to 17 % less"
         )
+        out.append(Note(what, code=f"{AREA}.plastic", effect=0.17, action=POINTS))
     if hard and most > CLOSE_HARD:
         low, high = f"{hard[0]:.2g}", f"{hard[-1]:.2g}"
         where = low if low == high else f"{low} to {high}"
-        out.append(
+        what = (
             f"A_t reaches {most:.3g} at chi = H/(E* g) = {where} (g: RMS slope): pressed point by "
             f"point, from {CLOSE_HARD:g} on particles carried 3 to 4 % less than this model says "
             "at chi = 0.31 and 15 to 26 % less at 0.41, and surfaces were 0.06 to 0.26 and 0.18 to "
-            '0.91 sigma further apart; the asperity law "field" was within 3 % there'
+            "0.91 sigma further apart"
         )
+        effect, action = 0.04 if hard[-1] <= 0.31 else 0.26, FIELD
+        out.append(Note(what, code=f"{AREA}.hard", effect=effect, action=action))
     if given[-1] >= ELASTIC and most > CLOSE:
-        out.append(
+        what = (
             f"A_t reaches {most:.3g} at chi = H/(E* g) = {given[-1]:.2g} (g: RMS slope): elastic "
             "surfaces pressed point by point had 14 to 47 % more area than this model says and "
             "were 0.04 to 0.79 sigma further apart; what their particles carry is not known"
         )
+        out.append(Note(what, code=f"{AREA}.elastic", effect=0.47, action=POINTS))
     return out
 
 

@@ -8,18 +8,24 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..contact.interface import Interface
+from ..errors import Note
 from ..laws.particle.breakage import about_strength
+from .crowding import POINTS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
-__all__ = ["about_elastic", "about_particles"]
+__all__ = ["BEYOND", "SHADOW", "about_elastic", "about_particles"]
 
 
 BROAD = 8.0
 """Nayak bandwidth above which elastic asperities are known to have too little area."""
+BEYOND = "beyond"
+"""Code of the note on asperities beyond the range of their law."""
+SHADOW = Note("particles shadow the whole area: the area correction was cut at zero", code="shadow")
+FEWER = "check the unit of areal_density and of the sizes"
 
 
 def about_elastic(
@@ -36,11 +42,12 @@ def about_elastic(
     _, elastic, *others = bound.asperities.fields(np.array([d[count].max()]))[0]
     if not elastic > sum(others):
         return []
-    return [
+    what = (
         f"alpha = {alpha:.3g}: elastic asperities at alpha = 12 have 30 to 38 % less area at equal "
         "load than boundary elements, at alpha = 670 less than half; where they yield (A = F/H) "
         "this does not matter"
-    ]
+    )
+    return [Note(what, code="alpha", effect=0.38, action=POINTS)]
 
 
 def about_particles(contact: Contact) -> list[str]:
@@ -51,8 +58,6 @@ def about_particles(contact: Contact) -> list[str]:
         out += about_strength(each, contact.surfaces)
     covered = sum(each.coverage for each in contact.populations)
     if covered >= 0.3:
-        out.append(
-            f"particles would cover {covered:.2g} of the nominal area: above 0.3 they touch each "
-            "other"
-        )
+        what = f"particles would cover {covered:.2g} of the nominal area: above 0.3 they touch "
+        out.append(Note(f"{what}each other", code="coverage", action=FEWER))
     return out

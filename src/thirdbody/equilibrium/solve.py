@@ -20,13 +20,13 @@ from ..contact.evaluation import Solver, evaluate
 from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
-from ..errors import InvalidValue, NoEquilibrium, NotCompiled, tell_of_range
+from ..errors import InvalidValue, NoEquilibrium, NotCompiled, Note, tell_of_range
 from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
 from .columns import Equilibrium, PopulationShare, as_columns
 from .compiled import batch as engine
 from .crowding import about_area, crowded
-from .doubts import about_elastic, about_particles
+from .doubts import BEYOND, SHADOW, about_elastic, about_particles
 from .load_scan import RESIDUAL, explained, load_scan
 from .status import DEEPEST, Status, Statuses
 
@@ -534,31 +534,34 @@ def _branches(bound: Interface, target: Array | None, d: Array, branch: str) -> 
     loads = "the load" if len(d) == 1 else f"{np.count_nonzero(several)} of the {len(d)} loads"
     most = f"{count.max()}" if len(d) == 1 else f"up to {count.max()}"
     side = "largest" if branch == "loading" else "smallest"
-    return [
+    what = (
         f"{most} separations carry {loads}, as the load does not fall everywhere with d: this is "
-        f"the {branch} branch, the {side} of them; roots gives all"
-    ]
+        f"the {branch} branch, the {side} of them"
+    )
+    return [Note(what, code="branches", effect=1.0, action="roots gives all")]
 
 
 def _warnings(
     contact: Contact, bound: Interface, full: dict[str, Array], d: Array
 ) -> tuple[str, ...]:
     """One sentence for each way in which these states leave the model's validity."""
-    out = about_area(contact, float(np.nanmax(full["A_t"], initial=0.0)))
+    out: list[str] = [*about_area(contact, float(np.nanmax(full["A_t"], initial=0.0)))]
     height = (d - bound.asperities.centre) / bound.asperities.sigma_s
     if not bound.one_field and np.any(height < DEEPEST):
-        out.append(
+        what = (
             f"the separation d goes down to {np.nanmin(height):.3g} sigma_s: below {DEEPEST:g} "
             "every asperity is in contact and the model is invalid"
         )
+        out.append(Note(what, code="deep", effect=1.0, action="check the load and its unit"))
     if np.any(np.isfinite(d)):
         tips = contact.asperity_law
         share = bound.asperities.share_beyond(float(np.nanmin(d)))
         if share > 0.1:
-            out.append(
+            what = (
                 f"{tips.name}: at the highest load {percent(share, digits=2)} of the asperities' "
                 f"load is on those {tips.beyond}"
             )
+            out.append(Note(what, code=BEYOND))
     out += about_elastic(contact, bound, full, d)
     scaled = [each.name for each in contact.outputs if each.one_by_one(contact)]
     if bound.one_field and scaled:
@@ -570,17 +573,19 @@ def _warnings(
     if bound.particles is not None:
         out += about_particles(contact)
         if bound.particles.in_one_layer >= 0.3:
-            out.append(
+            what = (
                 f"fragments in one layer would cover {bound.particles.in_one_layer:.2g} of the "
                 "nominal area where the gap closes"
             )
+            out.append(Note(what, code="fragments"))
         if bound.one_field and 0.3 < np.nanmax(full["shadow"], initial=0.0) < 1:
-            out.append(
+            what = (
                 f"particles lie over {np.nanmax(full['shadow']):.2g} of the nominal area: the "
                 "ground that they press down is meant for 0.3 at most"
             )
+            out.append(Note(what, code="ground"))
         if np.any(full["shadow"] >= 1):
-            out.append("particles shadow the whole area: the area correction was cut at zero")
+            out.append(SHADOW)
         printed = any(isinstance(each, PrintedIntegrals) for each in bound.populations)
         if printed and np.any(d < 0):
             out.append("d < 0: the paper's particle integrals have no meaning there")

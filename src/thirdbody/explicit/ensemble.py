@@ -32,6 +32,7 @@ from ..populations.measured.synthetic import from_moments
 from ..populations.measured.topography import Topography
 from ..quantities.carried import takes_units
 from ..quantities.files import make_folder, write_text
+from ..quantities.plain_data import plain_data
 from ..quantities.progress import reporting
 from ..quantities.records import read_record, sealed
 from ..quantities.say import number, percent, plural
@@ -568,13 +569,7 @@ def _file(folder: Path, i: int) -> Path:
 
 # -------------------------------------------------------------------------- what is told
 def _plain(data: xarray.Dataset) -> dict[str, list[float | None]]:
-    names = [*data.coords, *data.data_vars]
-    return {
-        str(name): [
-            value if math.isfinite(value) else None for value in np.asarray(data[name]).tolist()
-        ]
-        for name in names
-    }
+    return {str(name): plain_data(data[name].values) for name in (*data.coords, *data.data_vars)}
 
 
 WHY = {

@@ -17,7 +17,7 @@ from dataclasses import MISSING, field
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from ..errors import InvalidValue, NotCompiled, Problem, tell_of_range
+from ..errors import InvalidValue, NotCompiled, Note, Problem, tell_of_range
 from .arguments import FAILURES, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
@@ -176,10 +176,8 @@ def slips_are_told() -> Iterator[None]:
 def warn_of_slip(where: str, about: Mapping[str, Any], number: float) -> None:
     """Warn of a number that looks like a forgotten unit."""
     if not _told.get() and (meant := unit_meant(about, number)):
-        tell_of_range(
-            f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI; was "
-            f"{number:g} {meant} meant?"
-        )
+        what = f"{where} = {number:g} is taken as {number:g} {about['unit']}: numbers are in SI"
+        tell_of_range(Note(what, effect=math.inf, action=f"was {number:g} {meant} meant?"))
 
 
 def warn_of_slips(value: Value, *, prefix: str = "", before: Value | None = None) -> None:

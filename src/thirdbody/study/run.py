@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from typing import Any
 
@@ -13,7 +12,8 @@ from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.status import CriticalStatus
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
-from ..errors import InvalidValue, RangeWarning, ThirdBodyError
+from ..errors import InvalidValue, RangeWarning, ThirdBodyError, note_of
+from ..quantities.plain_data import plain_data
 from ..systems.bodies import Pressed
 from ..systems.film_conditions import FilmConditions
 from ..systems.film_formulas import full_range
@@ -50,9 +50,9 @@ def run_study(study: Study) -> dict[str, Any]:
         state = study.solve()
         critical = _transitions(study.contact)
         forced = [] if study.body is None else pressed(study.body, study.forces, study.contact)  # type: ignore[arg-type]
-    sentences = [*study.notes, *state.warnings, *(str(item.message) for item in heard)]
+    sentences = [*study.notes, *state.warnings, *(note_of(item.message) for item in heard)]
     sentences += [sentence for each in forced for sentence in each.warnings]
-    states = {name: _plain_numbers(column) for name, column in state.columns().items()}
+    states = {name: plain_data(np.atleast_1d(column)) for name, column in state.columns().items()}
     states["mode"] = [mode or None for mode in states["mode"]]
     return {
         "title": study.title,
@@ -130,8 +130,8 @@ def run_film(study: Study) -> dict[str, Any]:
         warnings.simplefilter("always", RangeWarning)
         curve = given.stribeck_columns(contact)
         changes = given.regime_speeds(contact)
-    states = {name: _plain_numbers(column) for name, column in curve.items()}
-    sentences = [*study.notes, *(str(item.message) for item in heard)]
+    states = {name: plain_data(np.atleast_1d(column)) for name, column in curve.items()}
+    sentences = [*study.notes, *(note_of(item.message) for item in heard)]
     return {
         "title": study.title,
         "version": __version__,
@@ -159,7 +159,9 @@ def passing(study: Study, h: Any) -> list[dict[str, Any]]:
     return [
         {
             "name": each.name or each.material.name or f"particles {number + 1}",
-            "share": _plain_numbers(each.diameter.partial_moment(0, 0.0, np.asarray(h, float))),
+            "share": plain_data(
+                np.atleast_1d(each.diameter.partial_moment(0, 0.0, np.asarray(h, float)))
+            ),
         }
         for number, each in enumerate(study.contact.populations)
     ]
@@ -172,7 +174,7 @@ def _particles_brought(study: Study, h_T: Any) -> dict[str, Any] | None:
     if dirt is None:
         return None
     return {
-        "largest": _plain_numbers(dirt.largest(h_T, R=R)),
+        "largest": plain_data(np.atleast_1d(dirt.largest(h_T, R=R))),
         "areal_density": [
             [dirt.areal_density(each.diameter, h=float(h), R=R) for h in h_T]
             for each in study.contact.populations
@@ -197,8 +199,8 @@ def _populations(state: Equilibrium) -> list[dict[str, Any]]:
     numbers = ("F_sa_star", "A_sa", "load_share", "area_share")
     return [
         {"name": part.name}
-        | {name: _plain_numbers(getattr(part, name)) for name in numbers}
-        | {name: _plain_numbers(values) for name, values in part.outputs.items()}
+        | {name: plain_data(np.atleast_1d(getattr(part, name))) for name in numbers}
+        | {name: plain_data(np.atleast_1d(values)) for name, values in part.outputs.items()}
         for part in state.populations
     ]
 
@@ -209,11 +211,3 @@ def _transitions(contact: Contact) -> Transitions:
     except ThirdBodyError as error:
         none = Critical(value=None, status=f"{CriticalStatus.NONE}: {str(error).splitlines()[0]}")
         return Transitions(none, none, TurningPoint(none, none, none))
-
-
-def _plain_numbers(column: Any) -> list[Any]:
-    """A column as plain numbers, None for those that are not finite."""
-    items = (
-        item.item() if isinstance(item, np.generic) else item for item in np.atleast_1d(column)
-    )
-    return [None if isinstance(x, float) and not math.isfinite(x) else x for x in items]

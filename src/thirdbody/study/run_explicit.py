@@ -29,6 +29,7 @@ from ..explicit.ensemble import (
 )
 from ..explicit.solve import solve
 from ..explicit.state import COLUMNS, ExplicitState
+from ..quantities.plain_data import plain_data
 from ..quantities.records import MARK, claim_folder, read_json
 from ..quantities.value import Value
 from ..version import __version__
@@ -233,8 +234,8 @@ def _run_measured(
     beside = statistical(model, F_star=loads)
     table: dict[str, list[float | None]] = {"F_star": loads.tolist()}
     for name in COMPARED:
-        table[f"{name}_raw"] = _finite(getattr(state, name))
-        table[f"{name}_statistical"] = _finite(getattr(beside, name))
+        table[f"{name}_raw"] = plain_data(np.atleast_1d(getattr(state, name)))
+        table[f"{name}_statistical"] = plain_data(np.atleast_1d(getattr(beside, name)))
     columns = {name: values.tolist() for name, values in state.columns().items()}
     data = {
         "surfaces": 1,
@@ -265,7 +266,3 @@ def _of_ensemble(found: Ensemble, state: ExplicitState) -> ExplicitResult:
 
 def _units() -> dict[str, str]:
     return {"surface": ""} | {name: told["unit"] for name, told in COLUMNS.items()}
-
-
-def _finite(values: Any) -> list[float | None]:
-    return [v if math.isfinite(v) else None for v in np.atleast_1d(values).tolist()]

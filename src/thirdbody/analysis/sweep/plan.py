@@ -7,7 +7,6 @@ import hashlib
 import itertools
 import json
 import math
-import re
 import warnings
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -20,13 +19,13 @@ from numpy.typing import NDArray
 from ...contact.citations import cite
 from ...contact.contact import Contact
 from ...equilibrium.columns import labels, labels_of
-from ...equilibrium.crowding import about_area, chi_of
-from ...equilibrium.doubts import about_particles
+from ...equilibrium.crowding import AREA, about_area, chi_of
+from ...equilibrium.doubts import SHADOW, about_particles
 from ...equilibrium.solve import solve
 from ...equilibrium.states import state_columns, varied
 from ...equilibrium.status import WORDS as STATUS_WORDS
 from ...equilibrium.status import Status
-from ...errors import RangeWarning
+from ...errors import RangeWarning, code_of
 from ...numerics.sampling import DESIGNS, Span
 from ...quantities.sharing import need_version
 from ...quantities.value import Value
@@ -346,7 +345,7 @@ class Plan:
             if hardest is None or sign * load > hardest[0]:
                 hardest = sign * load, load, contact
             for sentence in about_particles(contact):
-                found.setdefault(_wording(sentence), sentence)
+                found.setdefault(code_of(sentence), sentence)
         if hardest is not None:
             _, load, contact = hardest
             given: dict[str, Any] = {self.load: np.array([load])}
@@ -354,7 +353,7 @@ class Plan:
                 warnings.simplefilter("ignore", RangeWarning)
                 state = solve(contact, **given)
             for sentence in state.warnings:
-                found.setdefault(_wording(sentence), sentence)
+                found.setdefault(code_of(sentence), sentence)
         return list(found.values())
 
     def looked_at(self) -> Iterator[tuple[float, Contact]]:
@@ -375,18 +374,17 @@ class Plan:
             yield load, varied(self.contact, inputs)
 
 
-def _wording(sentence: str) -> str:
-    """A sentence without its numbers, to say it once."""
-    return re.sub(r"[\d.e+-]+", "", sentence)
+OF_STATES = (AREA, SHADOW.code)
+"""Codes of notes that a finished run makes of all of its states."""
 
 
 def all_notes(plan: Plan, notes: list[str], summary: Mapping[str, Any]) -> list[str]:
     """The sentences of a finished run: about its inputs, and about its states."""
-    out = [note for note in notes if not note.startswith(("A_t reaches", "particles shadow"))]
+    out = [note for note in notes if code_of(note).partition(".")[0] not in OF_STATES]
     chi = [chi_of(contact) for _, contact in plan.looked_at()]
     out += about_area(plan.contact, summary["A_t"], chi)
     if summary["shadow"] >= 1:
-        out.append("particles shadow the whole area: the area correction was cut at zero")
+        out.append(SHADOW)
     return out
 
 

@@ -31,6 +31,7 @@ from ...errors import InvalidValue, tell_of_range
 from ...quantities import notebook
 from ...quantities.arguments import need_place
 from ...quantities.carried import takes_units
+from ...quantities.plain_data import plain_data
 from ...quantities.progress import watched
 from ...quantities.say import percent
 from .inputs import Drawn, Uncertain, drawn_inputs
@@ -121,7 +122,7 @@ class Propagation:
         out = {item.name: getattr(self, item.name) for item in dataclasses.fields(self)}
         del out["contact"], out["_critical_at_ends"]
         out["inputs"] = {name: known.to_dict() for name, known in self.inputs.items()}
-        return plain(out)
+        return plain_data(out)
 
     def to_dataset(self) -> xarray.Dataset:
         """Bands and errors as labelled data, with units, version and citations."""
@@ -354,16 +355,6 @@ class Propagation:
     def _problem(self) -> Drawn:
         one = np.asarray(self.loads).flat[0]
         return drawn_inputs(self.contact, self.inputs, self.load, one)
-
-
-def plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: plain(part) for name, part in value.items()}
-    if isinstance(value, (np.ndarray, np.generic)):
-        return plain(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return [plain(part) for part in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def swing(low: float, high: float) -> float:

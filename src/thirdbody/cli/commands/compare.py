@@ -15,7 +15,7 @@ from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table
 from ..options import Force, ParquetFile, Settings, StudyFile, XlsxFile, not_a_folder, read_study
 from ..show import terminal
-from ..streams import TableFiles, warn
+from ..streams import TableFiles, warn, warn_of
 
 if TYPE_CHECKING:
     from ...analysis.compare import Comparison
@@ -80,8 +80,7 @@ def command(
         refuse_strangers(out, "compare.csv", "compare.png", "compare.svg")
     with heartbeat("compare"):
         found = compared(asked.contact, **_equal_loads(asked), laws=_words(names))
-    for sentence in filter(None, found.attrs["warnings"].splitlines()):
-        warn(sentence)
+    warn_of(filter(None, found.attrs["warnings"].splitlines()))
     reasons = found.columns["status"]
     of_laws = [law != Persson.name for law in found.laws]
     if not (reasons[of_laws] == "ok").any():

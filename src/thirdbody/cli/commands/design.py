@@ -15,7 +15,7 @@ from ...quantities.say import concentration_of, number, percent, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
 from ..show import MOST_ROWS, some, terminal
-from ..streams import TableFiles, figure_format, warn, write_figure
+from ..streams import TableFiles, figure_format, warn_of, write_figure
 
 if TYPE_CHECKING:
     from ...analysis.design.design import Best
@@ -51,8 +51,7 @@ def command(
     bar = sys.stderr.isatty()
     with nullcontext() if bar else heartbeat("design"):
         best = design_study(asked, progress=bar)
-    for sentence in best.warnings:
-        warn(sentence)
+    warn_of(best.warnings)
     columns = {name: each.values.tolist() for name, each in best.of_points.items()}
     files.write(
         columns, {name: each.about.get("units", "") for name, each in best.of_points.items()}

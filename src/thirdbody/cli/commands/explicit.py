@@ -11,12 +11,13 @@ from typing import Annotated, Any
 import typer
 
 from ...errors import InvalidValue
+from ...quantities.plain_data import plain_data
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, signed, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, Settings, StudyFile, not_a_folder, read_study
-from ..show import finite, terminal
-from ..streams import NO_ANSWER, TableFiles, warn, write_figure
+from ..show import terminal
+from ..streams import NO_ANSWER, TableFiles, warn, warn_of, write_figure
 
 __all__ = ["command"]
 
@@ -81,12 +82,11 @@ def command(
         if out is not None:
             release_folder(out)
         raise
-    for sentence in result.data["warnings"][len(asked.notes) :]:
-        warn(sentence)
+    warn_of(result.data["warnings"][len(asked.notes) :])
     if out is not None:
         _write(out, result)
     if as_json:
-        print(json.dumps(finite(result.data), indent=1, allow_nan=False))
+        print(json.dumps(plain_data(result.data), indent=1, allow_nan=False))
     else:
         _show(result.data)
     if not result.converged:
@@ -111,7 +111,7 @@ def _write(out: Path, result: Any) -> None:
     TableFiles(csv=out / "states.csv").write(result.columns, result.units)
     result.state.to_netcdf(out / "maps.nc")
     write_text(
-        out / "explicit.json", json.dumps(finite(result.data), indent=1, allow_nan=False) + "\n"
+        out / "explicit.json", json.dumps(plain_data(result.data), indent=1, allow_nan=False) + "\n"
     )
     for name in ("states.csv", "maps.nc", "explicit.json"):
         print(f"written: {out / name}", file=sys.stderr)

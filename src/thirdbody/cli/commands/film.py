@@ -14,7 +14,7 @@ from ...quantities.say import number, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import TableFiles, figure_format, warn, write_figure
+from ..streams import TableFiles, figure_format, warn_of, write_figure
 
 __all__ = ["columns_of", "command"]
 
@@ -56,8 +56,7 @@ def command(
         figure_format(figure)  # refused before long work
     with heartbeat("film"):
         result = run_film(asked)
-    for sentence in result["warnings"][len(asked.notes) :]:
-        warn(sentence)
+    warn_of(result["warnings"][len(asked.notes) :])
     drawn = None
     if figure is not None:
         from ...views.plot.film import stribeck

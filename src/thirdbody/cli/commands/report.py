@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ..options import Force, Settings, StudyFile, read_study
-from ..streams import warn
+from ..streams import warn_of
 
 __all__ = ["command"]
 
@@ -42,7 +42,6 @@ def command(
         found = report(asked, file=file, progress=progress)
         progress(PARTS[-1])
         page = found.html()
-    for sentence in found.result["warnings"][len(asked.notes) :]:
-        warn(sentence)
+    warn_of(found.result["warnings"][len(asked.notes) :])
     write_text(target, page)
     print(f"written: {target}", file=sys.stderr)

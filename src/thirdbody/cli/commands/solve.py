@@ -30,7 +30,7 @@ from ...quantities.say import number, percent, unit_of, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, Force, ParquetFile, Settings, StudyFile, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import TableFiles, warn
+from ..streams import TableFiles, warn_of
 
 __all__ = ["command", "summary"]
 
@@ -78,8 +78,7 @@ def command(
     files.need(force=force)
     with heartbeat("solve"):
         result = run_study(asked)
-    for sentence in result["warnings"][len(asked.notes) :]:
-        warn(sentence)
+    warn_of(result["warnings"][len(asked.notes) :])
     statuses = result["states"]["status"]
     solved = statuses.count("ok")
     if as_json:

@@ -10,11 +10,12 @@ from typing import Annotated, Any
 import typer
 
 from ...errors import InvalidValue
+from ...quantities.plain_data import plain_data
 from ...quantities.say import number, signed, value_of
 from ...quantities.tables import Table
 from ..options import AsJson, Force, ParquetFile, XlsxFile, metres, not_a_folder
-from ..show import ALL, finite, terminal
-from ..streams import TableFiles, warn
+from ..show import ALL, terminal
+from ..streams import TableFiles, warn_of
 
 __all__ = ["command"]
 
@@ -87,12 +88,11 @@ def command(
         refuse_strangers(out, "surface.json", "surface.png", "surface.svg")
     found = from_topography(file, detrend=detrend, unit=unit, channel=channel, **lengths)
     result = found.to_dict()
-    for sentence in found.warnings:
-        warn(sentence)
-    files.write(finite(result["curve"]), result["units"])
+    warn_of(found.warnings)
+    files.write(plain_data(result["curve"]), result["units"])
     written = files.paths + ([] if out is None else _write_surface(out, found, result, force))
     if as_json:
-        print(json.dumps(finite(result), indent=1, allow_nan=False))
+        print(json.dumps(plain_data(result), indent=1, allow_nan=False))
     else:
         _show_surface(found, result)
     for path in written:
@@ -125,7 +125,7 @@ def _write_surface(folder: Path, found: Any, result: dict[str, Any], force: bool
     from ...quantities.records import refuse_replaced
     from ...views.plot.topography import surface as draw
 
-    text = json.dumps(finite(result), indent=1, allow_nan=False) + "\n"
+    text = json.dumps(plain_data(result), indent=1, allow_nan=False) + "\n"
     if not force:
         refuse_replaced(folder, {"surface.json": text, "surface.png": None, "surface.svg": None})
     make_folder(folder)
@@ -146,7 +146,7 @@ def _show_surface(found: Any, result: dict[str, Any]) -> None:
         console.print(line)
     console.print()
     console.print(_answer(found, result["cutoff"]["used"]))
-    console.print(_course(found, finite(result["curve"])))
+    console.print(_course(found, plain_data(result["curve"])))
     console.print(
         f"skewness {number(result['skewness'], 3)}, kurtosis {number(result['kurtosis'], 3)}, "
         "mean square slopes "

@@ -11,7 +11,7 @@ import typer
 from ...errors import InvalidValue, NoEquilibrium
 from ..interrupt import Interrupted
 from ..options import Settings, tell_notes
-from ..streams import warn
+from ..streams import warn_of
 
 if TYPE_CHECKING:
     from ...analysis.sweep.plan import Plan
@@ -89,8 +89,7 @@ def _check(folder: Path, *, alone: bool) -> None:
     if not alone:
         raise InvalidValue("--check DIR stands alone, without STUDY.toml and --out")
     found, *rest = check_folder(folder, progress=True).splitlines()
-    for sentence in rest:
-        warn(sentence)
+    warn_of(rest)
     print(found)
 
 
@@ -125,8 +124,7 @@ def _tell(folder: Folder) -> None:
     summary = folder.finished
     assert summary is not None
     with folder.open() as data:
-        for sentence in filter(None, data.attrs["warnings"].splitlines()):
-            warn(sentence)
+        warn_of(filter(None, data.attrs["warnings"].splitlines()))
     unsolved = f", {summary['unsolved']:,} without equilibrium" if summary["unsolved"] else ""
     print(f"{summary['states']:,} states in {folder.data}{unsolved}", file=sys.stderr)
     if summary["unsolved"] == summary["states"]:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING
 
+from ...errors import Note
 from ...populations.shape import Angular
 from ...quantities.value import choice, quantity
 from ..asperity.hermite import Hermite
@@ -242,11 +243,12 @@ class _OfAngular(Series):
         least = min((s.pressure for s in one.sides if isinstance(s, FacedSide)), default=1.0)
         if least < BLUNT:
             name = particles.name or particles.material.name or "the particles"
-            out.append(
+            what = (
                 f"{name}: faces at {math.degrees(self.shape.angle):.3g}° are so blunt that they "
                 f"never yield fully (their mean pressure stays at {least:.2g} H); the law of a "
                 "tip carried over to faces is some 15 % low where they stay elastic"
             )
+            out.append(Note(what, code=f"{name}.blunt", effect=0.15))
         return out
 
 

@@ -1,0 +1,26 @@
+"""Results as plain data, ready for JSON."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+__all__ = ["plain_data"]
+
+
+def plain_data(value: Any) -> Any:
+    """Numbers, texts, lists and dicts, with None for numbers that are not finite.
+
+    >>> plain_data({"A_t": np.array([0.1, np.nan]), "mode": ("p-s", None), "n": np.int64(3)})
+    {'A_t': [0.1, None], 'mode': ['p-s', None], 'n': 3}
+    """
+    if isinstance(value, Mapping):
+        return {key: plain_data(part) for key, part in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return plain_data(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [plain_data(part) for part in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
