@@ -51,10 +51,9 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 
 def pytest_sessionstart(session):
     """Compile both engines once, beside each other, before the workers start."""
-    if hasattr(session.config, "workerinput"):
-        return
-    if session.config.getoption("numprocesses", None):
-        gc.enable()  # only workers read the tests
+    if not session.config.getoption("numprocesses", None):
+        return  # one process, which compiles once what it needs
+    gc.enable()  # only workers read the tests
     import thirdbody as tb
 
     bodies = tb.MaterialPair(tb.materials["S45C"], tb.materials["100Cr6"])

@@ -353,7 +353,7 @@ def test_scripts_are_well_formed():
     assert status == 0, text
     lines = (ROOT / ".ci" / "run").read_text("utf-8")
     assert "make test" in lines
-    assert "make --keep-going check" in lines
+    assert "make --keep-going --jobs 2 check" in lines
 
 
 def test_make_knows_its_targets():

@@ -120,9 +120,6 @@ COMMANDS = [
     ["laws", "--markdown"],
     ["outputs"],
     ["materials"],
-    ["design", study("additive"), "--json", "--csv", "points.csv", "--figure", "points.svg"]
-    + ["--set", 'design.pressure=["2 MPa"]', "--set", "design.points=8"]
-    + ["--set", "design.limits=[]"],
 ]
 CHUNKS = ["--set", "sweep.chunk=3"]
 REDUCED = ["--set", "sweep.reduce={ quantiles = [0.5], mean = true }"]
@@ -159,7 +156,7 @@ def test_commands(found, seed):
     count = len(MISTAKES)
     assert [code for _, code, *_ in said] == [2] * count + [0] * (len(said) - count)
     assert min(len(wrong) for *_, wrong in said[:count]) >= 2
-    files = {"states.csv", "film.csv", "table.csv", "points.csv", "points.svg"}
+    files = {"states.csv", "film.csv", "table.csv"}
     assert {path for path in written if os.sep not in path} == files
 
 

@@ -338,6 +338,7 @@ def test_every_force_on_a_body_has_its_page():
     assert ratio == pytest.approx(10 ** (1 / 3), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_what_loads_have_in_common_is_found_once(monkeypatch):
     """Critical loads are sought once for all loads; what is said of each load is, to the last
     digit, what is said of it alone."""

@@ -110,6 +110,7 @@ def test_two_numbers_and_a_material_beat_a_grid():
         assert best.objectives["A_t"] <= np.mean(area, axis=0)[fine].min() * (1 + 1e-6)
 
 
+@pytest.mark.slow
 def test_turning_point_sizes():
     """x_a/σ of equal shares: made by an independent implementation, to its single method."""
 
@@ -280,6 +281,7 @@ def test_mistakes(changes, said):
         Limit(of="A_t")
 
 
+@pytest.mark.slow
 def test_load_on_buried_particles():
     """Against particles drawn at random: sizes, seats, and how deep each sits in either surface."""
     from thirdbody.analysis.design.search import buried
@@ -370,6 +372,7 @@ def test_the_function_keeps_its_name():
     assert tb.design is design
 
 
+@pytest.mark.usefixtures("short_search")
 def test_points_tell_units_and_the_figure_words():
     """Of sizes, concentrations, windows and several objectives; a figure shows them in its units."""
     suspension = Suspension(gap=1e-6, by="mass per volume", particle_density=2200.0)

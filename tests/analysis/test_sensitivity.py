@@ -349,6 +349,7 @@ SAND = tb.Particles(
 FEW_BREAK = ("particles.strength.m", "roughness.sigma", "surfaces.first.E+surfaces.second.E")
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize(
     ("contact", "loads", "to"),
     [

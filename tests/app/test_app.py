@@ -263,6 +263,7 @@ def test_files_are_those_of_the_command_line(suffix, tmp_path):
     assert made == (out.read_text() if suffix == "csv" else done.stdout)
 
 
+@pytest.mark.check
 def test_figures_are_written_and_deterministic(state):
     assert exports.figure_of(state.answer, "area", "png").startswith(b"\x89PNG")
     one, two = (exports.figure_of(state.answer, "shares", "svg") for _ in range(2))
@@ -681,6 +682,7 @@ def test_error_bars_of_critical_loads_and_outputs(of):
         assert found["critical"][of] == [*found["band_at"], found["nominal_at"]]
 
 
+@pytest.mark.check
 def test_error_bars_are_those_of_the_library():
     study = example() | {
         "uncertainty": {"seed": 3, "inputs": {"roughness.sigma": {"low": 9e-8, "high": 11e-8}}}

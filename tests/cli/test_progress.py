@@ -62,6 +62,7 @@ def test_a_pipe_is_told_nothing(name, tmp_path, monkeypatch):
     assert left in ([], ["written: report.html"])
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("name", ["assess", "report"])
 def test_a_terminal_sees_every_part(name, tmp_path, monkeypatch, capfd):
     """In the order of the work; the answer on standard output stays what it is."""

@@ -343,6 +343,7 @@ def test_tables_are_the_sums(name, fragments):
     assert np.max(np.abs(average(gaps) - exact) / before) < 1e-7
 
 
+@pytest.mark.spread(5)
 @pytest.mark.parametrize("seat", ["rough", "plane"])
 @pytest.mark.parametrize("name", ["uniform", "gaussian", "lognormal"])
 def test_slope_is_the_derivative(name, seat):

@@ -398,6 +398,7 @@ def test_sizes_from_zero_are_the_limit_of_small_ones(gap):
         assert value == pytest.approx(found[1][name], rel=5e-3), name
 
 
+@pytest.mark.slow
 def test_a_population_that_nothing_presses_adds_nothing():
     def case(*grains):
         return tb.Contact(
@@ -505,6 +506,7 @@ def test_formulas_that_change_at_nearly_the_same_squeeze_are_one():
     np.testing.assert_allclose(curve.first(np.array([0.01, 0.25])), [0.1, 0.5], rtol=1e-8)
 
 
+@pytest.mark.slow
 def test_the_few_embedded_are_counted_exactly():
     """By quadrature over the sizes, and the same among other loads; a few of a million."""
     from scipy import integrate, stats

@@ -110,6 +110,7 @@ def test_particles_of_two_surfaces_sit_deeper_in_the_softer():
 
 
 # ---------------------------------------------------------------------------- the interface
+@pytest.mark.slow
 def test_nothing_embeds_at_equal_hardness():
     table, off = (solved(1.0001, Dents(), deep=deep) for deep in ("table", "off"))
     assert table["embedded_1"] < 1e-3 * off["embedded_1"]  # those of squeezes beyond 1

@@ -80,6 +80,7 @@ def test_explicit_asperities(quantiles):
         assert state.outputs[f"dT_ss_p{share}"] == pytest.approx(explicit, rel=0.012)
 
 
+@pytest.mark.spread(2)
 @pytest.mark.parametrize("second_H", [5e9, 2.5e9])
 def test_explicit_particles(second_H):
     """Sizes and seats drawn at random, and every formula written out again."""

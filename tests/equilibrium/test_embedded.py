@@ -127,6 +127,7 @@ def test_random_states(seat, shape):
     balanced(got, loads, at)
 
 
+@pytest.mark.spread(4)
 @compiled
 @pytest.mark.parametrize("shape", SIZES)
 @pytest.mark.parametrize("seat", SEATS)

@@ -158,6 +158,7 @@ def test_an_interrupted_run_goes_on(tmp_path):
     assert [file.read_bytes() for file in kept] == before
 
 
+@pytest.mark.check
 def test_shared_among_threads_it_is_the_same(tmp_path):
     """Byte for byte, in a folder and out of it, stopped and resumed by others."""
 

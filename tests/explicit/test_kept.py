@@ -3,6 +3,7 @@
 import json
 import shutil
 import sys
+from itertools import product
 
 import pytest
 from damage import another_number, empty, missing, truncated
@@ -19,7 +20,7 @@ ASKED = dict(surfaces=2, F_star=[1e-3], size=64, spacing=3e-7)
 WORDS = ("--surfaces", "2", "--size", "64", "--spacing", "300 nm")
 
 
-DAMAGES = pytest.mark.parametrize("damage", [missing, empty, truncated, another_number])
+DAMAGES = [missing, empty, truncated, another_number]
 
 
 def contents(folder):
@@ -27,7 +28,7 @@ def contents(folder):
             for path in sorted(folder.rglob("*")) if path.is_file()}  # fmt: skip
 
 
-@DAMAGES
+@pytest.mark.parametrize("damage", DAMAGES)
 def test_a_damaged_surface_is_pressed_again(tmp_path, damage, recwarn):
     wanted = function(CONTACT, **ASKED, folder=tmp_path)
     before = contents(tmp_path)
@@ -66,16 +67,16 @@ def run(out):
     return CliRunner().invoke(cli.app, ["explicit", str(EXAMPLE), *WORDS, "--out", str(out)])
 
 
-@pytest.mark.spread(7)
-@DAMAGES
-@pytest.mark.parametrize(
-    "name", ["study.json", "states.csv", "maps.nc", "explicit.json", "explicit.png",
-             "surfaces/surface_000.json"],
-)  # fmt: skip
+TEXTS = ["study.json", "states.csv", "explicit.json", "surfaces/surface_000.json"]
+DAMAGED = [*product(TEXTS, DAMAGES), ("maps.nc", truncated), ("explicit.png", truncated)]
+
+
+@pytest.mark.spread(5)
+@pytest.mark.parametrize(("name", "damage"), DAMAGED)
 def test_the_command_makes_what_is_damaged_again(tmp_path, made, name, damage):
     out = tmp_path / "o"
     shutil.copytree(made, out)
-    damage(out / name) if name.endswith(("json", "csv")) else truncated(out / name)
+    damage(out / name)
     done = run(out)
     assert done.exit_code == 0, done.output
     found, wanted = contents(out), contents(made)

@@ -117,6 +117,7 @@ def test_quartz_in_hardened_steel(which):
 
 
 # ---------------------------------------------------------------------------- closed limits
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("degrees", [45.0, 60.0, 89.0])
 def test_a_round_shape_is_a_sphere(degrees):
     """R_w = 1 and faces of 45° and more: every number of a sphere, bit for bit."""

@@ -303,6 +303,7 @@ def test_sink_and_squash_share_the_squeeze():
         assert sink[0] == 0.0
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize("m", [0.05, 0.2, 1.0])
 def test_no_hardness_is_a_cliff_for_the_sink(m):
     """One per cent of a particle's hardness moves its sink by less than 3 % of the squeeze."""

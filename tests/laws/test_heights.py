@@ -206,6 +206,7 @@ def test_edge_of_the_feasible_region(at):
         assert_allclose(moments[3:], [skew, kurtosis], rtol=1e-7, atol=1e-7)
 
 
+@pytest.mark.spread(3)
 @pytest.mark.parametrize(
     ("skew", "kurtosis"),
     [

@@ -167,11 +167,16 @@ def test_a_bump_carries_less_than_the_law_where_it_yields():
 
 
 @pytest.mark.slow
-def test_the_short_form(tmp_path):
-    """No state fails, and the shares that the model states agree within the short form's errors."""
+def test_the_short_form(tmp_path, monkeypatch):
+    """No state fails, and the shares that the model states agree within the short form's errors.
+
+    Every second case, and all that the model states shares of.
+    """
+    cases = [case for i, case in enumerate(explicit.CASES) if i % 2 == 0 or case.group == "sizes"]
+    monkeypatch.setattr(page, "CASES", cases)
     done = explicit.reproduce(tmp_path, preset="quick")
     assert set(done.lost) <= {"debris"}  # soft and deep, it runs away
-    assert len(done.points) == sum(len(c.loads) or 2 for c in explicit.CASES)
+    assert len(done.points) == sum(len(case.loads) or 2 for case in cases)
     for point in done.points:
         # too few surfaces may leave a share without an error, or unknown between bounds: there is
         # nothing to hold it to then

@@ -270,6 +270,7 @@ def test_modes_can_be_told_apart_by_colour_blind_readers(kind):
             assert np.linalg.norm(colours[i] - colours[j]) > 20
 
 
+@pytest.mark.check
 def test_pyplot_stays_untouched():
     code = (
         "import sys, numpy as np, thirdbody as tb\n"
