@@ -25,6 +25,7 @@ from .fields import (
     HIGH,
     JG,
     JKR,
+    LEAST,
     NODES,
     NOT_MONOTONE,
     NOT_RESOLVED,
@@ -571,6 +572,8 @@ def solve_own(skins, parts, bodies, rules, inside, coating, target, h, count, fa
     ready = np.full(1, NOTHING)
     out = np.empty(10)
     for i in range(len(target)):
+        if i > 0:
+            parts[i, :, LEAST] = parts[i - 1, :, LEAST]  # which is found, not given
         if i == 0 or not (
             _alike(skins[i].ravel(), skins[i - 1].ravel())
             and _alike(parts[i].ravel(), parts[i - 1].ravel())

@@ -118,18 +118,23 @@ def _law(kind: type, law: Any, R: Any, E: Any, H: Any, nu: Any) -> tuple[list[An
             raise NotCompiled("the law jg, far beyond its fits")
         over_R = (math.pi * C * strain / 2) ** 2
         return [f.JG, C, 0.14 * np.exp(23 * strain), over_R, law.hardness_ratio], over_R * R
-    if kind is a.Coated:
+    if kind in (a.Coated, a.JKR, a.DMT):
+        return _law_with_length(kind, law, R, E, H)
+    raise NotCompiled(f"the law {law.name} is known to the NumPy engine alone")
+
+
+def _law_with_length(kind: type, law: Any, R: Any, E: Any, H: Any) -> tuple[list[Any], Any]:
+    """As `_law`, of laws that have a length of their own and stay elastic."""
+    unit = law.yield_interference(R=R, E_star=E, H=H)
+    if kind is asperity.Coated:
         moduli = (law.E_1, law.nu_1, law.E_2, law.nu_2, law.E_3, law.nu_3)
         if any(np.ndim(each) for each in moduli):
             raise NotCompiled("a table of its own for each coating")
-        unit = law.E_1_star * law.t / (math.pi * R * H)
-        return [f.COATED, unit, 0, 0, 0], law.yield_interference(R=R, E_star=E, H=H)
-    if kind in (a.JKR, a.DMT):
-        unit = law.yield_interference(R=R, E_star=E, H=H)
-        load = law.w / (unit * H)  # over that of a pressure H on πR times the unit of ω
-        code = [f.JKR, load] if kind is a.JKR else [f.DMT, 2 * load]
-        return [*code, 0, 0, 0], unit
-    raise NotCompiled(f"the law {law.name} is known to the NumPy engine alone")
+        return [f.COATED, law.E_1_star * law.t / (math.pi * R * H), 0, 0, 0], unit
+    load = law.w / (unit * H)  # over that of a pressure H on πR times the unit of ω
+    if kind is asperity.JKR:
+        return [f.JKR, load, 0, 0, 0], unit
+    return [f.DMT, 2 * load, 0, 0, 0], unit
 
 
 NO_COATING = np.zeros((1, 2 * f.COATING_TERMS))
