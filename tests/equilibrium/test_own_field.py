@@ -159,3 +159,11 @@ def test_what_has_tables_of_its_own_says_so(case, why):
         found = state_columns(case, F_star=np.full(2, 1e-3), vary=vary)
     assert all(str(each).startswith("numpy: ") and why in each for each in found["engine"])
     assert set(found["status"]) == {"ok"}
+
+
+def test_what_needs_tables_of_its_own_is_known_beforehand():
+    dust = tb.Particles(material=STEEL, areal_density=1e10, diameter=tb.Monodisperse(mean=200e-9))
+    assert states.tables_each(contact(dust), ["roughness.sigma", "pressure"])
+    assert not states.tables_each(contact(dust), ["pressure", "outputs.friction.m_ss"])
+    assert not states.tables_each(contact(), ["roughness.sigma", "surfaces.first.H"])
+    assert states.tables_each(contact(spectrum=RollOff(corner="sharp")), ["roughness.R"])

@@ -376,6 +376,9 @@ def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
     Or nearly so: of particles that break, each takes 1 to 3 ms by the compiled engine.
     """
     names = [name for name in vary if name not in LOADS]
+    if contact.asperity_law.of_surface:  # any input that carries is one of the whole surface
+        names = [name for name in names if carries(name)]
+        return bool(names) and not solves_each(contact, names)
     if not any(_unnumbered(name).startswith(DEMANDING) for name in names):
         return False
     populations = contact.populations
