@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum, StrEnum
+from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +13,7 @@ from ..contact.asperity_sums import SEARCHED, ReducedSum
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["DEEPEST", "MOST_AREA", "SENTENCES", "WORDS", "CriticalStatus", "Status", "Statuses"]
+__all__ = ["DEEPEST", "MOST_AREA", "SENTENCES", "WORDS", "Status", "Statuses"]
 
 DEEPEST = SEARCHED
 """Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
@@ -86,29 +86,6 @@ SENTENCES = np.array(
     dtype=object,
 )
 """Of each status, the sentence where no more is known."""
-
-
-class CriticalStatus(StrEnum):
-    """What became of a critical load; each member is the text that results and JSON hold.
-
-    Examples
-    --------
-    >>> CriticalStatus("always p-s").name, CriticalStatus.FOUND == "found"
-    ('ALWAYS_P_S', True)
-    """
-
-    FOUND = "found"
-    JUMP = "jump"
-    NONE = "none"
-    NOT_CARRIED = "none: no load of the window can be carried"
-    NEVER_P_S = "never p-s"
-    ALWAYS_S_S = "always s-s"
-    """It lies below every load searched, as in the one before."""
-    ALWAYS_P_S = "always p-s"
-    NEVER_S_S = "never s-s"
-    """It lies above every load searched, as in the one before."""
-
-    __repr__ = str.__repr__
 
 
 @dataclass(frozen=True, eq=False)
