@@ -2,8 +2,11 @@
 
 import ast
 from pathlib import Path
+from types import ModuleType
 
 import pytest
+
+import thirdbody
 
 pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
@@ -48,3 +51,13 @@ def test_no_room_is_reached_through_a_string():
     # packages of others, by the name that their extra has
     assert hidden.pop("analysis/sweep/streaming.py")
     assert hidden == {}
+
+
+def test_every_name_of_the_library_holds_something():
+    """A module that is named at the top says what it holds."""
+    for name in thirdbody.__all__:
+        found = getattr(thirdbody, name)
+        if isinstance(found, ModuleType):
+            held = getattr(found, "__all__", None) or [n for n in vars(found) if n[0] != "_"]
+            assert held, name
+            assert all(hasattr(found, each) for each in held), name
