@@ -1,9 +1,13 @@
 """What `lint-imports` cannot see of the rooms of the house."""
 
 import ast
+from collections import Counter
 from pathlib import Path
+from types import ModuleType
 
 import pytest
+
+import thirdbody
 
 pytestmark = pytest.mark.check
 ROOT = Path(__file__).parent.parent
@@ -48,3 +52,55 @@ def test_no_room_is_reached_through_a_string():
     # packages of others, by the name that their extra has
     assert hidden.pop("analysis/sweep/streaming.py")
     assert hidden == {}
+
+
+def test_every_name_of_the_library_holds_something():
+    """A module that is named at the top says what it holds."""
+    for name in thirdbody.__all__:
+        found = getattr(thirdbody, name)
+        if isinstance(found, ModuleType):
+            held = getattr(found, "__all__", None) or [n for n in vars(found) if n[0] != "_"]
+            assert held, name
+            assert all(hasattr(found, each) for each in held), name
+
+
+BARE = (
+    *("told", "given", "found", "made", "asked", "known", "own", "each", "part", "kept", "held"),
+    *("taken", "said", "shown", "seen", "heard", "drawn", "put", "met", "lost", "left", "needed"),
+    *("listed", "named", "of", "at"),
+)
+"""Words that say nothing of what a function does or returns."""
+LEFT = {
+    "at": 27,
+    "of": 26,
+    "part": 7,
+    "own": 4,
+    "known": 3,
+    "met": 3,
+    "each": 3,
+    "put": 3,
+    "named": 3,
+    "left": 2,
+    "held": 2,
+    "listed": 2,
+    "drawn": 2,
+    "asked": 1,
+    "shown": 1,
+    "taken": 1,
+    "needed": 1,
+    "told": 1,
+    "kept": 1,
+}
+"""How often each is left."""
+
+
+def test_fewer_functions_are_named_by_a_bare_word():
+    """A function is a verb with its object, or the noun it returns. The counts only shrink."""
+    found = Counter(
+        node.name.strip("_")
+        for path in (ROOT / "src" / "thirdbody").rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text("utf-8")))
+        if isinstance(node, ast.FunctionDef) and node.name.strip("_") in BARE
+    )
+    assert {word: count for word, count in found.items() if count > LEFT.get(word, 0)} == {}
+    assert {word: n for word, n in LEFT.items() if found[word] < n} == {}, "lower these counts"

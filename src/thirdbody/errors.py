@@ -38,7 +38,7 @@ class Problem(str):
     """One mistake in an input: its parts, and as text the sentence that they make.
 
     Whoever knows more of a mistake (which table of a file, which argument) moves it with `under`
-    or `at`, and never has to read the sentence.
+    or `changed`, and never has to read the sentence.
 
     Parameters
     ----------
@@ -84,10 +84,10 @@ class Problem(str):
         return (), vars(self)
 
     @classmethod
-    def of(cls, owner: str, sentence: str) -> Problem:
+    def from_sentence(cls, owner: str, sentence: str) -> Problem:
         """A mistake in ``owner`` from a sentence that may begin with it, and a dot and a field.
 
-        >>> Problem.of("Roughness", "Roughness.R and sigma are no lengths").place
+        >>> Problem.from_sentence("Roughness", "Roughness.R and sigma are no lengths").place
         'Roughness.R'
         """
         rest = sentence.removeprefix(owner)
@@ -118,10 +118,6 @@ class Problem(str):
         """The same mistake where what it is a part of goes by another name."""
         whole = not self.path and not self.owner
         return self.changed(owner=owner, rule=f": {self.rule}" if whole else self.rule)
-
-    def at(self, place: str) -> Problem:
-        """The same mistake at another place altogether."""
-        return self.changed(path=place, value=None, owner="") if self.place else self.under(place)
 
 
 class Note(str):

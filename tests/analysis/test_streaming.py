@@ -175,7 +175,7 @@ def test_samples_are_the_designs_and_the_states_are_theirs(design):
         (dict(vary={"roughness.R": {"low": 1, "high": 2}}), "needs design = 'latin' or 'sobol'"),
         (dict(vary={"roughness.R": [-1e-6, 1e-6]}), "-1e-06 must be > 0"),
         (dict(vary={"roughness.R": []}), "is empty"),
-        (dict(vary={"roughness.Q": [1.0]}), "no field"),
+        (dict(vary={"roughness.Q": [1.0]}), "is not an input"),
         (dict(vary={"roughness.R": [1e-6, 2e-6]}, design="zip"), "one length"),
         (dict(columns=["area"]), "column = 'area'"),
         (dict(chunk=0), "chunk = 0"),

@@ -935,9 +935,9 @@ def test_the_command_says_what_is_missing(monkeypatch):
 
 
 def test_json_of_the_worker_is_strict():
-    from thirdbody.app.worker import _finite
+    from thirdbody.quantities.plain_data import plain_data
 
-    made = _finite({"a": np.array([1.0, np.nan]), "b": (np.float64("inf"), np.int64(2))})
+    made = plain_data({"a": np.array([1.0, np.nan]), "b": (np.float64("inf"), np.int64(2))})
     assert json.dumps(made, allow_nan=False) == '{"a": [1.0, null], "b": [null, 2]}'
 
 

@@ -37,6 +37,8 @@ def run(*arguments):
 def process(*arguments, **options):
     """The command in a process of its own."""
     command = [sys.executable, "-m", "thirdbody", *map(str, arguments)]
+    # readline tells children of a width that this process has not
+    options = {"env": dict(os.environ)} | options
     return subprocess.run(command, capture_output=True, text=True, check=False, **options)
 
 
@@ -65,6 +67,7 @@ WARNED |= {
     )
 }  # fmt: skip
 WARNED["steel_debris_in_film"].append("particles flatten, as debris = 'ductile' says")
+WARNED["explicit"].append("the collars that both surfaces push up")
 WARNED["quartz_in_bearing"] = ["strengths are extrapolated by a factor"]
 """What examples are warned of, and not of anything else."""
 
@@ -76,7 +79,7 @@ def test_json_of_every_example_is_valid(path):
     told = [line for line in result.stderr.splitlines() if line.strip()]
     wanted = WARNED.get(path.stem, [])
     assert len(told) == len(wanted), told
-    assert all(text in line for text, line in zip(wanted, told, strict=True))
+    assert all(any(text in line for line in told) for text in wanted), told
     answer = strict(result.stdout)
     jsonschema.validate(answer, SCHEMA)
     assert len({len(column) for column in answer["states"].values()}) == 1
@@ -280,10 +283,16 @@ def test_warnings_are_one_line_each_on_standard_error():
     assert result.returncode == 0
     lines = result.stderr.splitlines()
     assert lines
-    assert all(re.fullmatch(r"warning: \S.*", line) for line in lines)
-    assert any("A_t reaches" in line for line in lines)
+    *shown, more = lines
+    assert len(shown) == 3
+    assert all(re.fullmatch(r"warning: \S.*", line) for line in shown)
     answer = strict(result.stdout)
-    assert [f"warning: {sentence}" for sentence in answer["warnings"]] == lines
+    every = [f"warning: {sentence}" for sentence in answer["warnings"]]
+    assert any("A_t reaches" in line for line in every)
+    assert set(shown) < set(every)
+    assert more.startswith(f"note: {len(every) - 3} more warning")
+    whole = process("solve", DUSTY, "--json", "--verbose", "--set", "load.pressure=2 GPa")
+    assert sorted(whole.stderr.splitlines()) == sorted(every)
 
 
 def test_likely_slips_are_told_even_when_the_study_fails():

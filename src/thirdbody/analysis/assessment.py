@@ -11,7 +11,8 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.critical_loads import CRITICAL
-from ..equilibrium.status import CriticalStatus, Status
+from ..equilibrium.modes import CriticalStatus
+from ..equilibrium.status import Status
 from ..equilibrium.words import (
     critical_load,
     critical_name,

@@ -143,7 +143,7 @@ def words_of(contact: Contact, label: str) -> str:
     >>> words_of(contact, "roughness.R"), words_of(contact, "surfaces.first.H+surfaces.second.H")
     ('mean asperity radius', 'hardness of both surfaces')
     """
-    each = [_named(contact, name.strip()) for name in label.split("+")]
+    each = [_words_and_owner(contact, name.strip()) for name in label.split("+")]
     meanings = list(dict.fromkeys(meaning for meaning, _ in each))
     owners = list(dict.fromkeys(owner for _, owner in each))
     if owners == [BODIES["surfaces.first"], BODIES["surfaces.second"]]:
@@ -153,7 +153,7 @@ def words_of(contact: Contact, label: str) -> str:
     return f"{listed(meanings)} {listed(owners)}".strip()
 
 
-def _named(contact: Contact, name: str) -> tuple[str, str]:
+def _words_and_owner(contact: Contact, name: str) -> tuple[str, str]:
     """What a number is, and whose."""
     if name in WHOLE:
         return WHOLE[name], ""

@@ -22,9 +22,8 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium, quantity_of
-from ..equilibrium.modes import EPS_1, EPS_2
+from ..equilibrium.modes import EPS_1, EPS_2, CriticalStatus
 from ..equilibrium.solve import given_load, solve
-from ..equilibrium.status import CriticalStatus
 from ..equilibrium.transitions import transitions
 from ..errors import InvalidValue
 from ..quantities import notebook

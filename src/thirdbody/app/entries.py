@@ -255,7 +255,7 @@ class Entries:
         for each in fields_of(kind):
             if not isinstance(now, dict):
                 # an entry needs a table to stand in
-                self._named(place, each, tag, chosen)
+                self._word_entry(place, each, tag, chosen)
             else:
                 self.field(place, each)
         for item in dataclasses.fields(kind):
@@ -264,7 +264,7 @@ class Entries:
                 inner = (*place, item.name)
                 self.variant(inner, VARIANTS["asperity"], "", label, blank="left out")
 
-    def _named(self, place: Place, field: Field, tag: str, word: str) -> None:
+    def _word_entry(self, place: Place, field: Field, tag: str, word: str) -> None:
         """An entry of a table that is still a word, or left out."""
 
         def to(value: Any) -> None:

@@ -50,7 +50,7 @@ class Guard:
         headers = {
             key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
         }
-        if not self._known(headers, scope):
+        if not self._is_own_request(headers, scope):
             await _refuse(scope, send, 400, "this page is not served under that name")
             return
         if _embedded(headers):
@@ -62,7 +62,7 @@ class Guard:
             return
         await self.app(scope, self._counted(receive), send)
 
-    def _known(self, headers: dict[str, str], scope: Message) -> bool:
+    def _is_own_request(self, headers: dict[str, str], scope: Message) -> bool:
         """Asked for under a name of its own, by nobody else than itself."""
         secure = scope.get("scheme", "http") in ("https", "wss")
         own = _origin(f"{'https' if secure else 'http'}://{headers.get('host', '')}")

@@ -137,7 +137,7 @@ class Inputs(ParticleInputs):
             lambda word: self.change("roughness", ROUGHNESS_BEGUN[word]),
         )
         if is_drawn(given):
-            self._drawn(stated == "faces")
+            self._drawing_fields(stated == "faces")
         for each in fields_of(tb.Roughness):
             if not is_drawn(given):
                 self.field(("roughness",), each)
@@ -147,7 +147,7 @@ class Inputs(ParticleInputs):
         self.variant(("roughness", "heights"), VARIANTS["heights"], "gaussian", "heights")
         self.ellipticity()
 
-    def _drawn(self, faces: bool) -> None:
+    def _drawing_fields(self, faces: bool) -> None:
         """What a drawing states, of the pair or of each face."""
         process = Field(
             name="process",

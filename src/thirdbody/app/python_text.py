@@ -65,14 +65,14 @@ def _homes(part: Any) -> set[tuple[str, str]]:
     if isinstance(part, tb.Material) and part.name in tb.materials:
         return set()
     own = {(type(part).__module__, type(part).__name__)} if "." not in _name(type(part)) else set()
-    return own.union(*(_homes(value) for _, value in _given(part)))
+    return own.union(*(_homes(value) for _, value in _changed_fields(part)))
 
 
 def _class_first(name: str) -> tuple[bool, str]:
     return name[0].islower(), name
 
 
-def _given(value: Any) -> list[tuple[str, Any]]:
+def _changed_fields(value: Any) -> list[tuple[str, Any]]:
     """The fields of a value that differ from their defaults."""
     out = []
     for item in dataclasses.fields(value):
@@ -97,7 +97,7 @@ def _code(part: Any, indent: int = 0, used: int = 20) -> str:
         if known == part:
             return f"tb.materials[{part.name!r}]"
     if isinstance(part, Value):
-        given = [(f"{name}=", own) for name, own in _given(part)]
+        given = [(f"{name}=", own) for name, own in _changed_fields(part)]
         return _call(f"{_name(type(part))}(", given, ")", indent, used)
     if isinstance(part, tuple):
         if len(part) > LONG and all(isinstance(item, float) for item in part):

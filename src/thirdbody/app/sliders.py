@@ -46,7 +46,7 @@ def position_of(loads: np.ndarray, at: float) -> float:
     return (at - first) / (last - first)
 
 
-def _said(answer: Answer, at: float) -> str:
+def _load_text(answer: Answer, at: float) -> str:
     """The operating load as a slider says it: as a pressure where it is a load."""
     if answer.load == "d":
         return f"separation d = {value_of(at, 'm')}"
@@ -187,8 +187,8 @@ class Sliders:
             at = self.state.at
             part = position_of(answer.loads, at)
             self.load.set_value(round(STEPS * part))
-            self.load_label.set_text(_said(answer, at))
-            self.load.speak(_said(answer, at))
+            self.load_label.set_text(_load_text(answer, at))
+            self.load.speak(_load_text(answer, at))
             for made in self.knobs:
                 self._tell(made)
         finally:

@@ -199,7 +199,7 @@ class Equilibrium:
         """A table for notebooks: a row for each column, the first and the last states."""
         count = len(self.columns()["d"])
         rows = [
-            notebook.Row(told["symbol"], _shown(values, told["units"]), told["long_name"])
+            notebook.Row(told["symbol"], _cells(values, told["units"]), told["long_name"])
             for name, values in self.columns().items()
             for told in (labels(name),)
         ]
@@ -338,7 +338,7 @@ MOST_SHOWN = 6
 """States that a notebook shows; of more the first and the last."""
 
 
-def _shown(values: NDArray[Any], unit: str) -> list[str]:
+def _cells(values: NDArray[Any], unit: str) -> list[str]:
     """Values of some states in words."""
     words = [notebook.words_of(value, unit) for value in values[:MOST_SHOWN]]
     if len(values) <= MOST_SHOWN:

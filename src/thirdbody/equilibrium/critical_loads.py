@@ -13,9 +13,9 @@ from ..contact.interface import interface
 from ..errors import InvalidValue
 from ..quantities.carried import takes_units
 from .load_scan import load_scan
-from .modes import EPS_1, EPS_2, WINDOW
+from .modes import EPS_1, EPS_2, WINDOW, CriticalStatus
 from .states import FEWEST, carries, state_columns, varied
-from .status import DEEPEST, CriticalStatus
+from .status import DEEPEST
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

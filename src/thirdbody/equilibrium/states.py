@@ -90,7 +90,7 @@ def solve_states(
     >>> states.A_t.dims, states["roughness.sigma"].units
     (('state',), 'm')
     """
-    load, loads, arrays = _given(contact, pressure, F_star, d, vary)
+    load, loads, arrays = _loads_and_inputs(contact, pressure, F_star, d, vary)
     total = len(loads)
     with reporting("states", total, 0, progress) as report:
         cost = Cost(total, report, "" if progress else "states")
@@ -109,7 +109,7 @@ def state_columns(
     vary: Mapping[str, ArrayLike] | None = None,
 ) -> Columns:
     """The columns of `solve_states` as plain arrays (N,)."""
-    load, loads, arrays = _given(contact, pressure, F_star, d, vary)
+    load, loads, arrays = _loads_and_inputs(contact, pressure, F_star, d, vary)
     return _columns(contact, arrays, load, loads)
 
 
@@ -140,7 +140,7 @@ def _alike(arrays: Arrays, count: int) -> list[NDArray[np.intp]]:
     return np.split(order, np.flatnonzero(np.diff(groups[order])) + 1)
 
 
-def _given(
+def _loads_and_inputs(
     contact: Contact,
     pressure: ArrayLike | None,
     F_star: ArrayLike | None,
@@ -220,7 +220,7 @@ def _columns(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.floa
     return _joined(
         len(loads),
         [
-            (which, _solve(base, _taken(inputs, which), load, loads[which]))
+            (which, _solve(base, _take_states(inputs, which), load, loads[which]))
             for base, inputs, which in parts
         ],
     )
@@ -248,7 +248,7 @@ Arrays = Mapping[str, NDArray[Any]]
 Columns = dict[str, NDArray[Any]]
 
 
-def _taken(arrays: Arrays, which: Any) -> dict[str, NDArray[Any]]:
+def _take_states(arrays: Arrays, which: Any) -> dict[str, NDArray[Any]]:
     return {name: values[which] for name, values in arrays.items()}
 
 
@@ -291,7 +291,7 @@ def _with_outputs(
         values, _ = evaluate(
             own,
             interface(own),
-            _taken(out, which),
+            _take_states(out, which),
             crowd,
             solver=None if load == "d" else solver,
         )
@@ -342,7 +342,7 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
         soft = engine.squashed(contact, numbers, len(loads))
         if soft.any() and not soft.all():
             each = [np.flatnonzero(~soft), np.flatnonzero(soft)]
-            solved = [(i, _solve(contact, _taken(arrays, i), load, loads[i])) for i in each]
+            solved = [(i, _solve(contact, _take_states(arrays, i), load, loads[i])) for i in each]
             return _joined(len(loads), solved)
         return _by_nodes(contact, numbers, load, loads)
     except NotCompiled as error:
@@ -355,7 +355,7 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
         odd = np.zeros(len(loads), bool)
         for name, values in numbers.items():
             if _unnumbered(name).startswith(DEMANDING):
-                odd |= values != _own(contact, name)
+                odd |= values != _value_in(contact, name)
     parts = []
     if len(even := np.flatnonzero(~odd)):
         plain = {k: v[even] for k, v in numbers.items() if not _unnumbered(k).startswith(DEMANDING)}
@@ -365,7 +365,7 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
             why = str(error)
             odd[:] = True
     if len(rest := np.flatnonzero(odd)):
-        some = _taken(arrays, rest)
+        some = _take_states(arrays, rest)
         parts.append((rest, _by_groups(contact, some, load, loads[rest], why)))
     return _joined(len(loads), parts)
 
@@ -404,14 +404,14 @@ def solves_each(contact: Contact, vary: Iterable[str]) -> bool:
     if not engine.available():
         return False
     try:
-        values = {name: np.full(1, float(_own(contact, name))) for name in vary}
+        values = {name: np.full(1, float(_value_in(contact, name))) for name in vary}
         Numbers(contact.replace(outputs=()), values, 1)
     except (NotCompiled, InvalidValue, TypeError, ValueError):  # no number, or no such input
         return False
     return True
 
 
-def _own(contact: Contact, name: str) -> Any:
+def _value_in(contact: Contact, name: str) -> Any:
     """The value of an input in the contact itself."""
     value: Any = contact
     for part in name.split("."):
@@ -438,7 +438,7 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
         if order is not None:
             here = order[here]
         given = loads[here]
-        batch = engine.States(contact, _taken(arrays, here), len(given))
+        batch = engine.States(contact, _take_states(arrays, here), len(given))
         return here, _with_words(contact, batch.columns(load, given)), batch.rows.own
 
     here, columns, size = solve_part(slice(0, FIRST))  # refused, or compiled, once
@@ -447,13 +447,13 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
     with ThreadPoolExecutor(engine.threads() if own else 1) as pool:
         rest = pool.map(solve_part, (slice(start, start + at_once) for start in starts))
         parts = chain([(here, columns)], (found[:2] for found in rest))
-        out = _joined(len(loads), _told(parts))
+        out = _joined(len(loads), _with_progress(parts))
 
     def solve_again(which: Any, why: str) -> Columns:
         try:
-            return _by_own(contact, _taken(arrays, which), load, loads[which])
+            return _by_own(contact, _take_states(arrays, which), load, loads[which])
         except NotCompiled:
-            return _by_groups(contact, _taken(arrays, which), load, loads[which], why)
+            return _by_groups(contact, _take_states(arrays, which), load, loads[which], why)
 
     return _without_doubts(out, (engine.NOT_BALANCED, engine.NOT_MONOTONE), solve_again)
 
@@ -463,13 +463,15 @@ def _by_own(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float
 
     def solve_from(start: int) -> tuple[Any, Columns]:
         here = np.arange(start, min(start + AT_ONCE, len(loads)))
-        columns = own_columns(contact, _taken(arrays, here), load, loads[here], engine.threads())
+        columns = own_columns(
+            contact, _take_states(arrays, here), load, loads[here], engine.threads()
+        )
         return here, _with_words(contact, columns)
 
     def solve_again(which: Any, why: str) -> Columns:
-        return _by_groups(contact, _taken(arrays, which), load, loads[which], why)
+        return _by_groups(contact, _take_states(arrays, which), load, loads[which], why)
 
-    out = _joined(len(loads), _told(map(solve_from, range(0, len(loads), AT_ONCE))))
+    out = _joined(len(loads), _with_progress(map(solve_from, range(0, len(loads), AT_ONCE))))
     return _without_doubts(out, DOUBTS, solve_again)
 
 
@@ -497,7 +499,7 @@ def _without_doubts(
     return out
 
 
-def _told(parts: Iterable[tuple[Any, Columns]]) -> Iterator[tuple[Any, Columns]]:
+def _with_progress(parts: Iterable[tuple[Any, Columns]]) -> Iterator[tuple[Any, Columns]]:
     for here, columns in parts:
         solved(len(columns["status"]))
         yield here, columns
@@ -524,7 +526,7 @@ def _by_groups(
 
 def _differ(arrays: Arrays, count: int) -> bool:
     """Whether there are FEWEST different states; mostly the first of them tell."""
-    first = _taken(arrays, np.arange(min(count, 50 * FEWEST)))
+    first = _take_states(arrays, np.arange(min(count, 50 * FEWEST)))
     return any(
         _groups(some, n).max() + 1 >= FEWEST
         for some, n in ((first, min(count, 50 * FEWEST)), (arrays, count))

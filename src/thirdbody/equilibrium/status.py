@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum, StrEnum
+from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,16 +13,7 @@ from ..contact.asperity_sums import SEARCHED, ReducedSum
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = [
-    "DEEPEST",
-    "MOST_AREA",
-    "SENTENCES",
-    "TABLE_ENDS",
-    "WORDS",
-    "CriticalStatus",
-    "Status",
-    "Statuses",
-]
+__all__ = ["DEEPEST", "MOST_AREA", "SENTENCES", "TABLE_ENDS", "WORDS", "Status", "Statuses"]
 
 DEEPEST = SEARCHED
 """Lowest separation searched, in σ_s from the mean asperity height: every asperity touches."""
@@ -100,29 +91,6 @@ TABLE_ENDS = (
     "the table of the law field ends; check the unit of the load, or let an oil film carry it"
 )
 """The same of a load that is too much for one field of heights."""
-
-
-class CriticalStatus(StrEnum):
-    """What became of a critical load; each member is the text that results and JSON hold.
-
-    Examples
-    --------
-    >>> CriticalStatus("always p-s").name, CriticalStatus.FOUND == "found"
-    ('ALWAYS_P_S', True)
-    """
-
-    FOUND = "found"
-    JUMP = "jump"
-    NONE = "none"
-    NOT_CARRIED = "none: no load of the window can be carried"
-    NEVER_P_S = "never p-s"
-    ALWAYS_S_S = "always s-s"
-    """It lies below every load searched, as in the one before."""
-    ALWAYS_P_S = "always p-s"
-    NEVER_S_S = "never s-s"
-    """It lies above every load searched, as in the one before."""
-
-    __repr__ = str.__repr__
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,8 +16,7 @@ from ..quantities import notebook
 from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
 from .load_scan import load_scan
-from .modes import EPS_1, EPS_2, WINDOW, need_shares
-from .status import CriticalStatus
+from .modes import EPS_1, EPS_2, WINDOW, CriticalStatus, need_shares
 from .words import happens
 
 __all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]

@@ -6,8 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from ..quantities.say import number, percent, plural, value_of
-from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S, WINDOW
-from .status import CriticalStatus, Status
+from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S, WINDOW, CriticalStatus
 
 __all__ = [
     "BANDS",
@@ -240,5 +239,5 @@ def unsolved(statuses: Sequence[str]) -> list[str]:
     return [
         f"{statuses.count(status)} of {plural(len(statuses), 'state')} unsolved: {status}"
         for status in dict.fromkeys(statuses)
-        if status != Status.OK.sentence
+        if status != "ok"
     ]

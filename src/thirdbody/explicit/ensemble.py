@@ -25,7 +25,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import solve as statistical
-from ..errors import InvalidValue, tell_of_range
+from ..errors import InvalidValue, Note, tell_of_range
 from ..laws.base import SeatedLaw
 from ..populations.measured.spectra import SpectralMoments
 from ..populations.measured.synthetic import from_moments
@@ -324,7 +324,7 @@ def _read_surfaces(kept: Path, total: int, key: str) -> dict[int, dict[str, Any]
 
 def _tell(sentence: str) -> None:
     """What happened to a folder, to whoever called `ensemble`."""
-    tell_of_range(sentence, UserWarning)
+    tell_of_range(Note(sentence, effect=math.inf), UserWarning)
 
 
 def _surfaces_and_count(

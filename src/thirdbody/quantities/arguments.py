@@ -87,7 +87,7 @@ def need_one(name: str, value: Any, *options: str | int) -> None:
     if not (type(value) in (str, int) or isinstance(value, np.integer)) or value not in options:
         two = len(options) == 2
         known = (" or " if two else ", ").join(map(repr, options))
-        shown = repr(value) if isinstance(value, str) else _shown(value)
+        shown = repr(value) if isinstance(value, str) else _short_text(value)
         rule = f"must be {'' if two else 'one of '}{known}"
         raise InvalidValue(Problem(name, rule, shown))
 
@@ -110,7 +110,7 @@ def need_place(name: str, value: Any, count: int) -> None:
     if not whole or not -count <= value < count:
         values = "1 value" if count == 1 else f"{count} values"
         rule = f"must be a place in {values}: 0 to {count - 1}"
-        raise InvalidValue(Problem(name, rule, _shown(value)))
+        raise InvalidValue(Problem(name, rule, _short_text(value)))
 
 
 def need_positive(**values: Any) -> None:
@@ -128,7 +128,7 @@ def need_positive(**values: Any) -> None:
     thirdbody.errors.InvalidValue: R = -1e-06 must be finite and > 0
     """
     problems = [
-        Problem(name, "must be finite and > 0", _shown(value))
+        Problem(name, "must be finite and > 0", _short_text(value))
         for name, value in values.items()
         if not np.all((np.asarray(value) > 0) & np.isfinite(value))
     ]
@@ -207,7 +207,7 @@ def misfits(
         for each in value if parameter.kind is parameter.VAR_POSITIONAL else [value]:
             if not _fits(node, each, space):
                 words = " or ".join(dict.fromkeys(_words(node, space)))
-                problems.append(Problem(name, f"must be {words}", _shown(each)))
+                problems.append(Problem(name, f"must be {words}", _short_text(each)))
     return problems
 
 
@@ -227,7 +227,7 @@ def _tree(text: str) -> ast.expr | None:
         return None
 
 
-def _shown(value: Any) -> str:
+def _short_text(value: Any) -> str:
     """A value in a few letters."""
     if value is None or isinstance(value, (str, bytes, bool, int, float, complex)):
         text = repr(value) if not isinstance(value, int) or value.bit_length() < 200 else "..."

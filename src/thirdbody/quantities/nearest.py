@@ -42,7 +42,8 @@ def near_path(name: str, paths: Iterable[str]) -> str | None:
     same = [path for path, own in inside if own.casefold() == last.casefold()]
     if same:
         return near(name, same, cutoff=0.0)
-    return None if beside else near(name, (path for path, _, _ in every))
+    # names of one owner are alike by it alone
+    return near(name, (path for path, _, _ in every), cutoff=0.85 if beside else 0.6)
 
 
 def guess(

@@ -6,20 +6,19 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 __all__ = ["plain_data"]
 
 
 def plain_data(value: Any) -> Any:
     """Numbers, texts, lists and dicts, with None for numbers that are not finite.
 
+    >>> import numpy as np
     >>> plain_data({"A_t": np.array([0.1, np.nan]), "mode": ("p-s", None), "n": np.int64(3)})
     {'A_t': [0.1, None], 'mode': ['p-s', None], 'n': 3}
     """
     if isinstance(value, Mapping):
         return {key: plain_data(part) for key, part in value.items()}
-    if isinstance(value, (np.ndarray, np.generic)):
+    if hasattr(value, "tolist"):  # an array or a number of NumPy, which is not loaded for this
         return plain_data(value.tolist())
     if isinstance(value, (list, tuple)):
         return [plain_data(part) for part in value]

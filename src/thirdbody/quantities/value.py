@@ -264,7 +264,7 @@ class Value:
                 problems.append(Problem(name, why, shown, owner=owner))
         if not problems:
             try:
-                problems = [Problem.of(owner, each) for each in self._problems()]
+                problems = [Problem.from_sentence(owner, each) for each in self._problems()]
             except FAILURES as error:
                 kind = type(self)
                 held = {name: getattr(self, name) for name in kind.__dataclass_fields__}  # type: ignore[attr-defined]

@@ -40,7 +40,7 @@ class Known:
                 guessed.add((path, meant))
             elif item["type"] == "value_error":
                 told = item.get("ctx", {})["error"].problems
-                out += [Problem.of(_join(path, key), each) for each in told]
+                out += [Problem.from_sentence(_join(path, key), each) for each in told]
             elif item["type"] == "missing":
                 out.append((path, key))
             else:
@@ -100,7 +100,7 @@ def wrong(path: str, rule: str, value: Any, *, hint: str = "") -> InvalidValue:
 def clash(path: str, data: Mapping[str, Any], keys: Sequence[str], rule: str) -> Problem:
     """Keys of a table that cannot stand side by side."""
     shown = ", ".join(f"{path}.{key} = {say(data[key])}" for key in keys)
-    return Problem.of(f"{path}.{keys[0]}", f"{shown}: {rule}")
+    return Problem.from_sentence(f"{path}.{keys[0]}", f"{shown}: {rule}")
 
 
 def in_file(error: InvalidValue, kind: type, path: str, values: Mapping[str, Any]) -> InvalidValue:

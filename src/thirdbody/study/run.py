@@ -10,7 +10,7 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
-from ..equilibrium.status import CriticalStatus
+from ..equilibrium.modes import CriticalStatus
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
 from ..errors import InvalidValue, RangeWarning, ThirdBodyError, note_of
 from ..quantities.plain_data import plain_data

@@ -76,7 +76,7 @@ class Listed:
         return self.values
 
     def to_dict(self) -> dict[str, Any]:
-        return {name: _listed(values) for name, values in self.values.items()}
+        return {name: _axis_values(values) for name, values in self.values.items()}
 
 
 @dataclass(frozen=True, eq=False)
@@ -308,7 +308,7 @@ class Plan:
             for name in dim.names:
                 about = labels_of(self.contact, name)
                 if isinstance(dim, Listed):
-                    coords[name] = ((dim.name,), _shown(dim.values[name]), about)
+                    coords[name] = ((dim.name,), _axis_text(dim.values[name]), about)
                 else:
                     variables[name] = ((dim.name,), "f8", about)
         inputs = tuple(variables)
@@ -431,7 +431,7 @@ def _largest(values: NDArray[Any]) -> float:
     return float(np.fmax.reduce(values, axis=None, initial=0.0))
 
 
-def _listed(values: NDArray[Any]) -> Any:
+def _axis_values(values: NDArray[Any]) -> Any:
     """Values of an axis for JSON: themselves, or their fingerprint when there are many."""
     if values.dtype == object:
         return [v.to_dict() if isinstance(v, Value) else v for v in values]
@@ -442,7 +442,7 @@ def _listed(values: NDArray[Any]) -> Any:
     return {"values": len(values), **ends, "sha256": digest}
 
 
-def _shown(values: NDArray[Any]) -> NDArray[Any]:
+def _axis_text(values: NDArray[Any]) -> NDArray[Any]:
     return values.astype(str) if values.dtype == object else values
 
 

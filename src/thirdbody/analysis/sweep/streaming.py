@@ -149,13 +149,13 @@ def _results(
 
     def work(number: int) -> Callable[[], Result]:
         task = plan.task(number, coded=coded)
-        return task if client is not None else partial(_told, task, cost)
+        return task if client is not None else partial(_with_progress, task, cost)
 
     tasks = ((number, work(number)) for number in numbers)
     return shared(tasks, workers=workers, client=client)
 
 
-def _told(task: Callable[[], Result], cost: Cost) -> Result:
+def _with_progress(task: Callable[[], Result], cost: Cost) -> Result:
     """A block whose states are told while they are solved, in whatever thread."""
     with solving(cost):
         return task()
@@ -194,7 +194,7 @@ def run(
     """
     if format not in FORMATS:
         raise InvalidValue(f"format = {format!r} must be one of {', '.join(map(repr, FORMATS))}")
-    _needed(format)
+    _require_packages(format)
     folder = Folder(Path(out), format, tuple(plan.layout().variables))
     study = {**plan.to_dict(), "format": format}
     folder.refuse_others(study)
@@ -224,7 +224,7 @@ def _warn(sentence: str) -> None:
         tell_of_range(sentence, UserWarning)
 
 
-def _needed(format: str) -> None:
+def _require_packages(format: str) -> None:
     for name in FORMATS[format]:
         try:
             module = importlib.import_module(name)

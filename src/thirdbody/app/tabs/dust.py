@@ -125,17 +125,17 @@ class Dust:
             on_rejected=lambda: ui.notify(f"more than {LARGEST_TABLE} bytes are not taken"),
         )
 
-    def _given(self) -> dict[str, Any]:
+    def _particles(self) -> dict[str, Any]:
         given = self.state.get(*Inputs.first_population(self.state))
         return given if isinstance(given, dict) else {"material": "SiO2"}
 
-    def _put(self, table: dict[str, Any]) -> None:
+    def _set_particles(self, table: dict[str, Any]) -> None:
         self.state.set(*Inputs.first_population(self.state), table, whole=True)
         self.again()
 
     def _use(self, key: str, value: str) -> None:
-        if value and self._given().get(key) != value:
-            self._put(begun(self._given(), key, value))
+        if value and self._particles().get(key) != value:
+            self._set_particles(begun(self._particles(), key, value))
 
     async def _uploaded(self, event: events.UploadEventArguments) -> None:
         self.chooser.reset()
@@ -145,14 +145,14 @@ class Dust:
         except InvalidValue as error:
             self.wrong.set_text(with_micro(without_paths("; ".join(error.problems))))
             return
-        kept = {k: v for k, v in self._given().items() if k in (*KEPT, "areal_density")}
+        kept = {k: v for k, v in self._particles().items() if k in (*KEPT, "areal_density")}
         kept.setdefault("areal_density", "1e9 / m^2")
         few = len(found["edges"]) <= MOST_NUMBERS
         # in the study itself they are in its address, so that a reload keeps them
-        self._put(kept | {"sizes": found if few else name})
+        self._set_particles(kept | {"sizes": found if few else name})
 
     async def draw(self) -> None:
-        given = self._given()
+        given = self._particles()
         self.code.set_value(text_of(given.get("iso4406")))
         known = given.get("test_dust")
         self.test.set_value(known if isinstance(known, str) and known in DUSTS else None)
@@ -164,7 +164,7 @@ class Dust:
         if none:
             self.table.clear()
             return
-        drawn, told = await self.state.ask(_found)
+        drawn, told = await self.state.ask(_figure_and_rows)
         self.plot.update_figure(drawn)
         self.table.clear()
         with self.table:
@@ -174,7 +174,9 @@ class Dust:
                     facts(numbers)
 
 
-def _found(answer: Answer) -> tuple[dict[str, Any], list[tuple[str, list[tuple[str, str]]]]]:
+def _figure_and_rows(
+    answer: Answer,
+) -> tuple[dict[str, Any], list[tuple[str, list[tuple[str, str]]]]]:
     """The figure, and the numbers of each population."""
     contact = answer.contact
     told = [(dust.name or dust.material.name, dust_facts(dust)) for dust in contact.populations]

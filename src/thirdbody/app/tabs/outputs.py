@@ -151,7 +151,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         if names_of_outputs(state) != seen["asked"]:  # undone, or another study
             renewed()
         inputs.tell()
-        made, rows = await state.ask(_found, state.at)
+        made, rows = await state.ask(_figures_and_rows, state.at)
         for name in [name for name in plots if name not in made]:
             plots.pop(name).widget.delete()
         with grid:
@@ -164,7 +164,9 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
     return draw
 
 
-def _found(answer: Answer, at: float) -> tuple[dict[str, dict[str, Any]], list[dict[str, Any]]]:
+def _figures_and_rows(
+    answer: Answer, at: float
+) -> tuple[dict[str, dict[str, Any]], list[dict[str, Any]]]:
     """The figures, and the rows of the table."""
     rows = [
         {

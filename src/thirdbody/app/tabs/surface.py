@@ -145,7 +145,7 @@ class Surface:
     def _key(self) -> Any:
         return self.file, self._written()
 
-    def _told(self) -> dict[str, str]:
+    def _reading(self) -> dict[str, str]:
         """The file and how it is read, for the address."""
         return {"file": Path(self.file).name} | {k: v for k, v in self._written().items() if v}
 
@@ -199,7 +199,7 @@ class Surface:
             return None
         self._hide()
         self.asked = self._written()
-        self.state.surface = self.followed = self._told()
+        self.state.surface = self.followed = self._reading()
         self.state.tell()
         return {"file": self.file, "options": options}
 

@@ -92,13 +92,13 @@ class Figures(Found):
         if self.contact.two_body:
             return {}
         drawn = np.atleast_1d(self.curve.F_star)
-        found = self._found("F_cr1", "F_cr2")
+        found = self._existing_loads("F_cr1", "F_cr2")
         return {name: F for name, F in found.items() if drawn[0] <= F <= drawn[-1]}
 
     def _marks(self) -> list[float]:
         """Loads F* of the study that can be marked."""
         states = self.result["states"]
-        return [F for i in self._known() if (F := states["F_star"][i]) >= FAINT]
+        return [F for i in self._solved_places() if (F := states["F_star"][i]) >= FAINT]
 
     def _at(self, ax: Axes) -> Axes:
         """The loads of the study."""

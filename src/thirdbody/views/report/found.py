@@ -35,7 +35,7 @@ class Found:
         """The interface."""
         return self.study.contact
 
-    def _known(self) -> list[int]:
+    def _solved_places(self) -> list[int]:
         return [i for i, status in enumerate(self.result["states"]["status"]) if status == "ok"]
 
     def _load(self, i: int) -> str:
@@ -45,7 +45,7 @@ class Found:
     def _at_load(self, i: int) -> str:
         return f"{'At' if self.film is None else 'Without the oil, at'} {self._load(i)}"
 
-    def _found(self, *names: str) -> dict[str, float]:
+    def _existing_loads(self, *names: str) -> dict[str, float]:
         """Critical loads F* that exist."""
         values = {name: self._entry(name)["value"] for name in names or CRITICAL}
         return {name: value for name, value in values.items() if value}

@@ -45,7 +45,7 @@ class Sentences(Found):
 
     def _without_oil(self) -> tuple[str, str, str]:
         states = self.result["states"]
-        known = sorted(self._known(), key=lambda i: states["pressure"][i])
+        known = sorted(self._solved_places(), key=lambda i: states["pressure"][i])
         first, last = known[0], known[-1]
         if first == last:
             return (
@@ -117,7 +117,7 @@ class Sentences(Found):
     def _distance(self, i: int) -> str:
         """How far the load is from what would change the mode."""
         F = self.result["states"]["F_star"][i]
-        found = self._found("F_cr1", "F_cr2")
+        found = self._existing_loads("F_cr1", "F_cr2")
         if self.contact.two_body:
             return self._first_input()
         if not F > 0:
@@ -149,7 +149,7 @@ class Sentences(Found):
         loads = [states["F_star"][i] for i in known]
         found = [
             f"{name} = {number(F)} ({value_of(F * self.contact.E_ss, 'Pa')}{_beyond(F, loads)})"
-            for name, F in self._found("F_cr1", "F_cr2").items()
+            for name, F in self._existing_loads("F_cr1", "F_cr2").items()
         ]
         if any(is_rare(states["mode"][i], held_in(self.result, i)) for i in known):
             path = "Modes are those of a wide surface whose particles all share the load"
@@ -172,7 +172,7 @@ class Sentences(Found):
 
     def _when(self) -> str:
         """Of the inputs, and at which of several loads."""
-        at = f", at {self._load(self.at)}" if len(self._known()) > 1 else ""
+        at = f", at {self._load(self.at)}" if len(self._solved_places()) > 1 else ""
         return f"Of the inputs{at}, "
 
     def ranked(self) -> tuple[str, list[str]]:
