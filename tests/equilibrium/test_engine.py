@@ -491,7 +491,8 @@ OTHERS = {
 
 
 @pytest.mark.parametrize("kind", OTHERS)
-def test_what_only_numpy_knows_goes_there_silently(kind, recwarn):
+def test_tables_that_only_numpy_knows_go_there_silently(kind, recwarn):
+    """Many loads of one contact; states of their own are solved by their own laws."""
     contact = OTHERS[kind]()
     with pytest.raises(NotCompiled):
         engine.batch(bound_interface(contact))
@@ -500,7 +501,10 @@ def test_what_only_numpy_knows_goes_there_silently(kind, recwarn):
     got = tb.solve(contact, F_star=loads), state_columns(contact, F_star=loads, vary=vary)
     with numpy_engine():
         same(columns(got[0]), columns(tb.solve(contact, F_star=loads)))
-        same(got[1], state_columns(contact, F_star=loads, vary=vary))
+        want = state_columns(contact, F_star=loads, vary=vary)
+    assert "compiled" in set(got[1]["engine"])
+    for name in ("d", "A_t", "F_ss_star", "F_sa_star"):
+        np.testing.assert_allclose(got[1][name], want[name], rtol=1e-9, err_msg=name)
     assert not [w for w in recwarn if not issubclass(w.category, tb.RangeWarning)]
 
 
