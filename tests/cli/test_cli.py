@@ -67,7 +67,6 @@ WARNED |= {
     )
 }  # fmt: skip
 WARNED["steel_debris_in_film"].append("particles flatten, as debris = 'ductile' says")
-WARNED["explicit"].append("the collars that both surfaces push up")
 WARNED["quartz_in_bearing"] = ["strengths are extrapolated by a factor"]
 """What examples are warned of, and not of anything else."""
 

@@ -151,14 +151,15 @@ def test_particles_of_the_table_say_what_holds_them():
         state = tb.solve(case, d=gap * 10e-6)
         assert not any("laws of one contact end" in text for text in state.warnings)
         assert not any("squashed to contacts" in text for text in state.warnings)
-        return [note for note in state.warnings if code_of(note) in ("squeezed", "collars")]
+        return [note for note in state.warnings if code_of(note) == "squeezed"]
 
     for ratio in (0.6, 5.0):
         assert not told(0.86, ratio)
         (text,) = told(0.84, ratio)
         assert "friction_factor" in text
     assert not any("collars" in note for note in told(0.34, 5.0))
-    assert [note.code for note in told(0.30, 5.0)] == ["squeezed", "collars"]
+    (text,) = told(0.30, 5.0)
+    assert "collars" in text
     assert not any("collars" in note for note in told(0.30, 0.6))
 
 

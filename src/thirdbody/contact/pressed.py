@@ -173,16 +173,14 @@ def _about_computed(contact: Contact, d: Array) -> list[str]:
         "computation there within ±10 % (friction of the grain's faces, smooth to rough: "
         f"{_signed(less)} … {_signed(more)} %), to no measurement"
     )
-    effect = max(0.1, -less, more)
-    out: list[str] = [Note(what, code="squeezed", effect=effect, action=OTHER_FRICTION)]
+    action = OTHER_FRICTION
     if min(collars / total, 1.0) > TOLD:
-        what = (
-            f"on up to {percent(min(collars / total, 1.0), digits=2)} of the particles' load the "
-            "collars that both surfaces push up around a grain may touch: what they carry is not "
-            "counted, and the particles' part of the load is too small there"
+        action += (
+            f". On up to {percent(min(collars / total, 1.0), digits=2)} the collars that both "
+            "surfaces push up around a grain may touch: what they carry is not counted, and "
+            "the particles' part of the load is too small there; fewer or smaller grains avoid it"
         )
-        out.append(Note(what, code="collars", action="fewer or smaller grains avoid it"))
-    return out
+    return [Note(what, code="squeezed", effect=max(0.1, -less, more), action=action)]
 
 
 @lru_cache(maxsize=512)

@@ -30,7 +30,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..numerics.quadrature import panel_rule, subdivide
 from ..quantities.carried import takes_units
 from ..quantities.say import percent
@@ -390,10 +390,12 @@ class Ellipticity(Value):
             if _close(_means(*rule(count)), exact):
                 ratios, radii = rule(count)
                 return cls(ratios=tuple(ratios), radii=tuple(radii))
-        raise InvalidValue(
-            f"first_ratio = {first_ratio:g} and second_ratio = {second_ratio:g} are too slender "
-            f"for {MOST_CLASSES} classes of angles; give classes of your own"
+        slender = (
+            f"and second_ratio = {second_ratio:g} are too slender for {MOST_CLASSES} classes of "
+            "angles"
         )
+        hint = "give classes of your own"
+        raise InvalidValue(Problem("first_ratio", slender, f"{first_ratio:g}", hint=hint))
 
 
 @takes_units

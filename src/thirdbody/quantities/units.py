@@ -8,16 +8,20 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any, NoReturn
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from .kinds import KINDS, is_usual, kind_of_parsed, one_spelling, registry
 from .nearest import near
 
-__all__ = ["EXAMPLES", "comma_may_part_thousands", "quantity_to_si", "say", "to_si"]
+__all__ = [
+    *("EXAMPLES", "MICRONS", "comma_may_part_thousands", "not_among", "quantity_to_si", "say"),
+    "to_si",
+]
 
+MICRONS = "um are 1e-6 or '1 um'"
 EXAMPLES = {
     "m": '"300 nm"',
     "Pa": '"5 GPa"',
@@ -212,6 +216,15 @@ def say(value: Any) -> str:
         value = "[" + ", ".join(say(item) for item in value) + "]"
     text = str(value)
     return text if len(text) <= 80 else text[:76] + " ..."
+
+
+def not_among(key: str, value: Any, allowed: Iterable[str]) -> Problem:
+    """The mistake of a word that is none of those allowed.
+
+    >>> not_among("limit", "rough", ("coarse", "fine"))
+    'limit = "rough" must be one of "coarse", "fine"'
+    """
+    return Problem(key, f"must be one of {', '.join(map(say, allowed))}", say(value))
 
 
 def _need_text(unit: str) -> str:

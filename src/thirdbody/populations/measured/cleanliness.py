@@ -24,10 +24,10 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
-from ...quantities.units import say
+from ...quantities.units import MICRONS, not_among, say
 from ..distributions import Distribution, PowerLaw
 from .concentration import OIL_DENSITY, Concentration, concentration, particles_in
 
@@ -95,15 +95,13 @@ def _falling(
 
 def _check_ends(kind: str, sizes: list[float], smallest: float | None, largest: float) -> None:
     if smallest is not None and not 0 < smallest <= sizes[0]:
-        raise InvalidValue(
-            f"smallest = {smallest:g} must be above 0 and at most {sizes[0]:g} [m], the smallest "
-            f"size that the code counts; um are 1e-6 or '1 um'"
+        rule = (
+            f"must be above 0 and at most {sizes[0]:g} [m], the smallest size that the code counts"
         )
+        raise InvalidValue(Problem("smallest", rule, f"{smallest:g}", hint=MICRONS))
     if not (math.isfinite(largest) and largest > sizes[-1]):
-        raise InvalidValue(
-            f"largest = {largest:g} must be above {sizes[-1]:g} [m], the largest size that the "
-            "code counts; um are 1e-6 or '1 um'"
-        )
+        rule = f"must be above {sizes[-1]:g} [m], the largest size that the code counts"
+        raise InvalidValue(Problem("largest", rule, f"{largest:g}", hint=MICRONS))
 
 
 @names_arguments
@@ -219,7 +217,7 @@ def suspension_of_iso4406(
     scale = _table("cleanliness")["iso4406"]
     numbers = read_iso4406(code)
     if level not in LEVELS:
-        raise InvalidValue(f"level = {say(level)} must be one of {', '.join(map(say, LEVELS))}")
+        raise InvalidValue(not_among("level", level, LEVELS))
     largest = LARGEST["iso4406"] if largest is None else largest
     counted = [
         (1e-6 * size, _within(scale["most"], number, level) / scale["volume"])
@@ -342,7 +340,7 @@ _TITLES = {"as4059": "SAE AS4059", "nas1638": "NAS 1638"}
 def _class_table(kind: str) -> tuple[dict[str, Any], dict[str, list[int]]]:
     """The entry of a standard, and the highest counts of each of its classes."""
     if kind not in _TITLES:
-        raise InvalidValue(f"standard = {say(kind)} must be one of {', '.join(map(say, _TITLES))}")
+        raise InvalidValue(not_among("standard", kind, _TITLES))
     scale = _table("cleanliness")[kind]
     return scale, scale["most" if kind == "as4059" else "within"]
 
@@ -443,17 +441,16 @@ def dust_sizes(name: str, *, limit: str = "middle", smallest: float | None = Non
     """
     dust = dust_table(name)
     if limit not in LIMITS:
-        raise InvalidValue(f"limit = {say(limit)} must be one of {', '.join(map(say, LIMITS))}")
+        raise InvalidValue(not_among("limit", limit, LIMITS))
     pick = {"coarse": (1.0, 0.0), "middle": (0.5, 0.5), "fine": (0.0, 1.0)}[limit]
     x = np.array([1e-6 * row[0] for row in dust["finer"]])
     Q = np.array([pick[0] * row[1] + pick[1] * row[2] for row in dust["finer"]]) / 100
     if smallest is None:
         smallest = float(x[0] * (x[1] / x[0]) ** (-Q[0] / (Q[1] - Q[0])))
     if not 0 < smallest < x[0]:
-        raise InvalidValue(
-            f"smallest = {smallest:g} must be above 0 and below {x[0]:g} [m], the first size of "
-            "the table; um are 1e-6 or '0.5 um'"
-        )
+        rule = f"must be above 0 and below {x[0]:g} [m], the first size of the table"
+        hint = "um are 1e-6 or '0.5 um'"
+        raise InvalidValue(Problem("smallest", rule, f"{smallest:g}", hint=hint))
     edges = np.concatenate([[smallest], x])
     volume = np.diff(np.concatenate([[0.0], Q]))
     low, high = edges[:-1] / smallest, edges[1:] / smallest

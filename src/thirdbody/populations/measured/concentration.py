@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ...errors import InvalidValue, Problem
 from ...quantities.carried import takes_units
-from ...quantities.units import say, to_si
+from ...quantities.units import not_among, say, to_si
 from ..distributions import Distribution
 
 __all__ = ["OIL_DENSITY", "Concentration", "concentration", "particles_in"]
@@ -69,7 +69,7 @@ def concentration(value: float | str, by: str = "number") -> Concentration:
     """
     kinds = ("number", "mass", "volume", "mass per volume")
     if by not in kinds:
-        raise InvalidValue(Problem("by", f"must be one of {', '.join(map(say, kinds))}", say(by)))
+        raise InvalidValue(not_among("by", by, kinds))
     if isinstance(value, str):
         amount, by = _read(value)
     else:
@@ -150,10 +150,11 @@ def particles_in(
         return amount
     if by in ("mass", "mass per volume"):
         if particle_density is None:
-            raise InvalidValue(
-                "particle_density is missing: a concentration by mass needs the density of the "
-                "particles or of their material [kg/m^3], e.g. 2650 or '2.65 g/cm^3' for quartz"
+            rule = (
+                "is missing: a concentration by mass needs the density of the particles or of "
+                "their material [kg/m^3], e.g. 2650 or '2.65 g/cm^3' for quartz"
             )
+            raise InvalidValue(Problem("particle_density", rule))
         if by == "mass":
             solid = amount / particle_density
             amount = solid / (solid + (1 - amount) / oil_density)

@@ -22,12 +22,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import exprel
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...numerics.quadrature import gauss_legendre
 from ...quantities.arguments import names_arguments
 from ...quantities.carried import takes_units
 from ...quantities.files import read_bytes
-from ...quantities.units import say, to_si
+from ...quantities.units import MICRONS, not_among, say, to_si
 from ...quantities.value import Value, choice
 from ..distributions import (
     Distribution,
@@ -100,13 +100,11 @@ def by_number(
     2.3661
     """
     if weighting not in WEIGHTINGS:
-        raise InvalidValue(f"weighting = {say(weighting)} must be one of {_words(WEIGHTINGS)}")
+        raise InvalidValue(not_among("weighting", weighting, WEIGHTINGS))
     power = WEIGHTINGS[weighting]
     if smallest is not None and not (0 < smallest < sizes.support[1]):
-        raise InvalidValue(
-            f"smallest = {smallest:g} must be above 0 and below the largest size "
-            f"{sizes.support[1]:.4g} [m]; um are 1e-6 or '1 um'"
-        )
+        rule = f"must be above 0 and below the largest size {sizes.support[1]:.4g} [m]"
+        raise InvalidValue(Problem("smallest", rule, f"{smallest:g}", hint=MICRONS))
     if power == 0 and smallest is None:
         return sizes
     match sizes:
@@ -230,7 +228,7 @@ class MeasuredSizes(Value):
         from scipy.optimize import least_squares
 
         if kind not in FITS:
-            raise InvalidValue(f"fit = {say(kind)} must be one of {_words(FITS)}")
+            raise InvalidValue(not_among("fit", kind, FITS))
         if len(self.sizes.counts) < 3:
             raise InvalidValue(
                 f"{len(self.sizes.counts)} bins do not test a fit with two parameters; "
@@ -388,7 +386,7 @@ def read_sizes(path: str | os.PathLike[str], *, weighting: str = "number") -> Me
     (1e-06, 2e-06, 4e-06)
     """
     if weighting not in WEIGHTINGS:
-        raise InvalidValue(f"weighting = {say(weighting)} must be one of {_words(WEIGHTINGS)}")
+        raise InvalidValue(not_among("weighting", weighting, WEIGHTINGS))
     lines = _lines(Path(path))
     head, names = lines[0]
     if len(names) not in (2, 3):
@@ -536,7 +534,3 @@ def _below(path: Any, lines: list[int], rows: Array, names: list[str]) -> tuple[
             "size below which there is 100 %"
         )
     return sizes, np.diff(below)
-
-
-def _words(options: Any) -> str:
-    return ", ".join(map(say, options))
