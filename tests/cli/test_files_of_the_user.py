@@ -424,7 +424,8 @@ def test_a_damaged_file_is_written_anew(tmp_path, name, damage):
     done = run(*ONE_FILE[name], file)
     assert "Traceback" not in done.output
     if done.exit_code == 2:
-        assert name.endswith(("xlsx", "parquet"))
+        # the half of a picture with nothing on it may be without the line that says whose it is
+        assert name.endswith(("xlsx", "parquet")) or b"thirdbody" not in before[name]
         assert "--force" in done.stderr
         assert contents(tmp_path) == before
         done = run(*ONE_FILE[name], file, "--force")

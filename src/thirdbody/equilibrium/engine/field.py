@@ -106,7 +106,7 @@ def _beyond(value, slope, bend, last, h, bent):
 
 
 @scalar
-def _at(held, column, x, h, bent):
+def _column_at(held, column, x, h, bent):
     """A column of the table at h, and its slope."""
     apart()
     value, slope, bend = _polynomial(held, column, x)
@@ -134,9 +134,9 @@ def add_field(skin, held, h, out):
     x, chi = _hold(skin, held, h), skin[0, CHI]
     raw = math.exp(-0.5 * h * h)
     density, bearing = raw / ROOT_2PI, normal_cdf(-h, raw)
-    y, slope = _at(held, ENERGY, x, h, 1.0)
-    rise, _ = _at(held, RISE, x, h, 0.0)
-    yielded, _ = _at(held, YIELDED, x, h, 0.0)
+    y, slope = _column_at(held, ENERGY, x, h, 1.0)
+    rise, _ = _column_at(held, RISE, x, h, 0.0)
+    yielded, _ = _column_at(held, YIELDED, x, h, 0.0)
     energy = _plastic_energy(h, density, bearing)
     carried = mean_pressure(y, slope, chi * energy, chi * bearing)
     top = h + rise
