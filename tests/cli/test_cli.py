@@ -278,7 +278,8 @@ def test_transitions_never_fail(monkeypatch):
 
 # ---------------------------------------------------------------------------- warnings
 def test_warnings_are_one_line_each_on_standard_error():
-    result = process("solve", DUSTY, "--json", "--set", "load.pressure=2 GPa")
+    crowded = ["--set", "load.pressure=1 GPa", "--set", "particles.areal_density=5e12 / m^2"]
+    result = process("solve", DUSTY, "--json", *crowded)
     assert result.returncode == 0
     lines = result.stderr.splitlines()
     assert lines
@@ -290,7 +291,7 @@ def test_warnings_are_one_line_each_on_standard_error():
     assert any("A_t reaches" in line for line in every)
     assert set(shown) < set(every)
     assert more.startswith(f"note: {len(every) - 3} more warning")
-    whole = process("solve", DUSTY, "--json", "--verbose", "--set", "load.pressure=2 GPa")
+    whole = process("solve", DUSTY, "--json", "--verbose", *crowded)
     assert sorted(whole.stderr.splitlines()) == sorted(every)
 
 
