@@ -265,6 +265,19 @@ def test_refusals():
         contact(dents=Dents(debris="brittle", fragment=1e-7), law=tb.particle.Flakes(aspect=2.0))
 
 
+def test_dents_lost_in_rounding_are_refused():
+    """A surface 1e45 times softer than its partner: what it leaves of a squeeze is rounding."""
+    ductile = contact(
+        STEEL.replace(E=6e-35),
+        STEEL,
+        material=STEEL.replace(H=1.36e9),
+        dents=Dents(debris="ductile"),
+        law=Series(),
+    )
+    with pytest.raises(tb.InvalidValue, match=r"surface 2 is lost in rounding.*check their units"):
+        tb.solve(ductile, d=1.0)
+
+
 def test_example(tmp_path, monkeypatch):
     """The worked example runs and its number holds."""
     monkeypatch.chdir(tmp_path)

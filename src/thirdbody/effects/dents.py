@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
+from ..errors import InvalidValue, Problem
 from ..laws.particle.series import Series
 from ..laws.particle.squashed import widest_disc
 from ..populations.materials import softer_hardness
@@ -44,6 +45,9 @@ RARE = 1e-2
 FEW = 14
 """Dents in an area below which its deepest one is a matter of chance: of ln 2/0.05 dents and fewer
 the deepest is shallower than what 5 % exceed, in half of all cases."""
+MOST_RUNS = 100
+"""Times that a dent may turn from growing to shrinking as one particle is squeezed. Laws have few
+such turns, a difference of nearly equal numbers has thousands."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -250,7 +254,20 @@ class Dents(AbstractOutput):
                 return np.where(depth > 0, 2 * deep / spots.half, 0.0)[:, 0]
 
         kinks = [*law.one(surfaces=surfaces, particle=particle).kinks]
-        return Curve(value, kinks, power=0 if name == "sunk" else 1)
+        curve = Curve(value, kinks, power=0 if name == "sunk" else 1)
+        if len(curve.runs) > MOST_RUNS:
+            bodies = {"surface 1": surfaces.first, "surface 2": surfaces.second, "grain": particle}
+            moduli = ", ".join(f"{number(body.E)} Pa ({who})" for who, body in bodies.items())
+            raise InvalidValue(
+                Problem(
+                    "outputs.dents",
+                    f": the {name if name != 'sunk' else 'depth'} of dents in surface {side + 1} "
+                    f"is lost in rounding, it rises and falls {len(curve.runs)} times as a grain "
+                    f"is squeezed; E = {moduli}",
+                    hint="one of E and H is too far from the others: check their units",
+                )
+            )
+        return curve
 
     def _values(
         self, spots: ParticleSpots, values: Array, name: str, side: int, contact: Contact
