@@ -4,6 +4,7 @@ import copy
 import math
 import pickle
 import warnings
+from contextvars import ContextVar
 from pathlib import Path
 
 import pytest
@@ -45,14 +46,14 @@ def test_warnings_carry_the_notes_of_the_state():
     assert all(note.action for note in told)
 
 
-@pytest.mark.parametrize("whole", [False, True])
-def test_three_are_shown_and_the_rest_counted(whole, capsys):
-    token = streams.SHOWS_ALL.set(whole)
-    try:
-        streams.warn_of([Note(f"note {i}", code=str(i), effect=i / 10) for i in range(1, 6)])
-    finally:
-        streams.SHOWS_ALL.reset(token)
-    lines = capsys.readouterr().err.splitlines()
-    worst = [f"warning: note {i}" for i in (5, 4, 3, 2, 1)]
-    more = ["note: 2 more warnings of less effect on the answer; --verbose shows all"]
-    assert lines == (worst if whole else worst[:3] + more)
+@pytest.mark.parametrize(
+    ("whole", "before", "most"), [(False, 0, 3), (False, 2, 1), (False, 4, 1), (True, 2, 5)]
+)
+def test_three_are_shown_and_the_rest_counted(whole, before, most, capsys, monkeypatch):
+    """Those of the inputs count as well; of the answer the worst is always shown."""
+    monkeypatch.setattr(streams, "SHOWS_ALL", ContextVar("shows_all", default=whole))
+    monkeypatch.setattr(streams, "WARNINGS", ContextVar("warnings", default=before))
+    streams.warn_of([Note(f"note {i}", code=str(i), effect=i / 10) for i in range(1, 6)])
+    worst = [f"warning: note {i}" for i in (5, 4, 3, 2, 1)][:most]
+    left = f"note: {5 - most} more warnings of less effect on the answer; --verbose shows all"
+    assert capsys.readouterr().err.splitlines() == (worst if whole else [*worst, left])

@@ -13,7 +13,7 @@ import typer
 
 from ..errors import InvalidValue
 from ..quantities.installed import offers
-from .streams import SHOWS_ALL, remark, warn
+from .streams import SHOWS_ALL, WARNINGS, remark, warn
 
 if TYPE_CHECKING:
     from ..study import Study
@@ -87,6 +87,7 @@ def with_common_options(command: Callable[..., Any], *, warns: bool) -> Callable
 
     def run(*, own_code: list[Path] | None = None, verbose: bool = False, **arguments: Any) -> Any:
         SHOWS_ALL.set(verbose)
+        WARNINGS.set(0)
         load_own_code(own_code)
         return command(**arguments)
 

@@ -48,6 +48,8 @@ MOST_SHOWN = 3
 """Notes that are shown where not all are asked for."""
 SHOWS_ALL: ContextVar[bool] = ContextVar("shows_all", default=False)
 """Whether a command shows every note."""
+WARNINGS: ContextVar[int] = ContextVar("warnings", default=0)
+"""How many warnings a command has shown."""
 LEAST = 40
 """Width that messages are wrapped to at least."""
 
@@ -127,14 +129,18 @@ def complain(sentences: Iterable[str]) -> None:
 
 def warn(message: Warning | str, *_: Any, **__: Any) -> None:
     """A warning: one line of a pipe or file, as many lines of a terminal as it takes."""
+    WARNINGS.set(WARNINGS.get() + 1)
     sentence = in_study_words(" ".join(str(message).split()))
     print(_wrap_line(f"warning: {sentence}"), file=sys.stderr)
 
 
 def warn_of(notes: Iterable[str]) -> None:
-    """What an answer leaves open: what matters most to it, and how much more there is."""
+    """What an answer leaves open: what matters most to it, and how much more there is.
+
+    What was said of the inputs counts among the most that are shown; the worst is always shown.
+    """
     worst = ranked(notes)
-    shown = worst if SHOWS_ALL.get() else worst[:MOST_SHOWN]
+    shown = worst if SHOWS_ALL.get() else worst[: max(MOST_SHOWN - WARNINGS.get(), 1)]
     for note in shown:
         warn(note)
     if left := len(worst) - len(shown):
