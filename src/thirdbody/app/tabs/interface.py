@@ -111,7 +111,7 @@ def abouts() -> dict[str, str]:
 def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
     """The answer, the drawing, what it shows, and another draw."""
     seed = {"now": 0}
-    force = Force(state)
+    force = Force(state, lambda: draw())
     answer = ui.label().classes("headline").props('data-fact="headline" role=status')
     film = ui.label(FILM).classes("hint").props('data-fact="film"')
     picture = (
@@ -171,8 +171,8 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
 class Force:
     """What forces do to their bodies: the pressures at once, the integral once the study rests."""
 
-    def __init__(self, state: State) -> None:
-        self.state = state
+    def __init__(self, state: State, redraw: Callable[[], Awaitable[None]]) -> None:
+        self.state, self.redraw = state, redraw
         self.box = ui.column().classes("w-full gap-1")
         with self.box:
             self.said = ui.label().classes("whole-contact").props('data-fact="force" role=status')
@@ -219,7 +219,9 @@ class Force:
         finally:
             self.running = False
         self.first.set_text(FIRST)
-        self.draw()  # of another answer meanwhile: it is asked for now
+        # what is drawn counts particles on the area that carries, known only now; of another
+        # answer meanwhile the integral is asked for
+        await self.redraw()
 
 
 def at_once(answer: Answer) -> list[Pressed]:
