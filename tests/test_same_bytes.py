@@ -120,6 +120,7 @@ COMMANDS = [
     ["laws", "--markdown"],
     ["outputs"],
     ["materials"],
+    ["schema"],
 ]
 CHUNKS = ["--set", "sweep.chunk=3"]
 REDUCED = ["--set", "sweep.reduce={ quantiles = [0.5], mean = true }"]

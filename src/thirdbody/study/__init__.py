@@ -9,6 +9,7 @@ Each table is read in a file of its own; `tables` lists them.
 
 from .fields import filled_in
 from .run import run_film, run_study
+from .schema import study_schema
 from .vocabulary import DISTRIBUTIONS, HEIGHTS, LOADS
 from .whole import Study, check, load_study
 
@@ -22,4 +23,5 @@ __all__ = [
     "load_study",
     "run_film",
     "run_study",
+    "study_schema",
 ]

@@ -10,8 +10,8 @@ import numpy as np
 
 from ..errors import InvalidValue, Problem
 from ..quantities.units import say
-from .one_value import count, number, word
-from .reader import Key, Reader, plain
+from .one_value import One, count, number, word
+from .reader import Key, Reader, Ways, plain
 
 __all__ = ["amounts", "is_span"]
 
@@ -20,11 +20,18 @@ def amounts(
     reader: Reader, path: str, about: dict[str, Any], data: Any, *, sampled: bool = False
 ) -> Any:
     """One value, a list of values, or a range; a range to sample has no ``points``."""
+    if reader.every_way:
+        every: tuple[Any, ...] = (None, [], {})
+        return Ways(tuple(_amounts(reader, path, about, way, sampled=True) for way in every))
+    return _amounts(reader, path, about, data, sampled=sampled)
+
+
+def _amounts(reader: Reader, path: str, about: dict[str, Any], data: Any, *, sampled: bool) -> Any:
+    one = number(reader, path, about)
     if isinstance(data, dict):
         return _range(reader, path, about, data, sampled=sampled)
     if not isinstance(data, list):
-        one = number(reader, path, about)
-        return plain(lambda value: np.array([one(value)]))
+        return plain(One(lambda value: np.array([one(value)]), one.schema))
 
     def read(value: list[Any]) -> np.ndarray:
         if not value:
@@ -40,7 +47,7 @@ def amounts(
             raise InvalidValue(*problems)
         return np.array(numbers)
 
-    return plain(read)
+    return plain(One(read, {"type": "array", "items": one.schema}))
 
 
 def _range(

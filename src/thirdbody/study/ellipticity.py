@@ -9,8 +9,8 @@ from ..errors import InvalidValue, Problem
 from ..populations.ellipticity import FACES, Ellipticity
 from ..quantities.units import say
 from .fields import about_of
-from .one_value import number, refused
-from .reader import Key, Reader, plain
+from .one_value import One, number, refused
+from .reader import Key, Reader, plain, reads_also
 
 __all__ = ["ellipticity", "ellipticity_beside_topography"]
 
@@ -27,6 +27,7 @@ SECOND_SHAPE = (
 )
 
 
+@reads_also({}, {"first": 1})
 def ellipticity(reader: Reader, path: str, data: Any) -> Any:
     """Classes of ratios, or two faces at an angle."""
     if not isinstance(data, dict):
@@ -67,10 +68,11 @@ def ellipticity(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, keys, build)
 
 
+@reads_also("measured", {}, {"first": 1})
 def ellipticity_beside_topography(reader: Reader, path: str, data: Any) -> Any:
     """Shapes of the summits counted on a measured surface, or classes and faces as elsewhere."""
     if data == "measured":
-        return plain(str)
+        return plain(One(str, {"const": "measured"}))
     if not isinstance(data, dict):
         return plain(refused(path, NO_SHAPE_MEASURED))
     if radii := [key for key in ("R_first", "R_second") if key in data]:
@@ -96,4 +98,4 @@ def _angle(reader: Reader, path: str) -> Callable[[Any], Any]:
                 'e.g. "30 deg" (a number is in rad), or "random"'
             ) from None
 
-    return read
+    return One(read, {"type": ["number", "string"]})

@@ -8,8 +8,8 @@ from ..errors import InvalidValue
 from ..quantities.units import say
 from ..quantities.value import quantity
 from .fields import about_of
-from .one_value import count, number, word
-from .reader import Key, Reader, Table, get, plain
+from .one_value import One, count, number, word
+from .reader import Key, Reader, Table, get, plain, reads_also
 
 __all__ = ["TABLE"]
 
@@ -36,13 +36,14 @@ def explicit(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, keys, dict)
 
 
+@reads_also({})
 def _seats(reader: Reader, path: str, data: Any) -> Any:
     """A rule, by its word or as a table with its numbers."""
     from ..explicit.seats import SEATS  # takes numba along, which other studies do without
 
     if not isinstance(data, dict):
         named = word(path, SEATS)
-        return plain(lambda value: SEATS[named(value)]())
+        return plain(One(lambda value: SEATS[named(value)](), named.schema))
     return reader.variant(
         path, data, "rule", SEATS,
         lambda values: reader.make(SEATS[values.pop("rule")], path, values), {},

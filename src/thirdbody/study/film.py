@@ -66,7 +66,7 @@ def film(reader: Reader, path: str, data: Any) -> Any:
         ),
     }
 
-    pressed = get(reader.whole, "body") is not None
+    pressed = reader.every_way or get(reader.whole, "body") is not None
     if pressed:
         for name in ("conjunction", "load"):
             keys[name] = keys[name]._replace(required=False)

@@ -11,13 +11,14 @@ from ..populations.heights import Heights
 from ..quantities.units import say
 from .fields import needed_fields
 from .mistakes import in_file
-from .one_value import word
-from .reader import Reader, plain
+from .one_value import One, word
+from .reader import Reader, plain, reads_also
 from .vocabulary import HEIGHTS
 
 __all__ = ["heights"]
 
 
+@reads_also({})
 def heights(reader: Reader, path: str, data: Any) -> Any:
     """One kind of heights."""
 
@@ -44,4 +45,4 @@ def heights(reader: Reader, path: str, data: Any) -> Any:
             )
         return build({"name": name})
 
-    return plain(from_word)
+    return plain(One(from_word, word(path, HEIGHTS).schema))

@@ -9,7 +9,7 @@ from pydantic import AfterValidator, PlainValidator
 
 from ..laws import asperity, particle
 from .one_value import word
-from .reader import Reader, Table, get
+from .reader import Reader, Table, get, reads_also
 
 __all__ = ["ASPERITY_LAW", "PARTICLE_LAW", "asperity_law", "class_of", "named_law", "particle_law"]
 
@@ -29,6 +29,7 @@ def class_of(data: Any, registry: Mapping[str, type]) -> type | None:
     return registry.get(str(get(data, "name") if isinstance(data, dict) else data))
 
 
+@reads_also("", {})
 def named_law(reader: Reader, path: str, data: Any, registry: Mapping[str, type]) -> Any:
     """A name, or a table with the name and options of the law."""
 

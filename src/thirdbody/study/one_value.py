@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ..errors import InvalidValue, Problem
@@ -15,6 +16,7 @@ from .mistakes import wrong
 from .vocabulary import in_words, near
 
 __all__ = [
+    "One",
     "count",
     "number",
     "numbers",
@@ -27,6 +29,25 @@ __all__ = [
 ]
 
 MOST_POINTS = 1_000_000
+LIMITS = {
+    "gt": "exclusiveMinimum",
+    "ge": "minimum",
+    "lt": "exclusiveMaximum",
+    "le": "maximum",
+}
+"""Limits of a quantity as JSON Schema calls them; of a number, which is in SI, not of text."""
+
+
+@dataclass(frozen=True)
+class One:
+    """How one value is read, and what it is in the words of JSON Schema."""
+
+    read: Callable[[Any], Any]
+    schema: dict[str, Any] | None
+    """None where no value can stand."""
+
+    def __call__(self, value: Any) -> Any:
+        return self.read(value)
 
 
 class Notes(Protocol):
@@ -48,7 +69,7 @@ def plain_number(unit: str) -> dict[str, Any]:
     return limits | {"symbol": "", "unit": unit, "meaning": "number", "hint": ""}
 
 
-def number(reader: Notes, path: str, about: dict[str, Any]) -> Callable[[Any], float]:
+def number(reader: Notes, path: str, about: dict[str, Any]) -> One:
     """A number in SI inside the range of its quantity; text has a unit."""
 
     def read(value: Any) -> float:
@@ -68,7 +89,8 @@ def number(reader: Notes, path: str, about: dict[str, Any]) -> Callable[[Any], f
         _plausible(reader, path, about, value, found)
         return found
 
-    return read
+    limits = {word: about[key] for key, word in LIMITS.items() if about[key] is not None}
+    return One(read, {"type": ["number", "string"]} | limits)
 
 
 def _plausible(reader: Notes, path: str, about: dict[str, Any], value: Any, number: float) -> None:
@@ -95,7 +117,7 @@ def has_unit(value: Any) -> bool:
     return re.fullmatch(r"[\d\s.+-]*([eE][+-]?\d+)?\s*", value) is None
 
 
-def count(path: str, *, least: int = 1, most: int = MOST_POINTS) -> Callable[[Any], int]:
+def count(path: str, *, least: int = 1, most: int = MOST_POINTS) -> One:
     """A whole number."""
 
     def read(value: Any) -> int:
@@ -104,10 +126,10 @@ def count(path: str, *, least: int = 1, most: int = MOST_POINTS) -> Callable[[An
             raise wrong(path, f"must be a whole number from {least} to {most}", value)
         return int(value)
 
-    return read
+    return One(read, {"type": "integer", "minimum": least, "maximum": most})
 
 
-def word(path: str, options: Iterable[str]) -> Callable[[Any], str]:
+def word(path: str, options: Iterable[str]) -> One:
     """One of a few words."""
 
     def read(value: Any) -> str:
@@ -123,10 +145,10 @@ def word(path: str, options: Iterable[str]) -> Callable[[Any], str]:
             ),
         )
 
-    return read
+    return One(read, {"enum": list(options)})
 
 
-def words(path: str, options: Iterable[str] | None) -> Callable[[Any], list[str]]:
+def words(path: str, options: Iterable[str] | None) -> One:
     """One word or a list of words."""
 
     def read(value: Any) -> list[str]:
@@ -137,10 +159,11 @@ def words(path: str, options: Iterable[str] | None) -> Callable[[Any], list[str]
             raise wrong(path, "must be a list of names in quotes", value)
         return values
 
-    return read
+    one = {"type": "string"} if options is None else {"enum": list(options)}
+    return One(read, {"anyOf": [one, {"type": "array", "items": one}]})
 
 
-def word_or_number(path: str) -> Callable[[Any], str | float]:
+def word_or_number(path: str) -> One:
     """A word or a pure number; which ones, the object it is for knows."""
 
     def read(value: Any) -> str | float:
@@ -150,10 +173,10 @@ def word_or_number(path: str) -> Callable[[Any], str | float]:
             return value
         raise wrong(path, "must be a word in quotes or a number", value)
 
-    return read
+    return One(read, {"type": ["number", "string"]})
 
 
-def text(path: str) -> Callable[[Any], str]:
+def text(path: str) -> One:
     """Text in quotes."""
 
     def read(value: Any) -> str:
@@ -161,10 +184,10 @@ def text(path: str) -> Callable[[Any], str]:
             return value
         raise wrong(path, f'must be text in quotes, e.g. "{value}"', value)
 
-    return read
+    return One(read, {"type": "string"})
 
 
-def switch(path: str) -> Callable[[Any], bool]:
+def switch(path: str) -> One:
     """True or false."""
 
     def read(value: Any) -> bool:
@@ -172,10 +195,10 @@ def switch(path: str) -> Callable[[Any], bool]:
             return value
         raise wrong(path, "must be true or false, without quotes", value)
 
-    return read
+    return One(read, {"type": "boolean"})
 
 
-def numbers(path: str, unit: str, *, usual: float | None = None) -> Callable[[Any], Any]:
+def numbers(path: str, unit: str, *, usual: float | None = None) -> One:
     """A list of numbers; the class of the table checks their range.
 
     Lengths up to ``usual`` are no slip: infinity where numbers without a unit may be in any unit.
@@ -196,13 +219,13 @@ def numbers(path: str, unit: str, *, usual: float | None = None) -> Callable[[An
             raise InvalidValue(*problems)
         return tuple(out)
 
-    return read
+    return One(read, {"type": "array", "items": {"type": ["number", "string"]}})
 
 
-def refused(path: str, why: str) -> Callable[[Any], Any]:
+def refused(path: str, why: str) -> One:
     """A key that is known and has no place here."""
 
     def read(value: Any) -> Any:
         raise wrong(path, why, value)
 
-    return read
+    return One(read, None)

@@ -13,7 +13,7 @@ from .concentration import amount, laden
 from .counted import COUNTED, counted
 from .laws import particle_law
 from .mistakes import clash
-from .reader import Key, Reader, Table, get
+from .reader import Key, Reader, Table, get, reads_also
 from .shape import OF_SIZES, shape
 from .strength import strength
 from .vocabulary import DISTRIBUTIONS
@@ -31,6 +31,7 @@ def populations(whole: dict[str, Any]) -> dict[str, Any]:
     return {"particles": given} if "particles" in whole else {}
 
 
+@reads_also([{}])
 def particles(reader: Reader, path: str, data: Any) -> Any:
     """One population, or a list of them."""
     if not (isinstance(data, list) and data):
@@ -51,6 +52,13 @@ def particles(reader: Reader, path: str, data: Any) -> Any:
     return Annotated[tuple[several], AfterValidator(tuple)]  # type: ignore[valid-type]
 
 
+@reads_also(
+    *({key: ""} for key in COUNTED),
+    {"sizes": {}},
+    {"distribution": "weibull"},
+    {"distribution": "weibull", "shape": {}},
+    {"concentration": ""},
+)
 def _population(reader: Reader, path: str, data: Any) -> Any:
     """One population, whose sizes are a distribution or were counted."""
     own = reader.keys_of(Particles, path, data)
@@ -88,7 +96,7 @@ def _population(reader: Reader, path: str, data: Any) -> Any:
 
 def _law(reader: Reader, path: str, data: Any) -> Any:
     """The law of one population; its keys are known only where the file names one."""
-    return Any if data is None else particle_law(reader, path, data)
+    return particle_law(reader, path, data) if data is not None or reader.every_way else Any
 
 
 TABLE = Table(name="particles", read=particles)

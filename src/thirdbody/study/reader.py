@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -21,7 +22,18 @@ from .mistakes import Known, clash, in_file
 from .one_value import number, numbers, switch, text, word, word_or_number
 from .vocabulary import near
 
-__all__ = ["Key", "Reader", "Table", "get", "plain", "rivals"]
+__all__ = [
+    "Built",
+    "Key",
+    "Read",
+    "Reader",
+    "Table",
+    "Ways",
+    "get",
+    "plain",
+    "reads_also",
+    "rivals",
+]
 
 ONE_OF = {
     "load": ("F_star", "pressure", "separation", "force"),
@@ -78,6 +90,34 @@ class Table:
 FieldReader = Callable[["Reader", str, Any], Any]
 
 
+class Ways(NamedTuple):
+    """Every type that a key may have, where its data decide which."""
+
+    types: tuple[Any, ...]
+
+
+DEEPEST = 5
+"""Names in the path of a table inside tables beyond which `Ways` are not followed."""
+
+
+def reads_also(*others: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Marks what reads a table or a key, with data that it reads in other ways than none."""
+
+    def mark(read: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(read)
+        def reading(reader: Reader, path: str, data: Any, *more: Any, **options: Any) -> Any:
+            if not reader.every_way:
+                return read(reader, path, data, *more, **options)
+            if path.count(".") >= DEEPEST:
+                return Any
+            ways = (data, *(other for other in others if other != data))
+            return Ways(tuple(read(reader, path, way, *more, **options) for way in ways))
+
+        return reading
+
+    return mark
+
+
 class Reader:
     """What the readers of all tables of one file share.
 
@@ -91,6 +131,9 @@ class Reader:
         For fields that are themselves tables: the type as declared in the value class, how it is
         read and what it is.
     """
+
+    every_way = False
+    """Whether keys are put together for whatever data may come, to say what a file may hold."""
 
     def __init__(
         self, folder: Path, whole: dict[str, Any], fields: Mapping[str, tuple[FieldReader, str]]
@@ -170,6 +213,8 @@ class Reader:
         """
         asked = get(data, tag)
         chosen = asked if isinstance(asked, str) and asked in kinds else near(str(asked), kinds)
+        if self.every_way:
+            chosen = None
         self.known.variants[path] = (
             tag,
             {
@@ -185,14 +230,17 @@ class Reader:
             for kind in kinds.values():
                 any_kind = self.keys_of(kind, path, data)
                 for name, key in any_kind.items():
-                    keys.setdefault(name, key._replace(required=False))
+                    if name not in keys:
+                        keys[name] = key._replace(required=False)
+                    elif self.every_way:
+                        keys[name] = Key(Ways((keys[name].type, key.type)), False, key.about)
             keys |= common
         return self.table(path, keys, build)
 
     def table(self, path: str, keys: dict[str, Key], build: Callable[[dict[str, Any]], Any]) -> Any:
         """What pydantic checks of the table, followed by the object it stands for."""
         self.known.keys[path] = {name: key.about for name, key in keys.items()}
-        return Annotated[Any, _Built(keys, build)]
+        return Annotated[Any, Built(keys, build)]
 
     # ------------------------------------------------------------------ several keys at once
     def only_one(self, path: str, data: Any, group: str = "") -> list[str]:
@@ -212,7 +260,7 @@ class Reader:
 
 
 @dataclass(frozen=True)
-class _Built:
+class Built:
     """A table with these keys and no others, as a schema: faster to put together than a model."""
 
     keys: dict[str, Key]
@@ -236,11 +284,11 @@ class _Built:
 
 def plain(read: Callable[[Any], Any]) -> Any:
     """A type that reads one value."""
-    return Annotated[Any, _Read(read)]
+    return Annotated[Any, Read(read)]
 
 
 @dataclass(frozen=True)
-class _Read:
+class Read:
     """What reads one value; `pydantic.PlainValidator` would look for ways to write it as well."""
 
     read: Callable[[Any], Any]

@@ -10,12 +10,13 @@ from ..populations.roughness import Roughness
 from ..quantities.say import value_of
 from ..quantities.units import say, to_si
 from .drawing import drawn, is_drawn
-from .reader import Reader, Table, get
+from .reader import Reader, Table, get, reads_also
 from .topography import topography
 
 __all__ = ["TABLE"]
 
 
+@reads_also({"Ra": ""}, {"topography": ""})
 def roughness(reader: Reader, path: str, data: Any) -> Any:
     """The equivalent rough surface."""
     if isinstance(data, dict) and "topography" in data:

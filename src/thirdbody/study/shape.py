@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
-
-from pydantic import PlainValidator
+from typing import Any
 
 from ..errors import InvalidValue
 from ..populations.shape import SPHERE, Angular, Sphere
 from ..quantities.units import say
-from .one_value import number
-from .reader import Key, Reader, get, plain
+from .one_value import One, number
+from .reader import Key, Reader, get, plain, reads_also
 from .vocabulary import DISTRIBUTIONS
 
 __all__ = ["OF_SIZES", "SHAPES", "shape"]
@@ -34,6 +32,7 @@ def shape(reader: Reader, path: str, data: Any, own: dict[str, Key]) -> None:
     own["shape"] = Key(_read(reader, f"{path}.shape", given), False, ABOUT)
 
 
+@reads_also({})
 def _read(reader: Reader, path: str, data: Any) -> Any:
     if isinstance(data, dict):
 
@@ -47,4 +46,4 @@ def _read(reader: Reader, path: str, data: Any) -> Any:
             return SPHERE
         raise InvalidValue(f"{path} = {say(value)} must be {ABOUT}")
 
-    return Annotated[Any, PlainValidator(word)]
+    return plain(One(word, {"const": "sphere"}))

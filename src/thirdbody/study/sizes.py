@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .one_value import refused
-from .reader import Reader, plain
+from .reader import Reader, plain, reads_also
 from .vocabulary import DISTRIBUTIONS
 
 __all__ = ["parts", "sizes"]
@@ -25,6 +25,7 @@ def sizes(reader: Reader, path: str, data: Any) -> Any:
     return reader.variant(path, data, "distribution", DISTRIBUTIONS, build, {})
 
 
+@reads_also([{}])
 def parts(reader: Reader, path: str, data: Any) -> Any:
     """The components of a mixture, a list of tables."""
     if isinstance(data, list) and data:

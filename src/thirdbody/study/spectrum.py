@@ -7,11 +7,13 @@ from typing import Any
 from ..errors import InvalidValue
 from ..laws.asperity import OwnSpectrum, RollOff
 from ..quantities.units import say
-from .reader import Reader, get, plain
+from .one_value import One
+from .reader import Reader, get, plain, reads_also
 
 __all__ = ["spectrum"]
 
 
+@reads_also({})
 def spectrum(reader: Reader, path: str, data: Any) -> Any:
     """``"measured"``, for the waves of the topography, or a roll-off."""
     if isinstance(data, dict):
@@ -36,4 +38,4 @@ def spectrum(reader: Reader, path: str, data: Any) -> Any:
         except InvalidValue as error:
             raise InvalidValue(*(f"{path}: {told}" for told in error.problems)) from None
 
-    return plain(read)
+    return plain(One(read, {"const": "measured"}))

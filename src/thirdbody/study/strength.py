@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 from pydantic import AfterValidator
 
@@ -10,8 +10,8 @@ from ..errors import InvalidValue
 from ..populations.particles import Particles
 from ..populations.strength import WeibullStrength
 from .mistakes import clash
-from .one_value import number, refused
-from .reader import Key, Reader, plain
+from .one_value import One, number, refused
+from .reader import Key, Reader, plain, reads_also
 
 __all__ = ["strength"]
 
@@ -48,10 +48,11 @@ def strength(reader: Reader, path: str, data: Any, own: dict[str, Key]) -> Any:
     return AfterValidator(complete)
 
 
+@reads_also("material", {}, {"m": 1})
 def _read(reader: Reader, path: str, data: Any, asked: _OfMaterial) -> Any:
     if data == "material":
         asked.options = {}
-        return Annotated[Any, AfterValidator(lambda _: None)]
+        return plain(One(lambda _: None, {"const": "material"}))
     if data is None:
         return Any
     if not isinstance(data, dict):

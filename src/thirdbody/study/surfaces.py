@@ -8,8 +8,8 @@ from ..errors import InvalidValue
 from ..populations.materials import Material, MaterialLibrary, MaterialPair, materials
 from ..quantities.units import say
 from .mistakes import wrong
-from .one_value import text
-from .reader import Key, Reader, Table, get, plain
+from .one_value import One, text
+from .reader import Key, Reader, Table, get, plain, reads_also
 
 __all__ = ["OWN_MATERIALS", "TABLE", "material"]
 
@@ -27,6 +27,7 @@ def surfaces(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, keys, lambda values: reader.make(MaterialPair, path, values))
 
 
+@reads_also({})
 def material(reader: Reader, path: str, data: Any) -> Any:
     """A name of the library, or a table with the numbers."""
     if isinstance(data, dict):
@@ -46,7 +47,8 @@ def material(reader: Reader, path: str, data: Any) -> Any:
         )
         raise wrong(path, rule, value, hint=OTHER)
 
-    return plain(from_library)
+    names = {"anyOf": [{"enum": list(materials)}, {"type": "string"}]}  # and those of a file
+    return plain(One(from_library, names))
 
 
 def own_materials(reader: Reader, path: str, given: Any) -> Any:

@@ -18,7 +18,7 @@ from ..quantities.units import say
 from .amounts import amounts, is_span
 from .fields import about_of
 from .inputs import Input, field_of, inputs_of
-from .one_value import count, switch, word, words
+from .one_value import One, count, switch, word, words
 from .reader import Key, Reader, Table, get, plain
 from .vocabulary import LOADS
 
@@ -52,6 +52,9 @@ def _variables(reader: Reader, path: str, data: Any, sampled: bool) -> Any:
     tables: dict[str, list[Input]] = {}
     for each in inputs_of(reader.whole):
         tables.setdefault(each.table, []).append(each)
+
+    if reader.every_way:
+        return plain(One(dict, {"type": "object"}))  # the inputs of whatever study it is
 
     def table(prefix: str, tree: Any) -> Any:
         where = f"{path}.{prefix}" if prefix else path

@@ -15,8 +15,8 @@ from .amounts import amounts
 from .ellipticity import ellipticity_beside_topography
 from .fields import about_of
 from .heights import heights
-from .one_value import number, refused, text, word
-from .reader import Key, Reader, plain
+from .one_value import One, number, refused, text, word
+from .reader import Key, Reader, plain, reads_also
 
 __all__ = ["topography"]
 
@@ -31,8 +31,7 @@ def topography(reader: Reader, path: str, data: dict[str, Any]) -> Any:
         name: Key(plain(refused(f"{path}.{name}", told_twice)), False, "")
         for name in reader.keys_of(Roughness, path, {})
     }
-    measured = data.get("heights") == "measured"
-    shape = plain(str) if measured else heights(reader, f"{path}.heights", data.get("heights"))
+    shape = _heights(reader, f"{path}.heights", data.get("heights"))
     tips = ellipticity_beside_topography(reader, f"{path}.ellipticity", data.get("ellipticity"))
     cutoff = plain(number(reader, f"{path}.cutoff", CUTOFF))
     lengths = amounts(reader, f"{path}.spacing", SPACING, data.get("spacing"))
@@ -79,6 +78,14 @@ def topography(reader: Reader, path: str, data: dict[str, Any]) -> Any:
             ) from None
 
     return reader.table(path, keys, build)
+
+
+@reads_also("measured")
+def _heights(reader: Reader, path: str, data: Any) -> Any:
+    """The heights of the summits counted, or a distribution as elsewhere."""
+    if data == "measured":
+        return plain(One(str, {"const": data}))
+    return heights(reader, path, data)
 
 
 def _files(reader: Reader, path: str) -> Callable[[Any], list[Path]]:

@@ -17,4 +17,5 @@ COMMANDS = (
     "laws",
     "outputs",
     "materials",
+    "schema",
 )

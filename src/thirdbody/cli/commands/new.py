@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 
 from ...errors import InvalidValue, Problem
+from .schema import schema_text
 
 __all__ = ["KINDS", "command"]
 
@@ -22,6 +23,9 @@ KINDS = (
     "two-body",
     "measured-surface",
 )
+
+
+SCHEMA = "study.schema.json"
 
 
 def command(
@@ -36,6 +40,14 @@ def command(
         Path | None,
         typer.Option("--out", metavar="STUDY.toml", help="The file to write, KIND.toml else."),
     ] = None,
+    schema: Annotated[
+        bool,
+        typer.Option(
+            "--schema",
+            help=f"Name {SCHEMA} in the file, and write it beside where there is none: "
+            "editors complete keys and words by it.",
+        ),
+    ] = False,
 ) -> None:
     """A commented study file that runs at once, to be changed into your own."""
     from ...quantities.files import need_folders, write_text
@@ -55,6 +67,8 @@ def command(
         problems.append(
             f"{target} exists and is not overwritten; remove it, or choose another: --out NAME.toml"
         )
+    if schema and target.name == SCHEMA:
+        problems.append(f"--out {target} is the name of the schema; choose another")
     if problems:
         raise InvalidValue(*problems)
     need_folders(target)
@@ -69,6 +83,12 @@ def command(
         for line in ("[asperity_law]", 'name = "field"', 'spectrum = "measured"'):
             text = text.replace(line, f"# {line}")
         text = text.replace("thirdbody surface FILE", f"thirdbody surface {say(str(measured))}")
-    write_text(target, text)
-    print(f"written: {target}", file=sys.stderr)
+    written = {target: text}
+    if schema:
+        written[target] = f"#:schema ./{SCHEMA}\n{text}"
+        if not (beside := target.with_name(SCHEMA)).exists():
+            written[beside] = schema_text()
+    for file, content in written.items():
+        write_text(file, content)
+        print(f"written: {file}", file=sys.stderr)
     print(f"thirdbody solve {target}")
