@@ -283,7 +283,9 @@ def line(x: Any, y: Any, name: str, number: int = 0, **more: Any) -> dict[str, A
     } | more
 
 
-def mark(x: float, text: str, *, number: int = 0, dash: str = "dot") -> tuple[dict, dict]:
+def mark(
+    x: float, text: str, *, number: int = 0, dash: str = "dot"
+) -> tuple[dict[str, Any], dict[str, Any]]:
     """A vertical line with a word above it: a shape and an annotation."""
     shape = {
         "type": "line",

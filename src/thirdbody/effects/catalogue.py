@@ -44,7 +44,7 @@ def _entry(kind: Any) -> dict[str, Any]:
     }
 
 
-def _option(item: dataclasses.Field) -> dict[str, Any]:
+def _option(item: dataclasses.Field[Any]) -> dict[str, Any]:
     required = item.default is dataclasses.MISSING and item.default_factory is dataclasses.MISSING
     default = None if required else item.default
     out = {"key": item.name, "required": required, "default": default}

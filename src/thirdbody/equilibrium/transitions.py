@@ -22,6 +22,7 @@ from .words import happens
 __all__ = ["Critical", "Transitions", "TurningPoint", "transitions"]
 
 Array = NDArray[np.float64]
+Share = Callable[[Array], Array]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -233,9 +234,7 @@ def transitions(
     )
 
 
-def _crossing(
-    low: float, high: float, share: Callable[[Array], Array], threshold: float, *, last: bool
-) -> Critical:
+def _crossing(low: float, high: float, share: Share, threshold: float, *, last: bool) -> Critical:
     """The first or last load between two at which the share falls below a threshold."""
     a, b = low, high
     for _ in range(6):
@@ -250,7 +249,7 @@ def _crossing(
     return Critical(value=float(np.sqrt(a * b)), status=status)
 
 
-def _first_critical(loads: Array, S: Array, share, threshold: float) -> Critical:
+def _first_critical(loads: Array, S: Array, share: Share, threshold: float) -> Critical:
     if S[0] < threshold:
         return Critical(value=None, status=CriticalStatus.NEVER_P_S)
     below = np.flatnonzero(S < threshold)
@@ -260,7 +259,7 @@ def _first_critical(loads: Array, S: Array, share, threshold: float) -> Critical
     return _crossing(loads[i - 1], loads[i], share, threshold, last=False)
 
 
-def _second_critical(loads: Array, S: Array, share, threshold: float) -> Critical:
+def _second_critical(loads: Array, S: Array, share: Share, threshold: float) -> Critical:
     above = np.flatnonzero(S >= threshold)
     if not len(above):
         return Critical(value=0.0, status=CriticalStatus.ALWAYS_S_S)
@@ -270,7 +269,7 @@ def _second_critical(loads: Array, S: Array, share, threshold: float) -> Critica
     return _crossing(loads[i], loads[i + 1], share, threshold, last=True)
 
 
-def _recurrence(loads: Array, S: Array, share, threshold: float) -> Critical:
+def _recurrence(loads: Array, S: Array, share: Share, threshold: float) -> Critical:
     peak = int(np.argmax(S))
     interior = 0 < peak < len(S) - 1
     if not interior or max(S[0], S[-1]) > 0.9 * S[peak] or S[peak] < 1e-6:
@@ -283,7 +282,7 @@ def _recurrence(loads: Array, S: Array, share, threshold: float) -> Critical:
     return Critical(value=float(np.sqrt(a * b)), status=CriticalStatus.FOUND)
 
 
-def _equal_loads(loads: Array, shares: Array, load_share) -> Critical:
+def _equal_loads(loads: Array, shares: Array, load_share: Share) -> Critical:
     above = shares >= 0.5
     changes = np.flatnonzero(above[1:] != above[:-1])
     if not len(changes):

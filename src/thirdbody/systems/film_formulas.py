@@ -154,11 +154,15 @@ class DowsonLine(AbstractFilm):
     shape = "line"
     regimes = (EP,)
 
-    def central(self, *, load, speed, eta, alpha, R, E, ratio=1.0):
+    def central(
+        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
+    ) -> Any:
         U, G, W = groups(load, speed, eta, alpha, R, E, 1)
         return 3.06 * R * U**0.69 * G**0.56 * W**-0.10
 
-    def minimum(self, *, load, speed, eta, alpha, R, E, ratio=1.0):
+    def minimum(
+        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
+    ) -> Any:
         """Smallest film thickness [m]; arguments as in `central`."""
         U, G, W = groups(load, speed, eta, alpha, R, E, 1)
         return 2.65 * R * U**0.7 * G**0.54 * W**-0.13
@@ -200,11 +204,15 @@ class HamrockDowson(AbstractFilm):
     regimes = (EP,)
     limits = {"ratio": (0.0, 1.0)}
 
-    def central(self, *, load, speed, eta, alpha, R, E, ratio=1.0):
+    def central(
+        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
+    ) -> Any:
         U, G, W = groups(load, speed, eta, alpha, R, E, 2)
         return 2.69 * R * U**0.67 * G**0.53 * W**-0.067 * (1 - 0.61 * np.exp(-0.73 * kappa(ratio)))
 
-    def minimum(self, *, load, speed, eta, alpha, R, E, ratio=1.0):
+    def minimum(
+        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
+    ) -> Any:
         """Smallest film thickness [m]; arguments as in `central`."""
         U, G, W = groups(load, speed, eta, alpha, R, E, 2)
         return 3.63 * R * U**0.68 * G**0.49 * W**-0.073 * (1 - np.exp(-0.68 * kappa(ratio)))
@@ -334,7 +342,9 @@ class NijenbanningVennerMoes(AbstractFilm):
         U, G, W = groups(load, speed, eta, alpha, R, E, 2)
         return self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
 
-    def central(self, *, load, speed, eta, alpha, R, E, ratio=1.0):
+    def central(
+        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
+    ) -> Any:
         U, G, W = groups(load, speed, eta, alpha, R, E, 2)
         at = self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
         return self.joined(at, H_00=1.8 / ratio) * R * (2 * U) ** 0.5
@@ -397,7 +407,9 @@ class MoesLine(AbstractFilm):
         U, G, W = groups(load, speed, eta, alpha, R, E, 1)
         return self.limits_of(M=W * (2 * U) ** -0.5, L=G * (2 * U) ** 0.25)
 
-    def central(self, *, load, speed, eta, alpha, R, E, ratio=1.0):
+    def central(
+        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
+    ) -> Any:
         U, G, W = groups(load, speed, eta, alpha, R, E, 1)
         at = self.limits_of(M=W * (2 * U) ** -0.5, L=G * (2 * U) ** 0.25)
         return self.joined(at) * R * (2 * U) ** 0.5

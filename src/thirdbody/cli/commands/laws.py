@@ -77,7 +77,7 @@ def _about_law(law: type) -> dict[str, Any]:
     return {key: getattr(law, key) for key in about} | {"options": options}
 
 
-def _about_option(item: dataclasses.Field, default: Any) -> dict[str, Any]:
+def _about_option(item: dataclasses.Field[Any], default: Any) -> dict[str, Any]:
     from ...quantities.units import say
     from ...quantities.value import allowed_range
 
