@@ -9,7 +9,7 @@ by a safeguarded Halley iteration on :math:`\ln F_t(d) = \ln F` with analytic de
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -83,7 +83,7 @@ def solve(
     pressure: ArrayLike | None = None,
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
-    branch: str = "loading",
+    branch: Literal["loading", "unloading"] = "loading",
 ) -> Equilibrium:
     r"""Separation, areas, load shares and mode of a contact under a load.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -132,7 +132,7 @@ def transitions(
     window: tuple[float, float] = WINDOW,
     eps_1: float = EPS_1,
     eps_2: float = EPS_2,
-    basis: str = "area",
+    basis: Literal["area", "load"] = "area",
 ) -> Transitions:
     r"""Loads at which the contact changes its mode, and its turning point.
 

@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from contextlib import closing, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -178,7 +178,7 @@ def ensemble(
     spacing: float | None = None,
     seats: Any = "random",
     seed: int = 0,
-    cap: str | float | None = "hardness",
+    cap: Literal["hardness", "none"] | float | None = "hardness",
     tol: float = TOL,
     max_iterations: int = 300,
     workers: int = 1,

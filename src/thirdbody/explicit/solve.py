@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -52,11 +52,11 @@ def solve(
     seats: Any = "random",
     particles: Mapping[str, Any] | None = None,
     seed: int = 0,
-    cap: str | float | None = "hardness",
+    cap: Literal["hardness", "none"] | float | None = "hardness",
     tol: float = TOL,
     max_iterations: int = ITERATIONS,
-    precision: str = "double",
-    maps: str = "last",
+    precision: Literal["double", "single"] = "double",
+    maps: Literal["last", "all"] = "last",
     workers: int = 1,
 ) -> ExplicitState:
     r"""Press a height map, with every particle at its place, against a flat.

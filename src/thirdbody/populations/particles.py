@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 from ..errors import InvalidValue, Problem
 from ..quantities.units import to_si
@@ -101,7 +101,7 @@ class Particles(Value):
         gap: float | str,
         diameter: Distribution,
         material: Material,
-        by: str = "number",
+        by: Literal["number", "mass", "volume", "mass per volume"] = "number",
         particle_density: float | str | None = None,
         oil_density: float | str = cleanliness.OIL_DENSITY,
         **others: Any,
@@ -164,7 +164,7 @@ class Particles(Value):
         *,
         gap: float | str,
         material: Material,
-        level: str = "middle",
+        level: Literal["low", "middle", "high"] = "middle",
         smallest: float | str | None = None,
         largest: float | str | None = None,
         **others: Any,
@@ -274,8 +274,8 @@ class Particles(Value):
         concentration: float | str | None = None,
         gap: float | str | None = None,
         areal_density: float | str | None = None,
-        by: str = "number",
-        limit: str = "middle",
+        by: Literal["number", "mass", "volume", "mass per volume"] = "number",
+        limit: Literal["coarse", "middle", "fine"] = "middle",
         smallest: float | str | None = None,
         oil_density: float | str = cleanliness.OIL_DENSITY,
         **others: Any,

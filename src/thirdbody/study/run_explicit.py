@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -68,7 +68,7 @@ def run_explicit(
     study: Study,
     *,
     folder: Path | None = None,
-    maps: str = "last",
+    maps: Literal["last", "all"] = "last",
     workers: int = 1,
     scheduler: str | None = None,
     progress: bool | Callable[[int], None] = False,
@@ -220,7 +220,7 @@ def _run_measured(
     contact: Contact,
     loads: np.ndarray,
     asked: dict[str, Any],
-    maps: str,
+    maps: Literal["last", "all"],
     workers: int,
 ) -> ExplicitResult:
     """One map: the numbers are its own, and the model beside it has its seats."""

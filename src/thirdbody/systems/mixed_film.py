@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from scipy import special
@@ -241,7 +241,7 @@ def mixed_film(
     speed: ArrayLike,
     slide_roll: float | None = None,
     film: AbstractFilm | None = None,
-    hertz: str = "mean",
+    hertz: Literal["mean", "maximum"] = "mean",
     few: float = FEW,
     most: float = MOST,
 ) -> MixedFilm:

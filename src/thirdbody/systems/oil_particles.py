@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self
 
 import numpy as np
 
@@ -245,7 +245,7 @@ class FilmParticles(Value):
         cls,
         code: str,
         *,
-        level: str = "middle",
+        level: Literal["low", "middle", "high"] = "middle",
         smallest: float | str | None = None,
         largest: float | str | None = None,
         **others: Any,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -158,7 +158,7 @@ def regime_speeds(
     oil: Oil,
     load: float,
     film: AbstractFilm | None = None,
-    hertz: str = "mean",
+    hertz: Literal["mean", "maximum"] = "mean",
     few: float = FEW,
     most: float = MOST,
 ) -> RegimeSpeeds:

@@ -7,7 +7,7 @@ to be solved anywhere, any number of times, with the same result.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import ArrayLike
 
@@ -36,13 +36,13 @@ def sweep(
     F_star: ArrayLike | Mapping[str, Any] | None = None,
     d: ArrayLike | Mapping[str, Any] | None = None,
     vary: Mapping[str, Any] | None = None,
-    design: str = "grid",
+    design: Literal["grid", "zip", "latin", "sobol"] = "grid",
     samples: int | None = None,
     seed: int = 0,
     columns: Sequence[str] | None = None,
     reduce: Mapping[str, Any] | None = None,
     out: str | os.PathLike[str] | None = None,
-    format: str = "zarr",
+    format: Literal["zarr", "netcdf"] = "zarr",
     chunk: int = CHUNK,
     workers: int = 1,
     client: Client | None = None,

@@ -76,8 +76,9 @@ def command(
     try:
         with nullcontext() if bar else heartbeat("explicit"):
             result = run_explicit(
-                asked, folder=kept, maps=maps, workers=workers, scheduler=scheduler, progress=bar
-            )
+                asked, folder=kept, workers=workers, scheduler=scheduler, progress=bar,
+                maps=maps,  # type: ignore[arg-type]
+            )  # fmt: skip
     except BaseException:
         if out is not None:
             release_folder(out)

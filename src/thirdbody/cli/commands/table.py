@@ -63,7 +63,10 @@ def command(
     contact = read_study(study, settings, writes=[out]).contact
     need_places([(out, "export")], force=force)
     with heartbeat("table"):
-        made = table(contact, low=ends[0], high=ends[1], tolerance=tolerance, coordinate=coordinate)
+        made = table(  # which judges the word as well
+            contact, low=ends[0], high=ends[1], tolerance=tolerance,
+            coordinate=coordinate,  # type: ignore[arg-type]
+        )  # fmt: skip
     write, _ = FORMATS[name]
     write(made, out, **({} if units is None else {"units": units}))
     first, last = (value_of(float(made.p(end)), "Pa") for end in made.h[[0, -1]])

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,7 +56,7 @@ def table(
     low: float | None = None,
     high: float | None = None,
     tolerance: float = 1e-6,
-    coordinate: str = "h",
+    coordinate: Literal["h", "d"] = "h",
     columns: Sequence[str] = (),
 ) -> ContactTable:
     r"""Pressure, real area and stiffness against separation as a C¹ table for other solvers.

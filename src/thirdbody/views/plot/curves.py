@@ -22,7 +22,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -95,8 +95,8 @@ def area(
     data: xarray.Dataset | Equilibrium,
     ax: Axes | None = None,
     *,
-    against: str = "F_star",
-    quantity: str = "A_t",
+    against: Literal["F_star", "pressure"] = "F_star",
+    quantity: Literal["A_t", "A_ss", "A_sa", "A_e", "A_ep", "A_p"] = "A_t",
     per_load: bool = False,
 ) -> Axes:
     """Real contact area per nominal area against load, on logarithmic axes.
@@ -146,8 +146,8 @@ def shares(
     data: xarray.Dataset | Equilibrium,
     ax: Axes | None = None,
     *,
-    basis: str = "load",
-    against: str = "F_star",
+    basis: Literal["load", "area"] = "load",
+    against: Literal["F_star", "pressure"] = "F_star",
 ) -> Axes:
     """What part of the load, or of the real area, the particles have.
 
@@ -194,8 +194,8 @@ def separation(
     data: xarray.Dataset | Equilibrium,
     ax: Axes | None = None,
     *,
-    quantity: str = "d_star",
-    against: str = "F_star",
+    quantity: Literal["d_star", "d", "h"] = "d_star",
+    against: Literal["F_star", "pressure"] = "F_star",
 ) -> Axes:
     """Separation of the surfaces against load.
 
@@ -233,7 +233,10 @@ def separation(
 
 @names_arguments
 def regimes(
-    data: xarray.Dataset | Equilibrium, ax: Axes | None = None, *, against: str = "F_star"
+    data: xarray.Dataset | Equilibrium,
+    ax: Axes | None = None,
+    *,
+    against: Literal["F_star", "pressure"] = "F_star",
 ) -> Axes:
     """Elastic, elastoplastic and plastic part of the real area against load, stacked.
 
@@ -310,7 +313,7 @@ def modes(
     ax: Axes | None = None,
     *,
     transitions: Transitions | None = None,
-    against: str = "F_star",
+    against: Literal["F_star", "pressure"] = "F_star",
 ) -> Axes:
     """Contact modes as shaded bands, with the critical loads marked.
 
