@@ -27,7 +27,7 @@ def to_csv(study: Study) -> str:
     """What ``thirdbody solve STUDY.toml --csv FILE`` writes."""
     result = run_study(study)
     columns: dict[str, list[Any]] = dict(result["states"])
-    units = {name: about(name)["unit"] for name in columns}
+    units = {name: about(name).unit for name in columns}
     for part in result["populations"]:
         mine = {f"{part['name']}: {key}": part[key] for key in part if key != "name"}
         columns |= mine

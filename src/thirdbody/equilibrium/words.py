@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from ..quantities.say import number, percent, plural, value_of
-from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S, WINDOW, CriticalStatus
+from .modes import EPS_1, EPS_2, HYBRID, MODES, P_S, S_S, WINDOW, CriticalStatus
 
 __all__ = [
     "BANDS",
@@ -30,7 +30,6 @@ __all__ = [
     "unsolved",
 ]
 
-MODES = (P_S, HYBRID, S_S)
 NO_CONTACT = "no contact"
 MEANS = {
     P_S: "nearly all real contact is on particles",

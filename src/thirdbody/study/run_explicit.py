@@ -265,4 +265,4 @@ def _of_ensemble(found: Ensemble, state: ExplicitState) -> ExplicitResult:
 
 
 def _units() -> dict[str, str]:
-    return {"surface": ""} | {name: told["unit"] for name, told in COLUMNS.items()}
+    return {"surface": ""} | {name: told.unit for name, told in COLUMNS.items()}

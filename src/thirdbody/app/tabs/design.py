@@ -38,11 +38,11 @@ def metrics_of(state: State) -> dict[str, str]:
     out = {name: name for name in METRICS}
     for name in out:
         if name in COLUMNS:
-            out[name] = f"{name}: {COLUMNS[name]['meaning']}"
+            out[name] = f"{name}: {COLUMNS[name].meaning}"
     if state.answer is not None:
         for output in state.answer.contact.outputs:
             for column in output.columns:
-                out[column] = f"{column}: {about(column)['meaning']}"
+                out[column] = f"{column}: {about(column).meaning}"
     return out
 
 
@@ -239,7 +239,7 @@ def in_words(study: dict[str, Any], fields: list[str]) -> dict[str, str]:
 
 def meaning(column: str) -> str:
     """What a column is; some aims are none."""
-    return str(about(column)["meaning"]) if column in COLUMNS else column
+    return str(about(column).meaning) if column in COLUMNS else column
 
 
 def design_sentences(

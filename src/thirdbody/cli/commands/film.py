@@ -78,7 +78,7 @@ def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, 
     from ...systems.mixed_film import COLUMNS
 
     columns = dict(result["states"])
-    units = {name: COLUMNS[name]["unit"] if name in COLUMNS else "1" for name in columns}
+    units = {name: COLUMNS[name].unit if name in COLUMNS else "1" for name in columns}
     names = [part["name"] for part in result["passing"]]
     for part in result["passing"]:
         columns[f"{part['name']}: passing"] = part["share"]

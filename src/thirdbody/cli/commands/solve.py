@@ -102,12 +102,12 @@ def _columns(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, st
     from ...equilibrium.columns import about
 
     columns = dict(result["states"])
-    units = {name: about(name)["unit"] for name in columns}
+    units = {name: about(name).unit for name in columns}
     for part in result["populations"]:
         mine = {f"{part['name']}: {key}": part[key] for key in part if key != "name"}
         columns |= mine
         units |= {
-            f"{part['name']}: {key}": about(key)["unit"] if key in result["states"] else "1"
+            f"{part['name']}: {key}": about(key).unit if key in result["states"] else "1"
             for key in part
             if key != "name"
         }
@@ -204,11 +204,11 @@ def _output_table(states: dict[str, Any]) -> Table:
         table = Table(("", loads[0], "unit", "meaning"), words=["meaning"], more=ALL)
         for name, told in outputs.items():
             cell = number(states[name][0])
-            table.add_row(name, cell, unit_of(told["unit"]) or "none", told["meaning"])
+            table.add_row(name, cell, unit_of(told.unit) or "none", told.meaning)
         return table
     heads = {
-        f"{name} [{unit}]" if (unit := unit_of(told["unit"])) else name: (
-            told["meaning"] + ("" if unit else ", no unit")
+        f"{name} [{unit}]" if (unit := unit_of(told.unit)) else name: (
+            told.meaning + ("" if unit else ", no unit")
         )
         for name, told in outputs.items()
     }

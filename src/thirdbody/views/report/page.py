@@ -174,6 +174,6 @@ class Report(Sentences, Figures, Tables, Sources):
             "however well the input is known."
         )
         more = f"<p class=soft>{len(rows)} of {len(order)} inputs.</p>" * (len(order) > len(rows))
-        head = ["input", "value", *(about(name)["meaning"] for name in (of, *others))]
+        head = ["input", "value", *(about(name).meaning for name in (of, *others))]
         found = text_table(head, rows, ASSESSMENT_WORDS)
         return [f"<p class=lead-in>{words(sentence)}</p>", found, more]

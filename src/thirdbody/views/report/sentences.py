@@ -190,7 +190,7 @@ class Sentences(Found):
     def _strongest(self, of: str, order: list[str]) -> str:
         first = [words_of(self.contact, label) for label in order[:MATTER]]
         most = f"{listed(first)} matter{'s' if len(first) == 1 else ''} most"
-        most += f" to the {about(of)['meaning']}"
+        most += f" to the {about(of).meaning}"
         if self.contact.two_body or of != "A_t":
             return most
         share = self.result["states"]["particle_load_share"][self.at]

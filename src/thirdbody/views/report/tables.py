@@ -32,9 +32,9 @@ class Tables(Found):
         names = list(STATES if self.contact.two_body else (*STATES, *SHARED))
         total = len(states["status"])
         rows = [[self._cell(name, i) for name in names] for i in some_of(total, MOST_ROWS)]
-        head = [f"<th class=n>{symbols(about(name)['symbol'])}</th>" for name in names]
+        head = [f"<th class=n>{symbols(about(name).symbol)}</th>" for name in names]
         cells = [[f"<td class=n>{words(cell)}</td>" for cell in row] for row in rows]
-        meanings = "; ".join(f"{about(name)['symbol']}: {about(name)['meaning']}" for name in names)
+        meanings = "; ".join(f"{about(name).symbol}: {about(name).meaning}" for name in names)
         out = [table(head, cells), f"<p class=soft>{symbols(meanings)}.</p>"]
         if any(RARE in row for row in rows):
             out.append(f"<p class=soft>{RARE}: {MOST_MEET_NONE}.</p>")
@@ -154,4 +154,4 @@ def column_value(name: str, value: Any) -> str:
         return value or ("-" if name == "mode" else NOT_KNOWN)
     if name.endswith("_share"):
         return percent(value)
-    return value_of(value, about(name)["unit"])
+    return value_of(value, about(name).unit)
