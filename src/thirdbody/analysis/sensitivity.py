@@ -391,9 +391,7 @@ def _of_critical(
 ) -> tuple[Array, dict[str, Entry]]:
     """A critical load to rounding, and its derivatives: there the share keeps its value."""
     share, level = CRITICAL[name]
-    found: Any = transitions(contact)
-    for part in name.split("."):
-        found = getattr(found, part)
+    found = transitions(contact).entries()[name]
     why = "" if found.status == CriticalStatus.FOUND else found.status
     if not why and not share:
         why = "the strongest bend is taken from a grid of loads and has no derivative"

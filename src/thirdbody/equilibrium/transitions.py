@@ -97,13 +97,16 @@ class Transitions(Record):
     """From it on particles have little of the contact left (hybrid to s-s)."""
     F_tpca: TurningPoint
 
+    def entries(self) -> dict[str, Critical]:
+        """Every critical load by its name, those of the turning point as ``F_tpca.A``."""
+        turning = {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
+        return {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2} | turning
+
     def _repr_html_(self) -> str:
         """A table for notebooks: each load, its status, and what it is."""
-        found = {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2}
-        found |= {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
         rows = [
             notebook.Row(name, [notebook.words_of(load.value), load.status], happens(name))
-            for name, load in found.items()
+            for name, load in self.entries().items()
         ]
         return notebook.card("Transitions, F* = F/(A_n E_ss)", rows)
 
