@@ -118,39 +118,20 @@ class Equilibrium(_ContactRecord):
         said = {"engine": self.engine, "warnings": "\n".join(self.warnings)}
         return said | provenance(self.contact)
 
-    def to_dataset(self, *, title: str = "") -> xarray.Dataset:
-        """The states as labelled data, one along the dimension ``state``.
-
-        Parameters
-        ----------
-        title : str, optional
-            What the data are of; kept with them.
-
-        Returns
-        -------
-        xarray.Dataset
-            Every column with ``units``, ``long_name`` and ``symbol``; title, inputs, version,
-            engine, warnings and citations as attributes. What each of several populations
-            carries has the dimension ``population`` too.
-
-        Examples
-        --------
-        >>> import thirdbody as tb
-        >>> steel = tb.materials["S45C"]
-        >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
-        ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-        >>> data = tb.solve(contact, pressure=[1e6, 5e6]).to_dataset(title="Two loads")
-        >>> data.A_t.dims, data.pressure.units, data.title
-        (('state',), 'Pa', 'Two loads')
-        """
-        data = StateRecord.to_dataset(self, title=title)
-        if parts := self.populations:
-            dims = ("state", "population")
-            for name in parts[0].columns():
-                values = np.stack([part.columns()[name] for part in parts], axis=-1)
-                data[f"population_{name}"] = (dims, values, parts[0].about(name).labels)
-            data = data.assign_coords(population=[part.name for part in parts])
-        return data
+    def more_variables(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """What each of several populations carries, along the dimension ``population`` too."""
+        parts, dims = self.populations, ("state", "population")
+        if not parts:
+            return {}, {}
+        stacked = {
+            f"population_{name}": (
+                dims,
+                np.stack([part.columns()[name] for part in parts], axis=-1),
+                parts[0].about(name).labels,
+            )
+            for name in parts[0].columns()
+        }
+        return stacked, {"population": [part.name for part in parts]}
 
     @takes_units
     def modes(

@@ -97,6 +97,10 @@ class StateRecord(Record):
         """What a data set says of all its states."""
         return {"warnings": "\n".join(self.warnings)}
 
+    def more_variables(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Variables of a data set beside the columns, and their coordinates."""
+        return {}, {}
+
     def to_dataset(self, *, title: str = "") -> xarray.Dataset:
         """The states as labelled data, one along the dimension ``state``.
 
@@ -109,12 +113,25 @@ class StateRecord(Record):
         -------
         xarray.Dataset
             Every column with ``units``, ``long_name`` and ``symbol``; title and warnings as
-            attributes.
+            attributes, of an `Equilibrium` inputs, version, engine and citations too. What each of
+            several populations carries has the dimension ``population`` too.
+
+        Examples
+        --------
+        >>> import thirdbody as tb
+        >>> steel = tb.materials["S45C"]
+        >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+        ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+        >>> data = tb.solve(contact, pressure=[1e6, 5e6]).to_dataset(title="Two loads")
+        >>> data.A_t.dims, data.pressure.units, data.title
+        (('state',), 'Pa', 'Two loads')
         """
         import xarray
 
         data = {n: ("state", v, self.about(n).labels) for n, v in self.columns().items()}
-        return xarray.Dataset(data, attrs={"title": title} | self.attributes())
+        more, coords = self.more_variables()
+        attributes = {"title": title} | self.attributes()
+        return xarray.Dataset(data | more, coords=coords, attrs=attributes)
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The states as a pandas table, one a row; units and symbols in ``attrs``.
