@@ -34,7 +34,7 @@ from ..quantities.carried import takes_units
 from ..quantities.files import make_folder, write_text
 from ..quantities.plain_data import plain_data
 from ..quantities.progress import reporting
-from ..quantities.records import read_record, sealed
+from ..quantities.run_files import read_record, sealed
 from ..quantities.say import number, percent, plural
 from ..quantities.sharing import connected, need_version, shared
 from ..quantities.value import Value

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -55,9 +54,18 @@ class _Result(Record, Mapping[str, Any]):
         return tuple(dict.fromkeys((*self.study.notes, *self.heard)))
 
     @property
-    @abstractmethod
     def citations(self) -> list[str]:
         """The works behind the numbers."""
+        return cite(self.study.contact).splitlines()
+
+    @property
+    def particles_held(self) -> float | None:
+        """Particles that lie on the dry Hertz contact of the film's bodies, on average."""
+        film, contact = self.study.film, self.study.contact
+        if film is None or contact.two_body:
+            return None
+        area = film.conjunction.hertz(film.load, E=2 * contact.E_ss).area
+        return float(area * sum(dust.areal_density for dust in contact.populations))
 
     @cached_property
     def _data(self) -> dict[str, Any]:
@@ -106,11 +114,6 @@ class StudyResult(_Result):
     transitions: Transitions
     forces: tuple[Pressed, ...] = ()
 
-    @property
-    def citations(self) -> list[str]:
-        """The works behind the numbers."""
-        return cite(self.study.contact).splitlines()
-
     @cached_property
     def solved(self) -> list[int]:
         """Numbers of the states that have an equilibrium."""
@@ -136,7 +139,7 @@ class StudyResult(_Result):
 
     def held_in(self, i: int) -> float:
         """Particles that the contact of a state holds on average; infinite where nobody knows."""
-        held = _particles_held(self.study)  # of a film that has bodies of its own
+        held = self.particles_held  # of a film that has bodies of its own
         if self.forces:
             each = len(self.states.status) // len(self.forces)
             held = self.forces[i // each].particles_held
@@ -201,9 +204,8 @@ class StudyResult(_Result):
             body: dict[str, Any] = {} if self.study.body is None else self.study.body.to_dict()
             said = {"forces": plain_data(self.forces), "sentences": self.force_sentences}
             return data | {"body": body | said}
-        return data | (
-            {} if self.study.film is None else {"particles_held": _particles_held(self.study)}
-        )
+        held = {} if self.study.film is None else {"particles_held": self.particles_held}
+        return data | held
 
 
 @dataclass(frozen=True, eq=False)
@@ -254,17 +256,11 @@ class FilmResult(_Result):
         return self.study.film
 
     @property
-    def particles_held(self) -> float | None:
-        """Particles that lie on the dry Hertz contact of the film's bodies, on average."""
-        return _particles_held(self.study)
-
-    @property
     def citations(self) -> list[str]:
         """The works behind the numbers."""
         film = self.conditions
         law = film.formula or full_range(film.conjunction.shape)
-        lines = cite(self.study.contact).splitlines()
-        lines += [law.citation + (f", doi:{law.doi}" * bool(law.doi)), SHARING]
+        lines = [*super().citations, law.citation + f", doi:{law.doi}" * bool(law.doi), SHARING]
         lines += [ROELANDS] * (film.oil.viscosity == "roelands")
         lines += [EYRING] * (film.oil.eyring_stress is not None)
         return list(dict.fromkeys(lines))
@@ -302,12 +298,3 @@ class FilmResult(_Result):
             particles_held=self.particles_held,
             entrainment=self.entrainment,
         )
-
-
-def _particles_held(study: Study) -> float | None:
-    """Particles that lie on the dry Hertz contact of the film's bodies, on average."""
-    film, contact = study.film, study.contact
-    if film is None or contact.two_body:
-        return None
-    area = film.conjunction.hertz(film.load, E=2 * contact.E_ss).area
-    return float(area * sum(dust.areal_density for dust in contact.populations))

@@ -30,7 +30,7 @@ from ..explicit.ensemble import (
 from ..explicit.solve import solve
 from ..explicit.state import COLUMNS, ExplicitState
 from ..quantities.plain_data import plain_data
-from ..quantities.records import MARK, claim_folder, read_json
+from ..quantities.run_files import MARK, claim_folder, read_json
 from ..quantities.value import Value
 from ..version import __version__
 from .whole import Study
