@@ -100,6 +100,25 @@ def test_results_of_a_study_are_read_by_attribute_and_by_key(run):
         assert found.held_in(0) == float("inf")  # without particles nobody counts them
 
 
+def test_a_column_that_there_is_not_is_refused(every):
+    for state in every.values():
+        assert state.about("A_t").unit == "1"
+        with pytest.raises(tb.InvalidValue, match="A_tt"):
+            state.about("A_tt")
+
+
+def test_the_table_of_a_study_has_the_units_of_each_population():
+    """Depths of the dents that one population leaves are lengths, as those of all are."""
+    dust = {"distribution": "monodisperse", "mean": "1 um", "areal_density": "1e9 / m^2"}
+    two = [dust | {"material": name, "name": name} for name in ("SiO2", "Al2O3")]
+    asked = {key: value for key, value in STUDY.items() if key != "film"}
+    found = run_study(check(asked | {"particles": two, "outputs": {"dents": {}}}))
+    columns, units = found.table()
+    assert units["SiO2: dent_depth_1"] == units["dent_depth_1"] == "m"
+    assert units["SiO2: load_share"] == "1"
+    assert columns["SiO2: load_share"][1] is None
+
+
 def test_states_declare_what_they_hold():
     """No field of numbers stands beside the columns without a symbol, unit and meaning."""
     beside = {"contact", "warnings", "populations", "outputs", "engine", "status_code", "state"}

@@ -14,7 +14,7 @@ from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..contact.output import column as output_column
 from ..errors import InvalidValue
-from ..quantities.arguments import need_one
+from ..quantities.arguments import names_arguments, need_one
 from ..quantities.carried import takes_units
 from ..quantities.record import Column, StateRecord, column, declared_columns
 from ..version import __version__
@@ -38,6 +38,7 @@ class _ContactRecord(StateRecord):
 
     __slots__ = ()
 
+    @names_arguments
     def about(self, name: str) -> Column:
         """Symbol, unit and meaning of a column, of the state itself or of an output."""
         return declared_columns(type(self)).get(name) or output_column(name)

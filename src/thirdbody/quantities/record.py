@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from ..errors import InvalidValue
 from . import notebook
+from .arguments import names_arguments
 from .plain_data import plain_data
 
 if TYPE_CHECKING:
@@ -79,9 +81,13 @@ class StateRecord(Record):
     __slots__ = ()
     warnings: tuple[str, ...]
 
+    @names_arguments
     def about(self, name: str) -> Column:
         """Symbol, unit and meaning of a column."""
-        return declared_columns(type(self))[name]
+        known = declared_columns(type(self))
+        if name not in known:
+            raise InvalidValue(f"name = {name!r} must be one of {', '.join(known)}")
+        return known[name]
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """Every column as a 1-D array, those of the outputs last."""
