@@ -75,9 +75,6 @@ class Stop(NamedTuple):
     """The last value that was tried and is not refused."""
     why: str
 
-    def to_dict(self) -> dict[str, Any]:
-        return self._asdict()
-
 
 class Section(NamedTuple):
     """A part of the page: a table, and sentences below it."""
@@ -151,7 +148,7 @@ class Assessment:
                     "tornado": self.tornado,
                     "elasticity": self.elasticity,
                     "changes": [change.to_dict() for change in self.changes],
-                    "stops": [stop.to_dict() for stop in self.stops],
+                    "stops": [stop._asdict() for stop in self.stops],
                 }
             ),
             "exact": list(self.exact),

@@ -24,6 +24,7 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium
+from ..equilibrium.solve import given_numbers
 from ..equilibrium.solve import solve as statistical
 from ..errors import InvalidValue, Note, tell_of_range
 from ..laws.base import SeatedLaw
@@ -242,7 +243,7 @@ def ensemble(
     >>> found.table.particle_load_share_cv.dims, found.surfaces
     (('F_star',), 2)
     """
-    loads = _loads(F_star)
+    _, loads, _ = given_numbers(F_star=F_star)
     rule = seats_named(seats)
     given, total = _surfaces_and_count(surfaces)
     if isinstance(rule, GivenSeats) and total > 1:
@@ -521,16 +522,6 @@ def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> di
 
 
 # -------------------------------------------------------------------------- what is asked
-def _loads(F_star: ArrayLike) -> Array:
-    try:
-        loads = np.atleast_1d(np.asarray(F_star, dtype=float))
-    except (TypeError, ValueError):
-        raise InvalidValue(f"F_star = {F_star!r} must be a number or a list of numbers") from None
-    if loads.ndim != 1 or not loads.size or not np.all(np.isfinite(loads) & (loads > 0)):
-        raise InvalidValue(f"F_star = {F_star!r} must be finite and > 0")
-    return loads
-
-
 def spacing_for(contact: Contact) -> float:
     """Distance of points at which the wave of the mean curvature has some 16 [m]."""
     rough = contact.roughness
