@@ -75,6 +75,9 @@ class Stop(NamedTuple):
     """The last value that was tried and is not refused."""
     why: str
 
+    def to_dict(self) -> dict[str, Any]:
+        return self._asdict()
+
 
 class Section(NamedTuple):
     """A part of the page: a table, and sentences below it."""
@@ -142,13 +145,13 @@ class Assessment:
             "mode": self.mode,
             **plain_data(
                 {
-                    "propagation": found.to_dict(),
+                    "propagation": found,
                     "decisive": self.decisive,
                     "matter": self.matter,
                     "tornado": self.tornado,
                     "elasticity": self.elasticity,
-                    "changes": [change.to_dict() for change in self.changes],
-                    "stops": [stop._asdict() for stop in self.stops],
+                    "changes": self.changes,
+                    "stops": self.stops,
                 }
             ),
             "exact": list(self.exact),

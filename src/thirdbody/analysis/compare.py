@@ -25,7 +25,7 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..equilibrium.columns import COLUMNS, Equilibrium
+from ..equilibrium.columns import COLUMNS, PLASTIC_SHARE, Equilibrium
 from ..equilibrium.doubts import BEYOND
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, Problem, RangeWarning, code_of
@@ -53,7 +53,7 @@ DERIVED = {
     "mean_pressure": Column("p_m", "Pa", "mean real pressure F/A_t"),
     "elastic_share": Column("A_e/A_t", "1", "elastic part of the real area"),
     "elastoplastic_share": Column("A_ep/A_t", "1", "elastoplastic part of the real area"),
-    "plastic_share": Column("A_p/A_t", "1", "plastic part of the real area"),
+    "plastic_share": PLASTIC_SHARE,
     "A_t_difference": Column("ΔA_t", "%", "real area against the contact's own law"),
     "mean_pressure_difference": Column("Δp_m", "%", "mean real pressure against the own law"),
     "particle_load_share_difference": Column(

@@ -192,6 +192,10 @@ COLUMNS = declared_columns(Equilibrium)
 """Symbol, unit and meaning of every column of a result."""
 
 
+PLASTIC_SHARE = Column("A_p/A_t", "1", "plastic part of the real area")
+"""What is asked of states besides their columns."""
+
+
 def about(name: str) -> Column:
     """Symbol, unit and meaning of a column, of the state itself or of an output."""
     return COLUMNS.get(name) or output_column(name)

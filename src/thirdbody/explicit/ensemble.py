@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.contact import Contact
-from ..equilibrium.columns import Equilibrium
+from ..equilibrium.columns import COLUMNS, Equilibrium
 from ..equilibrium.solve import given_numbers
 from ..equilibrium.solve import solve as statistical
 from ..errors import InvalidValue, Note, tell_of_range
@@ -503,20 +503,20 @@ def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> di
     """Along F*: raw, fair and statistical numbers, their errors and how they differ."""
     table: dict[str, Any] = {}
     for kind, at in told.items():
-        for name, (unit, _) in COMPARED.items():
-            about = {"units": unit}
+        for name in COMPARED:
+            about = {"units": COLUMNS[name].unit}
             table[f"{name}_{kind}"] = ("F_star", at.values[name], about)
             table[f"{name}_{kind}_error"] = ("F_star", at.errors[name], about)
             if name in SHARES:
                 table[f"{name}_{kind}_least"] = ("F_star", at.least[name], about)
                 table[f"{name}_{kind}_most"] = ("F_star", at.most[name], about)
     best = "cv" if gaussian else "raw"
-    for name, (unit, _) in COMPARED.items():
+    for name in COMPARED:
         model = np.asarray(getattr(state, name))
         found, error = (table[f"{name}_{best}{what}"][1] for what in ("", "_error"))
         with np.errstate(invalid="ignore", divide="ignore"):
             difference = (found - model) / error
-        table[f"{name}_statistical"] = ("F_star", model, {"units": unit})
+        table[f"{name}_statistical"] = ("F_star", model, {"units": COLUMNS[name].unit})
         table[f"{name}_difference"] = ("F_star", difference, {"units": "1"})
     return table
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...contact.contact import Contact
-from ...equilibrium.columns import about, columns_of
+from ...equilibrium.columns import PLASTIC_SHARE, about, columns_of
 from ...errors import ThirdBodyError
 from ...numerics.sampling import Span
 from ...populations.materials import Material
@@ -45,7 +45,7 @@ Array = NDArray[np.float64]
 
 
 METRICS = {
-    "plastic_share": Column("A_p/A_t", "1", "plastic part of the real area"),
+    "plastic_share": PLASTIC_SHARE,
     "buried_share": Column("w_b", "1", "share of the load on particles deeper than their radius"),
 }
 """What is known beside the columns of the states; the first may be asked for."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...contact.contact import Contact
-from ...equilibrium.columns import COLUMNS, about
+from ...equilibrium.columns import COLUMNS, PLASTIC_SHARE, about
 from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, load_falls
 from ...equilibrium.modes import MODES
 from ...equilibrium.states import carries, state_columns, tables_each
@@ -38,7 +38,7 @@ MARGINS = {"F/F_cr1": "F_cr1", "F/F_cr2": "F_cr2"}
 MODES_OR_NONE = (*MODES, "none")
 OUTPUTS: dict[str, Column] = {
     **{name: COLUMNS[name] for name in NUMBERS},
-    "plastic_share": Column("A_p/A_t", "1", "plastic part of the real area"),
+    "plastic_share": PLASTIC_SHARE,
     "F_cr1": Column("F_cr1*", "1", "critical load, p-s to hybrid"),
     "F_cr2": Column("F_cr2*", "1", "critical load, hybrid to s-s"),
     "F_tpca.A": Column("F_tpca,A*", "1", "load of the largest area share"),
