@@ -95,9 +95,9 @@ def test_results_of_a_study_are_read_by_attribute_and_by_key(run):
         if name in plain["states"]:
             assert plain["states"][name] == values
     if run is run_study:
-        assert found.solved == [0]
+        assert found.solved_states == [0]
         assert plain["states"]["A_t"] == [found.states.A_t[0], None]
-        assert found.held_in(0) == float("inf")  # without particles nobody counts them
+        assert found.particles_in(0) == float("inf")  # without particles nobody counts them
 
 
 def test_a_column_that_there_is_not_is_refused(every):

@@ -315,9 +315,9 @@ def test_what_is_said_last_is_of_the_bodies():
     light = study("load.force=1 mN", "body.diameter=3 mm", "roughness.sigma=300 nm", more=OUTPUTS)
     result = run_study(light)
     (force,) = result["body"]["forces"]
-    told = result.of_bodies()
+    told = result.body_sentence()
     assert f"{percent(force['particle_load_share'])} under 0.001 N" in told
     assert of_solve(result).endswith(told)
     assert "The mode is" not in of_solve(result)
     even = study("load.pressure=5 MPa", more=OUTPUTS)
-    assert run_study(even).of_bodies() == ""
+    assert run_study(even).body_sentence() == ""

@@ -62,13 +62,14 @@ class Record:
     """A result: a frozen dataclass that is handed out as plain data."""
 
     __slots__ = ()
-    left_out: ClassVar[tuple[str, ...]] = ("contact",)
+    not_in_dict: ClassVar[tuple[str, ...]] = ("contact",)
     """Fields that `to_dict` leaves out."""
 
     def to_dict(self) -> dict[str, Any]:
         """Every field, ready for JSON: None for what is not a finite number, lists for arrays."""
-        every = {item.name: getattr(self, item.name) for item in fields(self)}  # type: ignore[arg-type]
-        return plain_data({name: each for name, each in every.items() if name not in self.left_out})
+        names = (item.name for item in fields(self))  # type: ignore[arg-type]
+        kept = (name for name in names if name not in self.not_in_dict)
+        return {name: plain_data(getattr(self, name)) for name in kept}
 
 
 class StateRecord(Record):

@@ -40,7 +40,7 @@ class _Result(Record, Mapping[str, Any]):
     """A study and what was found; indexed, it is the plain data of `to_dict`."""
 
     study: Study
-    heard: tuple[str, ...]
+    run_warnings: tuple[str, ...]
     """What the computation warns of, one sentence each."""
 
     @property
@@ -51,7 +51,7 @@ class _Result(Record, Mapping[str, Any]):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What reading and computing the study warn of, one sentence each."""
-        return tuple(dict.fromkeys((*self.study.notes, *self.heard)))
+        return tuple(dict.fromkeys((*self.study.notes, *self.run_warnings)))
 
     @property
     def citations(self) -> list[str]:
@@ -80,7 +80,7 @@ class _Result(Record, Mapping[str, Any]):
     def __len__(self) -> int:
         return len(self._data)
 
-    def _plain(self, inputs: dict[str, Any], **found: Any) -> dict[str, Any]:
+    def _plain_data(self, inputs: dict[str, Any], **found: Any) -> dict[str, Any]:
         """Plain data with what every study says: title, version, inputs, warnings, citations."""
         return {
             "title": self.study.title,
@@ -106,7 +106,7 @@ class StudyResult(_Result):
         Critical loads, or why there are none.
     forces : tuple of Pressed
         What each force does to its body; empty where none presses one.
-    heard : tuple of str
+    run_warnings : tuple of str
         What the computation warns of; ``warnings`` holds what the study file warns of too.
     """
 
@@ -115,7 +115,7 @@ class StudyResult(_Result):
     forces: tuple[Pressed, ...] = ()
 
     @cached_property
-    def solved(self) -> list[int]:
+    def solved_states(self) -> list[int]:
         """Numbers of the states that have an equilibrium."""
         return np.flatnonzero(self.states.status == "ok").tolist()
 
@@ -127,7 +127,7 @@ class StudyResult(_Result):
         NoEquilibrium
             No state was solved; it says why the first was not.
         """
-        if not self.solved:
+        if not self.solved_states:
             first, *others = self.states.status
             more = f" (and so for all {len(others) + 1} states)" if others else ""
             raise NoEquilibrium(first + more)
@@ -137,7 +137,7 @@ class StudyResult(_Result):
         """What forces do to their bodies, in words."""
         return force_sentences(list(self.forces))
 
-    def held_in(self, i: int) -> float:
+    def particles_in(self, i: int) -> float:
         """Particles that the contact of a state holds on average; infinite where nobody knows."""
         held = self.particles_held  # of a film that has bodies of its own
         if self.forces:
@@ -145,7 +145,7 @@ class StudyResult(_Result):
             held = self.forces[i // each].particles_held
         return math.inf if held is None else float(held)
 
-    def of_bodies(self) -> str:
+    def body_sentence(self) -> str:
         """What holds of the bodies themselves, where it is not what the states say; else empty.
 
         States are of a surface under one pressure, which shares its load among all its particles.
@@ -192,7 +192,7 @@ class StudyResult(_Result):
             presses one: pressures and integrals of each force, and sentences; and where none does,
             of a study with [film], ``particles_held``: how many lie in the contact of its bodies.
         """
-        data = self._plain(
+        data = self._plain_data(
             {"load": {self.study.load: self.study.values.tolist()}},
             scales=self.states.scales,
             states=self._states(),
@@ -240,7 +240,7 @@ class FilmResult(_Result):
         What of each population passes the film.
     entrainment : Entrained or None
         What the oil brings.
-    heard : tuple of str
+    run_warnings : tuple of str
         What the computation warns of; ``warnings`` holds what the study file warns of too.
     """
 
@@ -290,7 +290,7 @@ class FilmResult(_Result):
             which the regime changes, what of each population passes the film, how many particles
             one Hertz contact holds, what the oil brings, warnings, citations.
         """
-        return self._plain(
+        return self._plain_data(
             {"film": self.conditions.to_dict()},
             states=self.states,
             regime_speeds=self.regime_speeds._asdict(),

@@ -42,7 +42,7 @@ def run_study(study: Study) -> StudyResult:
         states=states,
         transitions=critical,
         forces=tuple(forces),
-        heard=_unsaid(study, sentences),
+        run_warnings=_new_sentences(study, sentences),
     )
 
 
@@ -97,11 +97,11 @@ def run_film(study: Study) -> FilmResult:
             for number, each in enumerate(contact.populations)
         ),
         entrainment=brought,
-        heard=_unsaid(study, sentences),
+        run_warnings=_new_sentences(study, sentences),
     )
 
 
-def _unsaid(study: Study, sentences: Iterable[str]) -> tuple[str, ...]:
+def _new_sentences(study: Study, sentences: Iterable[str]) -> tuple[str, ...]:
     """Sentences, each once, that the notes of the study do not hold."""
     return tuple(dict.fromkeys(each for each in sentences if each not in study.notes))
 

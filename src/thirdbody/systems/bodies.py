@@ -323,7 +323,7 @@ class Pressed(Record):
         Part of the load at places that are crowded [1]; ``note`` says what that means.
     """
 
-    left_out = ("crowded_share",)
+    not_in_dict = ("crowded_share",)
     kind: str
     force: float
     bodies: float

@@ -127,7 +127,7 @@ class Best(Record):
     ([84], (), ())
     """
 
-    left_out = ("contact", "load", "loads", "of_states", "of_points", "warnings")
+    not_in_dict = ("contact", "load", "loads", "of_states", "of_points", "warnings")
     values: dict[str, Any]
     contact: Contact
     objectives: dict[str, float]

@@ -98,7 +98,7 @@ class Propagation(Record):
         Share of samples that are crowded, as the `status` of an `Equilibrium` says; they count.
     """
 
-    left_out = ("contact", "_critical_at_ends")
+    not_in_dict = ("contact", "_critical_at_ends")
     contact: Contact = field(repr=False)
     inputs: dict[str, Uncertain]
     load: str

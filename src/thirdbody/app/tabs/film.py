@@ -228,7 +228,7 @@ class Film:
         self.slider.set_value(self.i)
         self.words.clear()
         with self.words:
-            for text in (*summary(found), *found.heard):
+            for text in (*summary(found), *found.run_warnings):
                 ui.label(with_micro(text)).classes("hint")
         self._show(found)
 

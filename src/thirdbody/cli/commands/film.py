@@ -61,7 +61,7 @@ def command(
         figure_format(figure)  # refused before long work
     with heartbeat("film"):
         result = run_film(asked)
-    warn_of(result.heard)
+    warn_of(result.run_warnings)
     drawn = None
     if figure is not None:
         from ...views.plot.film import stribeck

@@ -84,14 +84,14 @@ def command(
     files.need(force=force)
     with heartbeat("solve"):
         result = run_study(asked)
-    warn_of(result.heard)
+    warn_of(result.run_warnings)
     if as_json:
         print(json.dumps(result.to_dict(), indent=1, allow_nan=False))
-    elif result.solved and files.paths:
+    elif result.solved_states and files.paths:
         files.write(*result.table())
         for path in files.paths:
             print(f"{len(result.states.status)} states written to {path}", file=sys.stderr)
-    elif result.solved:
+    elif result.solved_states:
         _show(result)
     else:  # what the smooth bodies do is known
         for sentence in result.force_sentences:
@@ -147,7 +147,7 @@ def _show(result: StudyResult) -> None:
 def _mode(result: StudyResult, i: int) -> str:
     """The mode of a state, as far as the contact itself has one."""
     mode = result.states.mode[i]
-    return RARE if is_rare(mode, result.held_in(i)) else mode or "-"
+    return RARE if is_rare(mode, result.particles_in(i)) else mode or "-"
 
 
 def _some_states(columns: Columns, total: int) -> Table:
@@ -221,16 +221,16 @@ def summary(result: StudyResult) -> str:
         parts = {part.name: part.load_share[i] for part in states.populations}
         share = carried(states.particle_load_share[i], parts)
         mode = states.mode[i]
-        how = mode_among(mode, held := result.held_in(i))
+        how = mode_among(mode, held := result.particles_in(i))
         where = " of a wide surface" * is_rare(mode, held)
         return f"{how}, and {share}{where}; {gap}, {area}"
 
     def at(i: int) -> str:
         return f"At {load_of(states.pressure[i], states.F_star[i])} {state(i)}."
 
-    known = sorted(result.solved, key=lambda i: states.pressure[i])
+    known = sorted(result.solved_states, key=lambda i: states.pressure[i])
     first, last = known[0], known[-1]
-    whole = f" {told}" if (told := result.of_bodies()) else ""
+    whole = f" {told}" if (told := result.body_sentence()) else ""
     if first == last:
         return at(first) + whole
     if not three_body or whole:

@@ -15,16 +15,16 @@ from .measures import (
     add_measures,
     critical_load_1,
     critical_load_2,
+    curve_measure,
     ends,
     extreme,
+    extreme_over_materials,
     inside,
+    material_measure,
     measure,
-    of_curve,
-    of_curve_and_bare,
-    of_silica_and_steel,
-    over_materials,
     ratios,
     slope,
+    two_body_measure,
 )
 from .readings import RANGE, Curve, Curves
 
@@ -38,12 +38,12 @@ def _is_back(c: Curve, bare: Curve, load: float) -> float | Measurement:
 
 
 add_measures(
-    of_curve,
+    curve_measure,
     area_slope=lambda c, loads: slope(c, c.A_t, loads),
     particle_area_slope=lambda c, loads: slope(c, c.A_sa, loads),
 )
 add_measures(
-    of_curve_and_bare,
+    two_body_measure,
     two_body_departure=lambda c, bare: np.max(np.abs(c.A_t / bare.A_t - 1)[inside(c)]),
     slope_difference=lambda c, bare, loads: abs(
         slope(c, c.A_t, loads) - slope(bare, bare.A_t, loads)
@@ -53,12 +53,12 @@ add_measures(
     return_to_two_body=_is_back,
 )
 add_measures(
-    partial(over_materials, max),
+    partial(extreme_over_materials, max),
     largest_area_over_two_body=lambda c, bare: np.max((c.A_t / bare.A_t)[inside(bare)]),
 )
 add_measures(
     partial(
-        of_silica_and_steel,
+        material_measure,
         lambda found: max(np.concatenate(found), key=lambda ratio: abs(ratio - 1)),
     ),
     material_area_ratio=lambda silica, steel, loads=RANGE: (steel.A_t / silica.A_t)[
@@ -66,14 +66,14 @@ add_measures(
     ],
 )
 add_measures(
-    partial(of_silica_and_steel, max),
+    partial(material_measure, max),
     silica_over_steel_area=lambda silica, steel: np.max((silica.A_t / steel.A_t)[inside(silica)]),
     silica_minus_steel_asperity_share=lambda silica, steel, load: (
         silica.at(load, silica.asperity_share) - steel.at(load, steel.asperity_share)
     ),
 )
 add_measures(
-    partial(of_silica_and_steel, ends),
+    partial(material_measure, ends),
     steel_area_surplus=lambda silica, steel, load: (
         steel.at(load, steel.A_t) / silica.at(load, silica.A_t) - 1
     ),
@@ -199,7 +199,7 @@ def _modes(c: Curve) -> Measurement:
 
 
 add_measures(
-    of_curve,
+    curve_measure,
     smallest_asperity_share=lambda c: np.min(c.asperity_share[inside(c)]),
     largest_particle_share=lambda c: np.max(c.particle_share[inside(c)]),
     mean_particle_share=lambda c, loads: np.mean(c.particle_share[inside(c, loads)]),

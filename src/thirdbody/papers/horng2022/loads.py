@@ -15,10 +15,10 @@ from .measures import (
     add_measures,
     critical_load_1,
     critical_load_2,
+    curve_measure,
     extreme,
     interior_peak_of,
     measure,
-    of_curve,
     ratios,
     turning_load,
 )
@@ -53,7 +53,7 @@ def _share_past_turning_point(c: Curve, factor: float) -> float | Measurement:
 
 
 add_measures(
-    of_curve,
+    curve_measure,
     first_critical_load=_first,
     second_critical_load=lambda c: _known(critical_load_2(c), NEVER_S_S),
     turning_point=lambda c: _known(turning_load(c), NO_PEAK),

@@ -24,18 +24,18 @@ __all__ = [
     "add_measures",
     "critical_load_1",
     "critical_load_2",
+    "curve_measure",
     "ends",
     "extreme",
+    "extreme_over_materials",
     "inside",
     "interior_peak_of",
+    "material_measure",
     "measure",
-    "of_curve",
-    "of_curve_and_bare",
-    "of_silica_and_steel",
-    "over_materials",
     "ratios",
     "slope",
     "turning_load",
+    "two_body_measure",
 ]
 
 Array = NDArray[np.float64]
@@ -163,21 +163,21 @@ def add_measures(family: Callable[..., Measurement], **values: Value) -> None:
     MEASURES.update({name: partial(family, value) for name, value in values.items()})
 
 
-def of_curve(
+def curve_measure(
     value: Value, curves: Curves, material: str, sigma: float, x_a: float, **more: Any
 ) -> Measurement:
     """A function of one curve."""
     return _measurement(value(curves(material, sigma, x_a), **more))
 
 
-def of_curve_and_bare(
+def two_body_measure(
     value: Value, curves: Curves, material: str, sigma: float, x_a: float, **more: Any
 ) -> Measurement:
     """A function of one curve, and of that of the surface without particles."""
     return _measurement(value(curves(material, sigma, x_a), curves.two_body(sigma), **more))
 
 
-def over_materials(
+def extreme_over_materials(
     extreme: Reduce,
     value: Value,
     curves: Curves,
@@ -190,7 +190,7 @@ def over_materials(
     return _measurement(extreme([value(curve, curves.two_body(sigma)) for curve in every]))
 
 
-def of_silica_and_steel(
+def material_measure(
     extreme: Reduce, value: Value, curves: Curves, sigma: Numbers, x_a: Numbers, **more: Any
 ) -> Measurement:
     """The ``extreme`` over roughnesses and sizes of a function of the curves of both materials."""

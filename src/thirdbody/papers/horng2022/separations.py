@@ -11,12 +11,12 @@ from ..ledger import Measurement
 from .claims import study_data
 from .measures import (
     add_measures,
+    curve_measure,
+    extreme_over_materials,
     inside,
+    material_measure,
     measure,
-    of_curve,
-    of_curve_and_bare,
-    of_silica_and_steel,
-    over_materials,
+    two_body_measure,
 )
 from .readings import Curve, Curves
 
@@ -34,20 +34,20 @@ def regime_share_step(curves: Curves, sigma: float, regime: str, extreme: str) -
     return Measurement.of(steps.max() if extreme == "largest" else steps.min())
 
 
-add_measures(of_curve, plastic_share_at=lambda c, load: c.at(load, c.share("p")))
+add_measures(curve_measure, plastic_share_at=lambda c, load: c.at(load, c.share("p")))
 add_measures(
-    partial(over_materials, max),
+    partial(extreme_over_materials, max),
     largest_elastic_share=lambda c, bare: np.max(c.share("e")[inside(c)]),
     largest_elastic_share_over_two_body=lambda c, bare: max(
         (c.share("e") / bare.share("e"))[inside(bare)]
     ),
 )
 add_measures(
-    partial(over_materials, min),
+    partial(extreme_over_materials, min),
     smallest_elastoplastic_share=lambda c, bare: np.min(c.share("ep")[inside(c)]),
 )
 add_measures(
-    partial(of_silica_and_steel, max),
+    partial(material_measure, max),
     regime_order_breach=lambda silica, steel: max(
         0.0,
         *(
@@ -91,24 +91,24 @@ def _area_lost(c: Curve, growth: float) -> float | Measurement:
 
 
 add_measures(
-    of_curve,
+    curve_measure,
     separation_at=lambda c, load: c.at(load, c.d_star),
     separation_change=_change,
     largest_separation_change=lambda c, loads: abs(_change(c, loads)),
     area_lost_for_separation=_area_lost,
 )
 add_measures(
-    of_curve_and_bare,
+    two_body_measure,
     separation_over_two_body=lambda c, bare, loads: np.max((c.d / bare.d)[inside(c, loads)]),
 )
 add_measures(
-    partial(of_silica_and_steel, min),
+    partial(material_measure, min),
     separation_material_ratio=lambda silica, steel, load: (
         silica.at(load, silica.d) / steel.at(load, steel.d)
     ),
 )
 add_measures(
-    partial(of_silica_and_steel, max),
+    partial(material_measure, max),
     largest_separation_ratio=lambda silica, steel: np.max((silica.d / steel.d)[inside(silica)]),
 )
 

@@ -97,7 +97,7 @@ class Figures(Found):
     def _marks(self) -> list[float]:
         """Loads F* of the study that can be marked."""
         loads = self.result.states.F_star
-        return [F for i in self.result.solved if (F := float(loads[i])) >= FAINT]
+        return [F for i in self.result.solved_states if (F := float(loads[i])) >= FAINT]
 
     def _at(self, ax: Axes) -> Axes:
         """The loads of the study."""

@@ -96,7 +96,7 @@ def report(
     result.need_state()
     states = result.states
     F_star = np.atleast_1d(states.F_star)
-    known = sorted(result.solved, key=lambda i: F_star[i])
+    known = sorted(result.solved_states, key=lambda i: F_star[i])
     loaded = [i for i in known if F_star[i] >= FAINT]
     at = (loaded or known)[len(loaded or known) // 2]
     given = {study.load: float(study.values[at])}

@@ -108,7 +108,7 @@ class Report(Sentences, Figures, Tables, Sources):
         return [f"<p>{words(sentence)}</p>" for sentence in (*body, *self.sentences())]
 
     def _warnings(self) -> list[str]:
-        texts = [*self.result.warnings, *(() if self.film is None else self.film.heard)]
+        texts = [*self.result.warnings, *(() if self.film is None else self.film.run_warnings)]
         texts = [*dict.fromkeys(texts), *unsolved(self.result.states.status)]
         if not texts:
             return []

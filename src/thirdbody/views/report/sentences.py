@@ -39,12 +39,12 @@ class Sentences(Found):
 
         Where the study has a film, first what it says with the oil.
         """
-        whole = self.result.of_bodies()
+        whole = self.result.body_sentence()
         return (*self._with_oil(), *self._without_oil(), *([whole] if whole else []))
 
     def _without_oil(self) -> tuple[str, str, str]:
         states = self.result.states
-        known = sorted(self.result.solved, key=lambda i: states.pressure[i])
+        known = sorted(self.result.solved_states, key=lambda i: states.pressure[i])
         first, last = known[0], known[-1]
         if first == last:
             return (
@@ -84,7 +84,7 @@ class Sentences(Found):
             return two_bodies()
         parts = {part.name: part.load_share[i] for part in states.populations}
         share = carried(states.particle_load_share[i], parts)
-        mode, held = states.mode[i], self.result.held_in(i)
+        mode, held = states.mode[i], self.result.particles_in(i)
         where = " of a wide surface" * is_rare(mode, held)
         return f"{mode_among(mode, held)}, and {share}{where}"
 
@@ -150,7 +150,7 @@ class Sentences(Found):
             f"{name} = {number(F)} ({value_of(F * self.contact.E_ss, 'Pa')}{_beyond(F, loads)})"
             for name, F in self._existing_loads().items()
         ]
-        if any(is_rare(states.mode[i], self.result.held_in(i)) for i in known):
+        if any(is_rare(states.mode[i], self.result.particles_in(i)) for i in known):
             path = "Modes are those of a wide surface whose particles all share the load"
         else:
             path = mode_path(states.mode[i] for i in known)
@@ -171,7 +171,7 @@ class Sentences(Found):
 
     def _when(self) -> str:
         """Of the inputs, and at which of several loads."""
-        at = f", at {self._load(self.at)}" if len(self.result.solved) > 1 else ""
+        at = f", at {self._load(self.at)}" if len(self.result.solved_states) > 1 else ""
         return f"Of the inputs{at}, "
 
     def ranked(self) -> tuple[str, list[str]]:

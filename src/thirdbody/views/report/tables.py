@@ -52,7 +52,7 @@ class Tables(Found):
     def _cell(self, name: str, i: int) -> str:
         """A number of a state; a mode as far as the contact itself has one."""
         value = getattr(self.result.states, name)[i]
-        if name == "mode" and is_rare(value, self.result.held_in(i)):
+        if name == "mode" and is_rare(value, self.result.particles_in(i)):
             return RARE
         return column_value(name, value)
 
