@@ -28,13 +28,13 @@ Load = Callable[[Curve], float]
 
 
 # ------------------------------------------------------------------ one contact
-def _known(value: float, why: str) -> Measurement:
+def _measured_load(value: float, why: str) -> Measurement:
     return Measurement.of(value) if math.isfinite(value) else Measurement.absent(why)
 
 
 def _first(c: Curve) -> Measurement:
     value = critical_load_1(c)
-    return _known(value, NEVER_P_S if math.isnan(value) else ALWAYS_P_S)
+    return _measured_load(value, NEVER_P_S if math.isnan(value) else ALWAYS_P_S)
 
 
 def _peak(c: Curve) -> Measurement:
@@ -55,8 +55,8 @@ def _share_past_turning_point(c: Curve, factor: float) -> float | Measurement:
 add_measures(
     curve_measure,
     first_critical_load=_first,
-    second_critical_load=lambda c: _known(critical_load_2(c), NEVER_S_S),
-    turning_point=lambda c: _known(turning_load(c), NO_PEAK),
+    second_critical_load=lambda c: _measured_load(critical_load_2(c), NEVER_S_S),
+    turning_point=lambda c: _measured_load(turning_load(c), NO_PEAK),
     interior_peak=_peak,
     load_share_past_turning_point=_share_past_turning_point,
 )
