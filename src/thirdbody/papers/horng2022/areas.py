@@ -30,7 +30,7 @@ from .readings import RANGE, Curve, Curves
 
 
 # ------------------------------------------------------------------ real area
-def _is_back(c: Curve, bare: Curve, load: float) -> float | Measurement:
+def _distance_from_bare(c: Curve, bare: Curve, load: float) -> float | Measurement:
     """How far the area is from that without particles, where it grows throughout."""
     if np.any(np.diff(c.A_t[inside(c)]) <= 0):
         return Measurement.absent("the area does not grow throughout")
@@ -50,7 +50,7 @@ add_measures(
     ),
     area_over_two_body=lambda c, bare, loads: ends((c.A_t / bare.A_t)[inside(c, loads)]),
     smallest_pressure_gain=lambda c, bare, loads: 1 / np.max((c.A_t / bare.A_t)[inside(c, loads)]),
-    return_to_two_body=_is_back,
+    return_to_two_body=_distance_from_bare,
 )
 add_measures(
     partial(extreme_over_materials, max),
