@@ -117,6 +117,12 @@ def test_the_table_of_a_study_has_the_units_of_each_population():
     assert units["SiO2: dent_depth_1"] == units["dent_depth_1"] == "m"
     assert units["SiO2: load_share"] == "1"
     assert columns["SiO2: load_share"][1] is None
+    for part, told in zip(found.states.populations, found.to_dict()["populations"], strict=True):
+        assert told == part.to_dict()
+        assert "PopulationShare, 2 states" in part._repr_html_()
+        assert part.to_dataframe()["load_share"].tolist() == pytest.approx(
+            part.load_share.tolist(), nan_ok=True
+        )
 
 
 def test_states_declare_what_they_hold():

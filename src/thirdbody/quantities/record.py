@@ -80,7 +80,7 @@ class StateRecord(Record):
     """
 
     __slots__ = ()
-    warnings: tuple[str, ...]
+    warnings: tuple[str, ...] = ()
 
     @names_arguments
     def about(self, name: str) -> Column:
