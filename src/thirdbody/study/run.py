@@ -29,6 +29,16 @@ def run_study(study: Study) -> StudyResult:
     -------
     StudyResult
         States, critical loads, forces, warnings; ``to_dict()`` is ready for JSON.
+
+    Examples
+    --------
+    >>> from thirdbody.study import check
+    >>> steel = {"first": "S45C", "second": "S45C"}
+    >>> study = check({"surfaces": steel, "roughness": {"sigma": "100 nm", "R": "2.8 um"},
+    ...                "load": {"pressure": "5 MPa"}})
+    >>> found = run_study(study)
+    >>> f"{found.states.A_t[0]:.2g}", found.to_dict()["states"]["mode"]
+    ('0.0013', ['s-s'])
     """
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", RangeWarning)
