@@ -10,6 +10,7 @@ from nicegui import ui
 
 from ...equilibrium.columns import COLUMNS, about
 from ...errors import InvalidValue
+from ...quantities.plain_data import plain_data
 from ...quantities.say import number, prefixed
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, text_of, value_from
@@ -73,7 +74,7 @@ def design_figure(
             "type": "scatter",
             "mode": "markers",
             "x": x[~good].tolist(),
-            "y": [v if np.isfinite(v) else None for v in y[~good].tolist()],
+            "y": plain_data(y[~good]),
             "name": "breaks a limit",
             "marker": {"symbol": "x", "size": 8, "color": GREY},
         },
