@@ -746,7 +746,7 @@ def _outputs(found: Findings, drawn: Drawn, at: Any) -> None:
     ok = (np.asarray(want["status"], str) == "ok") & (np.asarray(got["status"], str) == "ok")
     ok &= ~(want["F_star"] < LEAST_DIGITS)  # there a float has few digits
     for name in (each for each in want if each not in COLUMNS):
-        unit = about(name)["unit"]
+        unit = about(name).unit
         if unit not in LENGTHS or want[name].dtype.kind != "f":
             continue
         x, y = want[name][ok] * length ** LENGTHS[unit] * pressure ** PRESSURES[unit], got[name][ok]

@@ -74,7 +74,7 @@ LEFT = {
     "at": 27,
     "of": 26,
     "part": 7,
-    "own": 4,
+    "own": 3,
     "known": 3,
     "met": 3,
     "each": 3,

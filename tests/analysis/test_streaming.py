@@ -24,7 +24,8 @@ from thirdbody import cli
 from thirdbody.analysis.sweep import stores, streaming
 from thirdbody.analysis.sweep.folder import name_of
 from thirdbody.analysis.sweep.make_plan import make_plan
-from thirdbody.analysis.sweep.plan import LOOKED_AT, MODES
+from thirdbody.analysis.sweep.plan import LOOKED_AT
+from thirdbody.equilibrium.modes import MODES
 from thirdbody.numerics.sampling import DESIGNS, Span, latin, sobol
 from thirdbody.study import check, load_study
 
@@ -63,7 +64,7 @@ def same(stored, memory):
         assert stored[name].dims == memory[name].dims
         found, wanted = stored[name].values, memory[name].values
         if name == "mode":
-            found = np.array(MODES)[found]
+            found = np.array(["", *MODES])[found]
         elif name == "status":
             found, wanted = found == 0, wanted == "ok"
         assert_array_equal(found, wanted, err_msg=name)

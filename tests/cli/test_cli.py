@@ -116,7 +116,7 @@ def test_json_with_an_unsolved_state_is_valid():
     ],
 )
 def test_schema_refuses(spoil):
-    answer = study.run_study(study.load_study(DUSTY, ["load.F_star=1e-5"]))
+    answer = study.run_study(study.load_study(DUSTY, ["load.F_star=1e-5"])).to_dict()
     jsonschema.validate(answer, SCHEMA)
     spoil(answer)
     with pytest.raises(jsonschema.ValidationError):

@@ -176,7 +176,7 @@ def test_what_passes_and_what_enters():
 
 
 def test_json_comes_back_as_the_same_contact(found):
-    told = json.loads(json.dumps(found, allow_nan=False))
+    told = json.loads(json.dumps(found.to_dict(), allow_nan=False))
     film = FilmConditions.from_dict(told["inputs"].pop("film"))
     contact = Contact.from_dict(told["inputs"])
     study = check(data_of())

@@ -311,14 +311,13 @@ def test_a_probability_without_an_area_has_a_reason():
 def test_what_is_said_last_is_of_the_bodies():
     """States at Hertz's pressures are not the answer where the integral says another thing."""
     from thirdbody.cli.commands.solve import summary as of_solve
-    from thirdbody.study.body import of_bodies
 
     light = study("load.force=1 mN", "body.diameter=3 mm", "roughness.sigma=300 nm", more=OUTPUTS)
     result = run_study(light)
     (force,) = result["body"]["forces"]
-    told = of_bodies(result)
+    told = result.body_sentence()
     assert f"{percent(force['particle_load_share'])} under 0.001 N" in told
     assert of_solve(result).endswith(told)
     assert "The mode is" not in of_solve(result)
     even = study("load.pressure=5 MPa", more=OUTPUTS)
-    assert of_bodies(run_study(even)) == ""
+    assert run_study(even).body_sentence() == ""

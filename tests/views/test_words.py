@@ -10,7 +10,8 @@ import pytest
 import thirdbody as tb
 from thirdbody import effects
 from thirdbody.equilibrium import words
-from thirdbody.equilibrium.columns import COLUMNS, MODES
+from thirdbody.equilibrium.columns import COLUMNS
+from thirdbody.equilibrium.modes import MODES
 from thirdbody.quantities import say
 from thirdbody.quantities.units import EXAMPLES
 from thirdbody.quantities.value import Value
@@ -108,7 +109,7 @@ def test_units_take_prefixes(value, unit, text):
 
 # ---------------------------------------------------------------- modes and critical loads
 def test_every_mode_has_a_sentence():
-    for mode in filter(None, MODES.tolist()):
+    for mode in MODES:
         assert f"({mode})" in words.mode_of(mode)
     assert words.mode_of("") == words.mode_of(None)
 
@@ -136,7 +137,7 @@ def test_a_critical_load_that_does_not_exist_is_a_dash():
 
 def declared(what):
     """A word of every declared quantity and every column: "unit" or "symbol"."""
-    found = {about[what] for about in COLUMNS.values()}
+    found = {getattr(column, what) for column in COLUMNS.values()}
     for each in effects.REGISTRY.values():
         found |= {getattr(column, what) for column in each.columns.values()}
     return found | {

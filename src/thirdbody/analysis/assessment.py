@@ -145,13 +145,13 @@ class Assessment:
             "mode": self.mode,
             **plain_data(
                 {
-                    "propagation": found.to_dict(),
+                    "propagation": found,
                     "decisive": self.decisive,
                     "matter": self.matter,
                     "tornado": self.tornado,
                     "elasticity": self.elasticity,
-                    "changes": [change.to_dict() for change in self.changes],
-                    "stops": [stop.to_dict() for stop in self.stops],
+                    "changes": self.changes,
+                    "stops": self.stops,
                 }
             ),
             "exact": list(self.exact),
@@ -258,12 +258,12 @@ class Assessment:
                 continue
             low, middle, high = self._band(name)
             if not found.inputs:
-                rows.append((about_result(name)["meaning"], _amount(found.nominal[name], name)))
+                rows.append((about_result(name).meaning, _amount(found.nominal[name], name)))
                 continue
             each = (found.nominal[name], low, middle, high)
             where = [found.probabilities.index(q) for q in BAND]
             error = _error(float(np.max(found.error[name][where])), name)
-            rows.append((about_result(name)["meaning"], *(_amount(x, name) for x in each), error))
+            rows.append((about_result(name).meaning, *(_amount(x, name) for x in each), error))
         head = ("result", "nominal", "5 %", "50 %", "95 %", "error of the bands")
         lost = 1 - found.solved
         told = [f"{percent(lost)} of the samples have no equilibrium."] if lost else []
@@ -321,7 +321,7 @@ class Assessment:
     def _decisive(self) -> str:
         if self.decisive in CRITICAL:
             return f"{self.decisive}, the critical load nearest to this load"
-        return f"the {OUTPUTS[self.decisive]['meaning']}"
+        return f"the {OUTPUTS[self.decisive].meaning}"
 
     def load_changes(self) -> list[tuple[float, str]]:
         """Loads [Pa] beyond which the mode is another one, and that mode."""
@@ -454,12 +454,12 @@ def _law_of(found: Propagation) -> str:
 def _amount(value: float, name: str) -> str:
     if name in CRITICAL:
         return critical_load(value)
-    unit = about_result(name)["unit"]
+    unit = about_result(name).unit
     return percent(value) if unit == "1" and name in OUTPUTS else value_of(value, unit)
 
 
 def _error(error: float, name: str) -> str:
-    unit = about_result(name)["unit"]
+    unit = about_result(name).unit
     share = unit == "1" and name in OUTPUTS and name not in CRITICAL
     return percent(error, digits=1) if share else value_of(error, unit, 1)
 

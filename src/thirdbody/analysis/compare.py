@@ -25,7 +25,7 @@ import numpy as np
 from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..contact.interface import interface
-from ..equilibrium.columns import COLUMNS, Equilibrium
+from ..equilibrium.columns import COLUMNS, PLASTIC_SHARE, Equilibrium
 from ..equilibrium.doubts import BEYOND
 from ..equilibrium.solve import given_load, solve
 from ..errors import InvalidValue, Problem, RangeWarning, code_of
@@ -33,6 +33,7 @@ from ..laws.asperity import REGISTRY, AbstractAsperityLaw
 from ..quantities.carried import takes_units
 from ..quantities.files import csv_of, with_units
 from ..quantities.nearest import guess
+from ..quantities.record import Column
 from ..quantities.say import percent
 
 if TYPE_CHECKING:
@@ -49,14 +50,16 @@ KEPT = (
 )
 """Columns of `Equilibrium` that differ from law to law."""
 DERIVED = {
-    "mean_pressure": ("p_m", "Pa", "mean real pressure F/A_t"),
-    "elastic_share": ("A_e/A_t", "1", "elastic part of the real area"),
-    "elastoplastic_share": ("A_ep/A_t", "1", "elastoplastic part of the real area"),
-    "plastic_share": ("A_p/A_t", "1", "plastic part of the real area"),
-    "A_t_difference": ("ΔA_t", "%", "real area against the contact's own law"),
-    "mean_pressure_difference": ("Δp_m", "%", "mean real pressure against the own law"),
-    "particle_load_share_difference": ("Δ(F_sa/F_t)", "%", "particles' load against the own law"),
-    "d_star_difference": ("Δd/σ", "1", "separation d above that of the own law, over σ"),
+    "mean_pressure": Column("p_m", "Pa", "mean real pressure F/A_t"),
+    "elastic_share": Column("A_e/A_t", "1", "elastic part of the real area"),
+    "elastoplastic_share": Column("A_ep/A_t", "1", "elastoplastic part of the real area"),
+    "plastic_share": PLASTIC_SHARE,
+    "A_t_difference": Column("ΔA_t", "%", "real area against the contact's own law"),
+    "mean_pressure_difference": Column("Δp_m", "%", "mean real pressure against the own law"),
+    "particle_load_share_difference": Column(
+        "Δ(F_sa/F_t)", "%", "particles' load against the own law"
+    ),
+    "d_star_difference": Column("Δd/σ", "1", "separation d above that of the own law, over σ"),
 }
 """Symbol, unit and meaning of what a comparison adds."""
 TELLING = 0.01
@@ -399,11 +402,7 @@ def _derived(data: dict[str, Array], load: Array) -> dict[str, Array]:
 
 
 def _about(name: str) -> dict[str, str]:
-    if name in DERIVED:
-        symbol, unit, meaning = DERIVED[name]
-    else:
-        symbol, unit, meaning = (COLUMNS[name][key] for key in ("symbol", "unit", "meaning"))
-    return {"units": unit, "long_name": meaning, "symbol": symbol}
+    return (DERIVED.get(name) or COLUMNS[name]).labels
 
 
 # -------------------------------------------------------------------------- ranges

@@ -13,7 +13,6 @@ numbers cancel.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -29,8 +28,8 @@ from ..errors import InvalidValue
 from ..quantities import notebook
 from ..quantities.arguments import need_place
 from ..quantities.carried import takes_units
-from ..quantities.plain_data import plain_data
 from ..quantities.progress import watched
+from ..quantities.record import Record
 from .differences import FULL, QUICK, Entry, Places, Rule
 from .inputs import NUMBERS, Input, _room, input_of, inputs
 
@@ -57,7 +56,7 @@ CRITICAL = {
 
 # -------------------------------------------------------------------------- result
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Sensitivity:
+class Sensitivity(Record):
     """Derivatives of results with respect to inputs: floats, or arrays over several loads.
 
     Made by `sensitivity`, where accuracy stands.
@@ -103,11 +102,6 @@ class Sensitivity:
     elasticity: dict[str, dict[str, Any]]
     error: dict[str, dict[str, Any]]
     status: dict[str, dict[str, Any]]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Everything but the contact, ready for JSON: None for NaN, lists for arrays."""
-        names = (item.name for item in dataclasses.fields(self) if item.name != "contact")
-        return {name: plain_data(getattr(self, name)) for name in names}
 
     @takes_units
     def table(self, at: int = 0) -> str:
@@ -397,9 +391,7 @@ def _of_critical(
 ) -> tuple[Array, dict[str, Entry]]:
     """A critical load to rounding, and its derivatives: there the share keeps its value."""
     share, level = CRITICAL[name]
-    found: Any = transitions(contact)
-    for part in name.split("."):
-        found = getattr(found, part)
+    found = transitions(contact).entries()[name]
     why = "" if found.status == CriticalStatus.FOUND else found.status
     if not why and not share:
         why = "the strongest bend is taken from a grid of loads and has no derivative"

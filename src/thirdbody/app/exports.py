@@ -6,7 +6,6 @@ import io
 import json
 from typing import Any
 
-from ..equilibrium.columns import about
 from ..quantities.files import csv_of, with_units
 from ..study import Study, run_study
 from ..views import plot
@@ -20,19 +19,12 @@ FIGURES = ("area", "shares", "regimes", "separation", "modes")
 
 def to_json(study: Study) -> str:
     """What ``thirdbody solve STUDY.toml --json`` prints."""
-    return json.dumps(run_study(study), indent=1, allow_nan=False) + "\n"
+    return json.dumps(run_study(study).to_dict(), indent=1, allow_nan=False) + "\n"
 
 
 def to_csv(study: Study) -> str:
     """What ``thirdbody solve STUDY.toml --csv FILE`` writes."""
-    result = run_study(study)
-    columns: dict[str, list[Any]] = dict(result["states"])
-    units = {name: about(name)["unit"] for name in columns}
-    for part in result["populations"]:
-        mine = {f"{part['name']}: {key}": part[key] for key in part if key != "name"}
-        columns |= mine
-        units |= dict.fromkeys(mine, "1")
-    return csv_of(with_units(columns, units))
+    return csv_of(with_units(*run_study(study).table()))
 
 
 def figure_of(answer: Answer, name: str, suffix: str) -> bytes:

@@ -14,12 +14,13 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ..errors import InvalidValue
 from ..laws.base import Law
+from ..quantities.record import Column
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,24 +32,6 @@ if TYPE_CHECKING:
     Probe = Callable[[Array], ParticleSpots]
 
 __all__ = ["AbstractOutput", "Column"]
-
-
-class Column(NamedTuple):
-    """One number of every state.
-
-    Examples
-    --------
-    >>> import thirdbody as tb
-    >>> tb.outputs.Friction.columns["mu"]
-    Column(symbol='μ', unit='1', meaning='coefficient of friction')
-    """
-
-    symbol: str
-    """As in figures."""
-    unit: str
-    """SI, "1" for none."""
-    meaning: str
-    """In words."""
 
 
 class AbstractOutput(Law):

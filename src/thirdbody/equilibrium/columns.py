@@ -12,17 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..contact.citations import cite
 from ..contact.contact import Contact
-from ..contact.output import column
+from ..contact.output import column as output_column
 from ..errors import InvalidValue
-from ..quantities import notebook
-from ..quantities.arguments import need_one
+from ..quantities.arguments import names_arguments, need_one
 from ..quantities.carried import takes_units
+from ..quantities.record import Column, StateRecord, column, declared_columns
 from ..version import __version__
-from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S, need_shares
+from .modes import EPS_1, EPS_2, MODES, need_shares
 from .status import WORDS
 
 if TYPE_CHECKING:
-    import pandas
     import xarray
 
 __all__ = ["Equilibrium"]
@@ -31,15 +30,22 @@ Array = NDArray[np.float64]
 
 Number = float | Array
 
-MODES = np.array(["", S_S, HYBRID, P_S])
+MODE_OF_CODE = np.array(["", *MODES])
 
 
-def _column(symbol: str, unit: str, meaning: str) -> Any:
-    return field(metadata={"symbol": symbol, "unit": unit, "meaning": meaning})
+class _ContactRecord(StateRecord):
+    """States with the columns of the outputs of a contact beside their own."""
+
+    __slots__ = ()
+
+    @names_arguments
+    def about(self, name: str) -> Column:
+        """Symbol, unit and meaning of a column, of the state itself or of an output."""
+        return declared_columns(type(self)).get(name) or output_column(name)
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Equilibrium:
+class Equilibrium(_ContactRecord):
     """The solved contact: floats for one load, arrays for several.
 
     Areas are real areas per nominal area; F* = F/(A_n E_ss). A state that could not be solved
@@ -71,28 +77,28 @@ class Equilibrium:
     """
 
     contact: Contact = field(repr=False)
-    d: Number = _column("d", "m", "separation d, from the mean asperity height")
-    h: Number = _column("h", "m", "separation of the mean planes")
-    d_star: Number = _column("d*", "1", "separation d over σ")
-    F_star: Number = _column("F_t*", "1", "load F/(A_n E_ss)")
-    pressure: Number = _column("p", "Pa", "nominal pressure")
-    F_ss_star: Number = _column("F_ss*", "1", "load on asperities")
-    F_sa_star: Number = _column("F_sa*", "1", "load on particles")
-    A_t: Number = _column("A_t*", "1", "real contact area")
-    A_ss: Number = _column("A_ss*", "1", "real area of asperities")
-    A_sa: Number = _column("A_sa*", "1", "real area of particles on surface 1")
-    A_sa2: Number = _column("A_sa2*", "1", "real area of particles on surface 2")
-    A_e: Number = _column("A_e*", "1", "elastic area")
-    A_ep: Number = _column("A_ep*", "1", "elastoplastic area")
-    A_p: Number = _column("A_p*", "1", "plastic area")
-    shadow: Number = _column("ς", "1", "share of area in which particles keep asperities apart")
-    particle_load_share: Number = _column("F_sa/F_t", "1", "load share of particles")
-    particle_area_share: Number = _column("A_sa,t*", "1", "area share of particles")
-    mode: str | NDArray[np.str_] = _column("mode", "", "contact mode")
+    d: Number = column("d", "m", "separation d, from the mean asperity height")
+    h: Number = column("h", "m", "separation of the mean planes")
+    d_star: Number = column("d*", "1", "separation d over σ")
+    F_star: Number = column("F_t*", "1", "load F/(A_n E_ss)")
+    pressure: Number = column("p", "Pa", "nominal pressure")
+    F_ss_star: Number = column("F_ss*", "1", "load on asperities")
+    F_sa_star: Number = column("F_sa*", "1", "load on particles")
+    A_t: Number = column("A_t*", "1", "real contact area")
+    A_ss: Number = column("A_ss*", "1", "real area of asperities")
+    A_sa: Number = column("A_sa*", "1", "real area of particles on surface 1")
+    A_sa2: Number = column("A_sa2*", "1", "real area of particles on surface 2")
+    A_e: Number = column("A_e*", "1", "elastic area")
+    A_ep: Number = column("A_ep*", "1", "elastoplastic area")
+    A_p: Number = column("A_p*", "1", "plastic area")
+    shadow: Number = column("ς", "1", "share of area in which particles keep asperities apart")
+    particle_load_share: Number = column("F_sa/F_t", "1", "load share of particles")
+    particle_area_share: Number = column("A_sa,t*", "1", "area share of particles")
+    mode: str | NDArray[np.str_] = column("mode", "", "contact mode")
     """p-s, hybrid or s-s by area; empty where nothing touches, and in a state without a number."""
-    status: str | NDArray[np.str_] = _column("status", "", "ok, or why there is no state")
-    residual: Number = _column("r", "1", "relative imbalance |F_t/F − 1|")
-    iterations: int | NDArray[np.int_] = _column("n", "", "evaluations of the load")
+    status: str | NDArray[np.str_] = column("status", "", "ok, or why there is no state")
+    residual: Number = column("r", "1", "relative imbalance |F_t/F − 1|")
+    iterations: int | NDArray[np.int_] = column("n", "", "evaluations of the load")
     warnings: tuple[str, ...] = ()
     populations: tuple[PopulationShare, ...] = ()
     """What each of several populations carries; empty for one."""
@@ -108,103 +114,25 @@ class Equilibrium:
         """What makes the starred quantities: E_ss [Pa] and σ [m]."""
         return {"E_ss": self.contact.E_ss, "sigma": self.contact.roughness.sigma}
 
-    def columns(self) -> dict[str, NDArray[Any]]:
-        """Every column as a 1-D array, those of the outputs last."""
-        own = {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
-        return own | {name: np.atleast_1d(values) for name, values in self.outputs.items()}
+    def attributes(self) -> dict[str, str]:
+        """What a data set says of all its states."""
+        said = {"engine": self.engine, "warnings": "\n".join(self.warnings)}
+        return said | provenance(self.contact)
 
-    def to_dataset(self, *, title: str = "") -> xarray.Dataset:
-        """The states as labelled data, one along the dimension ``state``.
-
-        Parameters
-        ----------
-        title : str, optional
-            What the data are of; kept with them.
-
-        Returns
-        -------
-        xarray.Dataset
-            Every column with ``units``, ``long_name`` and ``symbol``; title, inputs, version,
-            engine, warnings and citations as attributes. What each of several populations
-            carries has the dimension ``population`` too.
-
-        Examples
-        --------
-        >>> import thirdbody as tb
-        >>> steel = tb.materials["S45C"]
-        >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
-        ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-        >>> data = tb.solve(contact, pressure=[1e6, 5e6]).to_dataset(title="Two loads")
-        >>> data.A_t.dims, data.pressure.units, data.title
-        (('state',), 'Pa', 'Two loads')
-        """
-        said = {
-            "title": title,
-            "engine": self.engine,
-            "warnings": "\n".join(self.warnings),
+    def more_variables(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """What each of several populations carries, along the dimension ``population`` too."""
+        parts, dims = self.populations, ("state", "population")
+        if not parts:
+            return {}, {}
+        stacked = {
+            f"population_{name}": (
+                dims,
+                np.stack([part.columns()[name] for part in parts], axis=-1),
+                parts[0].about(name).labels,
+            )
+            for name in parts[0].columns()
         }
-        data = dataset(self.contact, self.columns(), {}, said)
-        if self.populations:
-            dims = ("state", "population")
-            parts = self.populations
-            for name, told in POPULATION_COLUMNS.items():
-                values = np.stack([np.atleast_1d(getattr(part, name)) for part in parts], axis=-1)
-                data[f"population_{name}"] = (dims, values, told)
-            for name in parts[0].outputs:
-                values = np.stack([np.atleast_1d(part.outputs[name]) for part in parts], axis=-1)
-                data[f"population_{name}"] = (dims, values, labels(name))
-            data = data.assign_coords(population=[part.name for part in parts])
-        return data
-
-    def to_dataframe(self) -> pandas.DataFrame:
-        """The states as a pandas table, one a row; units and symbols in ``attrs``.
-
-        Returns
-        -------
-        pandas.DataFrame
-            Every column. ``attrs["units"]``, ``attrs["symbol"]`` and ``attrs["long_name"]`` say
-            of each what it is.
-
-        Raises
-        ------
-        ImportError
-            Pandas is not installed.
-
-        Examples
-        --------
-        >>> import thirdbody as tb
-        >>> steel = tb.materials["S45C"]
-        >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
-        ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
-        >>> table = tb.solve(contact, pressure=[1e6, 5e6]).to_dataframe()
-        >>> table["mode"].tolist(), table.attrs["units"]["pressure"]
-        (['s-s', 's-s'], 'Pa')
-        """
-        try:
-            import pandas
-        except ImportError:
-            raise ImportError(
-                "a table of states needs pandas; install it with pip install pandas, or take "
-                "to_dataset()"
-            ) from None
-        columns = self.columns()
-        table = pandas.DataFrame(columns)
-        table.index.name = "state"
-        said = {name: labels(name) for name in columns}
-        for key in ("units", "symbol", "long_name"):
-            table.attrs[key] = {name: told[key] for name, told in said.items()}
-        return table
-
-    def _repr_html_(self) -> str:
-        """A table for notebooks: a row for each column, the first and the last states."""
-        count = len(self.columns()["d"])
-        rows = [
-            notebook.Row(told["symbol"], _cells(values, told["units"]), told["long_name"])
-            for name, values in self.columns().items()
-            for told in (labels(name),)
-        ]
-        states = "1 state" if count == 1 else f"{count} states"
-        return notebook.card(f"Equilibrium, {states}", rows, self.warnings)
+        return stacked, {"population": [part.name for part in parts]}
 
     @takes_units
     def modes(
@@ -231,7 +159,7 @@ class Equilibrium:
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class PopulationShare:
+class PopulationShare(_ContactRecord):
     """What one of several populations of particles carries: floats for one load, else arrays.
 
     Part of `Equilibrium.populations`; the shares of all populations add up to
@@ -239,25 +167,18 @@ class PopulationShare:
     """
 
     name: str
-    F_sa_star: Number
-    """Load over A_n E_ss [1]"""
-    A_sa: Number
-    """Real area on surface 1 over A_n [1]"""
-    load_share: Number
-    """of the total load [1]"""
-    area_share: Number
-    """of the total real area [1]"""
+    F_sa_star: Number = column("F_sa*", "1", "load on the particles of a population")
+    A_sa: Number = column("A_sa*", "1", "real area of a population on surface 1")
+    load_share: Number = column("F_sa/F_t", "1", "load share of a population")
+    area_share: Number = column("A_sa,t*", "1", "area share of a population")
     outputs: Mapping[str, Number] = field(default_factory=dict)
     """Columns of the outputs that each population has of its own, as its dents, by name."""
 
+    def to_dict(self) -> dict[str, Any]:
+        """Name and columns, ready for JSON."""
+        return {"name": self.name} | StateRecord.to_dict(self)
 
-POPULATION_COLUMNS = {
-    "F_sa_star": {"units": "1", "long_name": "load on the particles of a population"},
-    "A_sa": {"units": "1", "long_name": "real area of a population on surface 1"},
-    "load_share": {"units": "1", "long_name": "load share of a population"},
-    "area_share": {"units": "1", "long_name": "area share of a population"},
-}
-"""Attributes of what each of several populations carries."""
+
 CODE = "status_code"
 """Column of the codes of `Status`, beside those of a result."""
 FLAGS = {"flag_values": list(range(len(WORDS))), "flag_meanings": " ".join(WORDS)}
@@ -267,19 +188,17 @@ MARKS: dict[str, dict[str, Any]] = {
 }
 """Attributes of what stands beside the columns of a result."""
 
-COLUMNS = {item.name: dict(item.metadata) for item in fields(Equilibrium) if item.metadata}
+COLUMNS = declared_columns(Equilibrium)
 """Symbol, unit and meaning of every column of a result."""
 
 
-def about(name: str) -> dict[str, str]:
+PLASTIC_SHARE = Column("A_p/A_t", "1", "plastic part of the real area")
+"""What is asked of states besides their columns."""
+
+
+def about(name: str) -> Column:
     """Symbol, unit and meaning of a column, of the state itself or of an output."""
-    return COLUMNS[name] if name in COLUMNS else column(name)._asdict()
-
-
-def labels(name: str) -> dict[str, Any]:
-    """Attributes of a column in a data set."""
-    told = about(name)
-    return {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
+    return COLUMNS.get(name) or output_column(name)
 
 
 def quantity_of(contact: Contact, name: str) -> dict[str, Any] | None:
@@ -297,11 +216,18 @@ def quantity_of(contact: Contact, name: str) -> dict[str, Any] | None:
 def labels_of(contact: Contact, name: str) -> dict[str, Any]:
     """Attributes of an input or load in a data set."""
     if name in COLUMNS:
-        return labels(name)
+        return COLUMNS[name].labels
     told = quantity_of(contact, name)
-    if told is None:
-        return {}
-    return {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
+    return {} if told is None else Column(told["symbol"], told["unit"], told["meaning"]).labels
+
+
+def provenance(contact: Contact) -> dict[str, str]:
+    """What a data set says of where its states come from."""
+    return {
+        "inputs": json.dumps(contact.to_dict(), ensure_ascii=False),
+        "version": __version__,
+        "citations": cite(contact),
+    }
 
 
 def dataset(
@@ -314,7 +240,7 @@ def dataset(
     import xarray
 
     data = {
-        name: ("state", values, MARKS.get(name) or labels(name))
+        name: ("state", values, MARKS.get(name) or about(name).labels)
         for name, values in columns.items()
         if name not in inputs
     }
@@ -326,25 +252,7 @@ def dataset(
         )
         for name, values in inputs.items()
     }
-    own = {
-        "inputs": json.dumps(contact.to_dict(), ensure_ascii=False),
-        "version": __version__,
-        "citations": cite(contact),
-    }
-    return xarray.Dataset(data, coords=coords, attrs={**attrs, **own})
-
-
-MOST_SHOWN = 6
-"""States that a notebook shows; of more the first and the last."""
-
-
-def _cells(values: NDArray[Any], unit: str) -> list[str]:
-    """Values of some states in words."""
-    words = [notebook.words_of(value, unit) for value in values[:MOST_SHOWN]]
-    if len(values) <= MOST_SHOWN:
-        return words
-    half = MOST_SHOWN // 2
-    return [*words[:half], "…", *(notebook.words_of(v, unit) for v in values[-half:])]
+    return xarray.Dataset(data, coords=coords, attrs={**attrs, **provenance(contact)})
 
 
 def columns_of(contact: Contact) -> tuple[str, ...]:
@@ -355,9 +263,9 @@ def columns_of(contact: Contact) -> tuple[str, ...]:
 def _mode(particle_share: ArrayLike, eps_1: float, eps_2: float) -> Any:
     share = np.asarray(particle_share)
     # codes first: choosing among strings is slow
-    sliding = np.where(1 - share >= 1 - eps_2, 1, 2)
-    code = np.where(share >= 1 - eps_1, 3, sliding)
-    out = MODES[np.where(np.isnan(share), 0, code)]
+    sliding = np.where(1 - share >= 1 - eps_2, 3, 2)
+    code = np.where(share >= 1 - eps_1, 1, sliding)
+    out = MODE_OF_CODE[np.where(np.isnan(share), 0, code)]
     return out if out.ndim else str(out)
 
 

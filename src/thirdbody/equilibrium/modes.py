@@ -11,7 +11,7 @@ __all__ = [
     *("CriticalStatus", "need_shares"),
 ]
 
-P_S, HYBRID, S_S = "p-s", "hybrid", "s-s"
+P_S, HYBRID, S_S = MODES = "p-s", "hybrid", "s-s"
 EPS_1, EPS_2 = 0.02, 0.05
 """Default shares that separate the contact modes: read-off resolution, and the paper's 95 %."""
 WINDOW = (1e-8, 1e-2)

@@ -21,6 +21,7 @@ from ..contact.interface import Interface, interface
 from ..contact.particle_sums import PrintedIntegrals
 from ..contact.pressed import about_pressed
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, Note, tell_of_range
+from ..quantities.arguments import only_one
 from ..quantities.carried import takes_units
 from ..quantities.say import percent, value_of
 from .columns import Equilibrium, PopulationShare, as_columns
@@ -37,15 +38,6 @@ Array = NDArray[np.float64]
 Index = NDArray[np.intp]
 
 
-def only_one(**quantities: Any) -> tuple[str, Any]:
-    """Name and value of the one quantity that is given, not None."""
-    given = {name: value for name, value in quantities.items() if value is not None}
-    if len(given) != 1:
-        names = ", ".join(given) or "none"
-        raise InvalidValue(f"give exactly one of {', '.join(quantities)}; got {names}")
-    return given.popitem()
-
-
 def given_load(
     contact: Contact,
     pressure: ArrayLike | None,
@@ -53,7 +45,16 @@ def given_load(
     d: ArrayLike | None,
 ) -> tuple[str, Array, bool]:
     """Which quantity is given, its values (F in Pa or d in m), and whether it was one number."""
-    name, value = only_one(pressure=pressure, F_star=F_star, d=d)
+    name, flat, one = given_numbers(pressure=pressure, F_star=F_star, d=d)
+    return name, flat * contact.E_ss if name == "F_star" else flat, one
+
+
+def given_numbers(**quantities: ArrayLike | None) -> tuple[str, Array, bool]:
+    """The one quantity that is given, its values, and whether it was one number.
+
+    Loads must be > 0; separations, d and h, may be any number.
+    """
+    name, value = only_one(**quantities)
     try:
         if (kind := np.asarray(value).dtype.kind) not in "fiu":
             if kind == "b":
@@ -66,14 +67,14 @@ def given_load(
     if values.ndim > 1:
         raise InvalidValue(f"{name} has {values.ndim} dimensions; give a number or a 1-D array")
     flat = np.atleast_1d(values)
-    good = np.isfinite(flat) & ((name == "d") | (flat > 0))
-    allowed = "be finite" if name == "d" else "be finite and > 0"
+    good = np.isfinite(flat) & ((name in ("d", "h")) | (flat > 0))
+    allowed = "be finite" if name in ("d", "h") else "be finite and > 0"
     problems = [f"{name} = {v:g} must {allowed}" for v in flat[~good][:5]]
     if not problems and not values.size:
         problems.append(f"{name} is empty; give at least one value")
     if problems:
         raise InvalidValue(*problems)
-    return name, flat * contact.E_ss if name == "F_star" else flat, values.ndim == 0
+    return name, flat, values.ndim == 0
 
 
 @takes_units

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from ..errors import InvalidValue
 from ..quantities import notebook
 from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
+from ..quantities.record import Record
 from .load_scan import load_scan
 from .modes import EPS_1, EPS_2, WINDOW, CriticalStatus, need_shares
 from .words import happens
@@ -26,7 +27,7 @@ Share = Callable[[Array], Array]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Critical:
+class Critical(Record):
     """A load F* [1] where something changes, or why there is none.
 
     Attributes
@@ -45,13 +46,9 @@ class Critical:
     value: float | None
     status: str
 
-    def to_dict(self) -> dict[str, Any]:
-        """Value and status for JSON."""
-        return {"value": self.value, "status": self.status}
-
 
 @dataclass(frozen=True, slots=True)
-class TurningPoint:
+class TurningPoint(Record):
     """The turning point of the contact area by three definitions; they differ by factors of 1–3.
 
     The paper (Horng et al. 2022, doi:10.3390/lubricants10070164) gives it no formula.
@@ -77,13 +74,9 @@ class TurningPoint:
     C: Critical
     """Strongest bend of ln A_t against ln F* in the hybrid mode."""
 
-    def to_dict(self) -> dict[str, Any]:
-        """The three of them for JSON."""
-        return {name: getattr(self, name).to_dict() for name in ("A", "B", "C")}
-
 
 @dataclass(frozen=True, slots=True)
-class Transitions:
+class Transitions(Record):
     """Critical loads F* [1] and turning point of one contact; made by `transitions`.
 
     Examples
@@ -106,21 +99,16 @@ class Transitions:
     """From it on particles have little of the contact left (hybrid to s-s)."""
     F_tpca: TurningPoint
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything for JSON."""
-        return {
-            "F_cr1": self.F_cr1.to_dict(),
-            "F_cr2": self.F_cr2.to_dict(),
-            "F_tpca": self.F_tpca.to_dict(),
-        }
+    def entries(self) -> dict[str, Critical]:
+        """Every critical load by its name, those of the turning point as ``F_tpca.A``."""
+        turning = {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
+        return {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2} | turning
 
     def _repr_html_(self) -> str:
         """A table for notebooks: each load, its status, and what it is."""
-        found = {"F_cr1": self.F_cr1, "F_cr2": self.F_cr2}
-        found |= {f"F_tpca.{name}": getattr(self.F_tpca, name) for name in ("A", "B", "C")}
         rows = [
             notebook.Row(name, [notebook.words_of(load.value), load.status], happens(name))
-            for name, load in found.items()
+            for name, load in self.entries().items()
         ]
         return notebook.card("Transitions, F* = F/(A_n E_ss)", rows)
 

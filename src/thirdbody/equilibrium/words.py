@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping
 
 from ..quantities.say import number, percent, plural, value_of
-from .modes import EPS_1, EPS_2, HYBRID, P_S, S_S, WINDOW, CriticalStatus
+from .modes import EPS_1, EPS_2, HYBRID, MODES, P_S, S_S, WINDOW, CriticalStatus
 
 __all__ = [
     "BANDS",
@@ -30,7 +31,6 @@ __all__ = [
     "unsolved",
 ]
 
-MODES = (P_S, HYBRID, S_S)
 NO_CONTACT = "no contact"
 MEANS = {
     P_S: "nearly all real contact is on particles",
@@ -230,14 +230,14 @@ def not_met(name: str, value: float | None, status: str = "") -> str:
     return f"{name} lies {word} every load searched: {THERE[name, side]}."
 
 
-def unsolved(statuses: Sequence[str]) -> list[str]:
+def unsolved(statuses: Collection[str]) -> list[str]:
     """How many states have no number, and why: a sentence for each reason.
 
     >>> unsolved(["ok", "no equilibrium"])
     ['1 of 2 states unsolved: no equilibrium']
     """
     return [
-        f"{statuses.count(status)} of {plural(len(statuses), 'state')} unsolved: {status}"
-        for status in dict.fromkeys(statuses)
+        f"{count} of {plural(len(statuses), 'state')} unsolved: {status}"
+        for status, count in Counter(statuses).items()
         if status != "ok"
     ]

@@ -23,7 +23,8 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from ..contact.contact import Contact
-from ..equilibrium.columns import Equilibrium
+from ..equilibrium.columns import COLUMNS, Equilibrium
+from ..equilibrium.solve import given_numbers
 from ..equilibrium.solve import solve as statistical
 from ..errors import InvalidValue, Note, tell_of_range
 from ..laws.base import SeatedLaw
@@ -34,7 +35,7 @@ from ..quantities.carried import takes_units
 from ..quantities.files import make_folder, write_text
 from ..quantities.plain_data import plain_data
 from ..quantities.progress import reporting
-from ..quantities.records import read_record, sealed
+from ..quantities.run_files import read_record, sealed
 from ..quantities.say import number, percent, plural
 from ..quantities.sharing import connected, need_version, shared
 from ..quantities.value import Value
@@ -242,7 +243,7 @@ def ensemble(
     >>> found.table.particle_load_share_cv.dims, found.surfaces
     (('F_star',), 2)
     """
-    loads = _loads(F_star)
+    _, loads, _ = given_numbers(F_star=F_star)
     rule = seats_named(seats)
     given, total = _surfaces_and_count(surfaces)
     if isinstance(rule, GivenSeats) and total > 1:
@@ -502,35 +503,25 @@ def _columns(told: dict[str, AtLoads], state: Equilibrium, gaussian: bool) -> di
     """Along F*: raw, fair and statistical numbers, their errors and how they differ."""
     table: dict[str, Any] = {}
     for kind, at in told.items():
-        for name, (unit, _) in COMPARED.items():
-            about = {"units": unit}
+        for name in COMPARED:
+            about = {"units": COLUMNS[name].unit}
             table[f"{name}_{kind}"] = ("F_star", at.values[name], about)
             table[f"{name}_{kind}_error"] = ("F_star", at.errors[name], about)
             if name in SHARES:
                 table[f"{name}_{kind}_least"] = ("F_star", at.least[name], about)
                 table[f"{name}_{kind}_most"] = ("F_star", at.most[name], about)
     best = "cv" if gaussian else "raw"
-    for name, (unit, _) in COMPARED.items():
+    for name in COMPARED:
         model = np.asarray(getattr(state, name))
         found, error = (table[f"{name}_{best}{what}"][1] for what in ("", "_error"))
         with np.errstate(invalid="ignore", divide="ignore"):
             difference = (found - model) / error
-        table[f"{name}_statistical"] = ("F_star", model, {"units": unit})
+        table[f"{name}_statistical"] = ("F_star", model, {"units": COLUMNS[name].unit})
         table[f"{name}_difference"] = ("F_star", difference, {"units": "1"})
     return table
 
 
 # -------------------------------------------------------------------------- what is asked
-def _loads(F_star: ArrayLike) -> Array:
-    try:
-        loads = np.atleast_1d(np.asarray(F_star, dtype=float))
-    except (TypeError, ValueError):
-        raise InvalidValue(f"F_star = {F_star!r} must be a number or a list of numbers") from None
-    if loads.ndim != 1 or not loads.size or not np.all(np.isfinite(loads) & (loads > 0)):
-        raise InvalidValue(f"F_star = {F_star!r} must be finite and > 0")
-    return loads
-
-
 def spacing_for(contact: Contact) -> float:
     """Distance of points at which the wave of the mean curvature has some 16 [m]."""
     rough = contact.roughness

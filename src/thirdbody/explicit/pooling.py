@@ -20,13 +20,8 @@ if TYPE_CHECKING:
 
 __all__ = ["COMPARED", "RATIOS", "SHARES", "AtLoads", "Pool", "pooled_seats"]
 
-COMPARED = {
-    "h": ("m", "separation of the mean planes"),
-    "A_t": ("1", "real contact area"),
-    "particle_load_share": ("1", "load share of particles"),
-    "particle_area_share": ("1", "area share of particles"),
-}
-"""What is compared at each load: unit and meaning."""
+COMPARED = ("h", "A_t", "particle_load_share", "particle_area_share")
+"""Columns that are compared at each load."""
 RATIOS = {
     "bare_over_bearing": "load without particles over hardness times bearing area",
     "particles_over_sum": "load of the particles over the sum of their law at their seats",

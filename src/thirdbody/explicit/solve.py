@@ -12,7 +12,7 @@ import numpy as np
 from ..contact.contact import Contact
 from ..equilibrium.columns import _mode
 from ..equilibrium.modes import EPS_1, EPS_2
-from ..equilibrium.solve import only_one
+from ..equilibrium.solve import given_numbers
 from ..errors import InvalidValue, tell_of_range
 from ..laws.base import REGIMES
 from ..quantities.carried import takes_units
@@ -147,7 +147,7 @@ def solve(
     """
     if not isinstance(contact, Contact):
         raise InvalidValue(f"contact = {contact!r:.80} must be a Contact")
-    name, values, one = _load_of_user(pressure, F_star, h)
+    name, values, one = given_numbers(pressure=pressure, F_star=F_star, h=h)
     rule = seats_named(seats)
     _options(tol, max_iterations, precision, maps, seed, workers)
     surface_map = map_of(surface, spacing)
@@ -294,27 +294,6 @@ def _squeeze_columns(inside: Interface, state: Pressed) -> dict[str, Any]:
 
 
 # -------------------------------------------------------------------------- what is asked
-def _load_of_user(
-    pressure: ArrayLike | None, F_star: ArrayLike | None, h: ArrayLike | None
-) -> tuple[str, Array, bool]:
-    """Which quantity is given, its values, and whether it was one number."""
-    name, value = only_one(pressure=pressure, F_star=F_star, h=h)
-    try:
-        if np.asarray(value).dtype.kind in "USOb":
-            raise TypeError
-        values = np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        raise InvalidValue(f"{name} = {value!r} must be a number or a list of numbers") from None
-    flat = np.atleast_1d(values)
-    if flat.ndim > 1 or not flat.size:
-        raise InvalidValue(f"{name}: give a number or a list of numbers")
-    good = np.isfinite(flat) & ((name == "h") | (flat > 0))
-    allowed = "be finite [m]" if name == "h" else "be finite and > 0"
-    if not np.all(good):
-        raise InvalidValue(*(f"{name} = {v:g} must {allowed}" for v in flat[~good][:5]))
-    return name, flat, values.ndim == 0
-
-
 def _options(
     tol: float, max_iterations: int, precision: str, maps: str, seed: int, workers: int
 ) -> None:

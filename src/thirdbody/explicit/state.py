@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from ..contact.contact import Contact
 from ..equilibrium.columns import COLUMNS as OF_EQUILIBRIUM
-from ..quantities import notebook
 from ..quantities.arguments import names_arguments
 from ..quantities.files import whole
+from ..quantities.record import StateRecord, column, declared_columns
 from .seats import SeatHeights
 
 if TYPE_CHECKING:
+    import numpy as np
     import xarray
     from numpy.typing import NDArray
 
@@ -28,16 +27,12 @@ CONTACTS = ("none", "asperity", "capped asperity", "covered")
 """What the numbers of the map ``contact`` mean, from 0."""
 
 
-def _own(symbol: str, unit: str, meaning: str) -> Any:
-    return field(metadata={"symbol": symbol, "unit": unit, "meaning": meaning})
-
-
 def _as_equilibrium(name: str) -> Any:
-    return field(metadata=OF_EQUILIBRIUM[name])
+    return column(*OF_EQUILIBRIUM[name])
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class ExplicitState:
+class ExplicitState(StateRecord):
     """A height map pressed with every particle at its place: floats for one load, else arrays.
 
     Columns have the names and the meaning that they have in `thirdbody.Equilibrium`. Made by
@@ -62,17 +57,17 @@ class ExplicitState:
     F_sa_star: Number = _as_equilibrium("F_sa_star")
     A_t: Number = _as_equilibrium("A_t")
     A_ss: Number = _as_equilibrium("A_ss")
-    A_ss_counted: Number = _own("A_c*", "1", "area of pixels in contact, without the correction")
+    A_ss_counted: Number = column("A_c*", "1", "area of pixels in contact, without the correction")
     A_sa: Number = _as_equilibrium("A_sa")
     A_sa2: Number = _as_equilibrium("A_sa2")
     particle_load_share: Number = _as_equilibrium("particle_load_share")
     particle_area_share: Number = _as_equilibrium("particle_area_share")
     mode: str | NDArray[np.str_] = _as_equilibrium("mode")
-    carrying_pixels: int | NDArray[np.int_] = _own("n_p", "", "pixels under pressure")
-    carrying_particles: int | NDArray[np.int_] = _own("n_a", "", "particles that carry")
-    converged: bool | NDArray[np.bool_] = _own("", "", "whether the certificate is below tol")
-    certificate: Number = _own("ε", "1", "bound of the elastic energy of the error over σF")
-    iterations: int | NDArray[np.int_] = _own("n", "", "convolutions on the full grid")
+    carrying_pixels: int | NDArray[np.int_] = column("n_p", "", "pixels under pressure")
+    carrying_particles: int | NDArray[np.int_] = column("n_a", "", "particles that carry")
+    converged: bool | NDArray[np.bool_] = column("", "", "whether the certificate is below tol")
+    certificate: Number = column("ε", "1", "bound of the elastic energy of the error over σF")
+    iterations: int | NDArray[np.int_] = column("n", "", "convolutions on the full grid")
     seconds: Number = field(repr=False)
     """Wall time [s]."""
     sigma: float = field(repr=False)
@@ -82,10 +77,6 @@ class ExplicitState:
     maps: xarray.Dataset = field(repr=False)
     particles: xarray.Dataset = field(repr=False)
     warnings: tuple[str, ...] = ()
-
-    def columns(self) -> dict[str, NDArray[Any]]:
-        """Every column as a 1-D array."""
-        return {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
 
     @names_arguments
     def to_netcdf(self, path: str | os.PathLike[str]) -> None:
@@ -102,19 +93,6 @@ class ExplicitState:
         with whole(path) as draft:
             self.maps.merge(of_particles, combine_attrs="override").to_netcdf(draft)
 
-    def _repr_html_(self) -> str:
-        """A table for notebooks: a row for each column."""
-        rows = [
-            notebook.Row(
-                told["symbol"] or name,
-                [notebook.words_of(value, told["unit"]) for value in values[:6].tolist()],
-                told["meaning"],
-            )
-            for name, told in COLUMNS.items()
-            for values in (np.atleast_1d(getattr(self, name)),)
-        ]
-        return notebook.card("ExplicitState", rows, self.warnings)
 
-
-COLUMNS = {item.name: dict(item.metadata) for item in fields(ExplicitState) if item.metadata}
+COLUMNS = declared_columns(ExplicitState)
 """Symbol, unit and meaning of every column."""

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities.files import whole, write_text
-from ..quantities.records import MARK, claim_folder, read_json
+from ..quantities.run_files import MARK, claim_folder, read_json
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -27,6 +27,7 @@ __all__ = [
     "need_one",
     "need_place",
     "need_positive",
+    "only_one",
     "refuse_misfits",
 ]
 
@@ -90,6 +91,15 @@ def need_one(name: str, value: Any, *options: str | int) -> None:
         shown = repr(value) if isinstance(value, str) else _short_text(value)
         rule = f"must be {'' if two else 'one of '}{known}"
         raise InvalidValue(Problem(name, rule, shown))
+
+
+def only_one(**quantities: Any) -> tuple[str, Any]:
+    """Name and value of the one quantity that is given, not None."""
+    given = {name: value for name, value in quantities.items() if value is not None}
+    if len(given) != 1:
+        names = ", ".join(given) or "none"
+        raise InvalidValue(f"give exactly one of {', '.join(quantities)}; got {names}")
+    return given.popitem()
 
 
 def need_place(name: str, value: Any, count: int) -> None:

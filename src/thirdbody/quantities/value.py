@@ -21,6 +21,7 @@ from ..errors import InvalidValue, NotCompiled, Note, Problem, tell_of_range
 from .arguments import FAILURES, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
+from .plain_data import plain_data
 
 if TYPE_CHECKING:
     import numpy as np
@@ -384,7 +385,7 @@ class Value:
         """Every field in SI, ready for JSON; ``type`` names the class."""
         out: dict[str, Any] = {"type": type(self).__name__}
         for item in dataclasses.fields(self):  # type: ignore[arg-type]
-            out[item.name] = _plain(getattr(self, item.name))
+            out[item.name] = plain_data(getattr(self, item.name))
         return out
 
     @staticmethod
@@ -558,14 +559,6 @@ def _index(where: str, items: list[Any], which: str) -> int:
     raise InvalidValue(
         f"{where} holds {len(items)} values and no {which!r}; name one by place or name: {known}"
     )
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Value):
-        return value.to_dict()
-    if isinstance(value, tuple):
-        return [_plain(item) for item in value]
-    return value
 
 
 def _revive(value: Any) -> Any:

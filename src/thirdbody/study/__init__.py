@@ -8,6 +8,7 @@ Each table is read in a file of its own; `tables` lists them.
 """
 
 from .fields import filled_in
+from .results import FilmResult, StudyResult
 from .run import run_film, run_study
 from .schema import study_schema
 from .vocabulary import DISTRIBUTIONS, HEIGHTS, LOADS
@@ -17,7 +18,9 @@ __all__ = [
     "DISTRIBUTIONS",
     "HEIGHTS",
     "LOADS",
+    "FilmResult",
     "Study",
+    "StudyResult",
     "check",
     "filled_in",
     "load_study",

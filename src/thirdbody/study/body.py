@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from ..contact.contact import Contact
 from ..errors import InvalidValue
-from ..quantities.say import percent, value_of
 from ..quantities.value import quantity
 from ..systems.bodies import BODIES, Body, Pressed, press
 from .reader import Reader, Table
@@ -18,9 +16,7 @@ __all__ = [
     "FORCE",
     "TABLE",
     "force_sentences",
-    "held_in",
     "loads_of",
-    "of_bodies",
     "pressed",
     "told_forces",
 ]
@@ -72,41 +68,6 @@ def force_sentences(found: list[Pressed]) -> list[str]:
     """Sentences of the forces; of many, those of the ends."""
     some = found if len(found) <= MOST_INTEGRATED else [found[0], found[-1]]
     return [each.sentence() for each in some]
-
-
-def of_bodies(result: dict[str, Any]) -> str:
-    """What holds of the bodies themselves, where it is not what the states say; else empty.
-
-    States are of a surface under one pressure, which shares its load among all its particles.
-    """
-    forces = result.get("body", {}).get("forces", ())
-    each = [force for force in forces if force["particle_load_share"] is not None]
-    if not each:
-        return ""
-    rare = any(0 < force["particles_held"] < 1 for force in each)
-    if not (rare or any(force["method"] == "rough body" for force in each)):
-        return ""
-    loads = ", ".join(
-        f"{percent(force['particle_load_share'])} under {value_of(force['force'], 'N')}"
-        for force in each
-    )
-    pressures = "" if each[0]["kind"] == "flat" else "under the pressures of smooth bodies, "
-    means = ", on average over contacts with and without one," if rare else ""
-    return (
-        f"That is of a wide surface {pressures}whose particles all share the load; of the load "
-        f"of the bodies themselves particles carry{means} {loads}."
-    )
-
-
-def held_in(result: dict[str, Any], state: int) -> float:
-    """Particles that the contact of a state holds on average; infinite where nobody knows."""
-    forces = result.get("body", {}).get("forces", ())
-    if not forces:  # of a film that has bodies of its own
-        held = result.get("particles_held")
-        return math.inf if held is None else float(held)
-    each = len(result["states"]["status"]) // len(forces)
-    held = forces[state // each]["particles_held"]
-    return math.inf if held is None else float(held)
 
 
 TABLE = Table(

@@ -222,7 +222,7 @@ def _one(where: str, entry: Any, kind: type[Objective] | type[Limit]) -> Any:
 def _unit(of: str) -> str:
     """Unit of a metric; what it is, the contact says later."""
     try:
-        return about(of)["unit"]
+        return about(of).unit
     except InvalidValue:
         return "1"
 

@@ -30,8 +30,7 @@ from ..explicit.ensemble import (
 from ..explicit.solve import solve
 from ..explicit.state import COLUMNS, ExplicitState
 from ..quantities.plain_data import plain_data
-from ..quantities.records import MARK, claim_folder, read_json
-from ..quantities.value import Value
+from ..quantities.run_files import MARK, claim_folder, read_json
 from ..version import __version__
 from .whole import Study
 
@@ -185,7 +184,7 @@ def claim_results(out: str | os.PathLike[str], study: Study, *, maps: str = "las
         "load": study.load,
         "F_star": (loads / (contact.E_ss if study.load == "pressure" else 1.0)).tolist(),
         "surfaces": asked.pop("surfaces", SURFACES) if len(study.faces) != 1 else 1,
-        "explicit": {name: _plain(value) for name, value in sorted(asked.items())},
+        "explicit": plain_data(dict(sorted(asked.items()))),
         "maps": maps,
         "topography": [
             hashlib.sha256(np.ascontiguousarray(face.heights).tobytes()).hexdigest()
@@ -206,13 +205,6 @@ def _unmarked_study(folder: Path) -> dict[str, Any] | None:
     kept = folder / "surfaces"
     own = names == [kept.name] and kept.is_dir()
     return {} if own and all(SURFACE.fullmatch(each.name) for each in kept.iterdir()) else None
-
-
-def _plain(value: Any) -> Any:
-    """A value of the table [explicit], ready for JSON."""
-    if isinstance(value, Value):
-        return value.to_dict()
-    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 def _run_measured(
@@ -265,4 +257,4 @@ def _of_ensemble(found: Ensemble, state: ExplicitState) -> ExplicitResult:
 
 
 def _units() -> dict[str, str]:
-    return {"surface": ""} | {name: told["unit"] for name, told in COLUMNS.items()}
+    return {"surface": ""} | {name: told.unit for name, told in COLUMNS.items()}

@@ -28,6 +28,7 @@ from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..laws.asperity import ZMC
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.carried import takes_units
+from ..quantities.record import Record
 from ..quantities.say import number, percent, value_of
 from ..quantities.value import Value, choice, quantity
 from .film_formulas import Hertz, Line, Point
@@ -288,7 +289,7 @@ BODIES: dict[str, type[Body]] = {
 
 # ------------------------------------------------------------------ under a force
 @dataclass(frozen=True, kw_only=True)
-class Pressed:
+class Pressed(Record):
     """One contact of bodies under a force.
 
     Attributes
@@ -322,6 +323,7 @@ class Pressed:
         Part of the load at places that are crowded [1]; ``note`` says what that means.
     """
 
+    not_in_dict = ("crowded_share",)
     kind: str
     force: float
     bodies: float
@@ -398,11 +400,6 @@ class Pressed:
             f"{told}. Where one is, particles carry {percent(load)} of the load and the real area "
             f"is {areas[0]}; where none is, asperities carry the whole load on {areas[1]}."
         )
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data, ready for JSON."""
-        names = (name for name in self.__dataclass_fields__ if name != "crowded_share")
-        return {name: getattr(self, name) for name in names}
 
 
 @takes_units

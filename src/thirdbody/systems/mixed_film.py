@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -32,6 +32,7 @@ from ..equilibrium.solve import solve
 from ..errors import InvalidValue, NoEquilibrium, RangeWarning, tell_of_range
 from ..populations.heights import GaussianHeights
 from ..quantities.carried import takes_units
+from ..quantities.record import StateRecord, column, declared_columns
 from .film_formulas import AbstractFilm, Line, Oil, Point, full_range
 
 if TYPE_CHECKING:
@@ -120,12 +121,8 @@ def height_of(gap: ArrayLike, *, sigma: float) -> Array:
     return sigma * t
 
 
-def _column(symbol: str, unit: str, meaning: str) -> Any:
-    return field(metadata={"symbol": symbol, "unit": unit, "meaning": meaning})
-
-
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class MixedFilm:
+class MixedFilm(StateRecord):
     r"""A lubricated contact with particles: floats for one speed and load, arrays (N,) for several.
 
     .. math:: \frac1\gamma + \frac{F_{ss}}{F} + \frac{F_{sa}}{F} = 1, \qquad
@@ -179,30 +176,30 @@ class MixedFilm:
     ('mixed', 1.0)
     """
 
-    speed: Number = _column("u", "m/s", "mean entrainment speed")
-    load: Number = _column("w", "N", "load")
-    pressure: Number = _column("p", "Pa", "nominal pressure of film and solids")
-    h: Number = _column("h", "m", "separation of the mean planes")
-    h_T: Number = _column("h_T", "m", "mean gap, and film thickness")
-    h_smooth: Number = _column("h_c", "m", "film thickness of smooth bodies under the whole load")
-    lambda_ratio: Number = _column("λ", "1", "film thickness h_T over σ")
-    H: Number = _column("H", "1", "separation h over σ")
-    h_over_x: Number = _column("h/x_a", "1", "separation h over the largest mean diameter")
-    gamma: Number = _column("γ", "1", "load over load on the film")
-    film_share: Number = _column("1/γ", "1", "load share of the film")
-    ss_share: Number = _column("F_ss/F", "1", "load share of asperities")
-    sa_share: Number = _column("F_sa/F", "1", "load share of particles")
-    A_t: Number = _column("A_t*", "1", "real contact area of solids")
-    A_ss: Number = _column("A_ss*", "1", "real area of asperities")
-    A_sa: Number = _column("A_sa*", "1", "real area of particles on surface 1")
-    mu: Number = _column("μ", "1", "traction coefficient")
-    mu_film: Number = _column("μ_f", "1", "part of μ: shear of the film")
-    mu_ss: Number = _column("μ_ss", "1", "part of μ: asperities")
-    mu_sa: Number = _column("μ_sa", "1", "part of μ: particles")
-    viscosity: Number = _column("η_p", "Pa s", "viscosity at the pressure of the film")
-    regime: Any = _column("regime", "", "boundary, mixed or full film, by the share of the solids")
-    residual: Number = _column("r", "1", "imbalance of the shares |1 − their sum|")
-    status: Any = _column("status", "", "ok, or why the numbers of the solids are no answer")
+    speed: Number = column("u", "m/s", "mean entrainment speed")
+    load: Number = column("w", "N", "load")
+    pressure: Number = column("p", "Pa", "nominal pressure of film and solids")
+    h: Number = column("h", "m", "separation of the mean planes")
+    h_T: Number = column("h_T", "m", "mean gap, and film thickness")
+    h_smooth: Number = column("h_c", "m", "film thickness of smooth bodies under the whole load")
+    lambda_ratio: Number = column("λ", "1", "film thickness h_T over σ")
+    H: Number = column("H", "1", "separation h over σ")
+    h_over_x: Number = column("h/x_a", "1", "separation h over the largest mean diameter")
+    gamma: Number = column("γ", "1", "load over load on the film")
+    film_share: Number = column("1/γ", "1", "load share of the film")
+    ss_share: Number = column("F_ss/F", "1", "load share of asperities")
+    sa_share: Number = column("F_sa/F", "1", "load share of particles")
+    A_t: Number = column("A_t*", "1", "real contact area of solids")
+    A_ss: Number = column("A_ss*", "1", "real area of asperities")
+    A_sa: Number = column("A_sa*", "1", "real area of particles on surface 1")
+    mu: Number = column("μ", "1", "traction coefficient")
+    mu_film: Number = column("μ_f", "1", "part of μ: shear of the film")
+    mu_ss: Number = column("μ_ss", "1", "part of μ: asperities")
+    mu_sa: Number = column("μ_sa", "1", "part of μ: particles")
+    viscosity: Number = column("η_p", "Pa s", "viscosity at the pressure of the film")
+    regime: Any = column("regime", "", "boundary, mixed or full film, by the share of the solids")
+    residual: Number = column("r", "1", "imbalance of the shares |1 − their sum|")
+    status: Any = column("status", "", "ok, or why the numbers of the solids are no answer")
     state: Equilibrium = field(repr=False)
     warnings: tuple[str, ...] = ()
 
@@ -211,17 +208,13 @@ class MixedFilm:
         """Load share of asperities and particles [1]."""
         return self.ss_share + self.sa_share
 
-    def columns(self) -> dict[str, NDArray[Any]]:
-        """Every column as a 1-D array."""
-        return {name: np.atleast_1d(getattr(self, name)) for name in COLUMNS}
-
     @takes_units
     def regimes(self, *, few: float = FEW, most: float = MOST) -> Any:
         """Regime with other thresholds of the solids' share of the load."""
         return _regimes(self.solid_share, few, most)
 
 
-COLUMNS = {item.name: dict(item.metadata) for item in fields(MixedFilm) if item.metadata}
+COLUMNS = declared_columns(MixedFilm)
 """Symbol, unit and meaning of every column."""
 
 

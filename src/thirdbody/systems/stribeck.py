@@ -11,6 +11,7 @@ from ..contact.contact import Contact
 from ..contact.interface import interface
 from ..errors import RangeWarning, tell_of_range
 from ..quantities.carried import takes_units
+from ..quantities.record import Column
 from .film_formulas import AbstractFilm, Line, Oil, Point
 from .mixed_film import (
     COLUMNS,
@@ -85,20 +86,16 @@ def stribeck(
         contact, conjunction=conjunction, oil=oil, load=load, speed=speed, **options
     )
 
-    def attributes(name: str) -> dict[str, str]:
-        about = COLUMNS[name]
-        return {"symbol": about["symbol"], "units": about["unit"], "long_name": about["meaning"]}
-
-    about = {"symbol": "ηu/w", "units": "1", "long_name": "Hersey number"}
+    hersey = Column("ηu/w", "1", "Hersey number")
     return xr.Dataset(
         {
-            name: ("speed", values, attributes(name))
+            name: ("speed", values, COLUMNS[name].labels)
             for name, values in columns.items()
             if name not in ("speed", "hersey")
         },
         coords={
-            "speed": ("speed", columns["speed"], attributes("speed")),
-            "hersey": ("speed", columns["hersey"], about),
+            "speed": ("speed", columns["speed"], COLUMNS["speed"].labels),
+            "hersey": ("speed", columns["hersey"], hersey.labels),
         },
         attrs={"load": float(load), "warnings": "\n".join(told)},
     )

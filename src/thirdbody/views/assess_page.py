@@ -58,7 +58,7 @@ def pictures(assessment: Assessment) -> list[tuple[str, bytes]]:
             outputs=[of],
         )
         ax = plot.bands(curve, of, mark=value)
-        words = f"Bands of the {OUTPUTS[of]['meaning']} over the load; the operating load is "
+        words = f"Bands of the {OUTPUTS[of].meaning} over the load; the operating load is "
         out.append((words + "marked.", svg_of(ax.figure)))
     else:
         out.append(("Only the load is uncertain.", svg_of(Figure(figsize=(1, 1)))))

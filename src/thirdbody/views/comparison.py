@@ -187,7 +187,7 @@ def save(
     import matplotlib as mpl
 
     from ..quantities.files import make_folder, whole
-    from ..quantities.records import refuse_replaced
+    from ..quantities.run_files import refuse_replaced
 
     folder = Path(folder)
     if folder.exists() and not folder.is_dir():

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
+from ..effects.friction import Friction
 from ..equilibrium.words import meets
 from ..quantities.say import number, percent, value_of
 from ..systems.mixed_film import FULL
 
+if TYPE_CHECKING:
+    from ..study import FilmResult
+
 __all__ = ["bodies", "point", "share", "summary"]
 
 
-def point(result: dict[str, Any], i: int) -> dict[str, str]:
+def point(result: FilmResult, i: int) -> dict[str, str]:
     """Name and value of every number at speed i of what `run_film` found."""
-    at = {name: column[i] for name, column in result["states"].items()}
+    at = {name: column[i] for name, column in result.states.items()}
     rows = {
         "film thickness, mean gap h_T": value_of(at["h_T"], "m"),
         "film of smooth bodies": value_of(at["h_smooth"], "m"),
@@ -30,57 +34,57 @@ def point(result: dict[str, Any], i: int) -> dict[str, str]:
         "viscosity in the film": value_of(at["viscosity"], "Pa s"),
         "regime": at["regime"],
     }
-    if not result["passing"]:
+    if not result.passing:
         del rows["load on particles"], rows["of it particles"]
-    for part in result["passing"]:
-        rows[f"{part['name']}: particles narrower than h"] = share(part["share"][i])
-    if brought := result["entrainment"]:
-        rows["largest particle dragged in"] = value_of(brought["largest"][i], "m")
-        for part, density in zip(result["passing"], brought["areal_density"], strict=True):
-            rows[f"{part['name']}: particles that enter"] = value_of(density[i], "1/m^2")
+    for part in result.passing:
+        rows[f"{part.name}: particles narrower than h"] = share(part.share[i])
+    if brought := result.entrainment:
+        rows["largest particle dragged in"] = value_of(brought.largest[i], "m")
+        for part, density in zip(result.passing, brought.areal_density, strict=True):
+            rows[f"{part.name}: particles that enter"] = value_of(density[i], "1/m^2")
     return rows
 
 
-def bodies(result: dict[str, Any]) -> str:
+def bodies(result: FilmResult) -> str:
     """The bodies, their load and its Hertz pressure."""
-    film = result["inputs"]["film"]
-    which = "mean" if film["hertz"] == "mean" else "largest"
+    film = result.conditions
+    which = "mean" if film.hertz == "mean" else "largest"
     return (
-        f"{film['conjunction']['type'].lower()} contact under {value_of(film['load'], 'N')}, "
-        f"{which} Hertz pressure {value_of(result['states']['pressure'][0], 'Pa')}"
+        f"{film.conjunction.shape} contact under {value_of(film.load, 'N')}, "
+        f"{which} Hertz pressure {value_of(result.states['pressure'][0], 'Pa')}"
     )
 
 
-def summary(result: dict[str, Any]) -> list[str]:
+def summary(result: FilmResult) -> list[str]:
     """Where regimes change, what passes, and why there is no friction, a sentence each."""
-    states = result["states"]
+    states = result.states
     out = [f"Lubrication is {', and '.join(_regimes(result))}."]
     ends = sorted({0, len(states["speed"]) - 1})
-    for part in result["passing"]:
+    for part in result.passing:
         at = [
-            f"{share(part['share'][i])} of the particles are narrower than the gap of "
+            f"{share(part.share[i])} of the particles are narrower than the gap of "
             f"{value_of(states['h'][i], 'm')} at {value_of(states['speed'][i], 'm/s')}"
             for i in ends
         ]
-        out.append(f"{part['name']}: {'; '.join(at)}.")
-    if rare := meets(result["particles_held"] or 0.0):
+        out.append(f"{part.name}: {'; '.join(at)}.")
+    if rare := meets(result.particles_held or 0.0):
         out.append(f"{rare[0].upper()}{rare[1:]}, and the others are as without particles.")
     if lacking := _lacking(result):
         out.append(f"There is no friction coefficient without {', '.join(lacking)}.")
     return out
 
 
-def _regimes(result: dict[str, Any]) -> list[str]:
+def _regimes(result: FilmResult) -> list[str]:
     """Up to where it is boundary, and from where the film is full; or why it never is."""
-    film = result["inputs"]["film"]
-    slow, fast = (result["regime_speeds"][name] for name in ("boundary", "full"))
-    most, few = (f"solids carry {percent(film[name])} of the load" for name in ("most", "few"))
+    film = result.conditions
+    slow, fast = result.regime_speeds
+    most, few = (f"solids carry {percent(part)} of the load" for part in (film.most, film.few))
     out = [f"boundary up to {value_of(slow, 'm/s')}, where {most}"]
     if slow is None:
         out = [f"never boundary, because there is no speed at which {most}"]
     if fast is not None:
         return [*out, f"a full film from {value_of(fast, 'm/s')}, where {few}"]
-    if set(result["states"]["regime"]) == {FULL}:
+    if set(result.states["regime"]) == {FULL}:
         return [f"a full film at every speed, because there is none at which {few}"]
     return [*out, f"never a full film, because there is none at which {few}"]
 
@@ -94,13 +98,12 @@ def _coefficient(value: float | None) -> str:
     return number(value, least=1e-9)
 
 
-def _lacking(result: dict[str, Any]) -> list[str]:
+def _lacking(result: FilmResult) -> list[str]:
     """What a study must say to have a friction coefficient."""
-    film = result["inputs"]["film"]
-    outputs = {each["type"] for each in result["inputs"]["outputs"]}
+    film, outputs = result.conditions, result.study.contact.outputs
     needs = {
-        "film.slide_roll": film["slide_roll"] is None,
-        "film.oil.eyring_stress": film["oil"]["eyring_stress"] is None,
-        "[outputs.friction]": "Friction" not in outputs,
+        "film.slide_roll": film.slide_roll is None,
+        "film.oil.eyring_stress": film.oil.eyring_stress is None,
+        "[outputs.friction]": not any(isinstance(each, Friction) for each in outputs),
     }
     return [name for name, lacks in needs.items() if lacks]

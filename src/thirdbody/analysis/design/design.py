@@ -20,13 +20,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...contact.contact import Contact
-from ...equilibrium.columns import about, columns_of
+from ...equilibrium.columns import PLASTIC_SHARE, about, columns_of
 from ...errors import ThirdBodyError
 from ...numerics.sampling import Span
 from ...populations.materials import Material
 from ...quantities.arguments import need_positive
 from ...quantities.carried import takes_units
+from ...quantities.plain_data import plain_data
 from ...quantities.progress import reporting
+from ...quantities.record import Column, Record
 from ..inputs import declared, words_of
 from ..sensitivity import sensitivity
 from .front import front, hypervolume
@@ -43,12 +45,8 @@ Array = NDArray[np.float64]
 
 
 METRICS = {
-    "plastic_share": {"symbol": "A_p/A_t", "unit": "1", "meaning": "plastic part of the real area"},
-    "buried_share": {
-        "symbol": "w_b",
-        "unit": "1",
-        "meaning": "share of the load on particles deeper than their radius",
-    },
+    "plastic_share": PLASTIC_SHARE,
+    "buried_share": Column("w_b", "1", "share of the load on particles deeper than their radius"),
 }
 """What is known beside the columns of the states; the first may be asked for."""
 LOSS, FLAT = 0.05, 1e-3
@@ -61,7 +59,7 @@ AT_END = 1e-3
 """Part of a range that counts as its end."""
 
 
-class Column(NamedTuple):
+class Values(NamedTuple):
     """Values of a table, and unit and words of what they are."""
 
     values: NDArray[Any]
@@ -69,7 +67,7 @@ class Column(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Best:
+class Best(Record):
     """The answer of `design`.
 
     Attributes
@@ -129,6 +127,7 @@ class Best:
     ([84], (), ())
     """
 
+    not_in_dict = ("contact", "load", "loads", "of_states", "of_points", "warnings")
     values: dict[str, Any]
     contact: Contact
     objectives: dict[str, float]
@@ -136,8 +135,8 @@ class Best:
     reason: str
     load: str
     loads: Array = field(repr=False)
-    of_states: dict[str, Column] = field(repr=False)
-    of_points: dict[str, Column] = field(repr=False)
+    of_states: dict[str, Values] = field(repr=False)
+    of_points: dict[str, Values] = field(repr=False)
     active: tuple[str, ...]
     tolerance: dict[str, tuple[float, float]]
     plateau: dict[str, tuple[float, float]]
@@ -162,36 +161,17 @@ class Best:
             name: value.name if isinstance(value, Material) else value
             for name, value in self.values.items()
         }
-        return {
-            "values": values,
-            "objectives": self.objectives,
-            "feasible": self.feasible,
-            "reason": self.reason,
-            "active": list(self.active),
-            "tolerance": {name: list(band) for name, band in self.tolerance.items()},
-            "plateau": {name: list(band) for name, band in self.plateau.items()},
-            "at_bound": list(self.at_bound),
-            "slopes": self.slopes,
-            "hypervolume": self.hypervolume,
-            "states": _lists(self.of_states) | {self.load: _plain(self.loads)},
-            "points": _lists(self.of_points),
-            "warnings": list(self.warnings),
-        }
+        states = {name: each.values for name, each in self.of_states.items()}
+        points = {name: each.values for name, each in self.of_points.items()}
+        more = {"values": values, "states": states | {self.load: self.loads}, "points": points}
+        return Record.to_dict(self) | plain_data(more | {"warnings": self.warnings})
 
 
-def _dataset(table: dict[str, Column], dim: str, coords: dict[str, Array]) -> xarray.Dataset:
+def _dataset(table: dict[str, Values], dim: str, coords: dict[str, Array]) -> xarray.Dataset:
     import xarray  # takes longer to load than most designs to find
 
     columns = {name: (dim, each.values, each.about) for name, each in table.items()}
     return xarray.Dataset(columns, coords=coords)
-
-
-def _lists(table: dict[str, Column]) -> dict[str, list[Any]]:
-    return {name: _plain(each.values) for name, each in table.items()}
-
-
-def _plain(values: NDArray[Any]) -> list[Any]:
-    return [None if isinstance(v, float) and math.isnan(v) else v for v in values.tolist()]
 
 
 # -------------------------------------------------------------------------- the search
@@ -337,21 +317,21 @@ def _answer(task: Task) -> Best:
         volume = hypervolume(costs[ok], costs[ok].max(axis=0))
     signs = {each.label: each.sign for each in task.objectives}
     columns = {
-        name: Column(np.array([point.numbers[name] for point in rows]), _about_variable(task, name))
+        name: Values(np.array([point.numbers[name] for point in rows]), _about_variable(task, name))
         for name in task.variables
     }
     columns |= {
-        name: Column(np.array([point.materials[name].name for point in rows]), {})
+        name: Values(np.array([point.materials[name].name for point in rows]), {})
         for name in task.materials
     }
     columns |= {
-        each.label: Column(each.sign * costs[:, i], _about_objective(each))
+        each.label: Values(each.sign * costs[:, i], _about_objective(each))
         for i, each in enumerate(task.objectives)
     }
     columns |= {
-        "feasible": Column(ok, {}),
-        "front": Column(on_front, {}),
-        "reason": Column(np.array([point.reason for point in rows]), {}),
+        "feasible": Values(ok, {}),
+        "front": Values(on_front, {}),
+        "reason": Values(np.array([point.reason for point in rows]), {}),
     }
     ends = {name: each.place(best.numbers[name]) for name, each in task.variables.items()}
     at_bound = tuple(name for name, u in ends.items() if min(u, 1 - u) < AT_END)
@@ -394,8 +374,8 @@ def _about_objective(each: Objective) -> dict[str, str]:
     """Unit and words of what is to be good."""
     told = METRICS.get(each.of) or about(each.of)
     how = ", ".join(each.label.split(":")[1:])
-    words = told["meaning"] + (f" ({how})" if how else "")
-    unit = "1" if each.aim == "window" else told["unit"]
+    words = told.meaning + (f" ({how})" if how else "")
+    unit = "1" if each.aim == "window" else told.unit
     return {"units": unit, "long_name": words, "aim": each.aim}
 
 
@@ -403,15 +383,14 @@ APART = ("coverage", "buried_share", "refused")
 """What `Task.metrics` holds beside the metrics that were asked for."""
 
 
-def _states(task: Task, best: Point) -> dict[str, Column]:
+def _states(task: Task, best: Point) -> dict[str, Values]:
     """Metrics against the load, nominal."""
     found = task.metrics([best.numbers], best.materials, samples=False)
-    columns: dict[str, Column] = {}
+    columns: dict[str, Values] = {}
     first = (name for name in found if name not in APART)
     for name in (*first, "buried_share"):
         told = METRICS.get(name) or about(name)
-        about_it = {"units": told["unit"], "long_name": told["meaning"], "symbol": told["symbol"]}
-        columns[name] = Column(found[name].reshape(-1), about_it)
+        columns[name] = Values(found[name].reshape(-1), told.labels)
     return columns
 
 

@@ -33,7 +33,7 @@ import numpy as np
 from ...errors import InvalidValue
 from ...quantities.files import is_draft, remove_files, write_text
 from ...quantities.progress import reporting
-from ...quantities.records import (
+from ...quantities.run_files import (
     Fingerprint,
     differences,
     fingerprint,

@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 
 from ...contact.contact import Contact
 from ...equilibrium.columns import columns_of, quantity_of
-from ...equilibrium.solve import given_load, only_one
+from ...equilibrium.solve import given_load
 from ...equilibrium.states import unknown_inputs
 from ...errors import InvalidValue, Problem
 from ...numerics.sampling import DESIGNS, Span
+from ...quantities.arguments import only_one
 from ...quantities.value import Value, problem_with
 from .plan import CHUNK, Arrays, Listed, Plan, Sampled
 from .reduction import Reduction

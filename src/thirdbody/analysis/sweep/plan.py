@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 
 from ...contact.citations import cite
 from ...contact.contact import Contact
-from ...equilibrium.columns import labels, labels_of
+from ...equilibrium.columns import about, labels_of
 from ...equilibrium.crowding import AREA, about_area, chi_of
 from ...equilibrium.doubts import SHADOW, about_particles
+from ...equilibrium.modes import MODES
 from ...equilibrium.solve import solve
 from ...equilibrium.states import state_columns, varied
 from ...equilibrium.status import WORDS as STATUS_WORDS
@@ -40,9 +41,8 @@ CHUNK = 262_144
 """States of a block: the most that are lost when a run is killed, and written at once."""
 LOOKED_AT = 200
 """States whose inputs are looked at before a run."""
-MODES = ("", "p-s", "hybrid", "s-s")
 CODES = {
-    "mode": ("none", *(mode.replace("-", "") for mode in MODES[1:])),
+    "mode": ("none", *(mode.replace("-", "") for mode in MODES)),
     "status": STATUS_WORDS,
 }
 """Words of the columns that are stored as codes 0, 1, 2 ... (CF ``flag_meanings``)."""
@@ -422,7 +422,7 @@ def _alike(words: Arrays, count: int) -> Iterator[tuple[dict[str, Any], Any]]:
 
 def _mode_codes(words: NDArray[Any]) -> NDArray[np.int8]:
     return sum(
-        ((words == mode) * np.int8(code) for code, mode in enumerate(MODES)),
+        ((words == mode) * np.int8(code) for code, mode in enumerate(("", *MODES))),
         start=np.zeros(words.shape, np.int8),
     )
 
@@ -447,7 +447,7 @@ def _axis_text(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def _attributes(name: str) -> dict[str, Any]:
-    out = labels(name)
+    out: dict[str, Any] = dict(about(name).labels)
     if name in CODES:
         words = CODES[name]
         out |= {"flag_values": list(range(len(words))), "flag_meanings": " ".join(words)}

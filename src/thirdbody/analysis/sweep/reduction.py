@@ -171,16 +171,16 @@ class Reduction:
         }
         for name in columns:
             told = about(name)
-            unit = {"units": told["unit"], "symbol": told["symbol"]}
+            unit = {"units": told.unit, "symbol": told.symbol}
             for kind in kinds:
-                words_of = {"long_name": words[kind].format(told["meaning"])}
+                words_of = {"long_name": words[kind].format(told.meaning)}
                 out[f"{name}_{kind}"] = (False, unit | words_of)
             if name in thresholds:
-                said = f"share of samples with {told['symbol']} > {thresholds[name]:g}"
+                said = f"share of samples with {told.symbol} > {thresholds[name]:g}"
                 extra = {"units": "1", "long_name": said, "threshold": thresholds[name]}
                 out[f"{name}_exceeds"] = (False, extra)
             if self.quantiles:
-                words_of = {"long_name": f"quantiles of the {told['meaning']}"}
+                words_of = {"long_name": f"quantiles of the {told.meaning}"}
                 out[f"{name}_quantile"] = (True, unit | words_of)
         return out
 

@@ -17,7 +17,7 @@ import numpy as np
 from ...errors import InvalidValue, tell_of_range
 from ...quantities.files import make_folder, remove_files, whole, write_text
 from ...quantities.progress import Cost, Report, reporting, solving
-from ...quantities.records import sealed
+from ...quantities.run_files import sealed
 from ...quantities.sharing import shared
 from .folder import (
     STORE,

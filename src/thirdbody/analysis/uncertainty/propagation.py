@@ -31,13 +31,13 @@ from ...errors import InvalidValue, tell_of_range
 from ...quantities import notebook
 from ...quantities.arguments import need_place
 from ...quantities.carried import takes_units
-from ...quantities.plain_data import plain_data
 from ...quantities.progress import watched
+from ...quantities.record import Record
 from ...quantities.say import percent
 from .inputs import Drawn, Uncertain, drawn_inputs
 from .samples import (
     MARGINS,
-    MODES,
+    MODES_OR_NONE,
     MOST_CRITICAL,
     MOST_OUTPUTS,
     OUTPUTS,
@@ -70,7 +70,7 @@ __all__ = ["OUTPUTS", "Propagation", "about_result", "propagate"]
 
 # -------------------------------------------------------------------------- result
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Propagation:
+class Propagation(Record):
     """Bands on the results of a contact with uncertain inputs: floats, or arrays over loads.
 
     Attributes
@@ -98,6 +98,7 @@ class Propagation:
         Share of samples that are crowded, as the `status` of an `Equilibrium` says; they count.
     """
 
+    not_in_dict = ("contact", "_critical_at_ends")
     contact: Contact = field(repr=False)
     inputs: dict[str, Uncertain]
     load: str
@@ -117,13 +118,6 @@ class Propagation:
     _critical_at_ends: dict[tuple[float, float], Arrays] = field(default_factory=dict, repr=False)
     """Critical loads at the ends of each input, by the probabilities of the ends."""
 
-    def to_dict(self) -> dict[str, Any]:
-        """Everything but the contact, ready for JSON: None for what is not a finite number."""
-        out = {item.name: getattr(self, item.name) for item in dataclasses.fields(self)}
-        del out["contact"], out["_critical_at_ends"]
-        out["inputs"] = {name: known.to_dict() for name, known in self.inputs.items()}
-        return plain_data(out)
-
     def to_dataset(self) -> xarray.Dataset:
         """Bands and errors as labelled data, with units, version and citations."""
         import json
@@ -140,15 +134,18 @@ class Propagation:
                 continue  # a coordinate
             told = about_result(name)
             of = (*dims, "quantile") if np.ndim(band) > 1 else ("quantile",)
-            words = {"units": told["unit"], "symbol": told["symbol"]}
-            data[name] = (of, band, words | {"long_name": f"quantiles of the {told['meaning']}"})
-            said = {"long_name": f"standard error of the quantiles of the {told['meaning']}"}
-            data[f"{name}_error"] = (of, self.error[name], words | said)
+            bands = told._replace(meaning=f"quantiles of the {told.meaning}")
+            errors = told._replace(meaning=f"standard error of the {bands.meaning}")
+            data[name] = (of, band, bands.labels)
+            data[f"{name}_error"] = (of, self.error[name], errors.labels)
         for name, table in (("probability", self.mode_probability), ("error", self.mode_error)):
-            values = np.stack([np.asarray(table[mode]) for mode in MODES], axis=-1)
+            values = np.stack([np.asarray(table[mode]) for mode in MODES_OR_NONE], axis=-1)
             said = {"units": "1", "long_name": f"{name} of each contact mode"}
             data[f"mode_{name}"] = ((*dims, "mode"), values, said)
-        coordinates: dict[str, Any] = {"quantile": list(self.probabilities), "mode": list(MODES)}
+        coordinates: dict[str, Any] = {
+            "quantile": list(self.probabilities),
+            "mode": list(MODES_OR_NONE),
+        }
         if not one:
             coordinates[self.load] = np.asarray(self.loads)
         attributes = {
@@ -167,8 +164,8 @@ class Propagation:
         for name, band in self.bands.items():
             told = about_result(name)
             first = np.reshape(band, (-1, len(self.probabilities)))[0]
-            values = [notebook.words_of(value, told["unit"]) for value in first]
-            rows.append(notebook.Row(name, values, told["meaning"]))
+            values = [notebook.words_of(value, told.unit) for value in first]
+            rows.append(notebook.Row(name, values, told.meaning))
         for mode, share in self.mode_probability.items():
             values = [notebook.words_of(np.ravel(share)[0])]
             values += [""] * (len(self.probabilities) - 1)
@@ -558,8 +555,8 @@ class _Bands:
         self.bands: dict[str, list[Array]] = {name: [] for name in names}
         self.errors: dict[str, list[Array]] = {name: [] for name in names}
         self.nominal: dict[str, list[float]] = {name: [] for name in names}
-        self.modes: dict[str, list[float]] = {mode: [] for mode in MODES}
-        self.mode_errors: dict[str, list[float]] = {mode: [] for mode in MODES}
+        self.modes: dict[str, list[float]] = {mode: [] for mode in MODES_OR_NONE}
+        self.mode_errors: dict[str, list[float]] = {mode: [] for mode in MODES_OR_NONE}
         self.solved: list[float] = []
         self.crowded: list[float] = []
 
@@ -576,7 +573,7 @@ class _Bands:
             own = output_of(name, middle, self.critical.nominal, np.zeros(1, int))
             self.nominal[name].append(float(own.flat[0]))
         words = np.asarray(state["mode"]).reshape(REPLICATES, -1)
-        for mode in MODES:
+        for mode in MODES_OR_NONE:
             share = np.mean(words == ("" if mode == "none" else mode), axis=1)
             self.modes[mode].append(float(share.mean()))
             self.mode_errors[mode].append(float(share.std(ddof=1) / math.sqrt(REPLICATES)))
@@ -612,8 +609,8 @@ def certain(contact: Contact, load: str, loads: Sequence[float]) -> list[Propaga
                 nominal=nominal,
                 bands={name: np.full(len(PROBABILITIES), one) for name, one in nominal.items()},
                 error={name: np.zeros(len(PROBABILITIES)) for name in names},
-                mode_probability={each: float(each == mode) for each in MODES},
-                mode_error=dict.fromkeys(MODES, 0.0),
+                mode_probability={each: float(each == mode) for each in MODES_OR_NONE},
+                mode_error=dict.fromkeys(MODES_OR_NONE, 0.0),
                 critical_status=statuses,
                 solved=1.0,
                 crowded=float(crowded(contact, state["A_t"])[0]),

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...contact.contact import Contact
-from ...equilibrium.columns import COLUMNS, about
+from ...equilibrium.columns import COLUMNS, PLASTIC_SHARE, about
 from ...equilibrium.critical_loads import CRITICAL, carrying, critical_loads, load_falls
+from ...equilibrium.modes import MODES
 from ...equilibrium.states import carries, state_columns, tables_each
 from ...equilibrium.status import MOST_AREA
 from ...errors import InvalidValue
 from ...numerics.sampling import sobol
+from ...quantities.record import Column
 from ...quantities.say import percent
 from ..inputs import NUMBERS
 
@@ -33,16 +35,16 @@ LEAST, MOST_CRITICAL, USUAL = 64, 2_048, 2**12
 ones."""
 PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
 MARGINS = {"F/F_cr1": "F_cr1", "F/F_cr2": "F_cr2"}
-MODES = ("p-s", "hybrid", "s-s", "none")
-OUTPUTS: dict[str, dict[str, str]] = {
+MODES_OR_NONE = (*MODES, "none")
+OUTPUTS: dict[str, Column] = {
     **{name: COLUMNS[name] for name in NUMBERS},
-    "plastic_share": {"symbol": "A_p/A_t", "unit": "1", "meaning": "plastic part of the real area"},
-    "F_cr1": {"symbol": "F_cr1*", "unit": "1", "meaning": "critical load, p-s to hybrid"},
-    "F_cr2": {"symbol": "F_cr2*", "unit": "1", "meaning": "critical load, hybrid to s-s"},
-    "F_tpca.A": {"symbol": "F_tpca,A*", "unit": "1", "meaning": "load of the largest area share"},
-    "F_tpca.B": {"symbol": "F_tpca,B*", "unit": "1", "meaning": "load of equal load shares"},
-    "F/F_cr1": {"symbol": "F/F_cr1", "unit": "1", "meaning": "load over the first critical load"},
-    "F/F_cr2": {"symbol": "F/F_cr2", "unit": "1", "meaning": "load over the second critical load"},
+    "plastic_share": PLASTIC_SHARE,
+    "F_cr1": Column("F_cr1*", "1", "critical load, p-s to hybrid"),
+    "F_cr2": Column("F_cr2*", "1", "critical load, hybrid to s-s"),
+    "F_tpca.A": Column("F_tpca,A*", "1", "load of the largest area share"),
+    "F_tpca.B": Column("F_tpca,B*", "1", "load of equal load shares"),
+    "F/F_cr1": Column("F/F_cr1", "1", "load over the first critical load"),
+    "F/F_cr2": Column("F/F_cr2", "1", "load over the second critical load"),
 }
 """Symbol, unit and meaning of everything that gets a band, beside the outputs of the contact."""
 AT_ONCE = 2**17
@@ -68,9 +70,9 @@ def costly(contact: Contact, vary: Iterable[str]) -> bool:
     return tables_each(contact, names)
 
 
-def about_result(name: str) -> dict[str, str]:
+def about_result(name: str) -> Column:
     """Symbol, unit and meaning of what has a band."""
-    return OUTPUTS[name] if name in OUTPUTS else about(name)
+    return OUTPUTS.get(name) or about(name)
 
 
 def outputs_of(asked: Sequence[str] | None, contact: Contact) -> list[str]:

@@ -10,6 +10,7 @@ from nicegui import ui
 
 from ...equilibrium.columns import COLUMNS, about
 from ...errors import InvalidValue
+from ...quantities.plain_data import plain_data
 from ...quantities.say import number, prefixed
 from ...study.inputs import field_of, inputs_of
 from ..fields import engineering, text_of, value_from
@@ -38,11 +39,11 @@ def metrics_of(state: State) -> dict[str, str]:
     out = {name: name for name in METRICS}
     for name in out:
         if name in COLUMNS:
-            out[name] = f"{name}: {COLUMNS[name]['meaning']}"
+            out[name] = f"{name}: {COLUMNS[name].meaning}"
     if state.answer is not None:
         for output in state.answer.contact.outputs:
             for column in output.columns:
-                out[column] = f"{column}: {about(column)['meaning']}"
+                out[column] = f"{column}: {about(column).meaning}"
     return out
 
 
@@ -73,7 +74,7 @@ def design_figure(
             "type": "scatter",
             "mode": "markers",
             "x": x[~good].tolist(),
-            "y": [v if np.isfinite(v) else None for v in y[~good].tolist()],
+            "y": plain_data(y[~good]),
             "name": "breaks a limit",
             "marker": {"symbol": "x", "size": 8, "color": GREY},
         },
@@ -239,7 +240,7 @@ def in_words(study: dict[str, Any], fields: list[str]) -> dict[str, str]:
 
 def meaning(column: str) -> str:
     """What a column is; some aims are none."""
-    return str(about(column)["meaning"]) if column in COLUMNS else column
+    return str(about(column).meaning) if column in COLUMNS else column
 
 
 def design_sentences(

@@ -34,8 +34,7 @@ PLAIN = ("particle_load_share", "particle_area_share", "plastic_share", "A_t", "
 def label_of(name: str) -> str:
     """What a result is called."""
     about = about_result(name)
-    unit = f" [{about['unit']}]" if about["unit"] not in ("1", "") else ""
-    return f"{about['meaning']}{unit}"
+    return about.meaning + (f" [{about.unit}]" if about.unit not in ("1", "") else "")
 
 
 def results_of(state: State) -> dict[str, str]:
@@ -263,7 +262,7 @@ class ErrorBars:
         self.plots["tornado"].update_figure(tornado_figure(result))
         low, middle, high = result["band_at"][0], result["nominal_at"], result["band_at"][-1]
         start = result["of"] if critical else "At the operating load"
-        unit = about_result(result["of"])["unit"]
+        unit = about_result(result["of"]).unit
         self.said.set_text(
             f"{start}: {value_of(middle, unit)}, in nine of ten cases between "
             f"{value_of(low, unit)} and {value_of(high, unit)} ({result['samples']} samples)."

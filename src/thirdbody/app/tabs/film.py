@@ -10,7 +10,7 @@ import numpy as np
 from nicegui import ui
 
 from ...quantities.say import value_of
-from ...study import Study, run_film
+from ...study import FilmResult, Study, run_film
 from ...study.film import SHAPES, SPEED
 from ...systems.film_conditions import Entrainment, FilmConditions
 from ...systems.film_formulas import Oil
@@ -68,7 +68,7 @@ AXES = {
 }
 
 
-def solved(study: Study) -> tuple[dict[str, Any], int]:
+def solved(study: Study) -> tuple[FilmResult, int]:
     """What `run_film` finds over the speeds of the study, and which speed is its own or middle."""
     given = study.film
     assert given is not None
@@ -84,16 +84,16 @@ def solved(study: Study) -> tuple[dict[str, Any], int]:
     return found, len(speeds) // 2
 
 
-def _solved(answer: Answer) -> tuple[dict[str, Any], int]:
+def _solved(answer: Answer) -> tuple[FilmResult, int]:
     return solved(answer.study)
 
 
-def film_figures(found: dict[str, Any], i: int) -> dict[str, dict[str, Any]]:
+def film_figures(found: FilmResult, i: int) -> dict[str, dict[str, Any]]:
     """Three figures over speed, with the regimes behind the curves and the speed i marked."""
-    states = found["states"]
+    states = found.states
     u = np.asarray(states["speed"], float)
     shapes, notes = [], []
-    for low, high, word in bands_of(u, found["regime_speeds"]):
+    for low, high, word in bands_of(u, found.regime_speeds):
         shapes.append(
             {
                 "type": "rect",
@@ -115,7 +115,7 @@ def film_figures(found: dict[str, Any], i: int) -> dict[str, dict[str, Any]]:
     for name, curves in CURVES.items():
         traces = []
         for column, (label, number) in curves.items():
-            if column in OF_PARTICLES and not found["passing"]:
+            if column in OF_PARTICLES and not found.passing:
                 continue
             y = np.asarray(states[column], float)
             style = {"color": GREY, "dash": "solid"} if column == "mu" else {}
@@ -153,7 +153,7 @@ class Film:
         ).classes("hint")
         self.inputs = Inputs(state, self._renewed)
         self.answer: Answer | None = None
-        self.found: dict[str, Any] | None = None
+        self.found: FilmResult | None = None
         """What was found for the answer."""
         self.i = 0
         """The speed that is shown."""
@@ -188,13 +188,13 @@ class Film:
             self.plots[name] = ui.plotly(empty(360)).classes("w-full")
             put(self.plots[name], {"data-figure": name})
 
-    def _show(self, found: dict[str, Any]) -> None:
+    def _show(self, found: FilmResult) -> None:
         """Facts and figures at the speed of the slider."""
         for name, made in film_figures(found, self.i).items():
             self.plots[name].update_figure(made)
-        known = found["states"]["mu"][self.i] is not None
+        known = bool(np.isfinite(found.states["mu"][self.i]))
         self.plots["film friction"].set_visibility(known)
-        said = f"speed {value_of(found['states']['speed'][self.i], 'm/s')}"
+        said = f"speed {value_of(found.states['speed'][self.i], 'm/s')}"
         self.said.set_text(said)
         self.slider.speak(said)
         self.facts.clear()
@@ -221,14 +221,14 @@ class Film:
             return
         before = self.found
         found, middle = await self.state.ask(_solved)
-        kept = before is not None and before["states"]["speed"] == found["states"]["speed"]
+        kept = before is not None and np.array_equal(before.states["speed"], found.states["speed"])
         self.answer, self.found = answer, found
         self.i = self.i if kept else middle
-        put(self.slider, {"max": len(found["states"]["speed"]) - 1})
+        put(self.slider, {"max": len(found.states["speed"]) - 1})
         self.slider.set_value(self.i)
         self.words.clear()
         with self.words:
-            for text in (*summary(found), *found["warnings"][len(answer.study.notes) :]):
+            for text in (*summary(found), *found.run_warnings):
                 ui.label(with_micro(text)).classes("hint")
         self._show(found)
 

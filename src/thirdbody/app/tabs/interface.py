@@ -104,7 +104,7 @@ def _loaded(contact: tb.Contact, n: float) -> tuple[str, str]:
 
 def abouts() -> dict[str, str]:
     """What the letters and modes of the page mean."""
-    letters = {name: COLUMNS[key]["meaning"] for name, key in LETTERS.items()}
+    letters = {name: COLUMNS[key].meaning for name, key in LETTERS.items()}
     return {mode: mode_of(mode).removesuffix(f" ({mode})") for mode in MODES} | letters
 
 

@@ -71,7 +71,7 @@ def _figure(
     size, name = prefixed(float(np.abs(every).max()) if len(every) else 1.0, unit)
     matters = clipped(values)
     wide = len(every) > 0 and every.min() > 0 and matters.max() > WIDE_FROM * matters.min()
-    names = [f"{symbol(about(c)['symbol'])}: {plain(about(c)['meaning'])}" for c in columns]
+    names = [f"{symbol(about(c).symbol)}: {plain(about(c).meaning)}" for c in columns]
     names = [_folded(each) for each in names]
     return figure(
         [
@@ -95,7 +95,7 @@ def bounded(columns: list[str]) -> bool:
     (True, False, False)
     """
     told = [about_result(column) for column in columns]
-    return all(each["unit"] == "1" and BOUNDED.search(each["meaning"]) for each in told)
+    return all(each.unit == "1" and BOUNDED.search(each.meaning) for each in told)
 
 
 def quantity_of(columns: list[str], unit: str) -> str:
@@ -104,7 +104,7 @@ def quantity_of(columns: list[str], unit: str) -> str:
     >>> quantity_of(["f_ss", "f_sa"], "N"), quantity_of(["n_ss", "n_sa"], "1/m^2")
     ('mean load', 'number per area')
     """
-    every = zip(*(about(column)["meaning"].split() for column in columns), strict=False)
+    every = zip(*(about(column).meaning.split() for column in columns), strict=False)
     words = [each[0] for each in takewhile(lambda each: len(set(each)) == 1, every)]
     while len(columns) > 1 and words and words[-1] in LINKS:
         words = words[:-1]
@@ -170,9 +170,9 @@ def _figures_and_rows(
     """The figures, and the rows of the table."""
     rows = [
         {
-            "meaning": about(name)["meaning"],
-            "symbol": about(name)["symbol"],
-            "value": value_of(float(value), about(name)["unit"]),
+            "meaning": about(name).meaning,
+            "symbol": about(name).symbol,
+            "value": value_of(float(value), about(name).unit),
             "name": name,
         }
         for name, value in answer.solve(at).outputs.items()

@@ -59,7 +59,7 @@ def command(
     settings: Settings = None,
 ) -> None:
     """The loads of a study on maps of heights, with every particle at its place."""
-    from ...quantities.records import release_folder
+    from ...quantities.run_files import release_folder
     from ...study.run_explicit import claim_results, run_explicit
 
     _check(maps, workers, out)

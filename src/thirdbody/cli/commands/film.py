@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import json
+import math
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, value_of
 from ...quantities.tables import Table
+from ...version import __version__
 from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import TableFiles, figure_format, warn_of, write_figure
 
-__all__ = ["columns_of", "command"]
+if TYPE_CHECKING:
+    from ...study import FilmResult
+
+__all__ = ["command"]
 
 MEANS = {
     "speed": "mean speed at which the surfaces drag the oil in",
@@ -56,55 +61,31 @@ def command(
         figure_format(figure)  # refused before long work
     with heartbeat("film"):
         result = run_film(asked)
-    warn_of(result["warnings"][len(asked.notes) :])
+    warn_of(result.run_warnings)
     drawn = None
     if figure is not None:
         from ...views.plot.film import stribeck
 
-        drawn = stribeck(result["states"], result["regime_speeds"])
-    files.write(*columns_of(result))
+        drawn = stribeck(result.states, result.regime_speeds)
+    files.write(*result.table())
     for path in files.paths:
         print(f"written: {path}", file=sys.stderr)
     if figure is not None:
         write_figure(figure, drawn)
     if as_json:
-        print(json.dumps(result, indent=1, allow_nan=False))
+        print(json.dumps(result.to_dict(), indent=1, allow_nan=False))
     else:
         _show(result)
 
 
-def columns_of(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, str]]:
-    """Columns of the states, then what passes and what the oil brings, and their units."""
-    from ...systems.mixed_film import COLUMNS
-
-    columns = dict(result["states"])
-    units = {name: COLUMNS[name]["unit"] if name in COLUMNS else "1" for name in columns}
-    names = [part["name"] for part in result["passing"]]
-    for part in result["passing"]:
-        columns[f"{part['name']}: passing"] = part["share"]
-    if brought := result["entrainment"]:
-        columns["largest"] = brought["largest"]
-        for name, density in zip(names, brought["areal_density"], strict=True):
-            columns[f"{name}: areal_density"] = density
-    mine = {name: "1" for name in columns if name not in units}
-    mine |= {name: "m" for name in mine if name == "largest"}
-    mine |= {name: "1/m^2" for name in mine if name.endswith(": areal_density")}
-    units |= mine
-    return columns, {
-        name: "" if name in ("regime", "status") else unit for name, unit in units.items()
-    }
-
-
-def _show(result: dict[str, Any]) -> None:
+def _show(result: FilmResult) -> None:
     """The result for a reader: the point or the curve, then in words."""
     from ...views.film_words import bodies, point, summary
 
     console = terminal()
-    console.print(f"{result['title'] or 'Study'} (thirdbody {result['version']})")
-    states = result["states"]
-    console.print(
-        f"{bodies(result)}, sigma = {value_of(result['inputs']['roughness']['sigma'], 'm')}"
-    )
+    console.print(f"{result.title} (thirdbody {__version__})")
+    states, sigma = result.states, result.study.contact.roughness.sigma
+    console.print(f"{bodies(result)}, sigma = {value_of(sigma, 'm')}")
     total = len(states["speed"])
     if total == 1:
         head = f"at {value_of(states['speed'][0], 'm/s')}"
@@ -120,15 +101,15 @@ def _show(result: dict[str, Any]) -> None:
         console.print(sentence)
 
 
-def _curve(result: dict[str, Any]) -> Any:
+def _curve(result: FilmResult) -> Any:
     """A row a speed; of many speeds some, evenly spread."""
     from ...views.film_words import share
 
-    states = result["states"]
+    states = result.states
     shares = {"film_share": "on film", "ss_share": "on asperities"}
-    if result["passing"]:
+    if result.passing:
         shares["sa_share"] = "on particles"
-    known = any(value is not None for value in states["mu"])
+    known = any(map(math.isfinite, states["mu"]))
     heads = ["speed", "film h_T", "lambda", *shares.values(), *["friction"] * known, "regime"]
     table = Table(heads, right=True, drop=DROP, more=ALL, legend=MEANS)
     for i in some(len(states["speed"])):

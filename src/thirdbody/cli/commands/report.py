@@ -42,6 +42,6 @@ def command(
         found = report(asked, file=file, progress=progress)
         progress(PARTS[-1])
         page = found.html()
-    warn_of(found.result["warnings"][len(asked.notes) :])
+    warn_of(found.result.run_warnings)
     write_text(target, page)
     print(f"written: {target}", file=sys.stderr)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -15,6 +15,7 @@ from ...equilibrium.words import (
     RARE,
     carried,
     critical_load,
+    critical_name,
     happens,
     is_rare,
     load_of,
@@ -24,13 +25,18 @@ from ...equilibrium.words import (
     two_bodies,
     unsolved,
 )
-from ...errors import NoEquilibrium
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, unit_of, value_of
 from ...quantities.tables import Table
+from ...version import __version__
 from ..options import AsJson, Force, ParquetFile, Settings, StudyFile, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import TableFiles, warn_of
+
+if TYPE_CHECKING:
+    from ...equilibrium.columns import PopulationShare
+    from ...equilibrium.transitions import Transitions
+    from ...study import StudyResult
 
 __all__ = ["command", "summary"]
 
@@ -78,95 +84,70 @@ def command(
     files.need(force=force)
     with heartbeat("solve"):
         result = run_study(asked)
-    warn_of(result["warnings"][len(asked.notes) :])
-    statuses = result["states"]["status"]
-    solved = statuses.count("ok")
+    warn_of(result.run_warnings)
     if as_json:
-        print(json.dumps(result, indent=1, allow_nan=False))
-    elif solved and files.paths:
-        files.write(*_columns(result))
+        print(json.dumps(result.to_dict(), indent=1, allow_nan=False))
+    elif result.solved_states and files.paths:
+        files.write(*result.table())
         for path in files.paths:
-            print(f"{len(statuses)} states written to {path}", file=sys.stderr)
-    elif solved:
+            print(f"{len(result.states.status)} states written to {path}", file=sys.stderr)
+    elif result.solved_states:
         _show(result)
-    elif "body" in result:  # what the smooth bodies do is known
-        for sentence in result["body"]["sentences"]:
+    else:  # what the smooth bodies do is known
+        for sentence in result.force_sentences:
             terminal().print(sentence)
-    if not solved:
-        more = f" (and so for all {len(statuses)} states)" if len(statuses) > 1 else ""
-        raise NoEquilibrium(statuses[0] + more)
+    result.need_state()
 
 
-def _columns(result: dict[str, Any]) -> tuple[dict[str, list[Any]], dict[str, str]]:
-    """Columns of the states, then those of each of several populations, and their units."""
-    from ...equilibrium.columns import about
-
-    columns = dict(result["states"])
-    units = {name: about(name)["unit"] for name in columns}
-    for part in result["populations"]:
-        mine = {f"{part['name']}: {key}": part[key] for key in part if key != "name"}
-        columns |= mine
-        units |= {
-            f"{part['name']}: {key}": about(key)["unit"] if key in result["states"] else "1"
-            for key in part
-            if key != "name"
-        }
-    return columns, units
-
-
-def _show(result: dict[str, Any]) -> None:
+def _show(result: StudyResult) -> None:
     """The result for a reader: states, populations, transitions, one sentence."""
     console = terminal()
-    states, scales = result["states"], result["scales"]
-    three_body = result["inputs"]["particles"] is not None
-    console.print(f"{result['title'] or 'Study'} (thirdbody {result['version']})")
-    console.print(
-        f"E_ss = {value_of(scales['E_ss'], 'Pa')}, sigma = {value_of(scales['sigma'], 'm')}"
-    )
+    states, contact = result.states, result.study.contact
+    console.print(f"{result.title} (thirdbody {__version__})")
+    sigma = contact.roughness.sigma
+    console.print(f"E_ss = {value_of(contact.E_ss, 'Pa')}, sigma = {value_of(sigma, 'm')}")
 
-    for sentence in result.get("body", {}).get("sentences", ()):
+    for sentence in result.force_sentences:
         console.print(sentence)
 
     loads: Columns = {
-        "F*": lambda i: number(states["F_star"][i]),
-        "pressure": lambda i: value_of(states["pressure"][i], "Pa"),
+        "F*": lambda i: number(states.F_star[i]),
+        "pressure": lambda i: value_of(states.pressure[i], "Pa"),
     }
     columns = loads | {
-        "h": lambda i: value_of(states["h"][i], "m"),
-        "d": lambda i: value_of(states["d"][i], "m"),
-        "d/sigma": lambda i: number(states["d_star"][i]),
-        "A_t": lambda i: number(states["A_t"][i]),
-        "A_ss": lambda i: number(states["A_ss"][i]),
+        "h": lambda i: value_of(states.h[i], "m"),
+        "d": lambda i: value_of(states.d[i], "m"),
+        "d/sigma": lambda i: number(states.d_star[i]),
+        "A_t": lambda i: number(states.A_t[i]),
+        "A_ss": lambda i: number(states.A_ss[i]),
     }
-    if three_body:
+    if not contact.two_body:
         columns |= {
-            "A_sa": lambda i: number(states["A_sa"][i]),
-            "particles' load": lambda i: percent(states["particle_load_share"][i]),
-            "particles' area": lambda i: percent(states["particle_area_share"][i]),
+            "A_sa": lambda i: number(states.A_sa[i]),
+            "particles' load": lambda i: percent(states.particle_load_share[i]),
+            "particles' area": lambda i: percent(states.particle_area_share[i]),
             "mode": lambda i: _mode(result, i),
         }
-    total = len(states["status"])
+    total = len(states.status)
     console.print(_some_states(columns, total))
-    if result["populations"]:
+    if states.populations:
         console.print("Of the whole load and of the whole real area:")
-        console.print(_some_states(loads | _population_columns(result["populations"]), total))
-    if result["inputs"]["outputs"]:
+        console.print(_some_states(loads | _population_columns(states.populations), total))
+    if contact.outputs:
         console.print(_output_table(states))
     if total > MOST_ROWS:
         console.print(f"{MOST_ROWS} of {total} states shown; --csv FILE writes all\n")
-    for sentence in unsolved(states["status"]):
+    for sentence in unsolved(states.status):
         console.print(sentence)
-    if three_body:
-        console.print(_transition_table(result["transitions"], scales["E_ss"]))
+    if not contact.two_body:
+        console.print(_transition_table(result.transitions, contact.E_ss))
     console.print(summary(result))
 
 
-def _mode(result: dict[str, Any], i: int) -> str:
+def _mode(result: StudyResult, i: int) -> str:
     """The mode of a state, as far as the contact itself has one."""
-    from ...study.body import held_in
-
-    mode = result["states"]["mode"][i]
-    return RARE if is_rare(mode, held_in(result, i)) else mode or "-"
+    mode = result.states.mode[i]
+    return RARE if is_rare(mode, result.particles_in(i)) else mode or "-"
 
 
 def _some_states(columns: Columns, total: int) -> Table:
@@ -180,89 +161,78 @@ def _some_states(columns: Columns, total: int) -> Table:
     return table
 
 
-def _population_columns(populations: list[dict[str, Any]]) -> Columns:
+def _population_columns(populations: Iterable[PopulationShare]) -> Columns:
     """Shares of load and area of each population."""
 
-    def share(part: dict[str, Any], key: str) -> Callable[[int], str]:
-        return lambda i: percent(part[key][i])
+    def share(values: Any) -> Callable[[int], str]:
+        return lambda i: percent(values[i])
 
     out: Columns = {}
     for part in populations:
-        out[f"{part['name']}: load"] = share(part, "load_share")
-        out[f"{part['name']}: area"] = share(part, "area_share")
+        out[f"{part.name}: load"] = share(part.load_share)
+        out[f"{part.name}: area"] = share(part.area_share)
     return out
 
 
-def _output_table(states: dict[str, Any]) -> Table:
+def _output_table(states: Any) -> Table:
     """The numbers of the outputs: a row each at one load, a column each at several."""
-    from ...equilibrium.columns import COLUMNS, about
-
-    outputs = {name: about(name) for name in states if name not in COLUMNS}
-    total = len(states["status"])
-    loads = [value_of(value, "Pa") for value in states["pressure"]]
-    if total == 1:
+    outputs = {name: (states.about(name), values) for name, values in states.outputs.items()}
+    loads = [value_of(value, "Pa") for value in states.pressure]
+    if len(loads) == 1:
         table = Table(("", loads[0], "unit", "meaning"), words=["meaning"], more=ALL)
-        for name, told in outputs.items():
-            cell = number(states[name][0])
-            table.add_row(name, cell, unit_of(told["unit"]) or "none", told["meaning"])
+        for name, (told, values) in outputs.items():
+            table.add_row(name, number(values[0]), unit_of(told.unit) or "none", told.meaning)
         return table
     heads = {
-        f"{name} [{unit}]" if (unit := unit_of(told["unit"])) else name: (
-            told["meaning"] + ("" if unit else ", no unit")
+        f"{name} [{unit}]" if (unit := unit_of(told.unit)) else name: (
+            told.meaning + ("" if unit else ", no unit")
         )
-        for name, told in outputs.items()
+        for name, (told, _) in outputs.items()
     }
     table = Table(["pressure", *heads], right=True, wrap=True, legend=heads)
-    for i in some(total):
-        table.add_row(loads[i], *(number(states[name][i]) for name in outputs))
+    for i in some(len(loads)):
+        table.add_row(loads[i], *(number(values[i]) for _, values in outputs.values()))
     return table
 
 
-def _transition_table(critical: dict[str, Any], E_ss: float) -> Any:
-    entries = {"F_cr1": critical["F_cr1"], "F_cr2": critical["F_cr2"]}
-    entries |= {f"F_tpca {which}": entry for which, entry in critical["F_tpca"].items()}
+def _transition_table(critical: Transitions, E_ss: float) -> Any:
     heads = ("critical load", "F*", "pressure", "status")
     table = Table(heads, words=heads[:1], drop=["F*"], more=ALL)
-    for name, entry in entries.items():
-        value, status = entry["value"], entry["status"]
-        loads = (critical_load(value, status), critical_load(value, status, E_ss))
-        table.add_row(f"{name}: {happens(name)}", *loads, status)
+    for name, entry in critical.entries().items():
+        loads = (critical_load(entry.value, entry.status, E) for E in (None, E_ss))
+        table.add_row(f"{critical_name(name)}: {happens(name)}", *loads, entry.status)
     return table
 
 
-def summary(result: dict[str, Any]) -> str:
+def summary(result: StudyResult) -> str:
     """The result in plain words."""
-    from ...study.body import held_in, of_bodies
-
-    states = result["states"]
-    known = [i for i, status in enumerate(states["status"]) if status == "ok"]
-    three_body = result["inputs"]["particles"] is not None
+    states, three_body = result.states, not result.study.contact.two_body
 
     def state(i: int) -> str:
         gap = (
-            f"separation h = {value_of(states['h'][i], 'm')} "
-            f"(d = {value_of(states['d'][i], 'm')}, {number(states['d_star'][i], 3)} sigma)"
+            f"separation h = {value_of(states.h[i], 'm')} "
+            f"(d = {value_of(states.d[i], 'm')}, {number(states.d_star[i], 3)} sigma)"
         )
-        if not states["A_t"][i]:
+        if not states.A_t[i]:
             return f"{mode_of(None)}; {gap}"
-        area = f"real contact area {percent(states['A_t'][i])} of the nominal area"
+        area = f"real contact area {percent(states.A_t[i])} of the nominal area"
         if not three_body:
             return f"{two_bodies()}; {gap}, {area}"
-        parts = {part["name"]: part["load_share"][i] for part in result["populations"]}
-        share = carried(states["particle_load_share"][i], parts)
-        mode = states["mode"][i]
-        how = mode_among(mode, held := held_in(result, i))
+        parts = {part.name: part.load_share[i] for part in states.populations}
+        share = carried(states.particle_load_share[i], parts)
+        mode = states.mode[i]
+        how = mode_among(mode, held := result.particles_in(i))
         where = " of a wide surface" * is_rare(mode, held)
         return f"{how}, and {share}{where}; {gap}, {area}"
 
     def at(i: int) -> str:
-        return f"At {load_of(states['pressure'][i], states['F_star'][i])} {state(i)}."
+        return f"At {load_of(states.pressure[i], states.F_star[i])} {state(i)}."
 
-    known.sort(key=lambda i: states["pressure"][i])
+    known = sorted(result.solved_states, key=lambda i: states.pressure[i])
     first, last = known[0], known[-1]
-    whole = f" {told}" if (told := of_bodies(result)) else ""
+    whole = f" {told}" if (told := result.body_sentence()) else ""
     if first == last:
         return at(first) + whole
     if not three_body or whole:
         return f"{at(first)} {at(last)}{whole}"
-    return f"{at(first)} {at(last)} {mode_path(states['mode'][i] for i in known)}."
+    return f"{at(first)} {at(last)} {mode_path(states.mode[i] for i in known)}."

@@ -122,7 +122,7 @@ def _write_surface(folder: Path, found: Any, result: dict[str, Any], force: bool
     import matplotlib as mpl
 
     from ...quantities.files import make_folder, whole, write_text
-    from ...quantities.records import refuse_replaced
+    from ...quantities.run_files import refuse_replaced
     from ...views.plot.topography import surface as draw
 
     text = json.dumps(plain_data(result), indent=1, allow_nan=False) + "\n"

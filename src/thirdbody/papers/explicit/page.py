@@ -17,6 +17,7 @@ import numpy as np
 
 from ...errors import InvalidValue
 from ...quantities.files import write_text
+from ...quantities.plain_data import plain_data
 from ...quantities.say import number, percent, signed
 from ...views.html import symbols, table
 from ..page import document, figures
@@ -194,16 +195,12 @@ def _csv(points: tuple[Point, ...]) -> str:
 def _as_json(summary: Summary) -> dict[str, Any]:
     from ...version import __version__
 
-    def finite(value: Any) -> Any:
-        return None if isinstance(value, float) and not math.isfinite(value) else value
-
     return {
         "version": __version__,
         "effort": summary.effort.words,
         "left_out": summary.left_out,
         "states": [
-            {name: finite(value) for name, value in _columns(point).items()}
-            | {"off": point.off, "why": point.why}
+            plain_data(_columns(point)) | {"off": point.off, "why": point.why}
             for point in summary.points
         ],
     }

@@ -3,133 +3,64 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 from ..ledger import Measurement
 from .measures import (
     ALWAYS_P_S,
+    MEASURES,
     NEVER_P_S,
     NEVER_S_S,
     NO_PEAK,
+    add_measures,
+    critical_load_1,
+    critical_load_2,
+    curve_measure,
     extreme,
-    first_load,
     interior_peak_of,
     measure,
     ratios,
-    second_load,
-    tpca,
+    turning_load,
 )
-from .readings import SILICA, STEEL, Curves
+from .readings import SILICA, STEEL, Curve, Curves
+
+Load = Callable[[Curve], float]
 
 
-# ------------------------------------------------------------------ critical loads
-@measure
-def first_critical_load(curves: Curves, material: str, sigma: float, x_a: float) -> Measurement:
-    value = first_load(curves, material, sigma, x_a)
-    if not math.isfinite(value):
-        return Measurement.absent(NEVER_P_S if math.isnan(value) else ALWAYS_P_S)
-    return Measurement.of(value)
+# ------------------------------------------------------------------ one contact
+def _measured_load(value: float, why: str) -> Measurement:
+    return Measurement.of(value) if math.isfinite(value) else Measurement.absent(why)
 
 
-@measure
-def second_critical_load(curves: Curves, material: str, sigma: float, x_a: float) -> Measurement:
-    value = second_load(curves, material, sigma, x_a)
-    return Measurement.of(value) if math.isfinite(value) else Measurement.absent(NEVER_S_S)
+def _first(c: Curve) -> Measurement:
+    value = critical_load_1(c)
+    return _measured_load(value, NEVER_P_S if math.isnan(value) else ALWAYS_P_S)
 
 
-def _in_order(rows: list[list[float]], largest: bool, why: str) -> Measurement:
-    return extreme([ratio for row in rows for ratio in ratios(row)], largest, why)
-
-
-@measure
-def first_by_size(
-    curves: Curves, materials: list[str], sigma: float, x_a: list[float]
-) -> Measurement:
-    rows = [[first_load(curves, material, sigma, x) for x in x_a] for material in materials]
-    return _in_order(rows, False, "a size is never p-s, or two of them always are")
-
-
-@measure
-def second_by_size(
-    curves: Curves, materials: list[str], sigma: float, x_a: list[float]
-) -> Measurement:
-    rows = [[second_load(curves, material, sigma, x) for x in x_a] for material in materials]
-    return _in_order(rows, False, "two sizes are never s-s")
-
-
-@measure
-def first_by_roughness(
-    curves: Curves, material: str, sigma: list[float], x_a: float
-) -> Measurement:
-    row = [first_load(curves, material, s, x_a) for s in sigma]
-    return _in_order([row], True, "on one σ the contact is never p-s, or on two it always is")
-
-
-@measure
-def second_by_roughness(
-    curves: Curves, material: str, sigma: list[float], x_a: float
-) -> Measurement:
-    row = [second_load(curves, material, s, x_a) for s in sigma]
-    return _in_order([row], True, "on two σ the contact is never s-s")
-
-
-@measure
-def first_material_ratio(curves: Curves, sigma: float, x_a: float) -> Measurement:
-    pair = [first_load(curves, material, sigma, x_a) for material in (STEEL, SILICA)]
-    return _quotient(pair, "F_cr1* is missing for a material")
-
-
-@measure
-def second_material_ratio(curves: Curves, sigma: float, x_a: float) -> Measurement:
-    pair = [second_load(curves, material, sigma, x_a) for material in (STEEL, SILICA)]
-    return _quotient(pair, NEVER_S_S)
-
-
-@measure
-def second_material_ratios(curves: Curves, pairs: list[list[float]]) -> Measurement:
-    found = [second_material_ratio(curves, sigma, x_a) for sigma, x_a in pairs]
-    if not all(one.exists for one in found):
-        return Measurement.absent(NEVER_S_S)
-    return Measurement.of(*(one.values[0] for one in found))
-
-
-@measure
-def smallest_second_material_ratio(curves: Curves, sigma: float, x_a: list[float]) -> Measurement:
-    rows = [[second_load(curves, material, sigma, x) for material in (STEEL, SILICA)] for x in x_a]
-    return _in_order(rows, False, NEVER_S_S)
-
-
-@measure
-def first_steel_over_silica(curves: Curves, sigma: float, x_a: list[float]) -> Measurement:
-    rows = [[first_load(curves, material, sigma, x) for material in (SILICA, STEEL)] for x in x_a]
-    return _in_order(rows, True, "a size is never p-s, or always p-s with both materials")
-
-
-def _quotient(pair: list[float], why: str) -> Measurement:
-    low, high = pair
-    if not (math.isfinite(low) and math.isfinite(high)):
-        return Measurement.absent(why)
-    return Measurement.of(high / low)
-
-
-# ------------------------------------------------------------------ turning point
-@measure
-def turning_point(curves: Curves, material: str, sigma: float, x_a: float) -> Measurement:
-    value = tpca(curves, material, sigma, x_a)
-    return Measurement.absent(NO_PEAK) if math.isnan(value) else Measurement.of(value)
-
-
-@measure
-def turning_point_ratio(curves: Curves, sigma: float, x_a: float) -> Measurement:
-    pair = [tpca(curves, material, sigma, x_a) for material in (STEEL, SILICA)]
-    return _quotient(pair, NO_PEAK)
-
-
-@measure
-def interior_peak(curves: Curves, material: str, sigma: float, x_a: float) -> Measurement:
-    peak = interior_peak_of(curves(material, sigma, x_a), turns=True)
+def _peak(c: Curve) -> Measurement:
+    """Height of the largest particle share, and where."""
+    peak = interior_peak_of(c, turns=True)
     if peak is None:
         return Measurement.absent(NO_PEAK)
     return Measurement.of(peak[1], note=f"at F* = {peak[0]:.2e}")
+
+
+def _share_past_turning_point(c: Curve, factor: float) -> float | Measurement:
+    load = turning_load(c)
+    if math.isnan(load):
+        return Measurement.absent(NO_PEAK)
+    return c.at(factor * load, c.load_share)
+
+
+add_measures(
+    curve_measure,
+    first_critical_load=_first,
+    second_critical_load=lambda c: _measured_load(critical_load_2(c), NEVER_S_S),
+    turning_point=lambda c: _measured_load(turning_load(c), NO_PEAK),
+    interior_peak=_peak,
+    load_share_past_turning_point=_share_past_turning_point,
+)
 
 
 @measure
@@ -150,12 +81,64 @@ def turning_point_confined(
     return Measurement.of(len(without) + len(with_peak) - len(wrong), note=note)
 
 
-@measure
-def load_share_past_turning_point(
-    curves: Curves, material: str, sigma: float, x_a: float, factor: float
+# ------------------------------------------------------------------ orders
+def _in_order(name: str, load: Load, *, largest: bool, why: str) -> None:
+    """Make the order of a load known: over sizes, over roughnesses, or over two materials.
+
+    What the order is over, the inputs of a claim say: a list of sizes with ``materials``, a list
+    of roughnesses, or a list of sizes alone, for each of which silica stands before steel where
+    the ``largest`` ratio counts, and after it where the smallest does.
+    """
+    pair = (SILICA, STEEL) if largest else (STEEL, SILICA)
+
+    def ordered(
+        curves: Curves, sigma: Any, x_a: Any, materials: Any = None, material: Any = None
+    ) -> Measurement:
+        if material is not None:
+            rows = [[curves(material, s, x_a) for s in sigma]]
+        elif materials is not None:
+            rows = [[curves(m, sigma, x) for x in x_a] for m in materials]
+        else:
+            rows = [[curves(m, sigma, x) for m in pair] for x in x_a]
+        return extreme([r for row in rows for r in ratios(map(load, row))], largest, why)
+
+    MEASURES[name] = ordered
+
+
+for _name, _load, _largest, _why in (
+    ("first_by_size", critical_load_1, False, "a size is never p-s, or two of them always are"),
+    ("second_by_size", critical_load_2, False, "two sizes are never s-s"),
+    ("first_by_roughness", critical_load_1, True,
+     "on one σ the contact is never p-s, or on two it always is"),
+    ("second_by_roughness", critical_load_2, True, "on two σ the contact is never s-s"),
+    ("smallest_second_material_ratio", critical_load_2, False, NEVER_S_S),
+    ("first_steel_over_silica", critical_load_1, True,
+     "a size is never p-s, or always p-s with both materials"),
+):  # fmt: skip
+    _in_order(_name, _load, largest=_largest, why=_why)
+
+
+def _silica_over_steel(
+    load: Load, why: str, curves: Curves, *pairs: tuple[float, float]
 ) -> Measurement:
-    load = tpca(curves, material, sigma, x_a)
-    if math.isnan(load):
-        return Measurement.absent(NO_PEAK)
-    curve = curves(material, sigma, x_a)
-    return Measurement.of(curve.at(factor * load, curve.load_share))
+    """Loads of silica over those of steel, for each pair of σ and x_a."""
+    found = [[load(curves(m, *pair)) for m in (SILICA, STEEL)] for pair in pairs]
+    if not all(math.isfinite(each) for pair in found for each in pair):
+        return Measurement.absent(why)
+    return Measurement.of(*(silica / steel for silica, steel in found))
+
+
+MEASURES |= {
+    "first_material_ratio": lambda curves, sigma, x_a: _silica_over_steel(
+        critical_load_1, "F_cr1* is missing for a material", curves, (sigma, x_a)
+    ),
+    "second_material_ratio": lambda curves, sigma, x_a: _silica_over_steel(
+        critical_load_2, NEVER_S_S, curves, (sigma, x_a)
+    ),
+    "second_material_ratios": lambda curves, pairs: _silica_over_steel(
+        critical_load_2, NEVER_S_S, curves, *pairs
+    ),
+    "turning_point_ratio": lambda curves, sigma, x_a: _silica_over_steel(
+        turning_load, NO_PEAK, curves, (sigma, x_a)
+    ),
+}

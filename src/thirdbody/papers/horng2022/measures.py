@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from itertools import pairwise, product
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..ledger import Measurement
 from .claims import study_data
-from .readings import RANGE, SEARCH_TO, Curve, Curves
+from .readings import RANGE, SEARCH_TO, SILICA, STEEL, Curve, Curves
 
 __all__ = [
     "ALWAYS_P_S",
@@ -19,22 +21,28 @@ __all__ = [
     "NEVER_P_S",
     "NEVER_S_S",
     "NO_PEAK",
+    "add_measures",
     "critical_load_1",
     "critical_load_2",
+    "curve_measure",
+    "ends",
     "extreme",
-    "first_load",
+    "extreme_over_materials",
     "inside",
     "interior_peak_of",
-    "largest_over_two_body",
+    "material_measure",
     "measure",
     "ratios",
-    "second_load",
     "slope",
-    "tpca",
+    "turning_load",
+    "two_body_measure",
 ]
 
 Array = NDArray[np.float64]
 Measure = Callable[..., Measurement]
+Reduce = Callable[[list[Any]], Any]
+Value = Callable[..., Any]
+Numbers = float | list[float]
 MEASURES: dict[str, Measure] = {}
 
 
@@ -106,9 +114,9 @@ def interior_peak_of(curve: Curve, *, turns: bool) -> tuple[float, float] | None
     return float(F[top]) * math.exp(step), float(share[top])
 
 
-def tpca(curves: Curves, material: str, sigma: float, x_a: float) -> float:
+def turning_load(curve: Curve) -> float:
     """F_tpca*, NaN when there is none."""
-    peak = interior_peak_of(curves(material, sigma, x_a), turns=False)
+    peak = interior_peak_of(curve, turns=False)
     return peak[0] if peak else math.nan
 
 
@@ -139,27 +147,53 @@ def extreme(values: Sequence[float], largest: bool, what: str = "") -> Measureme
     return Measurement.of(value)
 
 
-def first_load(curves: Curves, material: str, sigma: float, x_a: float) -> float:
-    return critical_load_1(curves(material, sigma, x_a))
+# -------------------------------------------------------------------------- rows of measures
+def ends(values: ArrayLike) -> tuple[float, float]:
+    """The smallest and the largest value."""
+    return float(np.min(values)), float(np.max(values))
 
 
-def second_load(curves: Curves, material: str, sigma: float, x_a: float) -> float:
-    return critical_load_2(curves(material, sigma, x_a))
+def _measurement(found: Any) -> Measurement:
+    """Numbers as a measurement; one that is known to be absent stays so."""
+    return found if isinstance(found, Measurement) else Measurement.of(*np.ravel(found))
 
 
-def largest_over_two_body(
+def add_measures(family: Callable[..., Measurement], **values: Value) -> None:
+    """Make a family of measures known by their names: what it does with each of these functions."""
+    MEASURES.update({name: partial(family, value) for name, value in values.items()})
+
+
+def curve_measure(
+    value: Value, curves: Curves, material: str, sigma: float, x_a: float, **more: Any
+) -> Measurement:
+    """A function of one curve."""
+    return _measurement(value(curves(material, sigma, x_a), **more))
+
+
+def two_body_measure(
+    value: Value, curves: Curves, material: str, sigma: float, x_a: float, **more: Any
+) -> Measurement:
+    """A function of one curve, and of that of the surface without particles."""
+    return _measurement(value(curves(material, sigma, x_a), curves.two_body(sigma), **more))
+
+
+def extreme_over_materials(
+    extreme: Reduce,
+    value: Value,
     curves: Curves,
     materials: list[str],
     sigma: float,
     x_a: list[float],
-    value: Callable[[Curve], Array],
 ) -> Measurement:
-    """The largest value over that without particles, of all materials and sizes."""
-    bare = curves.two_body(sigma)
-    part = inside(bare)
-    return Measurement.of(
-        max(
-            np.max((value(curves(material, sigma, x)) / value(bare))[part])
-            for material, x in product(materials, x_a)
-        )
-    )
+    """The ``extreme`` over materials and sizes of such a function."""
+    every = (curves(material, sigma, x) for material, x in product(materials, x_a))
+    return _measurement(extreme([value(curve, curves.two_body(sigma)) for curve in every]))
+
+
+def material_measure(
+    extreme: Reduce, value: Value, curves: Curves, sigma: Numbers, x_a: Numbers, **more: Any
+) -> Measurement:
+    """The ``extreme`` over roughnesses and sizes of a function of the curves of both materials."""
+    pairs = product(np.ravel(sigma).tolist(), np.ravel(x_a).tolist())
+    every = [value(curves(SILICA, *pair), curves(STEEL, *pair), **more) for pair in pairs]
+    return _measurement(extreme(every))

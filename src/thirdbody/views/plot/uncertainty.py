@@ -252,8 +252,7 @@ def _output_label(of: str) -> str:
     from ...analysis.uncertainty.propagation import about_result
 
     about = about_result(of)
-    meaning = about["meaning"]
-    return OUTPUT_LABELS.get(of, f"{meaning[:1].upper() + meaning[1:]} [{about['unit']}]")
+    return OUTPUT_LABELS.get(of, f"{about.meaning[:1].upper() + about.meaning[1:]} [{about.unit}]")
 
 
 def _input_label(label: str) -> str:

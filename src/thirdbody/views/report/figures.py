@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...equilibrium.modes import FAINT
-from ...equilibrium.transitions import Critical, Transitions, TurningPoint
 from ...quantities.say import listed, plural, value_of
 from ..html import figure, svg_of, words
 from .found import Found
@@ -35,7 +34,7 @@ class Figures(Found):
             ax = plot.modes(
                 self.curve,
                 _place(left=0.60, above=0.74),
-                transitions=_transitions(self.result["transitions"]),
+                transitions=self.result.transitions,
             )
             out.append((self._at(ax), "Contact modes over the load."))
         ax = self._mark_loads(plot.area(self.curve, _place(left=0.75)))
@@ -92,13 +91,13 @@ class Figures(Found):
         if self.contact.two_body:
             return {}
         drawn = np.atleast_1d(self.curve.F_star)
-        found = self._existing_loads("F_cr1", "F_cr2")
+        found = self._existing_loads()
         return {name: F for name, F in found.items() if drawn[0] <= F <= drawn[-1]}
 
     def _marks(self) -> list[float]:
         """Loads F* of the study that can be marked."""
-        states = self.result["states"]
-        return [F for i in self._solved_places() if (F := states["F_star"][i]) >= FAINT]
+        loads = self.result.states.F_star
+        return [F for i in self.result.solved_states if (F := float(loads[i])) >= FAINT]
 
     def _at(self, ax: Axes) -> Axes:
         """The loads of the study."""
@@ -142,10 +141,3 @@ def _place(*, left: float, above: float = 0.52) -> Axes:
 def scaled(factor: float) -> Any:
     """A function that multiplies."""
     return lambda values: values * factor
-
-
-def _transitions(found: dict[str, Any]) -> Transitions:
-    turning = {name: Critical(**entry) for name, entry in found["F_tpca"].items()}
-    return Transitions(
-        Critical(**found["F_cr1"]), Critical(**found["F_cr2"]), TurningPoint(**turning)
-    )

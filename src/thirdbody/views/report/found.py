@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 from ...analysis.assessment import Assessment
 from ...analysis.sensitivity import Sensitivity
 from ...contact.contact import Contact
 from ...contact.evaluation import bodies_of
 from ...equilibrium.columns import Equilibrium
-from ...equilibrium.words import CRITICAL, load_of
+from ...equilibrium.transitions import Critical
+from ...equilibrium.words import load_of
 from ...populations.materials import Material
-from ...study import Study
+from ...study import FilmResult, Study, StudyResult
 from ...study.one_surface import OneSurface
 
 
@@ -21,13 +21,13 @@ class Found:
     """What a study found; every attribute as `Report` lists it."""
 
     study: Study
-    result: dict[str, Any] = field(repr=False)
+    result: StudyResult = field(repr=False)
     curve: Equilibrium = field(repr=False)
     assessment: Assessment | None
     slopes: Sensitivity | None
     at: int
     file: str = field(repr=False, default="")
-    film: dict[str, Any] | None = field(repr=False, default=None)
+    film: FilmResult | None = field(repr=False, default=None)
     pressed: OneSurface | str | None = field(repr=False, default=None)
 
     @property
@@ -35,25 +35,22 @@ class Found:
         """The interface."""
         return self.study.contact
 
-    def _solved_places(self) -> list[int]:
-        return [i for i, status in enumerate(self.result["states"]["status"]) if status == "ok"]
-
     def _load(self, i: int) -> str:
-        states = self.result["states"]
-        return load_of(states["pressure"][i], states["F_star"][i])
+        states = self.result.states
+        return load_of(states.pressure[i], states.F_star[i])
 
     def _at_load(self, i: int) -> str:
         return f"{'At' if self.film is None else 'Without the oil, at'} {self._load(i)}"
 
-    def _existing_loads(self, *names: str) -> dict[str, float]:
-        """Critical loads F* that exist."""
-        values = {name: self._entry(name)["value"] for name in names or CRITICAL}
-        return {name: value for name, value in values.items() if value}
+    @property
+    def mode_changes(self) -> dict[str, Critical]:
+        """The critical loads at which the mode changes, or why there are none."""
+        found = self.result.transitions
+        return {"F_cr1": found.F_cr1, "F_cr2": found.F_cr2}
 
-    def _entry(self, name: str) -> dict[str, Any]:
-        head, _, which = name.partition(" ")
-        entry = self.result["transitions"][head]
-        return entry[which] if which else entry
+    def _existing_loads(self) -> dict[str, float]:
+        """Critical loads F* that exist."""
+        return {name: entry.value for name, entry in self.mode_changes.items() if entry.value}
 
     def _bodies(self) -> dict[str, Material]:
         return bodies_of(self.contact)

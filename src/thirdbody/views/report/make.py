@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,8 @@ from ...contact.contact import Contact
 from ...equilibrium.columns import Equilibrium
 from ...equilibrium.modes import FAINT
 from ...equilibrium.solve import solve
-from ...errors import InvalidValue, NoEquilibrium, RangeWarning, ThirdBodyError
+from ...equilibrium.transitions import Transitions
+from ...errors import InvalidValue, RangeWarning, ThirdBodyError
 from ...quantities.progress import Stages, counted, nested
 from ...study import Study, run_film, run_study
 from ...study.one_surface import OneSurface, one_surface
@@ -92,25 +93,22 @@ def report(
     """
     progress(PARTS[0])
     result = run_study(study)
-    states = result["states"]
-    known = [i for i, status in enumerate(states["status"]) if status == "ok"]
-    if not known:
-        count = len(states["status"])
-        more = f" (and so for all {count} states)" if count > 1 else ""
-        raise NoEquilibrium(states["status"][0] + more)
-    known.sort(key=lambda i: states["F_star"][i])
-    loaded = [i for i in known if states["F_star"][i] >= FAINT]
+    result.need_state()
+    states = result.states
+    F_star = np.atleast_1d(states.F_star)
+    known = sorted(result.solved_states, key=lambda i: F_star[i])
+    loaded = [i for i in known if F_star[i] >= FAINT]
     at = (loaded or known)[len(loaded or known) // 2]
     given = {study.load: float(study.values[at])}
     if study.load == "separation":
-        given = {"F_star": states["F_star"][at]}
+        given = {"F_star": float(F_star[at])}
     bare = study.contact.replace(outputs=())
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        curve = _curve(bare, result, loaded)
+        curve = _curve(bare, result.transitions, F_star[loaded].tolist() or [USUAL])
         pressed = None
         if study.explicit is not None and loaded:
-            pressed = _press_surface(study, [states["F_star"][i] for i in loaded])
+            pressed = _press_surface(study, F_star[loaded].tolist())
         progress(PARTS[1])
         assessment = _assess(study, bare, given, progress) if loaded else None
         progress(PARTS[2])
@@ -136,12 +134,10 @@ def _press_surface(study: Study, loads: list[float]) -> OneSurface | str:
         return "; ".join(error.problems)
 
 
-def _curve(contact: Contact, result: dict[str, Any], loaded: Sequence[int]) -> Equilibrium:
+def _curve(contact: Contact, critical: Transitions, loads: list[float]) -> Equilibrium:
     """States over the loads of the study, the critical ones, and somewhat beyond."""
-    loads = [result["states"]["F_star"][i] for i in loaded] or [USUAL]
-    marked = [loads[0], loads[-1]]
-    marked += [result["transitions"][name]["value"] for name in ("F_cr1", "F_cr2")]
-    marked = [F for F in marked if F]
+    every = (loads[0], loads[-1], critical.F_cr1.value, critical.F_cr2.value)
+    marked = [F for F in every if F]
     low = min(max(min(marked) / BEYOND, WINDOW[0]), loads[0])
     high = max(min(max(marked) * BEYOND, WINDOW[1]), loads[-1])
     return solve(contact, F_star=np.geomspace(low, high, DRAWN))

@@ -15,6 +15,7 @@ from ...equilibrium.columns import about
 from ...equilibrium.modes import FAINT
 from ...equilibrium.words import unsolved
 from ...quantities.say import listed, signed, value_of
+from ...version import __version__
 from ..assess_page import pictures as pictures_of
 from ..html import document, figure, section, text_table, words
 from .figures import Figures
@@ -55,8 +56,8 @@ class Report(Sentences, Figures, Tables, Sources):
     Attributes
     ----------
     study : Study
-    result : dict
-        As `run_study` gives it: states, critical loads, warnings, citations.
+    result : StudyResult
+        What `run_study` gives.
     curve : Equilibrium
         The states that are drawn, over the loads of the study and what is near them.
     assessment : Assessment or None
@@ -67,7 +68,7 @@ class Report(Sentences, Figures, Tables, Sources):
         Number of that state.
     file : str
         The study file.
-    film : dict or None
+    film : FilmResult or None
         What `run_film` gives, where the study has a table [film].
     pressed : OneSurface, str or None
         One small surface pressed point by point, where the study has a table [explicit]; or why
@@ -76,10 +77,10 @@ class Report(Sentences, Figures, Tables, Sources):
 
     def html(self) -> str:
         """The page as one file: figures inside, nothing loaded, no date: same bytes again."""
-        title = self.result["title"] or "Contact of rough surfaces"
+        title = self.study.title or "Contact of rough surfaces"
         parts = [
             f"<header><h1>{escape(title)}</h1>",
-            f"<p class=soft>Report of thirdbody {escape(self.result['version'])}.</p></header>",
+            f"<p class=soft>Report of thirdbody {escape(__version__)}.</p></header>",
             section("The answer", self._answer(), name="answer").replace(
                 "<section", "<section class=lead", 1
             ),
@@ -103,13 +104,12 @@ class Report(Sentences, Figures, Tables, Sources):
         return document(title, parts, style=STYLE + running(title))
 
     def _answer(self) -> list[str]:
-        body = self.result.get("body", {}).get("sentences", ())
+        body = self.result.force_sentences
         return [f"<p>{words(sentence)}</p>" for sentence in (*body, *self.sentences())]
 
     def _warnings(self) -> list[str]:
-        texts = [*self.result["warnings"], *(self.film or {"warnings": []})["warnings"]]
-        texts = list(dict.fromkeys(texts))
-        texts += unsolved(self.result["states"]["status"])
+        texts = [*self.result.warnings, *(() if self.film is None else self.film.run_warnings)]
+        texts = [*dict.fromkeys(texts), *unsolved(self.result.states.status)]
         if not texts:
             return []
         items = "".join(f"<li>{words(text)}</li>" for text in texts)
@@ -118,7 +118,7 @@ class Report(Sentences, Figures, Tables, Sources):
     def _error_bars(self) -> list[str]:
         found = self.assessment
         if found is None:
-            if not self.result["states"]["F_star"][self.at] >= FAINT:
+            if not self.result.states.F_star[self.at] >= FAINT:
                 return ["<p>There are none: nothing presses the surfaces together.</p>"]
             if self.study.uncertainty is None and stated_ranges(self.contact):
                 return [
@@ -156,7 +156,7 @@ class Report(Sentences, Figures, Tables, Sources):
         of, order = self.ranked()
         if self.slopes is None or not order:
             reason = "Derivatives could not be formed for this contact."
-            if not self.result["states"]["A_t"][self.at]:
+            if not self.result.states.A_t[self.at]:
                 reason = "There is no contact, so that nothing answers to the inputs."
             return [f"<p>{reason}</p>"]
         others = [name for name in self.slopes.elasticity if name != of]
@@ -174,6 +174,6 @@ class Report(Sentences, Figures, Tables, Sources):
             "however well the input is known."
         )
         more = f"<p class=soft>{len(rows)} of {len(order)} inputs.</p>" * (len(order) > len(rows))
-        head = ["input", "value", *(about(name)["meaning"] for name in (of, *others))]
+        head = ["input", "value", *(about(name).meaning for name in (of, *others))]
         found = text_table(head, rows, ASSESSMENT_WORDS)
         return [f"<p class=lead-in>{words(sentence)}</p>", found, more]

@@ -19,7 +19,6 @@ from ...equilibrium.words import (
     two_bodies,
 )
 from ...quantities.say import listed, number, percent, signed, times, value_of
-from ...study.body import held_in, of_bodies
 from .found import Found
 
 MATTER = 3
@@ -40,12 +39,12 @@ class Sentences(Found):
 
         Where the study has a film, first what it says with the oil.
         """
-        whole = of_bodies(self.result)
+        whole = self.result.body_sentence()
         return (*self._with_oil(), *self._without_oil(), *([whole] if whole else []))
 
     def _without_oil(self) -> tuple[str, str, str]:
-        states = self.result["states"]
-        known = sorted(self._solved_places(), key=lambda i: states["pressure"][i])
+        states = self.result.states
+        known = sorted(self.result.solved_states, key=lambda i: states.pressure[i])
         first, last = known[0], known[-1]
         if first == last:
             return (
@@ -64,7 +63,7 @@ class Sentences(Found):
         from ..film_words import bodies, point, summary
 
         speeds = self.film["states"]["speed"]
-        eta = value_of(self.film["inputs"]["film"]["oil"]["eta"], "Pa s")
+        eta = value_of(self.film.conditions.oil.eta, "Pa s")
         out = [f"This is a {bodies(self.film)}, in oil of {eta}."]
         for i in sorted({speeds.index(min(speeds)), speeds.index(max(speeds))}):
             told = point(self.film, i)
@@ -78,54 +77,54 @@ class Sentences(Found):
         return out + (summary(self.film)[:1] if len(speeds) > 1 else [])
 
     def _carries(self, i: int) -> str:
-        states = self.result["states"]
-        if not states["A_t"][i]:
+        states = self.result.states
+        if not states.A_t[i]:
             return mode_of(None)
         if self.contact.two_body:
             return two_bodies()
-        parts = {part["name"]: part["load_share"][i] for part in self.result["populations"]}
-        share = carried(states["particle_load_share"][i], parts)
-        mode, held = states["mode"][i], held_in(self.result, i)
+        parts = {part.name: part.load_share[i] for part in states.populations}
+        share = carried(states.particle_load_share[i], parts)
+        mode, held = states.mode[i], self.result.particles_in(i)
         where = " of a wide surface" * is_rare(mode, held)
         return f"{mode_among(mode, held)}, and {share}{where}"
 
     def _gap(self, i: int) -> str:
         """How far the mean planes are from each other."""
-        h = self.result["states"]["h"][i]
+        h = self.result.states.h[i]
         if h < 0:
             return f"the mean planes of the surfaces overlap by {value_of(-h, 'm')}"
         return f"the mean planes of the surfaces are {value_of(h, 'm')} apart"
 
     def _area(self, i: int) -> str:
-        return (
-            f"real contact area is {percent(self.result['states']['A_t'][i])} of the nominal area"
-        )
+        return f"real contact area is {percent(self.result.states.A_t[i])} of the nominal area"
 
     def _apart(self, i: int) -> str:
-        touching = self.result["states"]["A_t"][i] > 0
+        touching = self.result.states.A_t[i] > 0
         return f"{self._gap(i)} and the {self._area(i)}" if touching else self._gap(i)
 
     def _closeness(self, i: int) -> str:
-        states = self.result["states"]
-        if not states["A_t"][i]:
+        states = self.result.states
+        if not states.A_t[i]:
             return self._gap(i)
-        plastic = states["A_p"][i]
-        part = "" if plastic is None else f", {percent(plastic / states['A_t'][i])} of it plastic"
-        ratio = times(abs(states["h"][i]) / self.contact.roughness.sigma)
+        plastic = states.A_p[i]
+        part = "" if math.isnan(plastic) else f", {percent(plastic / states.A_t[i])} of it plastic"
+        ratio = times(abs(states.h[i]) / self.contact.roughness.sigma)
         return f"the {self._area(i)}{part}, and {self._gap(i)} ({ratio} the roughness)"
 
     def _distance(self, i: int) -> str:
         """How far the load is from what would change the mode."""
-        F = self.result["states"]["F_star"][i]
-        found = self._existing_loads("F_cr1", "F_cr2")
+        F = self.result.states.F_star[i]
+        found = self._existing_loads()
         if self.contact.two_body:
             return self._first_input()
         if not F > 0:
             what = "The surfaces pull at each other" if F < 0 else "There is no load"
             return f"{what}: nothing to compare with a critical load."
         if not found:
-            entries = {name: self._entry(name) for name in ("F_cr1", "F_cr2")}
-            return " ".join(not_met(name, **entry) for name, entry in entries.items())
+            return " ".join(
+                not_met(name, entry.value, entry.status)
+                for name, entry in self.mode_changes.items()
+            )
         name = min(found, key=lambda key: abs(math.log(F / found[key])))
         ratio = number(max(F / found[name], found[name] / F), 3)
         side = f"a factor {ratio} {'above' if found[name] < F else 'below'}"
@@ -143,18 +142,18 @@ class Sentences(Found):
         )
 
     def _path(self, known: Sequence[int]) -> str:
-        states = self.result["states"]
+        states = self.result.states
         if self.contact.two_body:
             return self._first_input()
-        loads = [states["F_star"][i] for i in known]
+        loads = [states.F_star[i] for i in known]
         found = [
             f"{name} = {number(F)} ({value_of(F * self.contact.E_ss, 'Pa')}{_beyond(F, loads)})"
-            for name, F in self._existing_loads("F_cr1", "F_cr2").items()
+            for name, F in self._existing_loads().items()
         ]
-        if any(is_rare(states["mode"][i], held_in(self.result, i)) for i in known):
+        if any(is_rare(states.mode[i], self.result.particles_in(i)) for i in known):
             path = "Modes are those of a wide surface whose particles all share the load"
         else:
-            path = mode_path(states["mode"][i] for i in known)
+            path = mode_path(states.mode[i] for i in known)
         critical = "the critical load is" if len(found) == 1 else "critical loads are"
         return f"{path}; {critical} {listed(found)}." if found else f"{path}."
 
@@ -172,7 +171,7 @@ class Sentences(Found):
 
     def _when(self) -> str:
         """Of the inputs, and at which of several loads."""
-        at = f", at {self._load(self.at)}" if len(self._solved_places()) > 1 else ""
+        at = f", at {self._load(self.at)}" if len(self.result.solved_states) > 1 else ""
         return f"Of the inputs{at}, "
 
     def ranked(self) -> tuple[str, list[str]]:
@@ -182,18 +181,18 @@ class Sentences(Found):
         """
         if self.slopes is None:
             return "A_t", []
-        share = self.result["states"]["particle_load_share"][self.at]
-        within = not self.contact.two_body and share is not None and SATED < share < 1 - SATED
+        share = self.result.states.particle_load_share[self.at]
+        within = not self.contact.two_body and SATED < share < 1 - SATED
         of = "particle_load_share" if within else "A_t"
         return of, _order(self.slopes, of)
 
     def _strongest(self, of: str, order: list[str]) -> str:
         first = [words_of(self.contact, label) for label in order[:MATTER]]
         most = f"{listed(first)} matter{'s' if len(first) == 1 else ''} most"
-        most += f" to the {about(of)['meaning']}"
+        most += f" to the {about(of).meaning}"
         if self.contact.two_body or of != "A_t":
             return most
-        share = self.result["states"]["particle_load_share"][self.at]
+        share = self.result.states.particle_load_share[self.at]
         return f"{carried(share)}, which leaves that share little to answer with; {most}"
 
 

@@ -17,6 +17,7 @@ from ...laws.base import Law
 from ...populations.materials import NUMBERS, Material, materials
 from ...quantities.say import number, span, value_of
 from ...quantities.value import Value
+from ...version import __version__
 from ..html import breaking, symbols, table, words
 from .found import Found
 
@@ -113,13 +114,13 @@ class Sources(Found):
 
     def _citations(self) -> list[str]:
         lines = [
-            *self.result["citations"],
-            *(self.film or {"citations": []})["citations"],
+            *self.result.citations,
+            *(() if self.film is None else self.film.citations),
             *(
                 output.citation + (f", doi:{output.doi}" if output.doi else "")
                 for output in self.contact.outputs
             ),
-            f"thirdbody {self.result['version']}",
+            f"thirdbody {__version__}",
         ]
         items = "".join(f"<li>{escape(line)}</li>" for line in dict.fromkeys(lines))
         return [f"<ul>{items}</ul>"]

@@ -6,9 +6,15 @@ from html import escape
 from typing import Any
 
 from ...equilibrium.columns import about
-from ...equilibrium.words import CRITICAL, MOST_MEET_NONE, RARE, critical_load, happens, is_rare
+from ...equilibrium.words import (
+    MOST_MEET_NONE,
+    RARE,
+    critical_load,
+    critical_name,
+    happens,
+    is_rare,
+)
 from ...quantities.say import NOT_KNOWN, percent, plural, unit_of, value_of
-from ...study.body import held_in
 from ..explicit_words import comparison_table, headline
 from ..html import figure, section, svg_of, symbols, table, text_table, words
 from .found import Found, some_of
@@ -28,37 +34,36 @@ class Tables(Found):
     """Tables of what was found."""
 
     def _states(self) -> list[str]:
-        states = self.result["states"]
         names = list(STATES if self.contact.two_body else (*STATES, *SHARED))
-        total = len(states["status"])
+        total = len(self.result.states.status)
         rows = [[self._cell(name, i) for name in names] for i in some_of(total, MOST_ROWS)]
-        head = [f"<th class=n>{symbols(about(name)['symbol'])}</th>" for name in names]
+        head = [f"<th class=n>{symbols(about(name).symbol)}</th>" for name in names]
         cells = [[f"<td class=n>{words(cell)}</td>" for cell in row] for row in rows]
-        meanings = "; ".join(f"{about(name)['symbol']}: {about(name)['meaning']}" for name in names)
+        meanings = "; ".join(f"{about(name).symbol}: {about(name).meaning}" for name in names)
         out = [table(head, cells), f"<p class=soft>{symbols(meanings)}.</p>"]
         if any(RARE in row for row in rows):
             out.append(f"<p class=soft>{RARE}: {MOST_MEET_NONE}.</p>")
         if total > MOST_ROWS:
             out.append(f"<p>{MOST_ROWS} of {plural(total, 'state')}, evenly spread.</p>")
-        if self.result["populations"]:
+        if self.result.states.populations:
             out += ["<h3>What each population carries</h3>", self._populations(total)]
         return out
 
     def _cell(self, name: str, i: int) -> str:
         """A number of a state; a mode as far as the contact itself has one."""
-        value = self.result["states"][name][i]
-        if name == "mode" and is_rare(value, held_in(self.result, i)):
+        value = getattr(self.result.states, name)[i]
+        if name == "mode" and is_rare(value, self.result.particles_in(i)):
             return RARE
         return column_value(name, value)
 
     def _populations(self, total: int) -> str:
-        parts = self.result["populations"]
-        states = self.result["states"]
-        head = ["pressure", *(f"{part['name']}: {of}" for part in parts for of in ("load", "area"))]
+        states = self.result.states
+        parts = states.populations
+        head = ["pressure", *(f"{part.name}: {of}" for part in parts for of in ("load", "area"))]
         rows = [
             [
-                value_of(states["pressure"][i], "Pa"),
-                *(percent(part[f"{of}_share"][i]) for part in parts for of in ("load", "area")),
+                value_of(states.pressure[i], "Pa"),
+                *(percent(x[i]) for part in parts for x in (part.load_share, part.area_share)),
             ]
             for i in some_of(total, MOST_ROWS)
         ]
@@ -68,11 +73,10 @@ class Tables(Found):
         if self.contact.two_body:
             return []
         rows = []
-        for name in CRITICAL:
-            entry = self._entry(name)
-            value, status = entry["value"], entry["status"]
-            loads = (critical_load(value, status, E_ss) for E_ss in (None, self.contact.E_ss))
-            rows.append([name, *loads, status, happens(name)])
+        for name, entry in self.result.transitions.entries().items():
+            Es = (None, self.contact.E_ss)
+            loads = (critical_load(entry.value, entry.status, E_ss) for E_ss in Es)
+            rows.append([critical_name(name), *loads, entry.status, happens(name)])
         text = text_table(CRITICAL_HEADS, rows, CRITICAL_HEADS[3:])
         return [section("Critical loads", [text], name="critical")]
 
@@ -80,16 +84,17 @@ class Tables(Found):
         outputs = self.contact.outputs
         if not outputs:
             return []
-        states = self.result["states"]
-        which = some_of(len(states["status"]), MOST_COLUMNS)
-        loads = [value_of(states["pressure"][i], "Pa") for i in which]
+        states = self.result.states
+        which = some_of(len(states.status), MOST_COLUMNS)
+        loads = [value_of(states.pressure[i], "Pa") for i in which]
         head = ["", "symbol", "unit", *(f"<th class=n>{words(load)}</th>" for load in loads)]
         out = []
         for output in outputs:
             rows = []
             for name, (symbol, unit, meaning) in output.columns.items():
                 prefixed = unit in ("m", "Pa")
-                values = (value_of(states[name][i], unit if prefixed else "1") for i in which)
+                shown, column = unit if prefixed else "1", states.outputs[name]
+                values = (value_of(column[i], shown) for i in which)
                 rows.append(
                     [
                         f"<td class=words>{words(meaning)}</td>",
@@ -108,14 +113,14 @@ class Tables(Found):
         from ..film_words import bodies, point, summary
         from ..plot.film import stribeck
 
-        states, given = self.film["states"], self.film["inputs"]["film"]
+        states, oil = self.film.states, self.film.conditions.oil
         total = len(states["speed"])
-        lead = f"A {bodies(self.film)}, in oil of {value_of(given['oil']['eta'], 'Pa s')}. "
+        lead = f"A {bodies(self.film)}, in oil of {value_of(oil.eta, 'Pa s')}. "
         pressed = "the load of the study" if self.study.own_load else "this Hertz pressure"
         lead += f"What follows after this section leaves the oil out, under {pressed}."
         out = [f"<p>{words(text)}</p>" for text in (lead, *summary(self.film))]
         if total > 1:
-            drawn = svg_of(stribeck(states, self.film["regime_speeds"]))
+            drawn = svg_of(stribeck(states, self.film.regime_speeds))
             caption = "Friction, load shares and film thickness over speed; grey: the regimes."
             out.append(f'<div class="figures tall">{figure(drawn, caption)}</div>')
         which = some_of(total, MOST_COLUMNS)
@@ -150,8 +155,8 @@ class Tables(Found):
 
 def column_value(name: str, value: Any) -> str:
     """A cell of the table of states."""
-    if isinstance(value, str) or value is None:
+    if isinstance(value, str):
         return value or ("-" if name == "mode" else NOT_KNOWN)
     if name.endswith("_share"):
         return percent(value)
-    return value_of(value, about(name)["unit"])
+    return value_of(value, about(name).unit)

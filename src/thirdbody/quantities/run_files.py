@@ -18,7 +18,7 @@ __all__ = [
     "MARK",
     "SEAL",
     "Fingerprint",
-    "Record",
+    "Sealed",
     "claim_folder",
     "differences",
     "fingerprint",
@@ -39,7 +39,7 @@ Fingerprint = list[Any] | None
 """Size in bytes and SHA-256 of a file; None for a file that there is not."""
 
 
-class Record(NamedTuple):
+class Sealed(NamedTuple):
     """What a small file says."""
 
     data: dict[str, Any]
@@ -73,7 +73,7 @@ def read_json(path: Path) -> dict[str, Any] | None:
     return found if isinstance(found, dict) else None
 
 
-def read_record(path: Path, unsealed: Collection[str]) -> Record | None:
+def read_record(path: Path, unsealed: Collection[str]) -> Sealed | None:
     """What a record says; None where it is missing, broken or changed.
 
     Parameters
@@ -88,8 +88,8 @@ def read_record(path: Path, unsealed: Collection[str]) -> Record | None:
         return None
     seal = found.pop(SEAL, None)
     if seal is None:
-        return Record(found, checked=False) if set(found) <= set(unsealed) else None
-    return Record(found, checked=True) if seal == _digest(found) else None
+        return Sealed(found, checked=False) if set(found) <= set(unsealed) else None
+    return Sealed(found, checked=True) if seal == _digest(found) else None
 
 
 def fingerprint(path: Path) -> Fingerprint:

@@ -1,0 +1,300 @@
+"""What a study gives: records that command line, page and report read, and their plain data."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..contact.citations import cite
+from ..equilibrium.columns import about
+from ..equilibrium.transitions import Transitions
+from ..errors import NoEquilibrium
+from ..quantities.plain_data import plain_data
+from ..quantities.record import Record
+from ..quantities.say import percent, value_of
+from ..systems.bodies import Pressed
+from ..systems.film_conditions import FilmConditions
+from ..systems.film_formulas import full_range
+from ..systems.mixed_film import COLUMNS
+from ..systems.stribeck import RegimeSpeeds
+from ..version import __version__
+from .body import force_sentences
+from .whole import Study
+
+SHARING = "Johnson, Greenwood, Poon 1972, Wear 19, 91, doi:10.1016/0043-1648(72)90445-0"
+ROELANDS = "Roelands 1966, thesis, TU Delft"
+EYRING = "Eyring 1936, J. Chem. Phys. 4, 283, doi:10.1063/1.1749836"
+
+__all__ = ["Entrained", "FilmResult", "Passing", "StudyResult"]
+
+Columns = dict[str, list[Any]]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class _Result(Record, Mapping[str, Any]):
+    """A study and what was found; indexed, it is the plain data of `to_dict`."""
+
+    study: Study
+    run_warnings: tuple[str, ...]
+    """What the computation warns of, one sentence each."""
+
+    @property
+    def title(self) -> str:
+        """Of the study, where it has none "Study"."""
+        return self.study.title or "Study"
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What reading and computing the study warn of, one sentence each."""
+        return tuple(dict.fromkeys((*self.study.notes, *self.run_warnings)))
+
+    @property
+    def citations(self) -> list[str]:
+        """The works behind the numbers."""
+        return cite(self.study.contact).splitlines()
+
+    @property
+    def particles_held(self) -> float | None:
+        """Particles that lie on the dry Hertz contact of the film's bodies, on average."""
+        film, contact = self.study.film, self.study.contact
+        if film is None or contact.two_body:
+            return None
+        area = film.conjunction.hertz(film.load, E=2 * contact.E_ss).area
+        return float(area * sum(dust.areal_density for dust in contact.populations))
+
+    @cached_property
+    def _data(self) -> dict[str, Any]:
+        return self.to_dict()
+
+    def __getitem__(self, key: str) -> Any:
+        return self._data[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._data)
+
+    def __len__(self) -> int:
+        return len(self._data)
+
+    def _plain_data(self, inputs: dict[str, Any], **found: Any) -> dict[str, Any]:
+        """Plain data with what every study says: title, version, inputs, warnings, citations."""
+        return {
+            "title": self.study.title,
+            "version": __version__,
+            "inputs": self.study.contact.to_dict() | inputs,
+            **plain_data(found),
+            "warnings": list(self.warnings),
+            "citations": self.citations,
+        }
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StudyResult(_Result):
+    """What `run_study` finds.
+
+    Attributes
+    ----------
+    study : Study
+    states : Equilibrium
+        Every state, as arrays. One that cannot be solved keeps its place with NaN and a status
+        that says why.
+    transitions : Transitions
+        Critical loads, or why there are none.
+    forces : tuple of Pressed
+        What each force does to its body; empty where none presses one.
+    run_warnings : tuple of str
+        What the computation warns of; ``warnings`` holds what the study file warns of too.
+    """
+
+    states: Any
+    transitions: Transitions
+    forces: tuple[Pressed, ...] = ()
+
+    @cached_property
+    def solved_states(self) -> list[int]:
+        """Numbers of the states that have an equilibrium."""
+        return np.flatnonzero(self.states.status == "ok").tolist()
+
+    def need_state(self) -> None:
+        """Refuse a result without a single state.
+
+        Raises
+        ------
+        NoEquilibrium
+            No state was solved; it says why the first was not.
+        """
+        if not self.solved_states:
+            first, *others = self.states.status
+            more = f" (and so for all {len(others) + 1} states)" if others else ""
+            raise NoEquilibrium(first + more)
+
+    @property
+    def force_sentences(self) -> list[str]:
+        """What forces do to their bodies, in words."""
+        return force_sentences(list(self.forces))
+
+    def particles_in(self, i: int) -> float:
+        """Particles that the contact of a state holds on average; infinite where nobody knows."""
+        held = self.particles_held  # of a film that has bodies of its own
+        if self.forces:
+            each = len(self.states.status) // len(self.forces)
+            held = self.forces[i // each].particles_held
+        return math.inf if held is None else float(held)
+
+    def body_sentence(self) -> str:
+        """What holds of the bodies themselves, where it is not what the states say; else empty.
+
+        States are of a surface under one pressure, which shares its load among all its particles.
+        """
+        each = [force for force in self.forces if force.particle_load_share is not None]
+        if not each:
+            return ""
+        rare = any(0 < (force.particles_held or 0.0) < 1 for force in each)
+        if not (rare or any(force.method == "rough body" for force in each)):
+            return ""
+        loads = ", ".join(
+            f"{percent(force.particle_load_share)} under {value_of(force.force, 'N')}"
+            for force in each
+        )
+        pressures = "" if each[0].kind == "flat" else "under the pressures of smooth bodies, "
+        means = ", on average over contacts with and without one," if rare else ""
+        return (
+            f"That is of a wide surface {pressures}whose particles all share the load; of the load "
+            f"of the bodies themselves particles carry{means} {loads}."
+        )
+
+    def table(self) -> tuple[Columns, dict[str, str]]:
+        """Columns of the states, then those of each of several populations, and their units."""
+        columns, units = self._states(), {name: about(name).unit for name in self.states.columns()}
+        for part in self.states.populations:
+            for name, values in part.columns().items():
+                columns[f"{part.name}: {name}"] = plain_data(values)
+                units[f"{part.name}: {name}"] = part.about(name).unit
+        return columns, units
+
+    def _states(self) -> Columns:
+        columns = self.states.to_dict()
+        columns["mode"] = [mode or None for mode in columns["mode"]]
+        return {"status": columns.pop("status"), **columns}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON.
+
+        Returns
+        -------
+        dict
+            Title, version, inputs (SI), scales, states (a list each), what each of several
+            populations carries in them, transitions, warnings, citations; ``body``, where a force
+            presses one: pressures and integrals of each force, and sentences; and where none does,
+            of a study with [film], ``particles_held``: how many lie in the contact of its bodies.
+        """
+        data = self._plain_data(
+            {"load": {self.study.load: self.study.values.tolist()}},
+            scales=self.states.scales,
+            states=self._states(),
+            populations=self.states.populations,
+            engine=self.states.engine,
+            transitions=self.transitions,
+        )
+        if self.forces:
+            body: dict[str, Any] = {} if self.study.body is None else self.study.body.to_dict()
+            said = {"forces": plain_data(self.forces), "sentences": self.force_sentences}
+            return data | {"body": body | said}
+        held = {} if self.study.film is None else {"particles_held": self.particles_held}
+        return data | held
+
+
+@dataclass(frozen=True, eq=False)
+class Passing(Record):
+    """Of one population the share, by number, that is narrower than the separation."""
+
+    name: str
+    share: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Entrained(Record):
+    """What the oil brings: the largest particle dragged in [m], and particles per area [1/m²]."""
+
+    largest: np.ndarray
+    areal_density: list[list[float]]
+    """Of each population, at every film thickness."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FilmResult(_Result):
+    """What `run_film` finds.
+
+    Attributes
+    ----------
+    study : Study
+    states : dict of array
+        Every column of `MixedFilm`, one entry a speed, and the Hersey number.
+    regime_speeds : RegimeSpeeds
+        Speeds at which the regime changes.
+    passing : tuple of Passing
+        What of each population passes the film.
+    entrainment : Entrained or None
+        What the oil brings.
+    run_warnings : tuple of str
+        What the computation warns of; ``warnings`` holds what the study file warns of too.
+    """
+
+    states: dict[str, np.ndarray]
+    regime_speeds: RegimeSpeeds
+    passing: tuple[Passing, ...]
+    entrainment: Entrained | None = None
+
+    @property
+    def conditions(self) -> FilmConditions:
+        """What the table [film] says."""
+        assert self.study.film is not None
+        return self.study.film
+
+    @property
+    def citations(self) -> list[str]:
+        """The works behind the numbers."""
+        film = self.conditions
+        law = film.formula or full_range(film.conjunction.shape)
+        lines = [*super().citations, law.citation + f", doi:{law.doi}" * bool(law.doi), SHARING]
+        lines += [ROELANDS] * (film.oil.viscosity == "roelands")
+        lines += [EYRING] * (film.oil.eyring_stress is not None)
+        return list(dict.fromkeys(lines))
+
+    def table(self) -> tuple[Columns, dict[str, str]]:
+        """Columns of the states, then what passes and what the oil brings, and their units."""
+        columns: Columns = plain_data(self.states)
+        units = {name: COLUMNS[name].unit if name in COLUMNS else "1" for name in columns}
+        units |= {"regime": "", "status": ""}
+        for part in self.passing:
+            columns[f"{part.name}: passing"] = plain_data(part.share)
+            units[f"{part.name}: passing"] = "1"
+        if brought := self.entrainment:
+            columns["largest"], units["largest"] = plain_data(brought.largest), "m"
+            for part, density in zip(self.passing, brought.areal_density, strict=True):
+                columns[f"{part.name}: areal_density"] = plain_data(density)
+                units[f"{part.name}: areal_density"] = "1/m^2"
+        return columns, units
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON.
+
+        Returns
+        -------
+        dict
+            Title, version, inputs (SI), states (a list each, one entry a speed), the speeds at
+            which the regime changes, what of each population passes the film, how many particles
+            one Hertz contact holds, what the oil brings, warnings, citations.
+        """
+        return self._plain_data(
+            {"film": self.conditions.to_dict()},
+            states=self.states,
+            regime_speeds=self.regime_speeds._asdict(),
+            passing=self.passing,
+            particles_held=self.particles_held,
+            entrainment=self.entrainment,
+        )

@@ -1,0 +1,135 @@
+"""Results as records: their columns say what they are, and every form holds the same numbers."""
+
+import json
+from dataclasses import dataclass, fields
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.explicit.ensemble import surface_of
+from thirdbody.quantities.record import Record, StateRecord, declared_columns
+from thirdbody.study import check, run_film, run_study
+
+STEEL = tb.materials["S45C"]
+CONTACT = tb.Contact(
+    surfaces=tb.MaterialPair(STEEL, STEEL), roughness=tb.Roughness(sigma=300e-9, R=3e-6)
+)
+FILM = {"conjunction": tb.films.Point(R=9.5e-3), "oil": tb.films.Oil(eta=0.02, alpha=2e-8)}
+STUDY = {
+    "surfaces": {"first": "S45C", "second": "S45C"},
+    "roughness": {"sigma": "100 nm", "R": "2.8 um"},
+    "load": {"F_star": [1e-5, 1e3]},
+    "film": {
+        "load": "20 N",
+        "speed": ["0.1 m/s", "1 m/s"],
+        "conjunction": {"shape": "point", "R": "9.5 mm"},
+        "oil": {"eta": "20 mPa s", "alpha": "20 / GPa"},
+    },
+}
+
+
+def states():
+    """A result of every kind that has columns, of two states."""
+    surface = surface_of(CONTACT, size=128, spacing=150e-9)
+    return {
+        "Equilibrium": tb.solve(CONTACT, pressure=[1e6, 5e6]),
+        "MixedFilm": tb.mixed_film(CONTACT, load=20.0, speed=[0.1, 1.0], **FILM),
+        "ExplicitState": tb.explicit.solve(CONTACT, surface, F_star=[1e-4, 1e-3]),
+    }
+
+
+@pytest.fixture(scope="module")
+def every():
+    return states()
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.parametrize("name", ["Equilibrium", "MixedFilm", "ExplicitState"])
+def test_every_form_of_states_holds_the_same_numbers(every, name):
+    state = every[name]
+    assert type(state).__name__ == name
+    plain, data, table = state.to_dict(), state.to_dataset(title="two"), state.to_dataframe()
+    assert json.loads(json.dumps(plain, allow_nan=False)) == plain
+    assert list(plain) == list(table.columns) == [str(each) for each in data.data_vars]
+    assert data.title == "two"
+    for column, told in declared_columns(type(state)).items():
+        values = getattr(state, column)
+        np.testing.assert_array_equal(data[column].values, values)
+        np.testing.assert_array_equal(table[column], values)
+        known = [None if each != each else each for each in np.asarray(values).tolist()]
+        assert plain[column] == known
+        assert (data[column].units, data[column].long_name) == (told.unit, told.meaning)
+        assert table.attrs["symbol"][column] == told.symbol
+    assert f"{name}, 2 states" in state._repr_html_()
+
+
+def test_a_record_leaves_out_what_it_says_and_no_number_that_is_not_finite():
+    @dataclass(frozen=True)
+    class Found(Record):
+        contact: str
+        value: float
+        parts: tuple
+        inner: tb.Transitions
+
+    critical = tb.transitions(CONTACT)
+    told = Found("much", float("nan"), (np.float64(1.0), np.inf), critical).to_dict()
+    assert told == {"value": None, "parts": [1.0, None], "inner": critical.to_dict()}
+    assert told["inner"]["F_tpca"]["A"] == {"value": None, "status": "none"}
+    assert list(critical.entries()) == ["F_cr1", "F_cr2", "F_tpca.A", "F_tpca.B", "F_tpca.C"]
+
+
+@pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
+@pytest.mark.parametrize("run", [run_study, run_film])
+def test_results_of_a_study_are_read_by_attribute_and_by_key(run):
+    found = run(check(STUDY))
+    plain = found.to_dict()
+    assert dict(found) == plain
+    assert list(found) == list(plain)
+    assert "states" in found
+    assert json.loads(json.dumps(plain, allow_nan=False)) == plain
+    assert plain["warnings"] == list(found.warnings)
+    columns, units = found.table()
+    assert set(columns) == set(units)
+    for name, values in columns.items():
+        if name in plain["states"]:
+            assert plain["states"][name] == values
+    if run is run_study:
+        assert found.solved_states == [0]
+        assert plain["states"]["A_t"] == [found.states.A_t[0], None]
+        assert found.particles_in(0) == float("inf")  # without particles nobody counts them
+
+
+def test_a_column_that_there_is_not_is_refused(every):
+    for state in every.values():
+        assert state.about("A_t").unit == "1"
+        with pytest.raises(tb.InvalidValue, match="A_tt"):
+            state.about("A_tt")
+
+
+def test_the_table_of_a_study_has_the_units_of_each_population():
+    """Depths of the dents that one population leaves are lengths, as those of all are."""
+    dust = {"distribution": "monodisperse", "mean": "1 um", "areal_density": "1e9 / m^2"}
+    two = [dust | {"material": name, "name": name} for name in ("SiO2", "Al2O3")]
+    asked = {key: value for key, value in STUDY.items() if key != "film"}
+    found = run_study(check(asked | {"particles": two, "outputs": {"dents": {}}}))
+    columns, units = found.table()
+    assert units["SiO2: dent_depth_1"] == units["dent_depth_1"] == "m"
+    assert units["SiO2: load_share"] == "1"
+    assert columns["SiO2: load_share"][1] is None
+    for part, told in zip(found.states.populations, found.to_dict()["populations"], strict=True):
+        assert told == part.to_dict()
+        assert "PopulationShare, 2 states" in part._repr_html_()
+        assert part.to_dataframe()["load_share"].tolist() == pytest.approx(
+            part.load_share.tolist(), nan_ok=True
+        )
+
+
+def test_states_declare_what_they_hold():
+    """No field of numbers stands beside the columns without a symbol, unit and meaning."""
+    beside = {"contact", "warnings", "populations", "outputs", "engine", "status_code", "state"}
+    beside |= {"seconds", "sigma", "seats", "maps", "particles", "name"}
+    for kind in StateRecord.__subclasses__():
+        for each in (kind, *kind.__subclasses__()):
+            if hasattr(each, "__dataclass_fields__"):
+                assert {item.name for item in fields(each)} - set(declared_columns(each)) <= beside
