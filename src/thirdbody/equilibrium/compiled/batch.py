@@ -18,7 +18,7 @@ from ...laws.particle.series import Series as ParticleSeries
 from ...populations.materials import reduced_modulus, softer_hardness
 from ...populations.shape import Angular
 from ..load_scan import load_scan
-from .inputs import MATERIALS, SHAPES, bare, fineness, own_particles, squashed
+from .inputs import MATERIALS, SHAPES, bare, fineness, own_sizes
 from .layout import WORK
 from .rows import InterfaceRows, Rows, StateRows
 
@@ -38,8 +38,7 @@ __all__ = [
     "bare",
     "batch",
     "fineness",
-    "own_particles",
-    "squashed",
+    "own_sizes",
     "threads",
 ]
 
