@@ -21,7 +21,7 @@ from ...contact.contact import Contact
 from ...contact.field_ground import GroundedPart
 from ...contact.field_sums import FieldSum
 from ...contact.interface import Interface
-from ...contact.particle_averages import SeatAverage, size_average
+from ...contact.particle_averages import SeatAverage, SizeAverage, size_average
 from ...contact.particle_sums import SeatedParticles
 from ...errors import NotCompiled
 from ...laws.asperity import Field
@@ -288,10 +288,9 @@ class StateRows(Rows):
                 octave = np.broadcast_to(np.frexp(width)[1] - 1, len(self.parts))
                 one_size = self._rules.add("one", np.ones((2, 1)))
                 part |= {
-                    **{"kind": layout.ROUGH_NODES, "bottom": average.bottom, "near": -1.0},
-                    **{"gaps": self._on_octaves(octave, seat_rule, average), "sizes": one_size},
-                    **{"few_gaps": self._on_octaves(octave, few_on_seats, average)},
-                    **{"few_sizes": one_size},
+                    **{"kind": layout.ROUGH_NODES, "bottom": average.bottom},
+                    **self._over_gaps(octave, average),
+                    **{"sizes": one_size, "few_sizes": one_size},
                 }
             else:
                 part |= {
@@ -303,13 +302,27 @@ class StateRows(Rows):
                     part["lower"] = self._panels.add_average(average.lower, shadow)
             yield math.pi / 4 * factor * shape.moment(2), part
 
-    def _on_octaves(self, octave: Index, rule: Callable[..., Array], average: Any) -> Records:
-        """Rules over gaps (N,) for seats whose widths lie in these octaves."""
+    def _over_gaps(self, octave: Index, average: SizeAverage) -> dict[str, Any]:
+        """Rules over gaps for seats whose widths lie in these octaves (N,), as fields of a `PART`.
 
-        def place(octave: int) -> tuple[int, int]:
+        The fewer nodes are as good near a seat, or come close to a root.
+        """
+
+        def place(rule: Callable[..., Any], octave: int) -> tuple[int, int]:
             return self._rules.add((rule, average, octave), rule(average, octave))
 
-        return _each(octave, place, RULE)
+        def place_few(octave: int) -> tuple[int, int]:
+            near = near_rule(average, octave)
+            return place(few_on_seats if near is None else near_rule, octave)
+
+        def reach(octave: int) -> float:
+            return -1.0 if near_rule(average, octave) is None else NEAR
+
+        return {
+            "gaps": _each(octave, partial(place, seat_rule), RULE),
+            "few_gaps": _each(octave, place_few, RULE),
+            "near": _each(octave, reach, np.dtype(float)),
+        }
 
     def _sized(
         self, contact: Contact, arrays: Mapping[str, Array]
@@ -341,26 +354,13 @@ class StateRows(Rows):
         part = {
             **{"kind": layout.ROUGH_NODES, "top": alone.top, "bottom": alone.bottom},
             **{"inverse": self._panels.add_inverse(size_average(one, shape))},
-            **{"floor": alone.floor, "gaps": self._on_octaves(octave, seat_rule, alone)},
-            "few_gaps": self._on_octaves(octave, _few_gaps, alone),
-            "near": _each(octave, partial(_near, alone), np.dtype(float)),
+            **{"floor": alone.floor, **self._over_gaps(octave, alone)},
             "sizes": self._rules.add_each(np.stack([weight * x**3, x], axis=1)),
             "few_sizes": self._rules.add_each(np.stack([few_weight * few_x**3, few_x], axis=1)),
             **{"size": size[:, 0], "factor": factor, "width": width[:, 0]},
             "reach": x[:, -1] * alone.top + layout.SEAT_REACH * width[:, 0],
         }
         yield math.pi / 4 * factor * np.sum(weight * x**2, axis=-1), part
-
-
-def _few_gaps(average: Any, octave: int) -> Array:
-    """The fewer nodes over gaps: as good near a seat, or close to a root."""
-    near = near_rule(average, octave)
-    return few_on_seats(average, octave) if near is None else near
-
-
-def _near(average: Any, octave: int) -> float:
-    """Widths of a seat beyond the gaps within which fewer nodes are as good; −1: never."""
-    return -1.0 if near_rule(average, octave) is None else NEAR
 
 
 def _fill(rows: Records, fields: Mapping[str, Any]) -> None:

@@ -14,7 +14,12 @@ from ...contact.particle_averages import SizeAverage
 from ...errors import NotCompiled
 from ...numerics.chebyshev import chebyshev_transform
 from ...numerics.quadrature import panel_rule, subdivide
-from ...populations.distributions import NORMAL_CUT, Distribution, Monodisperse, TruncatedGaussian
+from ...populations.distributions import (
+    NORMAL_CUT,
+    Distribution,
+    Monodisperse,
+    TruncatedGaussian,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
