@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "MATERIALS",
+    "NOT_MONOTONE",
     "SHAPES",
     "bare",
     "common_law",
@@ -34,6 +35,7 @@ __all__ = [
 MATERIALS = ("surfaces.", "particles.material.")
 """Inputs on which the contact of a particle depends."""
 SHAPES = "particles.shape."
+NOT_MONOTONE = "the load may rise with the separation; this is the loading branch"
 
 
 def bare(contact: Contact, arrays: Mapping[str, Array]) -> bool:

@@ -30,9 +30,10 @@ from ...laws.particle.series import Series as ParticleSeries
 from ...populations.distributions import Monodisperse
 from ...populations.heights import GaussianHeights
 from ...populations.particles import Particles
+from ...populations.shape import Angular
 from . import layout
 from .field_series import asperity_numbers, asperity_series, beside_gaussian, grounded_series
-from .inputs import MATERIALS, SHAPES, bare, common_law, own_sizes, size_factor
+from .inputs import MATERIALS, NOT_MONOTONE, SHAPES, bare, common_law, own_sizes, size_factor
 from .layout import INTERFACE, NONE, PART, RULE
 from .size_rules import (
     FEW_SIZES,
@@ -185,8 +186,6 @@ class StateRows(Rows):
         """Projected particle area per nominal area (N,)."""
         self.most = np.zeros(count)
         """Most of the nominal area that particles can shadow; more than all of it if squashed."""
-        self.spreads = False
-        """Particles are squashed, so that their area may grow faster than their load."""
         self.steepest = np.zeros(count)
         """Most that it changes with d on a plane seat [1/m]."""
         asperities = self._add_asperities(contact, datum)
@@ -264,6 +263,11 @@ class StateRows(Rows):
         assert isinstance(changed, Particles)
         one = contact.law_of(particles).one(surfaces=contact.surfaces, particle=particles.material)
         rough, shadow = law.seat == "rough", _column(law.shadow)
+        # squashed, their area may grow faster than their load
+        spreads = bool(getattr(one, "spreads", False))
+        grows = spreads or (law.shadow == "footprint" and isinstance(particles.shape, Angular))
+        if grows and not rough and law.shadow not in ("none", "covered"):
+            raise NotCompiled(NOT_MONOTONE)  # of no state it is sure that it does not
         ratio = size_factor(particles.diameter, arrays)
         if ratio is None:
             raise NotCompiled("the shape of the size distribution varies")
@@ -275,8 +279,7 @@ class StateRows(Rows):
             width = law.zeta_std * self.varied.roughness.sigma / size if rough else 0.0 * size
             if not rough:
                 self.steepest += 0.25 * math.pi * one.breadth * factor / size * densest(shape)
-            if getattr(one, "spreads", False):
-                self.spreads = True
+            if spreads:
                 self.most = self.most + factor * average.floor[-2:].max()
             part = {
                 **{"inverse": self._panels.add_inverse(average), "size": size},
@@ -347,7 +350,6 @@ class StateRows(Rows):
         octave = np.frexp(width[:, 0] / x[:, -1])[1] - 1
         factor = changed.areal_density * size[:, 0] ** 2
         if getattr(one, "spreads", False):
-            self.spreads = True
             most = alone.floor[-2:].max() * np.sum(weight * x**2, axis=-1)
             self.most = self.most + factor * most
         _, shape = particles.diameter.standardised()
