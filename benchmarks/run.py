@@ -433,7 +433,7 @@ def main() -> int:
     for each in own_inputs(nanoseconds):
         page.rates(each, slow)
 
-    page.title("And with what decides the contact of a particle: nodes of each state")
+    page.title("And with what decides the contact of a particle: sizes or laws of each state")
     page.head(*COLUMNS)
     for each in own_particles():
         page.rates(each, slow)

@@ -93,40 +93,6 @@ def test_loads_that_do_not_change_with_the_separation(load):
     alike(states, contact, vary, (0, 23), F_star=load)
 
 
-# -------------------------------------------------------------------- nodes over the squeeze
-def over_seats(rule, width, gaps):
-    """The columns of one material averaged over seats at mean gaps."""
-    z = (gaps[:, None] - rule.rows[0, 7]) / width
-    out = np.exp(-0.5 * z**2) @ rule.rows[0, :7].T / (width * math.sqrt(2 * math.pi))
-    below = 0.5 * np.array([math.erfc((gap - rule.bottom[0]) / width / 2**0.5) for gap in gaps])
-    return out + below[:, None] * rule.floor[0]
-
-
-@pytest.mark.parametrize("width", [0.003, 0.02, 0.07, 0.5])
-@pytest.mark.parametrize("hardness", [(1e-4, 1e-4), (0.08, 0.05), (0.002, 0.1), (0.02, 3e-4)])
-@pytest.mark.parametrize("law", ["Hermite", "ZMC"])
-def test_nodes_over_the_squeeze_resolve_the_seat(law, hardness, width, monkeypatch):
-    """Every panel, whatever part of the squeeze it is: against panels of half the width."""
-    pytest.importorskip("numba")
-    from thirdbody.equilibrium.compiled import squeeze_rules as rules
-
-    bound = getattr(tb.asperity, law)().bound(R=0.5, E_star=1e11, H=1e9, nu=0.3)
-    sides = [(np.full((1, 1), 1e11), np.full((1, 1), 1e11 * ratio)) for ratio in hardness]
-    options = {"tip_radius": 0.5, "widths": np.full((1, 1), width), "split_areas": True}
-    rule = rules.squeeze_rule(bound, *sides, **options)
-    monkeypatch.setattr(rules, "SEAT_WIDTHS", 0.5 * rules.SEAT_WIDTHS)
-    monkeypatch.setattr(rules, "RATIO", rules.RATIO**0.5)
-    fine = rules.squeeze_rule(bound, *sides, **options)
-    gaps = np.linspace(rule.bottom[0] - width, 1 + 3 * width, 101)
-    got, want = over_seats(rule, width, gaps), over_seats(fine, width, gaps)
-    for k in (0, 4, 5, 6):
-        assert_allclose(got[:, k], want[:, k], rtol=2e-12)
-    # no more than the seat and the ratio ask for
-    kinks = 12
-    panels = (1 - rule.bottom[0]) / width / rules.SEAT_WIDTHS + kinks
-    assert rule.rows.shape[2] <= rules.NODES * panels
-
-
 # ------------------------------------------------------------------------- close sizes
 def close_sizes(kind: str, spread: float) -> tb.Distribution:
     if kind == "gaussian":

@@ -428,7 +428,6 @@ INNER = {
     "thirdbody.explicit.interface": "called by the solver of height maps alone",
     "thirdbody.explicit.seats": "called by the solver of height maps alone",
     "thirdbody.equilibrium.crowding": "sentences about solved states",
-    "thirdbody.equilibrium.compiled.squeeze_rules": "rules of the compiled engine",
 }
 """Modules whose functions no user calls, and why."""
 

@@ -15,7 +15,6 @@ from ..contact.evaluation import Solver, evaluate
 from ..contact.interface import Interface, interface
 from ..errors import InvalidValue, NotCompiled, Problem
 from ..populations.materials import BULK
-from ..populations.shape import Angular
 from ..quantities.carried import takes_units
 from ..quantities.nearest import guess, near_path
 from ..quantities.progress import Cost, reporting, solved, solving, weighed
@@ -339,11 +338,6 @@ def _solve(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float6
         return _by_groups(contact, arrays, load, loads)
     numbers = {name: values.astype(float) for name, values in arrays.items()}
     try:
-        soft = engine.squashed(contact, numbers, len(loads))
-        if soft.any() and not soft.all():
-            each = [np.flatnonzero(~soft), np.flatnonzero(soft)]
-            solved = [(i, _solve(contact, _take_states(arrays, i), load, loads[i])) for i in each]
-            return _joined(len(loads), solved)
         return _by_nodes(contact, numbers, load, loads)
     except NotCompiled as error:
         why = str(error)
@@ -381,13 +375,10 @@ def tables_each(contact: Contact, vary: Iterable[str]) -> bool:
         return bool(names) and not solves_each(contact, names)
     if not any(_unnumbered(name).startswith(DEMANDING) for name in names):
         return False
-    populations = contact.populations
-    breaks = any(each.strength is not None for each in populations)
+    breaks = any(each.strength is not None for each in contact.populations)
     if not breaks and solves_each(contact, names):
         return False
-    shaped = any(isinstance(each.shape, Angular) for each in populations)
-    squashed = len(populations) > 1 or bool(engine.squashed(contact, {}, 1).any())
-    return squashed or shaped or breaks
+    return bool(contact.populations)
 
 
 def solves_each(contact: Contact, vary: Iterable[str]) -> bool:
@@ -429,7 +420,7 @@ def _unnumbered(name: str) -> str:
 
 def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
     """Every column by the compiled engine; `NotCompiled` where it does not know these inputs."""
-    own = not engine.bare(contact, arrays) and engine.own_particles(contact, arrays)
+    own = not engine.bare(contact, arrays) and engine.own_sizes(contact, arrays)
     order = None
     if own and np.ptp(fine := engine.fineness(arrays)) > ALIKE * fine.min():
         order = np.argsort(fine, kind="stable")  # those that need as many nodes side by side

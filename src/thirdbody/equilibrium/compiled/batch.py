@@ -16,9 +16,8 @@ from ...contact.interface import Interface, together
 from ...errors import InvalidValue, NotCompiled
 from ...laws.particle.series import Series as ParticleSeries
 from ...populations.materials import reduced_modulus, softer_hardness
-from ...populations.shape import Angular
 from ..load_scan import load_scan
-from .inputs import MATERIALS, SHAPES, bare, fineness, own_particles, squashed
+from .inputs import MATERIALS, NOT_MONOTONE, SHAPES, bare, fineness, own_sizes
 from .layout import WORK
 from .rows import InterfaceRows, Rows, StateRows
 
@@ -31,6 +30,8 @@ if TYPE_CHECKING:
 __all__ = [
     "FEWEST",
     "MATERIALS",
+    "NOT_BALANCED",
+    "NOT_MONOTONE",
     "SHAPES",
     "Interfaces",
     "States",
@@ -38,8 +39,7 @@ __all__ = [
     "bare",
     "batch",
     "fineness",
-    "own_particles",
-    "squashed",
+    "own_sizes",
     "threads",
 ]
 
@@ -52,7 +52,6 @@ AT_ONCE = 4_096
 
 
 NOT_BALANCED = "the compiled engine does not balance this load"
-NOT_MONOTONE = "the load may rise with the separation; this is the loading branch"
 
 
 def available() -> bool:
@@ -248,12 +247,8 @@ class States(_Batch):
             c = rows.most
             steepest = c / (math.sqrt(2 * math.pi) * law.zeta_std * rough.sigma)
             return np.broadcast_to(steepest * rough.sigma_s <= 0.3 * (1 - c), target.shape)
-        if rows.spreads:
-            return np.zeros(len(target), bool)
         if law.shadow == "projected":
             return rows.steepest * rough.sigma_s <= 0.3 * (1 - c)
-        if isinstance(varied.particles.shape, Angular):  # type: ignore[union-attr]
-            return np.zeros(len(target), bool)
         body = varied.particles.material  # type: ignore[union-attr]
         pair = varied.surfaces.first, varied.surfaces.second
         sides = [(reduced_modulus(s, body), softer_hardness(s, body)) for s in pair]

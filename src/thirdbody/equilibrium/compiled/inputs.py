@@ -11,12 +11,10 @@ import numpy as np
 from ...contact.contact import Contact
 from ...errors import InvalidValue, NotCompiled
 from ...laws.base import AbstractAsperityLaw
-from ...laws.particle.series import Series as ParticleSeries
 from ...populations.distributions import Distribution
 from ...populations.materials import MaterialPair
 from ...populations.particles import Particles
 from ...populations.roughness import Roughness
-from ...populations.shape import Angular
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,18 +23,19 @@ if TYPE_CHECKING:
 
 __all__ = [
     "MATERIALS",
+    "NOT_MONOTONE",
     "SHAPES",
     "bare",
     "common_law",
     "fineness",
-    "own_particles",
+    "own_sizes",
     "size_factor",
-    "squashed",
 ]
 
 MATERIALS = ("surfaces.", "particles.material.")
 """Inputs on which the contact of a particle depends."""
 SHAPES = "particles.shape."
+NOT_MONOTONE = "the load may rise with the separation; this is the loading branch"
 
 
 def bare(contact: Contact, arrays: Mapping[str, Array]) -> bool:
@@ -44,30 +43,10 @@ def bare(contact: Contact, arrays: Mapping[str, Array]) -> bool:
     return contact.two_body and "particles.areal_density" not in arrays
 
 
-def own_particles(contact: Contact, arrays: Mapping[str, Array]) -> bool:
-    """Whether the material or the shape of the particles varies from state to state."""
-    if any(name.startswith(MATERIALS) and np.ptp(v) > 0 for name, v in arrays.items()):
-        return True
+def own_sizes(contact: Contact, arrays: Mapping[str, Array]) -> bool:
+    """Whether the shape of the sizes varies from state to state."""
     particles = contact.particles
     return isinstance(particles, Particles) and size_factor(particles.diameter, arrays) is None
-
-
-def squashed(contact: Contact, arrays: Mapping[str, Array], count: int) -> NDArray[np.bool_]:
-    """States whose particles are squashed: softer than a surface, or of the deep law."""
-    law, out = contact.particle_law, np.zeros(count, bool)
-    if not isinstance(law, ParticleSeries) or law.soft != "squashed" or bare(contact, arrays):
-        return out
-    if law.onset == "hermite" and not law.law.breakpoints:
-        return out  # it never yields
-    if isinstance(contact.particles, Particles) and isinstance(contact.particles.shape, Angular):
-        return out
-    if law.follows_table:
-        return ~out
-    varied = contact.with_arrays({k: v for k, v in arrays.items() if k.startswith(MATERIALS)})
-    if isinstance(varied.particles, Particles):
-        for surface in (varied.surfaces.first, varied.surfaces.second):
-            out |= varied.particles.material.H < surface.H
-    return out
 
 
 def fineness(arrays: Mapping[str, Array]) -> Array:

@@ -267,38 +267,12 @@ def _weighted(rule, nodes, moments, inverse, shadow, every, out):
             out[3 * j + 2] += norm * inverse * inverse * (s2 - s0)
 
 
-@sums
-def _on_series(series, terms, x, count, out):
-    """Sum of Chebyshev polynomials at x times ``count`` coefficients of each of an even number."""
-    even, odd = 1.0, x
-    for k in range(count):
-        out[k] = 0.0
-    for n in range(0, terms, 2):
-        a = ahead(series, n * count)
-        b = ahead(a, count)
-        for k in range(count):
-            out[k] += even * a[k] + odd * b[k]
-        even = 2 * x * odd - even
-        odd = 2 * x * even - odd
-
-
 @exact
 def _gaps(state, part, fewer):
     """The rule over gaps of a part, or the one with fewer."""
     begin = part.few_gaps.begin if fewer else part.gaps.begin
     nodes = part.few_gaps.nodes if fewer else part.gaps.nodes
-    rule = ahead(state.rules, begin)
-    if part.terms < 0:
-        return rule, nodes
-    work = record(state.work, 0)
-    held = work.few_gaps if fewer else work.gaps
-    own = numbers(held, "rule")
-    if held.begin != begin:
-        _on_series(rule, part.terms, part.place, 8 * nodes, own)
-        for k in range(nodes):
-            own[k] *= part.modulus
-        held.begin = begin
-    return own, nodes
+    return ahead(state.rules, begin), nodes
 
 
 @inlined
@@ -509,10 +483,9 @@ def alone(state, target):
 @exact
 def state_of(m, interfaces, parts, panels, edges, inverses, rules, work):
     """State of interface m."""
-    # no member of a family yet, for the load and for every column, and no rule on a series
+    # no member of a family yet, for the load and for every column
     clean = record(pointer(work), 0)
     clean.held_load = clean.held_every = NONE
-    clean.gaps.begin = clean.few_gaps.begin = NONE
     return State(
         ahead(pointer(interfaces), m),
         ahead(pointer(parts), m * parts.shape[1]),

@@ -24,14 +24,9 @@ if TYPE_CHECKING:
     Records = NDArray[np.void]
 
 __all__ = [
-    "CURVE",
     "INTERFACE",
-    "LAW",
     "PART",
-    "RESPONSE",
     "RULE",
-    "SHARED",
-    "SIDE",
     "SUM",
     "WORK",
     "Panels",
@@ -45,9 +40,9 @@ FAMILY, GAUSSIAN, DENSITY = range(3)
 without the Gaussian."""
 ABSENT, PLANE, ROUGH, ROUGH_NODES = -1, 0, 1, 2
 """Particles: none, by series on a plane, by a series or over nodes on a rough seat."""
-TERMS, ACROSS_TERMS, MOST_NODES = 18, 16, 256
+TERMS, ACROSS_TERMS, MOST_NODES = 18, 16, 64
 """Of a Chebyshev series; of a family across it, which has so many panels where a series has one;
-and most nodes of a rule that is a series itself."""
+and most nodes of a rule over gaps near a seat."""
 SEPARATIONS = 250
 """Of an inverse."""
 SEAT_REACH = 9.0
@@ -93,7 +88,6 @@ PART = _record(
     ("sizes", RULE),
     ("few_gaps", RULE),  # as good near the gaps, or close to a root
     ("few_sizes", RULE),  # close to a root
-    ("terms", "i4"),  # of the rules over gaps where they are series, or NONE
     ("inverse", "i4"),  # of the load, for a first guess, or NONE
     ("size", "f8"),  # [m]
     ("factor", "f8"),  # density × size²: unit of area over nominal area, and of load per Pa
@@ -105,8 +99,6 @@ PART = _record(
     ("bottom", "f8"),  # gap below which each carries its most on a plane, where there are nodes
     ("join", "f8"),  # gap between the two series of a plane
     ("near", "f8"),  # widths of a seat beyond the gaps within which few gaps are as good; −1: never
-    ("place", "f8"),  # on rules that are series, −1 to 1
-    ("modulus", "f8"),  # the unit of load of such rules [Pa]
     ("powers", "f8", len(COLUMNS)),  # leading powers of √(top − gap) of the columns on a plane
     ("floor", "f8", len(COLUMNS)),  # the columns below the least gap
 )
@@ -127,12 +119,6 @@ INVERSE = _record(
 )
 """Separations that fall with ln of a load, for first guesses."""
 
-HELD = _record(
-    ("begin", "i8"),  # of the series of the rule that is held, or NONE
-    ("rule", "f8", (len(COLUMNS) + 1, MOST_NODES)),
-)
-"""A rule that was read from a series."""
-
 WORK = _record(
     ("total", "f8", 8),  # of all parts
     ("out", "f8", 8),  # of the asperities, or of one part
@@ -140,47 +126,9 @@ WORK = _record(
     ("member", PANEL),  # of a family, at the place of the interface across it
     ("held_load", "i8"),  # panel of the family that the member was read from, for the balance
     ("held_every", "i8"),  # and for the columns, or NONE
-    ("gaps", HELD),
-    ("few_gaps", HELD),
     ("sums", "f8", (3, MOST_NODES)),  # at the nodes of a rule
 )
 """What a thread works with."""
-
-SIDE = _record(
-    ("delta", "f8"),  # indentation at first yield, in the size of the particle
-    ("unit", "f8"),  # of load
-    ("full", "f8"),  # reduced area of the great circle
-    ("cap", "f8"),  # reduced indentation at which the contact is the great circle
-    ("limit", "f8"),  # most load
-)
-"""Contact of a particle with one of the surfaces."""
-
-LAW = _record(
-    ("first", "f8"),  # reduced indentations at the ends of the middle branch
-    ("last", "f8"),
-    ("first_load", "f8"),
-    ("last_load", "f8"),
-    ("first_area", "f8"),
-    ("last_area", "f8"),
-    ("elastic", "?"),  # there is the first branch alone
-    ("plateau", "?"),  # beyond the great circle the mean pressure stays
-)
-"""A law of contacts, beside tables of its middle branch."""
-
-RESPONSE = _record(
-    *(("middle", "f8"), ("half", "f8")),  # of the panel
-    *(("load", "f8", TERMS), ("area", "f8", TERMS)),  # of √y
-)
-CURVE = _record(("middle", "f8"), ("half", "f8"), ("y", "f8", TERMS))
-"""Series of the middle branch, and of an inverse of it, on one panel."""
-
-SHARED = _record(
-    ("load", "f8"),  # on the weaker side
-    ("y_stronger", "f8"),
-    ("area_weaker", "f8"),
-    ("area_stronger", "f8"),
-)
-"""What one particle does between two sides, in the units of the weaker and of each."""
 
 
 class Panels:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
@@ -22,22 +21,30 @@ from ...contact.contact import Contact
 from ...contact.field_ground import GroundedPart
 from ...contact.field_sums import FieldSum
 from ...contact.interface import Interface
-from ...contact.particle_averages import SeatAverage, size_average
+from ...contact.particle_averages import SeatAverage, SizeAverage, size_average
 from ...contact.particle_sums import SeatedParticles
 from ...errors import NotCompiled
 from ...laws.asperity import Field
 from ...laws.base import COLUMNS, AbstractAsperityLaw
 from ...laws.particle.series import Series as ParticleSeries
+from ...populations.distributions import Monodisperse
 from ...populations.heights import GaussianHeights
-from ...populations.materials import reduced_modulus, softer_hardness
 from ...populations.particles import Particles
 from ...populations.shape import Angular
 from . import layout
 from .field_series import asperity_numbers, asperity_series, beside_gaussian, grounded_series
-from .inputs import MATERIALS, SHAPES, bare, common_law, own_particles, size_factor, squashed
+from .inputs import MATERIALS, NOT_MONOTONE, SHAPES, bare, common_law, own_sizes, size_factor
 from .layout import INTERFACE, NONE, PART, RULE
-from .size_rules import FEW_SIZES, MOST_WIDTHS, densest, few_on_seats, seat_rule, size_rules
-from .squeeze_rules import NEAR, SharedRules, near_rule, squeeze_rules
+from .size_rules import (
+    FEW_SIZES,
+    MOST_WIDTHS,
+    NEAR,
+    densest,
+    few_on_seats,
+    near_rule,
+    seat_rule,
+    size_rules,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -121,7 +128,7 @@ class InterfaceRows(Rows):
         shadow = row["shadow"] = _column(particles.shadow)
         row["coverage"] = particles.coverage if particles.shadow == "covered" else 0.0
         for part, source in zip(parts, particles.parts, strict=False):
-            part["terms"] = part["inverse"] = NONE
+            part["inverse"] = NONE
             part["size"], part["factor"] = source.scale, source.factor
             part["offset"] = source.offset
             if isinstance(source, GroundedPart):
@@ -179,8 +186,6 @@ class StateRows(Rows):
         """Projected particle area per nominal area (N,)."""
         self.most = np.zeros(count)
         """Most of the nominal area that particles can shadow; more than all of it if squashed."""
-        self.spreads = False
-        """Particles are squashed, so that their area may grow faster than their load."""
         self.steepest = np.zeros(count)
         """Most that it changes with d on a plane seat [1/m]."""
         asperities = self._add_asperities(contact, datum)
@@ -228,8 +233,10 @@ class StateRows(Rows):
             raise NotCompiled("the friction of squashed particles varies")
         if "particle_law.aspect" in arrays:
             raise NotCompiled("the aspect of flakes varies")
-        own = law.seat == "rough" and own_particles(contact, arrays)
-        parts = self._squeezed if own else self._averaged
+        if any(name.startswith(MATERIALS) for name in arrays):
+            raise NotCompiled("the materials of the particles vary")
+        own = law.seat == "rough" and own_sizes(contact, arrays)
+        parts = self._sized if own else self._averaged
         coverage = np.zeros(len(self.parts))
         for p, (covers, part) in enumerate(parts(contact, arrays)):
             coverage += covers
@@ -254,10 +261,13 @@ class StateRows(Rows):
         particles, changed = contact.particles, self.varied.particles
         assert isinstance(particles, Particles)
         assert isinstance(changed, Particles)
-        if any(name.startswith(MATERIALS) for name in arrays):
-            raise NotCompiled("the materials of the particles vary")
         one = contact.law_of(particles).one(surfaces=contact.surfaces, particle=particles.material)
         rough, shadow = law.seat == "rough", _column(law.shadow)
+        # squashed, their area may grow faster than their load
+        spreads = bool(getattr(one, "spreads", False))
+        grows = spreads or (law.shadow == "footprint" and isinstance(particles.shape, Angular))
+        if grows and not rough and law.shadow not in ("none", "covered"):
+            raise NotCompiled(NOT_MONOTONE)  # of no state it is sure that it does not
         ratio = size_factor(particles.diameter, arrays)
         if ratio is None:
             raise NotCompiled("the shape of the size distribution varies")
@@ -269,12 +279,11 @@ class StateRows(Rows):
             width = law.zeta_std * self.varied.roughness.sigma / size if rough else 0.0 * size
             if not rough:
                 self.steepest += 0.25 * math.pi * one.breadth * factor / size * densest(shape)
-            if getattr(one, "spreads", False):
-                self.spreads = True
+            if spreads:
                 self.most = self.most + factor * average.floor[-2:].max()
             part = {
-                **{"terms": NONE, "inverse": self._panels.add_inverse(average)},
-                **{"size": size, "factor": factor, "width": width},
+                **{"inverse": self._panels.add_inverse(average), "size": size},
+                **{"factor": factor, "width": width},
                 **{"reach": average.top + layout.SEAT_REACH * width},
                 **{"top": average.top, "floor": average.floor},
             }
@@ -282,10 +291,9 @@ class StateRows(Rows):
                 octave = np.broadcast_to(np.frexp(width)[1] - 1, len(self.parts))
                 one_size = self._rules.add("one", np.ones((2, 1)))
                 part |= {
-                    **{"kind": layout.ROUGH_NODES, "bottom": average.bottom, "near": -1.0},
-                    **{"gaps": self._on_octaves(octave, seat_rule, average), "sizes": one_size},
-                    **{"few_gaps": self._on_octaves(octave, few_on_seats, average)},
-                    **{"few_sizes": one_size},
+                    **{"kind": layout.ROUGH_NODES, "bottom": average.bottom},
+                    **self._over_gaps(octave, average),
+                    **{"sizes": one_size, "few_sizes": one_size},
                 }
             else:
                 part |= {
@@ -297,104 +305,64 @@ class StateRows(Rows):
                     part["lower"] = self._panels.add_average(average.lower, shadow)
             yield math.pi / 4 * factor * shape.moment(2), part
 
-    def _on_octaves(self, octave: Index, rule: Callable[..., Array], average: Any) -> Records:
-        """Rules over gaps (N,) for seats whose widths lie in these octaves."""
+    def _over_gaps(self, octave: Index, average: SizeAverage) -> dict[str, Any]:
+        """Rules over gaps for seats whose widths lie in these octaves (N,), as fields of a `PART`.
 
-        def place(octave: int) -> tuple[int, int]:
+        The fewer nodes are as good near a seat, or come close to a root.
+        """
+
+        def place(rule: Callable[..., Any], octave: int) -> tuple[int, int]:
             return self._rules.add((rule, average, octave), rule(average, octave))
 
-        return _each(octave, place, RULE)
+        def place_few(octave: int) -> tuple[int, int]:
+            near = near_rule(average, octave)
+            return place(few_on_seats if near is None else near_rule, octave)
 
-    def _squeezed(
+        def reach(octave: int) -> float:
+            return -1.0 if near_rule(average, octave) is None else NEAR
+
+        return {
+            "gaps": _each(octave, partial(place, seat_rule), RULE),
+            "few_gaps": _each(octave, place_few, RULE),
+            "near": _each(octave, reach, np.dtype(float)),
+        }
+
+    def _sized(
         self, contact: Contact, arrays: Mapping[str, Array]
     ) -> Iterator[tuple[Array | float, dict[str, Any]]]:
-        """Parts whose material or shape varies, on a rough seat, by nodes for each state.
+        """One part whose shape of sizes varies, on a rough seat: nodes over sizes for each state.
 
-        What each covers of the nominal area, and fields of a `PART`.
+        What it covers of the nominal area, and fields of a `PART`.
         """
-        varied = self.varied
+        varied, count = self.varied, len(self.parts)
         law: Any = varied.particle_law
         particles, changed = contact.particles, varied.particles
         assert isinstance(particles, Particles)
         assert isinstance(changed, Particles)
-        count = len(self.parts)
-
-        def column(values: Any) -> Array:
-            return np.broadcast_to(values, count)[:, None]
-
-        body = changed.material
-        if isinstance(particles.shape, Angular):
-            raise NotCompiled("angular particles whose material or shape of sizes varies")
-        if squashed(contact, arrays, count).any():
-            raise NotCompiled("squashed particles whose material or shape of sizes varies")
-        sides = [
-            (column(reduced_modulus(surface, body)), column(softer_hardness(surface, body)))
-            for surface in (varied.surfaces.first, varied.surfaces.second)
-        ]
-        if not any(np.ptp(values) for side in sides for values in side):
-            sides = [(E[:1], H[:1]) for E, H in sides]  # one rule for all
-        bound = {
-            law.law.bound(R=law.tip_radius, E_star=float(E[0, 0]), H=float(H[0, 0]), nu=nu)
-            for (E, H), nu in itertools.product(sides, (0.1, 0.4))
+        size, sizes = size_rules(changed.diameter, count)
+        width = np.broadcast_to(law.zeta_std * varied.roughness.sigma, count)[:, None] / size
+        least = float(width.min())
+        (x, weight), (few_x, few_weight) = sizes(least), sizes(least, FEW_SIZES)
+        if x[:, -1].max() > MOST_WIDTHS * least:
+            raise NotCompiled("the seat is too smooth for nodes")
+        one = contact.law_of(particles).one(surfaces=contact.surfaces, particle=particles.material)
+        alone = size_average(one, Monodisperse(mean=1.0))
+        octave = np.frexp(width[:, 0] / x[:, -1])[1] - 1
+        factor = changed.areal_density * size[:, 0] ** 2
+        if getattr(one, "spreads", False):
+            most = alone.floor[-2:].max() * np.sum(weight * x**2, axis=-1)
+            self.most = self.most + factor * most
+        _, shape = particles.diameter.standardised()
+        part = {
+            **{"kind": layout.ROUGH_NODES, "top": alone.top, "bottom": alone.bottom},
+            **{"inverse": self._panels.add_inverse(size_average(one, shape))},
+            **{"floor": alone.floor, **self._over_gaps(octave, alone)},
+            "sizes": self._rules.add_each(np.stack([weight * x**3, x], axis=1)),
+            "few_sizes": self._rules.add_each(np.stack([few_weight * few_x**3, few_x], axis=1)),
+            **{"size": size[:, 0], "factor": factor, "width": width[:, 0]},
+            "reach": x[:, -1] * alone.top + layout.SEAT_REACH * width[:, 0],
         }
-        if bound != {law.law}:
-            raise NotCompiled("the law of the particles depends on their material")
-        sigma = column(law.zeta_std * varied.roughness.sigma)
-        unvaried = law.one(surfaces=contact.surfaces, particle=particles.material)
-        parts = [part.standardised()[1] for _, part in particles.diameter.components]
-        each = size_rules(particles.diameter, changed.diameter, arrays, count)
-        for shape, (share, size, sizes) in zip(parts, each, strict=True):
-            width = sigma / size
-            x, weight = sizes(float(width.min()))
-            if x[..., -1].max() > MOST_WIDTHS * width.min():
-                raise NotCompiled("the seat is too smooth for nodes")
-            panels = width / x[..., -1:]
-            factor = changed.areal_density * share * size[:, 0] ** 2
-            inverse = self._panels.add_inverse(size_average(unvaried, shape))
-            few_x, few_weight = sizes(float(width.min()), FEW_SIZES)
-            part = {
-                **{"kind": layout.ROUGH_NODES, "inverse": inverse, "top": 1.0},
-                **self._over_gaps(law, sides, panels),
-                "sizes": self._rules.add_each(np.stack([weight * x**3, x], axis=1)),
-                "few_sizes": self._rules.add_each(np.stack([few_weight * few_x**3, few_x], axis=1)),
-                **{"size": size[:, 0], "factor": factor, "width": width[:, 0]},
-                "reach": x[..., -1] + layout.SEAT_REACH * width[:, 0],
-            }
-            yield math.pi / 4 * factor * np.sum(weight * x**2, axis=-1), part
-
-    def _over_gaps(
-        self, law: Any, sides: list[tuple[Array, Array]], panels: Array
-    ) -> dict[str, Array]:
-        """Rules over the squeeze, with all that goes with them, as fields of a `PART`."""
-        count, one = len(self.parts), len(sides[0][0]) == 1
-        names = ("gaps", "few_gaps", "terms", "bottom", "near", "place", "modulus", "floor")
-        out = {name: np.zeros(count, PART[name]) for name in names}
-        out["terms"][:], out["near"][:] = NONE, -1.0
-        out["modulus"][:] = sides[0][0][:, 0]
-        for which, rule in squeeze_rules(
-            law.law,
-            *sides,
-            tip_radius=law.tip_radius,
-            widths=panels.min(keepdims=True) if one else panels,
-            split_areas=law.shadow == "footprint",
-        ):
-            here = slice(None) if one else which
-            if isinstance(rule, SharedRules):
-                out["terms"][here], out["place"][here] = len(rule.series.rows), rule.across
-                rows, near = rule.series.rows, rule.series.near
-                add: Callable[[Array], Any] = partial(self._add_series, rule.series)
-            else:
-                rows, near = rule.rows, near_rule(rule, float(panels.min()))
-                add = self._rules.add_each
-            out["gaps"][here] = out["few_gaps"][here] = add(rows)
-            if near is not None:
-                out["few_gaps"][here], out["near"][here] = add(near), NEAR
-            out["bottom"][here], out["floor"][here] = rule.bottom, rule.floor
-        return out
-
-    def _add_series(self, series: Any, rows: Array) -> tuple[int, int]:
-        """Begin and nodes of a rule (terms, 8, n) on a series, whose two rules differ in n."""
-        return self._rules.add((series, rows.shape[2]), rows.reshape(-1, rows.shape[2]))
+        yield math.pi / 4 * factor * np.sum(weight * x**2, axis=-1), part
 
 
 def _fill(rows: Records, fields: Mapping[str, Any]) -> None:
@@ -411,7 +379,7 @@ def _fill(rows: Records, fields: Mapping[str, Any]) -> None:
         rows[name] = values
 
 
-def _each(number: Index, place: Callable[[int], Any], dtype: np.dtype[np.void]) -> Records:
+def _each(number: Index, place: Callable[[int], Any], dtype: np.dtype[Any]) -> Records:
     """Records (N,) of what belongs to each number, asked for each number once."""
     lowest = int(number.min())
     table = np.zeros(int(number.max()) - lowest + 1, dtype)

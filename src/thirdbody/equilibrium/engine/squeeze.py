@@ -52,6 +52,8 @@ PANEL = TENSION + TERMS
 RATIO = 4.0
 """Of the ends of a panel, at most: from the onset, where formulas are not smooth, it is so far."""
 CLOSE, BALANCED, NEARBY, RESOLVED = 1e-12, 1e-13, 1e-8, 1e-6
+FLAT = 2e-15
+"""Change of the ratio of two loads that is rounding: near a plateau no step brings them closer."""
 SHARED, STEEPEST = 1e-7, 1e4
 """Imbalance from which one more step of secants leaves 1e-10 of a share, of which `particle_at`
 leaves the square; power of an indentation like which a load may grow."""
@@ -223,7 +225,8 @@ def particle_at(given, sides, panels, p, n, eps):
     if abs(off) > NEARBY:  # nearer first: what follows has an error of the square of this
         step = off / (1.3 / one + 1.3 / (eps - one))
         near = side_at(sides, 2 * p + 1, eps - one - step)[0] / side_at(sides, 2 * p, one + step)[0]
-        one += step * off / (off - (near - 1))
+        if abs(off - (near - 1)) > FLAT:
+            one += step * off / (off - (near - 1))
         load, first = side_at(sides, 2 * p, one)
         other, second = side_at(sides, 2 * p + 1, eps - one)
         off = other / load - 1
@@ -232,7 +235,8 @@ def particle_at(given, sides, panels, p, n, eps):
         step = off / (1.3 / one + 1.3 / (eps - one))
         near, near_first = side_at(sides, 2 * p, one + step)
         near_other, near_second = side_at(sides, 2 * p + 1, eps - one - step)
-        part = off / (off - (near_other / near - 1)) if near_other > 0 else 0.0
+        change = off - (near_other / near - 1)
+        part = off / change if near_other > 0 and abs(change) > FLAT else 0.0
         one += part * step
         load += part * (near - load)
         other += part * (near_other - other)

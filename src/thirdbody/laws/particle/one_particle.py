@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from functools import lru_cache
 from itertools import pairwise
@@ -51,8 +50,6 @@ class Side:
     area stops at the great circle, πR/2 (π/4 for a sphere) or ``breadth`` π/4; from there on the
     load is mean pressure × great circle, and constant where the law has no plastic pressure to go
     on to.
-
-    E* and H may be arrays (M, 1), one row a material, for a law that all bind alike.
 
     Attributes
     ----------
@@ -127,14 +124,6 @@ class Side:
         for point in self.law.breakpoints:  # where the area jumps past what is asked for
             y = np.where(np.abs(y - point) <= 1e-13 * point, point, y)
         return y
-
-    @staticmethod
-    def chosen(first: NDArray[np.bool_], one: Side, two: Side) -> Side:
-        """For each material side one where ``first``, else side two."""
-        out = copy.copy(one)
-        for name in ("H", "delta_1", "full", "cap", "unit", "kinks", "limit"):
-            setattr(out, name, np.where(first, getattr(one, name), getattr(two, name)))
-        return out
 
     def reduced_force(self, y: Array) -> Array:
         """Load over `unit` at y = δ/δ_1."""
