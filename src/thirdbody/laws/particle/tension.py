@@ -33,6 +33,9 @@ LOWEST = 1e-9
 """Squeeze below which the tension is extended as a power of the squeeze."""
 STEPS = 48
 """Squeezes between two kinks at which a falling tension is looked for."""
+BESIDE = 1e-13
+"""Part of a kink by which it is kept away from: at the kink itself a law that jumps has either of
+its two values, as rounding has it, and the load of two sides in series any between."""
 
 
 def at_centre(s: Array, nu: float) -> Array:
@@ -150,7 +153,7 @@ class Tension:
         kinks |= {eps for held in self.held for eps in held if np.isfinite(eps)}
         end = self.held[-1].begin if self.held and np.isinf(self.held[-1].end) else np.inf
         self.kinks = np.array(sorted(eps for eps in kinks if eps <= end))
-        self.greatest = float(self.met(self.kinks[-1:])[0])
+        self.greatest = float(self.met(self.kinks[-1:] * (1 - BESIDE))[0])
 
     def _sides(self, eps: Array) -> tuple[Array, Array]:
         areas = self.particle.at(eps).areas
@@ -189,10 +192,10 @@ class Tension:
         # closer and closer to each kink, in front of which the tension may fall a little
         close = np.geomspace(1e-6, 0.3, STEPS)[::-1]
         parts = [
-            np.union1d(np.geomspace(a, b, STEPS, endpoint=False), b - (b - a) * close)
+            np.union1d(np.geomspace(a * (1 + BESIDE), b * (1 - BESIDE), STEPS), b - (b - a) * close)
             for a, b in itertools.pairwise(starts)
         ]
-        grid = np.concatenate([*parts, edges[-1:]])
+        grid = np.concatenate([*parts, edges[-1:] * (1 + BESIDE)])
         values = self.now(grid)
         most = np.maximum.accumulate(values)
         below = values < most * (1 - 1e-12)
