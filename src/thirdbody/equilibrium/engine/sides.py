@@ -88,19 +88,30 @@ GRADING = 4.0
 
 
 @scalar
+def zmc_by(y, log_y, log_rho, k, rho, r, full):
+    """Mean pressure and area of `ZMC` between the yield and ρ."""
+    return k + (1 - k) * log_y / log_rho, zmc_spread(y, rho, r, full)
+
+
+@scalar
+def hermite_by(y, log_y, log_rho, k, rho, r, full):
+    """Mean pressure and area of `Hermite` between the yield and ρ."""
+    u, slope = log_y / log_rho, 0.5 * k * log_rho
+    p = k * (u * u * (2 * u - 3) + 1) + slope * u * (1 - u) ** 2 + u * u * (3 - 2 * u)
+    return p, zmc_spread(y, rho, r, full)
+
+
+@scalar
 def zmc_middle(y, k, rho, r, full):
     apart()
-    area = zmc_spread(y, rho, r, full)
-    return (k + (1 - k) * math.log(y) / math.log(rho)) * area, area
+    p, area = zmc_by(y, math.log(y), math.log(rho), k, rho, r, full)
+    return p * area, area
 
 
 @scalar
 def hermite_middle(y, k, rho, r, full):
     apart()
-    log_rho = math.log(rho)
-    u, slope = math.log(y) / log_rho, 0.5 * k * log_rho
-    p = k * (u * u * (2 * u - 3) + 1) + slope * u * (1 - u) ** 2 + u * u * (3 - 2 * u)
-    area = zmc_spread(y, rho, r, full)
+    p, area = hermite_by(y, math.log(y), math.log(rho), k, rho, r, full)
     return p * area, area
 
 
