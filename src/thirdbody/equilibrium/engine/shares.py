@@ -9,7 +9,7 @@ from .fields import CEB, CODE, COUNT, EQUAL, JG, JUMPS, KINKS, LIMIT, LOADS, MOS
 from .sides import exact, scalar, side_at, summed
 from .vectors import exp, fill_side, formula_of, ln, padded
 
-MOST_PANELS, TERMS = 160, 12
+MOST_PANELS, TERMS = 160, 16
 EDGE, TO, REGIME, HELD, FROM, UNTIL, SHARE = range(7)
 """Of a panel: its ends in ε, the regime of side 1, the indentation at which a jump of its load
 holds side 1 (side 2 if negative, none if 0); ends and coefficients of the share of side 1."""
@@ -19,9 +19,13 @@ PULLED, RATE, START, KINKED, TENSION = range(SHARE + TERMS, SHARE + TERMS + 5)
 """Tension [Pa] that holds on a panel on which less is met, or 0; place on the panel, as a rate of
 ln ε and where it starts; whether a formula changes at the end, of how many generations ago; series
 of the logarithm of the tension."""
-FORM_1, FORM_2, ONE, PANEL = range(TENSION + TERMS, TENSION + TERMS + 4)
+FORM_1, FORM_2, ONE, SURE, OF_LOAD = range(TENSION + TERMS, TENSION + TERMS + 5)
 """Formulas of both sides; indentation over x of side 1 where the panel begins, negative where
-that is not known."""
+that is not known; whether load and areas are read from series, and the first of them."""
+OF_AREA_1, OF_AREA_2, PANEL = OF_LOAD + TERMS, OF_LOAD + 2 * TERMS, OF_LOAD + 3 * TERMS
+"""Series of the load over ε^1.5 and of both areas over ε."""
+SETTLED = 1e-11
+"""Of the last two terms of such a series over its largest value, at most."""
 ROOM = 19
 """Rows behind those of the panels, for what many nodes have on the way."""
 AT, LOAD, AREA_1, AREA_2, FIRST, SECOND, OTHER, OFF, NEAR, NEAR_1, NEAR_OTHER, NEAR_2 = range(12)
@@ -189,6 +193,8 @@ def first_at(panels, p, n, eps):
 def particle_at(given, sides, panels, p, n, eps):
     """Load over x² [Pa] and areas over x² on both surfaces, of ε on panel n of part p."""
     apart()
+    if panels[p, n, SURE] == 1:
+        return _read_particle(panels[p, n], eps)
     if given[p, EQUAL] == 1:
         load, area = side_at(sides, 2 * p, 0.5 * eps)
         return load, area, area
@@ -234,6 +240,88 @@ def _read_shares(panel, eps, first):
         for k in range(1, TERMS):
             b, c = series[TERMS - k] + twice * b - c, b
         first[j] = eps[j] * (series[0] + x * b - c)
+
+
+@exact
+def _read_particles(panel, eps, load, one, two):
+    """Load and areas at squeezes of a panel, by their series."""
+    begin, end = panel[FROM], panel[UNTIL]
+    rooted = begin == 0
+    rate = 2 / math.log(end / begin) if not rooted else 0.0
+    for j in range(len(eps)):
+        load[j] = 2 * math.sqrt(eps[j] / end) - 1 if rooted else rate * ln(eps[j] / begin) - 1
+    first, second = panel[OF_LOAD:OF_AREA_1], panel[OF_AREA_1:OF_AREA_2]
+    third = panel[OF_AREA_2:PANEL]
+    for j in range(len(eps)):
+        x = load[j]
+        b_1, c_1, b_2, c_2, b_3, c_3, twice = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2 * x
+        for k in range(1, TERMS):
+            b_1, c_1 = first[TERMS - k] + twice * b_1 - c_1, b_1
+            b_2, c_2 = second[TERMS - k] + twice * b_2 - c_2, b_2
+            b_3, c_3 = third[TERMS - k] + twice * b_3 - c_3, b_3
+        load[j] = eps[j] * math.sqrt(eps[j]) * (first[0] + x * b_1 - c_1)
+        one[j] = eps[j] * (second[0] + x * b_2 - c_2)
+        two[j] = eps[j] * (third[0] + x * b_3 - c_3)
+
+
+@scalar
+def _read_particle(panel, eps):
+    """As `_read_particles`, at one squeeze."""
+    apart()
+    begin, end = panel[FROM], panel[UNTIL]
+    if begin == 0:
+        x = 2 * math.sqrt(eps / end) - 1
+    else:
+        x = 2 * math.log(eps / begin) / math.log(end / begin) - 1
+    b_1, c_1, b_2, c_2, b_3, c_3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(TERMS - 1, 0, -1):
+        b_1, c_1 = panel[OF_LOAD + k] + 2 * x * b_1 - c_1, b_1
+        b_2, c_2 = panel[OF_AREA_1 + k] + 2 * x * b_2 - c_2, b_2
+        b_3, c_3 = panel[OF_AREA_2 + k] + 2 * x * b_3 - c_3, b_3
+    load = eps * math.sqrt(eps) * (panel[OF_LOAD] + x * b_1 - c_1)
+    one, two = panel[OF_AREA_1] + x * b_2 - c_2, panel[OF_AREA_2] + x * b_3 - c_3
+    return load, eps * one, eps * two
+
+
+@scalar
+def _settle_one(rule, values, series):
+    """Coefficients of a series, and whether they end: its last two terms over its largest value."""
+    apart()
+    most = 0.0
+    for j in range(TERMS):
+        most = max(most, abs(values[j]))
+    transform(rule, values, series)
+    return abs(series[TERMS - 1]) + abs(series[TERMS - 2]) <= SETTLED * most
+
+
+@scalar
+def _settle(panel, room, rule):
+    """Take series of load and areas from the rows of the room, at the places of a series."""
+    apart()
+    eps, load = room[AT, :TERMS], room[LOAD, :TERMS]
+    one, two = room[AREA_1, :TERMS], room[AREA_2, :TERMS]
+    for j in range(TERMS):
+        load[j] /= eps[j] * math.sqrt(eps[j])
+        one[j] /= eps[j]
+        two[j] /= eps[j]
+    good = _settle_one(rule, load, panel[OF_LOAD:OF_AREA_1])
+    good &= _settle_one(rule, one, panel[OF_AREA_1:OF_AREA_2])
+    good &= _settle_one(rule, two, panel[OF_AREA_2:PANEL])
+    panel[SURE] = 1.0 if good else 0.0
+
+
+@scalar
+def settle(given, sides, panels, p, n, rule):
+    """Series of load and areas on panel n, where they are smooth enough for one."""
+    apart()
+    panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
+    panel[SURE] = 0.0
+    if panel[HELD] != 0 and given[p, EQUAL] != 1:
+        return
+    panel[FROM], panel[UNTIL] = panel[EDGE], panel[TO]
+    fill_places(rule[0, :TERMS], panel[EDGE], panel[TO], room[AT, :TERMS])
+    fill_particles(given, sides, panels, p, n, TERMS)
+    _settle(panel, room, rule)
 
 
 @scalar
@@ -336,7 +424,11 @@ def fill_particles(given, sides, panels, p, n, count):
     eps, first = room[AT, :wide], room[FIRST, :wide]
     for j in range(count, wide):
         eps[j] = eps[count - 1]
-    if given[p, EQUAL] == 1:
+    if panel[SURE] == 1:
+        _read_particles(
+            panel, eps, room[LOAD, :wide], room[AREA_1, :wide], room[AREA_2, :wide]
+        )  # fmt: skip
+    elif given[p, EQUAL] == 1:
         for j in range(wide):
             first[j] = 0.5 * eps[j]
         fill_side(
@@ -352,20 +444,6 @@ def fill_particles(given, sides, panels, p, n, count):
             )
     else:
         _fill_unlike(sides, panel, p, room, wide)
-
-
-@scalar
-def fill_areas(given, sides, panels, p, n, count):
-    """As `fill_particles`, of areas alone, as the share of a squeeze has them."""
-    apart()
-    panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
-    eps, first, second = room[AT, :count], room[FIRST, :count], room[SECOND, :count]
-    if given[p, EQUAL] == 1 or panel[HELD] != 0:
-        fill_particles(given, sides, panels, p, n, count)
-        return
-    _read_shares(panel, eps, first)
-    _find_rest(eps, first, second)
-    _fill_both(sides, p, panel, first, second, room)
 
 
 @scalar
@@ -500,6 +578,36 @@ def transform(rule, values, series):
 
 
 @scalar
+def _end_share(sides, p, panel, room, rule, wide):
+    """Series of the share, and of load and areas, from indentations that are all but found.
+
+    What the room has of the step before is a point on the line to the root.
+    """
+    apart()
+    eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
+    load, other, off = room[LOAD, :wide], room[OTHER, :wide], room[OFF, :wide]
+    for j in range(wide):
+        room[NEAR, j], room[NEAR_1, j] = room[LOAD, j], room[AREA_1, j]
+        room[NEAR_OTHER, j], room[NEAR_2, j] = room[OTHER, j], room[AREA_2, j]
+    _find_rest(eps, first, second)
+    _fill_both(sides, p, panel, first, second, room)
+    worst = _find_off(load, other, off)
+    _follow(off, room[NEAR, :wide], room[NEAR_OTHER, :wide], off)
+    _mix(off, room[OLD, :wide], first)
+    for j in range(TERMS):
+        room[LEAST, j] = first[j] / eps[j]
+    transform(rule, room[LEAST, :TERMS], panel[SHARE : SHARE + TERMS])
+    if worst <= NEARBY:
+        _mix(off, room[NEAR, :wide], load)
+        _mix(off, room[NEAR_OTHER, :wide], other)
+        _mix(off, room[NEAR_1, :wide], room[AREA_1, :wide])
+        _mix(off, room[NEAR_2, :wide], room[AREA_2, :wide])
+        _find_rest(eps, first, second)
+        _take_weaker(first, second, other, load)
+        _settle(panel, room, rule)
+
+
+@scalar
 def _fill_share(sides, panels, p, n, rule, a, b, low, high):
     """Series of the share of side 1 on panel n; whether it could be found.
 
@@ -531,9 +639,9 @@ def _fill_share(sides, panels, p, n, rule, a, b, low, high):
         )  # fmt: skip
         if worst < SOLVED:
             break
-    for j in range(TERMS):
-        slope[j] = first[j] / eps[j]
-    transform(rule, slope, panel[SHARE : SHARE + TERMS])
+    panel[SURE] = 0.0
+    if worst < SOLVED:
+        _end_share(sides, p, panel, room, rule, wide)
     return worst < SOLVED
 
 
@@ -579,13 +687,14 @@ def share_out(sides, panels, p, count, rule):
         while panels[p, last, ONE] < 0:
             last += 1
         end, high = panels[p, last, EDGE], panels[p, last, ONE]
-        panels[p, n, FORM_1] = panels[p, n, FORM_2] = 0.0
+        panels[p, n, FORM_1] = panels[p, n, FORM_2] = panels[p, n, SURE] = 0.0
         panels[p, n, HELD] = _held(sides, p, 0.5 * (a + b))
         if panels[p, n, HELD] != 0:
             n += 1
             continue
         if free or not _fill_share(sides, panels, p, n, rule, begin, end, low, high):
             _fill_share_by_one(sides, panels, p, n, rule, begin, end, low, high)
+            panels[p, n, SURE] = 0.0
         tail = abs(panels[p, n, SHARE + TERMS - 1]) + abs(panels[p, n, SHARE + TERMS - 2])
         if tail > RESOLVED and b > a * 1.001 and count < MOST_PANELS - 2:
             for m in range(count + 1, n, -1):

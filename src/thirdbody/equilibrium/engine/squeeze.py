@@ -23,12 +23,13 @@ from .shares import (
     SHARE,
     TO,
     around,
-    fill_areas,
+    fill_particles,
     first_at,
     inverse,
     note_jumps,
     note_loads,
     particle_at,
+    settle,
     share_out,
 )
 from .sides import prepare, regime_of, scalar, side_at
@@ -83,28 +84,33 @@ def _kinks(given, sides, panels, p):
 
 
 @scalar
-def _areas_at(sides, panels, p, n, eps):
-    """Areas over x² on both surfaces, of ε on panel n, as the share of a squeeze has them."""
+def _crossing(given, sides, panels, p, n, low, high):
+    """ε on panel n between two at which the areas on both surfaces are equal, by chords."""
     apart()
-    one = first_at(panels, p, n, eps)
-    return side_at(sides, 2 * p, one)[1], side_at(sides, 2 * p + 1, eps - one)[1]
-
-
-@scalar
-def _crossing(sides, panels, p, n, low, high):
-    """ε on panel n between two at which the areas on both surfaces are equal."""
-    apart()
-    one, two = _areas_at(sides, panels, p, n, low)
-    above = one > two
-    for _ in range(100):
-        eps = 0.5 * (low + high)
-        if high - low <= 1e-15 * high:
+    _, one, two = particle_at(given, sides, panels, p, n, low)
+    f_low = one - two
+    _, one, two = particle_at(given, sides, panels, p, n, high)
+    f_high, last = one - two, 0
+    for step in range(100):
+        if high - low <= 1e-15 * high or f_low == 0 or f_high == 0:
             break
-        one, two = _areas_at(sides, panels, p, n, eps)
-        if (one > two) == above:
-            low = eps
+        eps = (low * f_high - high * f_low) / (f_high - f_low)
+        if not low < eps < high or step % 8 == 7:
+            eps = 0.5 * (low + high)
+        _, one, two = particle_at(given, sides, panels, p, n, eps)
+        f = one - two
+        if abs(f) <= 1e-13 * max(one, two):
+            return eps
+        if (f > 0) == (f_low > 0):
+            low, f_low = eps, f
+            if last == -1:
+                f_high *= 0.5
+            last = -1
         else:
-            high = eps
+            high, f_high = eps, f
+            if last == 1:
+                f_low *= 0.5
+            last = 1
     return 0.5 * (low + high)
 
 
@@ -120,14 +126,14 @@ def _cut_at_crossings(given, sides, panels, p, count):
         before, place = 0.0, a
         for j in range(VECTOR):
             room[AT, j] = a + (b - a) * (1e-4 + (1 - 2e-4) / (VECTOR - 1) * j)
-        fill_areas(given, sides, panels, p, n, VECTOR)
+        fill_particles(given, sides, panels, p, n, VECTOR)
         for j in range(VECTOR):
             eps, one, two = room[AT, j], room[AREA_1, j], room[AREA_2, j]
             sign = 0.0
             if abs(one - two) > 1e-11 * max(one, two):
                 sign = 1.0 if one > two else -1.0
             if sign * before < 0:
-                at = _crossing(sides, panels, p, n, place, eps)
+                at = _crossing(given, sides, panels, p, n, place, eps)
                 for m in range(count, n, -1):
                     for k in range(panels.shape[2]):
                         panels[p, m, k] = panels[p, m - 1, k]
@@ -214,6 +220,7 @@ def lay_panels(given, sides, panels, p, rule):
         panels[p, n, REGIME] = regime_of(sides, 2 * p, one)
         if equal:
             panels[p, n, FORM_1] = formula_of(sides, 2 * p, one)
+            settle(given, sides, panels, p, n, rule)
     _note_last(given, sides, panels, p, count)
     panels[p, count, SHARE] = 0.0 if equal else worst
     return count
