@@ -10,6 +10,11 @@ from numba import njit
 from ..compiled.cached import Cached
 from ..compiled.machine import apart
 from .breakage import lay_tension, lay_whole
+from .curves import (
+    AREA_1, AREA_2, AT, EDGE, MOST_PANELS, PANEL, ROOM, SETTLED, SHARE, TO, fill_particles,
+    particle_at,
+)  # fmt: skip
+from .curves import LOAD as CARRIED
 from .fields import (
     A_E,
     A_SA,
@@ -60,20 +65,6 @@ from .seats import (
     lay_broken,
     lay_pieces,
 )
-from .shares import (
-    AREA_1,
-    AREA_2,
-    AT,
-    EDGE,
-    MOST_PANELS,
-    PANEL,
-    ROOM,
-    SHARE,
-    TO,
-    fill_particles,
-    particle_at,
-)
-from .shares import LOAD as CARRIED
 from .sides import scalar
 from .squeeze import lay_panels
 from .sums import MOST_HEIGHTS, MOST_SIZES, add_skin, lay_skin, shade
@@ -472,6 +463,8 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
             continue
         off = work[2][p, laid[p, few, COUNT], SHARE]
         error = max(error, SAFE * off * off)
+    if len(given) > 0:
+        error += SAFE * SETTLED  # of the series that are read
     if slope < 0:
         error = max(error, error / -slope * skin[0, SIGMA_S] / skin[0, SIGMA])
     return error

@@ -10,21 +10,7 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart, exp
-from .densities import density
-from .fields import (
-    EQUAL,
-    EXPONENT,
-    HIGH,
-    KEPT,
-    LEAST,
-    LN_STRENGTH,
-    LOW,
-    MODULUS,
-    RATIO,
-    SIZE_1,
-    UNBROKEN,
-)
-from .shares import (
+from .curves import (
     AREA_1,
     AREA_2,
     AT,
@@ -46,7 +32,21 @@ from .shares import (
     particle_at,
     transform,
 )
-from .sides import exact, scalar
+from .densities import density
+from .fields import (
+    EQUAL,
+    EXPONENT,
+    HIGH,
+    KEPT,
+    LEAST,
+    LN_STRENGTH,
+    LOW,
+    MODULUS,
+    RATIO,
+    SIZE_1,
+    UNBROKEN,
+)
+from .sides import chord, exact, narrowed, scalar
 
 __all__ = ["lay_tension", "lay_whole", "mark_sizes"]
 
@@ -151,22 +151,11 @@ def _reaches(given, sides, panels, p, n, side, s, f_high):
     for step in range(4 * SEARCHED):
         if high - low <= 1e-13 * high or f_high <= 0 or f_low >= 0:
             break
-        eps = (low * f_high - high * f_low) / (f_high - f_low)
-        if not low < eps < high or step % 8 == 7:
-            eps = 0.5 * (low + high)
+        eps = chord(low, f_low, high, f_high, step)
         f = _cap_at(given, sides, panels, p, n, eps, side) - s
-        if f < 0:
-            low, f_low = eps, f
-            if last == -1:
-                f_high *= 0.5
-            last = -1
-        else:
-            high, f_high = eps, f
-            if last == 1:
-                f_low *= 0.5
-            last = 1
-            if f < 1e-14:
-                break
+        low, f_low, high, f_high, last = narrowed(low, f_low, high, f_high, last, eps, f)
+        if 0 <= f < 1e-14:
+            break
     return high
 
 

@@ -12,6 +12,8 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart, exp
+from .curves import AREA_1, AREA_2, AT, EDGE, REGIME, ROOM, TO, fill_particles
+from .curves import LOAD as CARRIED
 from .densities import scale_of
 from .fields import (
     A_SA,
@@ -45,8 +47,6 @@ from .fields import (
     SPAN,
     WIDTH,
 )
-from .shares import AREA_1, AREA_2, AT, EDGE, REGIME, ROOM, TO, fill_particles
-from .shares import LOAD as CARRIED
 from .sides import exact, scalar, summed
 from .sums import ROOT_2PI, above, add_last, add_plane, lay_sizes, shade
 

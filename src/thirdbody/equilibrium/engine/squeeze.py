@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart
-from .fields import COUNT, EQUAL, FOOTPRINT, JUMPS, KINKS, LIMIT, PROJECTED, SHADOW
-from .shares import (
+from .curves import (
     AREA_1,
     AREA_2,
     AT,
@@ -22,17 +21,14 @@ from .shares import (
     ROOM,
     SHARE,
     TO,
-    around,
     fill_particles,
     first_at,
-    inverse,
-    note_jumps,
-    note_loads,
     particle_at,
     settle,
-    share_out,
 )
-from .sides import prepare, regime_of, scalar, side_at
+from .fields import COUNT, DEEP, EQUAL, FOOTPRINT, FORM, JUMPS, KINKS, LIMIT, PROJECTED, SHADOW, TIP
+from .shares import around, inverse, note_jumps, note_loads, share_out
+from .sides import SPLITS, chord, narrowed, prepare, regime_of, scalar, side_at
 from .vectors import VECTOR, formula_of
 
 __all__ = ["lay_panels"]
@@ -58,16 +54,30 @@ def _lay(panels, p, count, eps, one):
 
 
 @scalar
+def _is_split(sides, i, delta):
+    """Whether an indentation is one at which the table is cut for shorter panels alone."""
+    eps = delta / sides[i, TIP]
+    for split in SPLITS:
+        if abs(eps - split) < 1e-12 and delta < sides[i, KINKS + int(sides[i, COUNT]) - 1]:
+            return True
+    return False
+
+
+@scalar
 def _kinks(given, sides, panels, p):
     """Kinks in ε as ends of panels after 0; how many ends."""
     apart()
     panels[p, 0, EDGE] = panels[p, 0, ONE] = 0.0
     count = 1 + int(panels[p, 0, EDGE])  # no constant, for which numba would compile twice
-    equal = given[p, EQUAL] == 1
+    equal, stronger = given[p, EQUAL] == 1, -1
+    if sides[2 * p, FORM] == DEEP and sides[2 * p + 1, FORM] == DEEP and not equal:
+        stronger = 2 * p if sides[2 * p, LIMIT] > sides[2 * p + 1, LIMIT] else 2 * p + 1
     for i in range(1 if equal else 2):
         own, other = 2 * p + i, 2 * p + 1 - i
         for k in range(int(sides[own, COUNT])):
             delta = sides[own, KINKS + k]
+            if own == stronger and _is_split(sides, own, delta):
+                continue
             if equal:
                 count = _lay(panels, p, count, 2 * delta, delta)
                 continue
@@ -84,33 +94,28 @@ def _kinks(given, sides, panels, p):
 
 
 @scalar
+def _which(given, sides, panels, p, n, eps):
+    """Difference of the areas on both surfaces over the larger."""
+    _, one, two = particle_at(given, sides, panels, p, n, eps)
+    return (one - two) / max(one, two)
+
+
+@scalar
 def _crossing(given, sides, panels, p, n, low, high):
     """ε on panel n between two at which the areas on both surfaces are equal, by chords."""
     apart()
-    _, one, two = particle_at(given, sides, panels, p, n, low)
-    f_low = one - two
-    _, one, two = particle_at(given, sides, panels, p, n, high)
-    f_high, last = one - two, 0
+    f_low = _which(given, sides, panels, p, n, low)
+    f_high, last = _which(given, sides, panels, p, n, high), 0
+    sign = 1.0 if f_high > 0 else -1.0
+    f_low, f_high = sign * f_low, sign * f_high
     for step in range(100):
-        if high - low <= 1e-15 * high or f_low == 0 or f_high == 0:
+        if high - low <= 1e-15 * high or f_low >= 0 or f_high <= 0:
             break
-        eps = (low * f_high - high * f_low) / (f_high - f_low)
-        if not low < eps < high or step % 8 == 7:
-            eps = 0.5 * (low + high)
-        _, one, two = particle_at(given, sides, panels, p, n, eps)
-        f = one - two
-        if abs(f) <= 1e-13 * max(one, two):
+        eps = chord(low, f_low, high, f_high, step)
+        f = sign * _which(given, sides, panels, p, n, eps)
+        if abs(f) <= 1e-13:
             return eps
-        if (f > 0) == (f_low > 0):
-            low, f_low = eps, f
-            if last == -1:
-                f_high *= 0.5
-            last = -1
-        else:
-            high, f_high = eps, f
-            if last == 1:
-                f_low *= 0.5
-            last = 1
+        low, f_low, high, f_high, last = narrowed(low, f_low, high, f_high, last, eps, f)
     return 0.5 * (low + high)
 
 

@@ -7,6 +7,21 @@ import math
 from ...laws.asperity import formulas
 from ..compiled.machine import apart, exp, normal_cdf
 from .breakage import mark_sizes
+from .curves import (
+    AREA_1,
+    AREA_2,
+    AT,
+    CLOSE,
+    LAST_1,
+    LAST_2,
+    MASS,
+    REGIME,
+    ROOM,
+    TO,
+    fill_particles,
+    particle_at,
+)
+from .curves import LOAD as CARRIED
 from .densities import density, scale_of
 from .field import add_field, lay_field
 from .fields import (
@@ -68,21 +83,6 @@ from .fields import (
     WIDTH,
     W,
 )  # fmt: skip
-from .shares import (
-    AREA_1,
-    AREA_2,
-    AT,
-    CLOSE,
-    LAST_1,
-    LAST_2,
-    MASS,
-    REGIME,
-    ROOM,
-    TO,
-    fill_particles,
-    particle_at,
-)
-from .shares import LOAD as CARRIED
 from .sides import branch_of, break_at, breaks, exact, law_at, regime_of_branch, scalar
 
 __all__ = [

@@ -50,7 +50,7 @@ from .sides import (
     zmc_by,
 )
 
-__all__ = ["VECTOR", "fill_side", "formula_of", "ln", "padded"]
+__all__ = ["VECTOR", "exp", "fill_side", "formula_of", "ln", "padded"]
 
 VECTOR = 8
 """Numbers that a processor takes at once."""
