@@ -11,7 +11,17 @@ from ..compiled.cached import Cached
 from ..compiled.machine import apart
 from .breakage import lay_tension, lay_whole
 from .curves import (
-    AREA_1, AREA_2, AT, EDGE, MOST_PANELS, PANEL, ROOM, SETTLED, SHARE, TO, fill_particles,
+    AREA_1,
+    AREA_2,
+    AT,
+    EDGE,
+    MOST_PANELS,
+    PANEL,
+    ROOM,
+    SETTLED,
+    SHARE,
+    TO,
+    fill_particles,
     particle_at,
 )  # fmt: skip
 from .curves import LOAD as CARRIED
@@ -57,14 +67,7 @@ from .fields import (
     WIDTH,
 )  # fmt: skip
 from .printed import add_printed, only_falls, printed_bound
-from .seats import (
-    GRID_ROWS,
-    MOST_NODES,
-    add_part,
-    gather_gaps,
-    lay_broken,
-    lay_pieces,
-)
+from .seats import GRID_ROWS, MOST_NODES, add_part, gather_gaps, lay_broken, lay_pieces
 from .sides import scalar
 from .squeeze import lay_panels
 from .sums import MOST_HEIGHTS, MOST_SIZES, add_skin, lay_skin, shade
@@ -461,8 +464,7 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
     for p in range(len(given)):  # shares of unlike sides are corrected once
         if given[p, SEAT] == PRINTED:
             continue
-        off = work[2][p, laid[p, few, COUNT], SHARE]
-        error = max(error, SAFE * off * off)
+        error = max(error, SAFE * work[2][p, laid[p, few, COUNT], SHARE] ** 2)
     if len(given) > 0:
         error += SAFE * SETTLED  # of the series that are read
     if slope < 0:
