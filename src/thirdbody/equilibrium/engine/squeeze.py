@@ -26,9 +26,9 @@ from .curves import (
     particle_at,
     settle,
 )
-from .fields import COUNT, DEEP, EQUAL, FOOTPRINT, FORM, JUMPS, KINKS, LIMIT, PROJECTED, SHADOW, TIP
+from .fields import COUNT, EQUAL, FOOTPRINT, JUMPS, KINKS, LIMIT, PROJECTED, SHADOW
 from .shares import around, inverse, note_jumps, note_loads, share_out
-from .sides import SPLITS, chord, narrowed, prepare, regime_of, scalar, side_at
+from .sides import chord, narrowed, prepare, regime_of, scalar, side_at
 from .vectors import VECTOR, formula_of
 
 __all__ = ["lay_panels"]
@@ -54,30 +54,16 @@ def _lay(panels, p, count, eps, one):
 
 
 @scalar
-def _is_split(sides, i, delta):
-    """Whether an indentation is one at which the table is cut for shorter panels alone."""
-    eps = delta / sides[i, TIP]
-    for split in SPLITS:
-        if abs(eps - split) < 1e-12 and delta < sides[i, KINKS + int(sides[i, COUNT]) - 1]:
-            return True
-    return False
-
-
-@scalar
 def _kinks(given, sides, panels, p):
     """Kinks in ε as ends of panels after 0; how many ends."""
     apart()
     panels[p, 0, EDGE] = panels[p, 0, ONE] = 0.0
     count = 1 + int(panels[p, 0, EDGE])  # no constant, for which numba would compile twice
-    equal, stronger = given[p, EQUAL] == 1, -1
-    if sides[2 * p, FORM] == DEEP and sides[2 * p + 1, FORM] == DEEP and not equal:
-        stronger = 2 * p if sides[2 * p, LIMIT] > sides[2 * p + 1, LIMIT] else 2 * p + 1
+    equal = given[p, EQUAL] == 1
     for i in range(1 if equal else 2):
         own, other = 2 * p + i, 2 * p + 1 - i
         for k in range(int(sides[own, COUNT])):
             delta = sides[own, KINKS + k]
-            if own == stronger and _is_split(sides, own, delta):
-                continue
             if equal:
                 count = _lay(panels, p, count, 2 * delta, delta)
                 continue
