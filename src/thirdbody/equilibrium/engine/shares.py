@@ -59,6 +59,9 @@ from .fields import CEB, CODE, COUNT, JG, JUMPS, KINKS, LIMIT, LOADS, MOST_JUMPS
 from .sides import exact, scalar, side_at
 from .vectors import exp, formula_of, ln, padded
 
+SEEN = 11
+"""Term of a share that must be small: where it is, rules of as many nodes sum what it gives."""
+
 
 @scalar
 def note_jumps(sides, i):
@@ -411,7 +414,7 @@ def share_out(sides, panels, p, count, rule):
         if free or not _fill_share(sides, panels, p, n, rule, begin, end, low, high):
             _fill_share_by_one(sides, panels, p, n, rule, begin, end, low, high)
             panels[p, n, SURE] = 0.0
-        tail = abs(panels[p, n, SHARE + TERMS - 1]) + abs(panels[p, n, SHARE + TERMS - 2])
+        tail = abs(panels[p, n, SHARE + SEEN]) + abs(panels[p, n, SHARE + SEEN - 1])
         if tail > RESOLVED and b > a * 1.001 and count < MOST_PANELS - 2:
             for m in range(count + 1, n, -1):
                 for k in (EDGE, TO, ONE):
