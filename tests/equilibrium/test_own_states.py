@@ -704,6 +704,36 @@ def test_company_order_and_threads_change_no_bit(seat):
             np.testing.assert_array_equal(whole[name][7:8], alone[name], name)
 
 
+ASPERITIES = {
+    "jkr": tb.asperity.JKR(w=0.05),
+    "dmt": tb.asperity.DMT(w=0.05),
+    "coated": tb.asperity.Coated(E_1=3e11, nu_1=0.25, t=50e-9),
+    "elliptic": tb.asperity.EllipticZMC(ratio=2.0),
+    "shapes": tb.asperity.EllipticCEB(),
+}
+
+
+@pytest.mark.parametrize("law", ASPERITIES)
+def test_company_order_and_threads_change_no_bit_of_asperities(law):
+    case = contact().replace(particles=None, asperity_law=ASPERITIES[law])
+    if law == "shapes":
+        shapes = tb.Ellipticity(ratios=(1.0, 3.0))
+        case = case.replace(**{"roughness.ellipticity": shapes})
+    count, rng = 520, np.random.default_rng(6)  # more than one thread is handed at a time
+    vary = {
+        "roughness.sigma": 1e-7 * np.repeat(rng.uniform(0.5, 2, count // 4), 4),
+        "surfaces.first.H": STEEL.H * np.repeat(rng.uniform(0.5, 2, count // 4), 4),
+    }
+    loads, order = 10.0 ** rng.uniform(-7, -4, count), rng.permutation(count)
+    whole = own_columns(case, vary, "F_star", loads)
+    mixed = {name: values[order] for name, values in vary.items()}
+    other = own_columns(case, mixed, "F_star", loads[order], threads=2)
+    alone = own_columns(case, {k: v[7:8] for k, v in vary.items()}, "F_star", loads[7:8])
+    for name in ("d", "F_ss_star", "A_e", "A_ep", "A_p", "A_t"):
+        np.testing.assert_array_equal(whole[name][order], other[name], name)
+        np.testing.assert_array_equal(whole[name][7:8], alone[name], name)
+
+
 def test_given_separations_give_the_load():
     case = contact("hermite", "plane", "soft")
     vary, loads = drawn(case, 40, 6, unlike=False)

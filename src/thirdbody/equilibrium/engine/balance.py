@@ -10,6 +10,21 @@ from numba import njit
 from ..compiled.cached import Cached
 from ..compiled.machine import apart
 from .breakage import lay_tension, lay_whole
+from .curves import (
+    AREA_1,
+    AREA_2,
+    AT,
+    EDGE,
+    MOST_PANELS,
+    PANEL,
+    ROOM,
+    SETTLED,
+    SHARE,
+    TO,
+    fill_particles,
+    particle_at,
+)  # fmt: skip
+from .curves import LOAD as CARRIED
 from .fields import (
     A_E,
     A_SA,
@@ -52,17 +67,11 @@ from .fields import (
     WIDTH,
 )  # fmt: skip
 from .printed import add_printed, only_falls, printed_bound
-from .seats import (
-    GRID_ROWS,
-    MOST_NODES,
-    add_part,
-    gather_gaps,
-    lay_broken,
-    lay_pieces,
-)
+from .seats import GRID_ROWS, MOST_NODES, add_part, gather_gaps, lay_broken, lay_pieces
 from .sides import scalar
-from .squeeze import EDGE, MOST_PANELS, PANEL, SHARE, TO, lay_panels, particle_at
+from .squeeze import lay_panels
 from .sums import MOST_HEIGHTS, MOST_SIZES, add_skin, lay_skin, shade
+from .vectors import VECTOR
 
 __all__ = ["LEVELS", "solve_own"]
 
@@ -289,12 +298,14 @@ def _pays(given, work, laid, p, bound):
         return False
     if coverage * (0.5 * math.pi * bound / given[p, STIFFEST]) ** 2 > RISE:
         return False
-    most = worst = 0.0
+    most, worst, room = 0.0, 0.0, panels[p, len(panels[p]) - ROOM :]
     for n in range(laid[p, COARSE, COUNT]):
         a, b = panels[p, n, EDGE], panels[p, n, TO]
-        for j in range(1, 5):
-            load, one, two = particle_at(given, work[1], panels, p, n, a + 0.25 * j * (b - a))
-            left = load - bound * shade(given, p, one, two)
+        for j in range(VECTOR):
+            room[AT, j] = a + (b - a) * (j + 1) / VECTOR
+        fill_particles(given, work[1], panels, p, n, VECTOR)
+        for j in range(VECTOR):
+            left = room[CARRIED, j] - bound * shade(given, p, room[AREA_1, j], room[AREA_2, j])
             most = max(most, left)
             worst = max(worst, most - left)
     return worst * coverage <= RISE * bound
@@ -453,8 +464,9 @@ def estimate(given, skin, work, laid, rules, h, slope, row, out):
     for p in range(len(given)):  # shares of unlike sides are corrected once
         if given[p, SEAT] == PRINTED:
             continue
-        off = work[2][p, laid[p, few, COUNT], SHARE]
-        error = max(error, SAFE * off * off)
+        error = max(error, SAFE * work[2][p, laid[p, few, COUNT], SHARE] ** 2)
+    if len(given) > 0:
+        error += SAFE * SETTLED  # of the series that are read
     if slope < 0:
         error = max(error, error / -slope * skin[0, SIGMA_S] / skin[0, SIGMA])
     return error
@@ -561,7 +573,7 @@ def solve_own(skins, parts, bodies, rules, inside, coating, target, h, count, fa
     work = (
         np.zeros((5, 2 * MOST_HEIGHTS * skins.shape[1])),
         sides,
-        np.empty((most, MOST_PANELS, PANEL)),
+        np.empty((most, MOST_PANELS + ROOM, PANEL)),
         np.empty((GRID_ROWS, MOST_NODES)),
         np.empty((4, MOST_SIZES)),
         np.empty(MOST_WHOLE if inside[0, 0] > 0 else 1),

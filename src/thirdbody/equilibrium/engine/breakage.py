@@ -10,6 +10,28 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart, exp
+from .curves import (
+    AREA_1,
+    AREA_2,
+    AT,
+    CLOSE,
+    EDGE,
+    KINKED,
+    LOAD,
+    MOST_PANELS,
+    PANEL,
+    PULLED,
+    RATE,
+    ROOM,
+    START,
+    TENSION,
+    TERMS,
+    TO,
+    fill_particles,
+    fill_places,
+    particle_at,
+    transform,
+)
 from .densities import density
 from .fields import (
     EQUAL,
@@ -24,21 +46,7 @@ from .fields import (
     SIZE_1,
     UNBROKEN,
 )
-from .sides import exact, scalar
-from .squeeze import (
-    CLOSE,
-    EDGE,
-    KINKED,
-    MOST_PANELS,
-    PANEL,
-    PULLED,
-    RATE,
-    START,
-    TENSION,
-    TERMS,
-    TO,
-    particle_at,
-)
+from .sides import chord, exact, narrowed, scalar
 
 __all__ = ["lay_tension", "lay_whole", "mark_sizes"]
 
@@ -82,15 +90,18 @@ def cap_of(area):
 
 
 @scalar
-def tension_now(given, sides, panels, p, n, eps, inside):
-    """σ_t of a particle squeezed by ε on panel n [Pa]."""
+def fill_tensions(given, sides, panels, p, n, count, inside):
+    """σ_t of a particle on panel n [Pa], as `fill_particles`, in place of its load."""
     apart()
-    load, one, two = particle_at(given, sides, panels, p, n, eps)
+    fill_particles(given, sides, panels, p, n, count)
     if inside[0, CONFINED] == 0:
-        return load
-    first = confined(inside, cap_of(one))
-    second = first if given[p, EQUAL] == 1 else confined(inside, cap_of(two))
-    return load * 0.5 * (first + second)
+        return
+    room = panels[p, len(panels[p]) - ROOM :]
+    for j in range(count):
+        first = second = confined(inside, cap_of(room[AREA_1, j]))
+        if given[p, EQUAL] != 1:
+            second = confined(inside, cap_of(room[AREA_2, j]))
+        room[LOAD, j] *= 0.5 * (first + second)
 
 
 @scalar
@@ -140,22 +151,11 @@ def _reaches(given, sides, panels, p, n, side, s, f_high):
     for step in range(4 * SEARCHED):
         if high - low <= 1e-13 * high or f_high <= 0 or f_low >= 0:
             break
-        eps = (low * f_high - high * f_low) / (f_high - f_low)
-        if not low < eps < high or step % 8 == 7:
-            eps = 0.5 * (low + high)
+        eps = chord(low, f_low, high, f_high, step)
         f = _cap_at(given, sides, panels, p, n, eps, side) - s
-        if f < 0:
-            low, f_low = eps, f
-            if last == -1:
-                f_high *= 0.5
-            last = -1
-        else:
-            high, f_high = eps, f
-            if last == 1:
-                f_low *= 0.5
-            last = 1
-            if f < 1e-14:
-                break
+        low, f_low, high, f_high, last = narrowed(low, f_low, high, f_high, last, eps, f)
+        if 0 <= f < 1e-14:
+            break
     return high
 
 
@@ -211,17 +211,14 @@ def _fill_tension(given, sides, panels, p, n, rule, inside):
         low = math.log(first)
         panels[p, n, RATE] = 2 / (math.log(last) - low)
         panels[p, n, START] = -panels[p, n, RATE] * low - 1
-    for k in range(TERMS):
-        panels[p, n, TENSION + k] = 0.0
+    room, series = panels[p, len(panels[p]) - ROOM :], panels[p, n, TENSION : TENSION + TERMS]
+    eps, found = room[AT, :TERMS], room[LOAD, :TERMS]
+    fill_places(rule[0, :TERMS], first, last, eps)
+    fill_tensions(given, sides, panels, p, n, TERMS, inside)
     for j in range(TERMS):
-        x = rule[0, j]
-        eps = 0.25 * last * (x + 1) ** 2
-        if first > 0:
-            eps = first * math.exp(0.5 * (x + 1) * math.log(last / first))
-        value = tension_now(given, sides, panels, p, n, eps, inside) / (eps * math.sqrt(eps))
-        most = max(most, value)
-        for k in range(TERMS):
-            panels[p, n, TENSION + k] += rule[1 + k, j] * value
+        found[j] /= eps[j] * math.sqrt(eps[j])
+        most = max(most, found[j])
+    transform(rule, found, series)
     tail = abs(panels[p, n, TENSION + TERMS - 1]) + abs(panels[p, n, TENSION + TERMS - 2])
     return tail / most if most > 0 else 0.0
 
@@ -230,13 +227,10 @@ def _fill_tension(given, sides, panels, p, n, rule, inside):
 def _take_logarithm(panels, p, n, rule):
     """Series of ln(σ_t/ε^1.5) on panel n in place of that of σ_t/ε^1.5."""
     apart()
-    found = panels[p, len(panels[p]) - 1]  # room that no panel has
+    found = panels[p, len(panels[p]) - 1, :TERMS]  # room behind the panels
     for j in range(TERMS):
-        found[TENSION + j] = math.log(max(_sum_series(panels, p, n, rule[0, j]), 1e-300))
-    for k in range(TERMS):
-        panels[p, n, TENSION + k] = 0.0
-        for j in range(TERMS):
-            panels[p, n, TENSION + k] += rule[1 + k, j] * found[TENSION + j]
+        found[j] = math.log(max(_sum_series(panels, p, n, rule[0, j]), 1e-300))
+    transform(rule, found, panels[p, n, TENSION : TENSION + TERMS])
 
 
 @scalar

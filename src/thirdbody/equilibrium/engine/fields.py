@@ -66,7 +66,9 @@ MOST_KINKS = 40
 MOST_JUMPS = 4
 JUMPS = KINKS + MOST_KINKS
 """How many jumps its load has, and of each where [x] and the loads before and behind it."""
-SIDE = JUMPS + 1 + 3 * MOST_JUMPS
+LOADS = JUMPS + 1 + 3 * MOST_JUMPS
+"""Load at each kink, between two different sides."""
+SIDE = LOADS + MOST_KINKS
 
 # ------------------------------------------------------------------ given, of particles
 SEAT, SHADOW, EQUAL, KIND, SIZE_1, SIZE_2, NORM, LOW, HIGH = range(9)

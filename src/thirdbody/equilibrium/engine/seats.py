@@ -12,6 +12,8 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart, exp
+from .curves import AREA_1, AREA_2, AT, EDGE, REGIME, ROOM, TO, fill_particles
+from .curves import LOAD as CARRIED
 from .densities import scale_of
 from .fields import (
     A_SA,
@@ -46,7 +48,6 @@ from .fields import (
     WIDTH,
 )
 from .sides import exact, scalar, summed
-from .squeeze import EDGE, REGIME, TO, particle_at
 from .sums import ROOT_2PI, above, add_last, add_plane, lay_sizes, shade
 
 __all__ = [
@@ -88,16 +89,20 @@ def _lay_between(given, sides, panels, p, n, a, b, grid, place, gauss, weights, 
     if given[p, BREAKS] == 1 and given[p, SHADOW] == PROJECTED:
         seen = 0.25 * math.pi * given[p, BREADTH]
     regime = FIRST + int(panels[p, n, REGIME])
+    room = panels[p, len(panels[p]) - ROOM :]
+    eps = room[AT]
     for j in range(nodes):
-        x, weight = 1 + gauss[j], weights[j]
+        eps[j] = a + 0.5 * (b - a) * (1 + gauss[j])
         if a == 0:
-            root = 0.5 * math.sqrt(b) * x
-            eps, weight = root * root, root * math.sqrt(b) * weight
-        else:
-            eps, weight = a + 0.5 * (b - a) * x, 0.5 * (b - a) * weight
-        load, one, two = particle_at(given, sides, panels, p, n, eps)
-        grid[EPS, place] = eps
-        grid[LOAD, place] = weight * load
+            eps[j] = 0.25 * b * (1 + gauss[j]) ** 2
+    fill_particles(given, sides, panels, p, n, nodes)
+    for j in range(nodes):
+        weight = 0.5 * (b - a) * weights[j]
+        if a == 0:
+            weight *= 1 + gauss[j]
+        one, two = room[AREA_1, j], room[AREA_2, j]
+        grid[EPS, place] = eps[j]
+        grid[LOAD, place] = weight * room[CARRIED, j]
         grid[SECOND, place] = weight * two
         grid[LARGER, place] = weight * (shade(given, p, one, two) + seen)
         for k in range(FIRST, SUM):

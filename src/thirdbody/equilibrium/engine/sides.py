@@ -73,7 +73,9 @@ kogut = scalar(formulas.kogut)
 pulled = scalar(formulas.pulled)
 green_middle = scalar(formulas.green_middle)
 HALVINGS, STEEPEST = 60, 1e-15
-OF_CAP, OF_WIDTH, OF_PRESSURE = 0.0, 1.0, 2.0
+ROUNDED = 2e-15
+"""Of what is sought at a kink, no more than rounding."""
+OF_CAP, OF_WIDTH, OF_PRESSURE, OF_DISC = 0.0, 1.0, 2.0, 3.0
 """Kinks of a row. No whole numbers, for each of which numba would compile what takes them."""
 LAW_ENDS, TABLE_BEGINS, TABLE_ENDS, SPLITS = (
     deep.LAW_ENDS,
@@ -88,19 +90,30 @@ GRADING = 4.0
 
 
 @scalar
+def zmc_by(y, log_y, log_rho, k, rho, r, full):
+    """Mean pressure and area of `ZMC` between the yield and ρ."""
+    return k + (1 - k) * log_y / log_rho, zmc_spread(y, rho, r, full)
+
+
+@scalar
+def hermite_by(y, log_y, log_rho, k, rho, r, full):
+    """Mean pressure and area of `Hermite` between the yield and ρ."""
+    u, slope = log_y / log_rho, 0.5 * k * log_rho
+    p = k * (u * u * (2 * u - 3) + 1) + slope * u * (1 - u) ** 2 + u * u * (3 - 2 * u)
+    return p, zmc_spread(y, rho, r, full)
+
+
+@scalar
 def zmc_middle(y, k, rho, r, full):
     apart()
-    area = zmc_spread(y, rho, r, full)
-    return (k + (1 - k) * math.log(y) / math.log(rho)) * area, area
+    p, area = zmc_by(y, math.log(y), math.log(rho), k, rho, r, full)
+    return p * area, area
 
 
 @scalar
 def hermite_middle(y, k, rho, r, full):
     apart()
-    log_rho = math.log(rho)
-    u, slope = math.log(y) / log_rho, 0.5 * k * log_rho
-    p = k * (u * u * (2 * u - 3) + 1) + slope * u * (1 - u) ** 2 + u * u * (3 - 2 * u)
-    area = zmc_spread(y, rho, r, full)
+    p, area = hermite_by(y, math.log(y), math.log(rho), k, rho, r, full)
     return p * area, area
 
 
@@ -188,6 +201,24 @@ def law_at(rows, i, y):
 
 
 @scalar
+def chord(low, f_low, high, f_high, step):
+    """Where a chord crosses zero between two ends; the middle at every eighth step."""
+    x = (low * f_high - high * f_low) / (f_high - f_low)
+    return x if low < x < high and step % 8 != 7 else 0.5 * (low + high)
+
+
+@scalar
+def narrowed(low, f_low, high, f_high, last, x, f):
+    """Ends and values around a root after a look at x, and which end moved (rule of Illinois).
+
+    The value of an end that stays twice is halved. Dowell and Jarratt, BIT 11 (1971) 168.
+    """
+    if f < 0:
+        return x, f, high, 0.5 * f_high if last == -1 else f_high, -1
+    return low, 0.5 * f_low if last == 1 else f_low, x, f, 1
+
+
+@scalar
 def _excess(rows, i, y, what):
     """What is zero at a kink of a row, rising with y: of the cap, the width, or the pressure."""
     apart()
@@ -206,26 +237,15 @@ def _crossing(rows, i, low, high, what):
     f_low, f_high = _excess(rows, i, low, what), _excess(rows, i, high, what)
     if f_low >= 0:
         return low
-    side = 0
+    last = 0
     for n in range(4 * HALVINGS):
         if high - low <= STEEPEST * high:
             break
-        y = (low * f_high - high * f_low) / (f_high - f_low)
-        if not low < y < high or n % 8 == 7:
-            y = 0.5 * (low + high)
+        y = chord(low, f_low, high, f_high, n)
         f = _excess(rows, i, y, what)
-        if f < 0:
-            low, f_low = y, f
-            if side == -1:
-                f_high *= 0.5
-            side = -1
-        elif f > 0:
-            high, f_high = y, f
-            if side == 1:
-                f_low *= 0.5
-            side = 1
-        else:
+        if f == 0:
             return y
+        low, f_low, high, f_high, last = narrowed(low, f_low, high, f_high, last, y, f)
     return 0.5 * (low + high)
 
 
@@ -321,40 +341,56 @@ def _deep_at(rows, i, eps):
 
 
 @scalar
+def _table_excess(rows, i, place, what):
+    """What is zero at a kink of a side by the table: of its width, or of its pressure.
+
+    The place is the squeeze, of a disc −ln of the height left.
+    """
+    if what == OF_DISC:
+        load, area = _disc_at(rows, i, math.exp(-place))
+    else:
+        load, area = _deep_at(rows, i, place)
+    if what == OF_WIDTH:
+        return area - 1
+    return load / (rows[i, HARDER] * area) - 1
+
+
+@scalar
+def _table_crossing(rows, i, low, high, what):
+    """Place between two at which `_table_excess` changes its sign, by chords."""
+    apart()
+    f_low, f_high = _table_excess(rows, i, low, what), _table_excess(rows, i, high, what)
+    last = 0
+    if f_low >= 0:
+        return low
+    for n in range(4 * HALVINGS):
+        if f_high < ROUNDED or high - low <= STEEPEST * high:
+            break
+        place = chord(low, f_low, high, f_high, n)
+        f = _table_excess(rows, i, place, what)
+        if abs(f) < ROUNDED:
+            return place
+        low, f_low, high, f_high, last = narrowed(low, f_low, high, f_high, last, place, f)
+    return high
+
+
+@scalar
 def _table_end(rows, i):
     """Squeeze from which the mean pressure is the hardness of the surface."""
     taken = rows[i, TAKEN]
-    low = high = 1 - TABLE_ENDS * taken
-    load, area = _disc_at(rows, i, low)
-    if load >= rows[i, HARDER] * area:
+    left = 1 - TABLE_ENDS * taken
+    low = high = -math.log(left)
+    if _table_excess(rows, i, low, OF_DISC) >= 0:
         if rows[i, HARDER] <= 1:
             return TABLE_ENDS
-        low, high = EARLIEST, TABLE_ENDS
-        load, area = _deep_at(rows, i, low)
-        if load >= rows[i, HARDER] * area:
-            return low
-        for _ in range(HALVINGS):
-            eps = 0.5 * (low + high)
-            load, area = _deep_at(rows, i, eps)
-            if load < rows[i, HARDER] * area:
-                low = eps
-            else:
-                high = eps
-        return 0.5 * (low + high)
+        return _table_crossing(rows, i, EARLIEST, TABLE_ENDS, OF_PRESSURE)
     if taken == 0:
         return DEEPEST
-    while load < rows[i, HARDER] * area and low > THINNEST:
-        high, low = low, 0.5 * low
-        load, area = _disc_at(rows, i, low)
-    if low > THINNEST:
-        for _ in range(HALVINGS):
-            left = math.sqrt(low * high)
-            load, area = _disc_at(rows, i, left)
-            if load < rows[i, HARDER] * area:
-                high = left
-            else:
-                low = left
-    return min((1 - low) / taken, DEEPEST)
+    while _table_excess(rows, i, high, OF_DISC) < 0 and high < -math.log(THINNEST):
+        low, high = high, high + math.log(2.0)
+    if high < -math.log(THINNEST):
+        high = _table_crossing(rows, i, low, high, OF_DISC)
+    return min((1 - math.exp(-high)) / taken, DEEPEST)
 
 
 @scalar
@@ -370,14 +406,7 @@ def _prepare_table(rows, i):
         if break_at(rows, i, n) * thin < TABLE_BEGINS:
             _add_kink(rows, i, break_at(rows, i, n))
     if _deep_at(rows, i, end)[1] > 1 >= _deep_at(rows, i, TABLE_BEGINS)[1]:
-        low, high = TABLE_BEGINS, end
-        for _ in range(HALVINGS):
-            eps = 0.5 * (low + high)
-            if _deep_at(rows, i, eps)[1] > 1:
-                high = eps
-            else:
-                low = eps
-        _add_kink(rows, i, 0.5 * (low + high) / thin)
+        _add_kink(rows, i, _table_crossing(rows, i, TABLE_BEGINS, end, OF_WIDTH) / thin)
     left = 1 - TABLE_ENDS * taken
     while left > GRADING * (1 - end * taken):
         left /= GRADING

@@ -7,6 +7,21 @@ import math
 from ...laws.asperity import formulas
 from ..compiled.machine import apart, exp, normal_cdf
 from .breakage import mark_sizes
+from .curves import (
+    AREA_1,
+    AREA_2,
+    AT,
+    CLOSE,
+    LAST_1,
+    LAST_2,
+    MASS,
+    REGIME,
+    ROOM,
+    TO,
+    fill_particles,
+    particle_at,
+)
+from .curves import LOAD as CARRIED
 from .densities import density, scale_of
 from .field import add_field, lay_field
 from .fields import (
@@ -69,7 +84,6 @@ from .fields import (
     W,
 )  # fmt: skip
 from .sides import branch_of, break_at, breaks, exact, law_at, regime_of_branch, scalar
-from .squeeze import CLOSE, LAST_1, LAST_2, REGIME, TO, particle_at
 
 __all__ = [
     "MOST_HEIGHTS",
@@ -403,6 +417,24 @@ def _add_size(given, sides, panels, p, n, x, eps, weight, out):
 
 
 @scalar
+def _add_sizes(given, p, regime, room, nodes, out):
+    """What particles carry that are weighed at nodes of a panel."""
+    load = area = second = shaded = 0.0
+    for j in range(nodes):
+        squared, one, two = room[MASS, j], room[AREA_1, j], room[AREA_2, j]
+        load += squared * room[CARRIED, j]
+        area += squared * one
+        second += squared * two
+        shaded += squared * shade(given, p, one, two)
+        if given[p, SHADOW] == PROJECTED:
+            shaded += squared * 0.25 * math.pi * given[p, BREADTH]
+    out[F_SA] += load
+    out[A_SA + regime] += area
+    out[A_SA2] += second
+    out[SHADE] += shaded
+
+
+@scalar
 def _add_one_size(given, sides, panels, p, count, gap, out):
     """What particles of one size carry on a plane."""
     apart()
@@ -436,7 +468,7 @@ def add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, 
     if given[p, KIND] == ONE_SIZE:
         _add_one_size(given, sides, panels, p, count, gap, out)
         return True
-    squared = 0.0
+    squared, room = 0.0, panels[p, len(panels[p]) - ROOM :]
     for n in range(count + 1):
         # sizes squeezed by the ε of panel n, and last those squeezed beyond
         a, b = max(low, gap), high
@@ -461,11 +493,13 @@ def add_plane(given, sides, panels, p, count, gap, gauss, weights, nodes, span, 
                 if rooted:
                     delta, weight = x * x, 2 * x * weight
                     x = gap + delta
-                weight *= factor * density(given, p, x)
+                weight *= factor * density(given, p, x) * x * x
+                room[AT, j], room[MASS, j] = delta / x, weight
                 if n == count:
-                    squared += weight * x * x
-                else:
-                    _add_size(given, sides, panels, p, n, x, delta / x, weight, out)
+                    squared += weight
+            if n < count:
+                fill_particles(given, sides, panels, p, n, nodes)
+                _add_sizes(given, p, int(panels[p, n, REGIME]), room, nodes, out)
             a = c
     add_last(given, sides, panels, p, count, squared, out)
     if given[p, SHADOW] == PROJECTED:

@@ -1,0 +1,348 @@
+"""What a particle of unit size carries, on panels of its squeeze.
+
+Where load and areas are smooth enough they are series of a panel; elsewhere two different sides
+share a squeeze by a series, corrected where it is read.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..compiled.machine import apart
+from .fields import EQUAL
+from .sides import exact, scalar, side_at, summed
+from .vectors import exp, fill_side, ln, padded
+
+MOST_PANELS, TERMS = 160, 16
+EDGE, TO, REGIME, HELD, FROM, UNTIL, SHARE = range(7)
+"""Of a panel: its ends in ε, the regime of side 1, the indentation at which a jump of its load
+holds side 1 (side 2 if negative, none if 0); ends and coefficients of the share of side 1."""
+LAST_1, LAST_2 = FROM, UNTIL
+"""Of the row behind the last panel: areas over x² on both surfaces of all that is squeezed more."""
+PULLED, RATE, START, KINKED, TENSION = range(SHARE + TERMS, SHARE + TERMS + 5)
+"""Tension [Pa] that holds on a panel on which less is met, or 0; place on the panel, as a rate of
+ln ε and where it starts; whether a formula changes at the end, of how many generations ago; series
+of the logarithm of the tension."""
+FORM_1, FORM_2, ONE, SURE, OF_LOAD = range(TENSION + TERMS, TENSION + TERMS + 5)
+"""Formulas of both sides; indentation over x of side 1 where the panel begins, negative where
+that is not known; whether load and areas are read from series, and the first of them."""
+OF_AREA_1, OF_AREA_2, PANEL = OF_LOAD + TERMS, OF_LOAD + 2 * TERMS, OF_LOAD + 3 * TERMS
+"""Series of the load over ε^1.5 and of both areas over ε."""
+SETTLED = 2e-13
+"""Of the last two terms of such a series over its largest value, at most."""
+ROOM = 19
+"""Rows behind those of the panels, for what many nodes have on the way."""
+AT, LOAD, AREA_1, AREA_2, FIRST, SECOND, OTHER, OFF, NEAR, NEAR_1, NEAR_OTHER, NEAR_2 = range(12)
+PASSING, PASSING_2, LEAST, MOST, OLD, OLD_OFF, MASS = range(12, ROOM)
+"""Of those rows: ε, load and areas over x²; indentations of both sides, load of the second and how
+far it is off; the same a step further; what else is on
+the way, and weights of a caller."""
+CLOSE, BALANCED, NEARBY, RESOLVED = 1e-12, 1e-13, 1e-8, 1e-6
+SHARED, SOLVED, STEEPEST, TRIES, FLAT = 1e-7, 1e-5, 1e4, 25, 1e-12
+"""Imbalances from which one more step of secants leaves 1e-10 and 1e-8 of a share, of which
+`particle_at` leaves the square; power of an indentation like which a load may grow."""
+JUMP, BESIDE = 1e-9, 1e-14
+"""Of a load at a kink, at least, and where its sides are looked at; both relative."""
+
+
+@scalar
+def share_at(panels, p, n, eps):
+    """Share of side 1 in a squeeze ε on panel n."""
+    apart()
+    first, last = panels[p, n, FROM], panels[p, n, UNTIL]
+    if first == 0:
+        x = 2 * math.sqrt(eps / last) - 1
+    else:
+        x = 2 * math.log(eps / first) / math.log(last / first) - 1
+    b, c = 0.0, 0.0
+    for k in range(TERMS - 1, 0, -1):
+        b, c = panels[p, n, SHARE + k] + 2 * x * b - c, b
+    return panels[p, n, SHARE] + x * b - c
+
+
+@scalar
+def first_at(panels, p, n, eps):
+    """Indentation over x of side 1 at a squeeze ε on panel n."""
+    held = panels[p, n, HELD]
+    if held != 0:
+        return held if held > 0 else eps + held
+    return eps * share_at(panels, p, n, eps)
+
+
+@scalar
+def particle_at(given, sides, panels, p, n, eps):
+    """Load over x² [Pa] and areas over x² on both surfaces, of ε on panel n of part p."""
+    apart()
+    if panels[p, n, SURE] == 1:
+        return _read_particle(panels[p, n], eps)
+    if given[p, EQUAL] == 1:
+        load, area = side_at(sides, 2 * p, 0.5 * eps)
+        return load, area, area
+    one, held = first_at(panels, p, n, eps), panels[p, n, HELD]
+    load, first = side_at(sides, 2 * p, one)
+    other, second = side_at(sides, 2 * p + 1, eps - one)
+    if held != 0:
+        return other if held > 0 else load, first, second
+    off = other / load - 1
+    if abs(off) > NEARBY:  # nearer first: what follows has an error of the square of this
+        step = off / (1.3 / one + 1.3 / (eps - one))
+        near = side_at(sides, 2 * p + 1, eps - one - step)[0] / side_at(sides, 2 * p, one + step)[0]
+        one += step * off / (off - (near - 1))
+        load, first = side_at(sides, 2 * p, one)
+        other, second = side_at(sides, 2 * p + 1, eps - one)
+        off = other / load - 1
+    if abs(off) > BALANCED:
+        # along the line from here to a point that is closer, with an error of its square
+        step = off / (1.3 / one + 1.3 / (eps - one))
+        near, near_first = side_at(sides, 2 * p, one + step)
+        near_other, near_second = side_at(sides, 2 * p + 1, eps - one - step)
+        part = off / (off - (near_other / near - 1)) if near_other > 0 else 0.0
+        one += part * step
+        load += part * (near - load)
+        other += part * (near_other - other)
+        first += part * (near_first - first)
+        second += part * (near_second - second)
+    return load if one > eps - one else other, first, second
+
+
+@exact
+def _read_shares(panel, eps, first):
+    """Indentation over x of side 1 at squeezes of a panel with a series, into ``first``."""
+    apart()
+    begin, end, series = panel[FROM], panel[UNTIL], panel[SHARE : SHARE + TERMS]
+    rooted = begin == 0
+    rate = 2 / math.log(end / begin) if not rooted else 0.0
+    for j in range(len(eps)):
+        first[j] = 2 * math.sqrt(eps[j] / end) - 1 if rooted else rate * ln(eps[j] / begin) - 1
+    for j in range(len(eps)):
+        x = first[j]
+        b, c, twice = 0.0, 0.0, 2 * x
+        for k in range(1, TERMS):
+            b, c = series[TERMS - k] + twice * b - c, b
+        first[j] = eps[j] * (series[0] + x * b - c)
+
+
+@exact
+def _read_particles(panel, eps, load, one, two):
+    """Load and areas at squeezes of a panel, by their series."""
+    begin, end = panel[FROM], panel[UNTIL]
+    rooted = begin == 0
+    rate = 2 / math.log(end / begin) if not rooted else 0.0
+    for j in range(len(eps)):
+        load[j] = 2 * math.sqrt(eps[j] / end) - 1 if rooted else rate * ln(eps[j] / begin) - 1
+    first, second = panel[OF_LOAD:OF_AREA_1], panel[OF_AREA_1:OF_AREA_2]
+    third = panel[OF_AREA_2:PANEL]
+    for j in range(len(eps)):
+        x = load[j]
+        b_1, c_1, b_2, c_2, b_3, c_3, twice = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2 * x
+        for k in range(1, TERMS):
+            b_1, c_1 = first[TERMS - k] + twice * b_1 - c_1, b_1
+            b_2, c_2 = second[TERMS - k] + twice * b_2 - c_2, b_2
+            b_3, c_3 = third[TERMS - k] + twice * b_3 - c_3, b_3
+        load[j] = eps[j] * math.sqrt(eps[j]) * (first[0] + x * b_1 - c_1)
+        one[j] = eps[j] * (second[0] + x * b_2 - c_2)
+        two[j] = eps[j] * (third[0] + x * b_3 - c_3)
+
+
+@scalar
+def _read_particle(panel, eps):
+    """As `_read_particles`, at one squeeze."""
+    apart()
+    begin, end = panel[FROM], panel[UNTIL]
+    if begin == 0:
+        x = 2 * math.sqrt(eps / end) - 1
+    else:
+        x = 2 * math.log(eps / begin) / math.log(end / begin) - 1
+    b_1, c_1, b_2, c_2, b_3, c_3 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(TERMS - 1, 0, -1):
+        b_1, c_1 = panel[OF_LOAD + k] + 2 * x * b_1 - c_1, b_1
+        b_2, c_2 = panel[OF_AREA_1 + k] + 2 * x * b_2 - c_2, b_2
+        b_3, c_3 = panel[OF_AREA_2 + k] + 2 * x * b_3 - c_3, b_3
+    load = eps * math.sqrt(eps) * (panel[OF_LOAD] + x * b_1 - c_1)
+    one, two = panel[OF_AREA_1] + x * b_2 - c_2, panel[OF_AREA_2] + x * b_3 - c_3
+    return load, eps * one, eps * two
+
+
+@scalar
+def _settle_one(rule, values, series):
+    """Coefficients of a series, and whether they end: its last two terms over its largest value."""
+    apart()
+    most = 0.0
+    for j in range(TERMS):
+        most = max(most, abs(values[j]))
+    transform(rule, values, series)
+    return abs(series[TERMS - 1]) + abs(series[TERMS - 2]) <= SETTLED * most
+
+
+@scalar
+def settle_rows(panel, room, rule):
+    """Take series of load and areas from the rows of the room, at the places of a series."""
+    apart()
+    eps, load = room[AT, :TERMS], room[LOAD, :TERMS]
+    one, two = room[AREA_1, :TERMS], room[AREA_2, :TERMS]
+    for j in range(TERMS):
+        load[j] /= eps[j] * math.sqrt(eps[j])
+        one[j] /= eps[j]
+        two[j] /= eps[j]
+    good = _settle_one(rule, load, panel[OF_LOAD:OF_AREA_1])
+    good &= _settle_one(rule, one, panel[OF_AREA_1:OF_AREA_2])
+    good &= _settle_one(rule, two, panel[OF_AREA_2:PANEL])
+    panel[SURE] = 1.0 if good else 0.0
+
+
+@scalar
+def settle(given, sides, panels, p, n, rule):
+    """Series of load and areas on panel n, where they are smooth enough for one."""
+    apart()
+    panel, room = panels[p, n], panels[p, len(panels[p]) - ROOM :]
+    panel[SURE] = 0.0
+    if panel[HELD] != 0 and given[p, EQUAL] != 1:
+        return
+    panel[FROM], panel[UNTIL] = panel[EDGE], panel[TO]
+    fill_places(rule[0, :TERMS], panel[EDGE], panel[TO], room[AT, :TERMS])
+    fill_particles(given, sides, panels, p, n, TERMS)
+    settle_rows(panel, room, rule)
+
+
+@scalar
+def fill_both(sides, p, panel, first, second, room):
+    """Loads and areas of both sides at their indentations: into two rows each."""
+    wide = len(first)
+    passing = room[PASSING : PASSING + 2, :wide]
+    fill_side(sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide], passing)
+    fill_side(
+        sides, 2 * p + 1, panel[FORM_2], second, room[OTHER, :wide], room[AREA_2, :wide], passing
+    )
+
+
+@exact
+def find_rest(eps, first, second):
+    for j in range(len(eps)):
+        second[j] = eps[j] - first[j]
+
+
+@exact
+def find_off(load, other, off):
+    """How far the loads of both sides are apart; the largest of them."""
+    worst = 0.0
+    for j in range(len(load)):
+        off[j] = other[j] / load[j] - 1
+        worst = max(worst, abs(off[j]))
+    return worst
+
+
+@exact
+def _step_aside(off, first, second, near, rest):
+    """Indentations a step further, by the law of a sphere."""
+    for j in range(len(off)):
+        step = off[j] / (1.3 / first[j] + 1.3 / second[j])
+        near[j], rest[j] = first[j] + step, second[j] - step
+
+
+@exact
+def follow(off, near_load, near_other, part):
+    """Part of the way to what is near at which both loads are equal."""
+    for j in range(len(off)):
+        far = off[j] - (near_other[j] / near_load[j] - 1)
+        part[j] = off[j] / far if abs(off[j]) > BALANCED else 0.0
+
+
+@exact
+def mix(part, near, value):
+    for j in range(len(part)):
+        value[j] += part[j] * (near[j] - value[j])
+
+
+@exact
+def take_weaker(first, second, other, load):
+    for j in range(len(load)):
+        load[j] = load[j] if first[j] > second[j] else other[j]
+
+
+@scalar
+def _fill_unlike(sides, panel, p, room, wide):
+    """As `fill_particles`, between two different sides."""
+    apart()
+    passing = room[PASSING : PASSING + 2, :wide]
+    eps, first, second = room[AT, :wide], room[FIRST, :wide], room[SECOND, :wide]
+    load, other, off = room[LOAD, :wide], room[OTHER, :wide], room[OFF, :wide]
+    one, two = room[AREA_1, :wide], room[AREA_2, :wide]
+    near, near_1 = room[NEAR, :wide], room[NEAR_1, :wide]
+    near_other, near_2 = room[NEAR_OTHER, :wide], room[NEAR_2, :wide]
+    aside, rest = room[LEAST, :wide], room[MOST, :wide]
+    _read_shares(panel, eps, first)
+    for n in range(3):
+        find_rest(eps, first, second)
+        fill_both(sides, p, panel, first, second, room)
+        worst = find_off(load, other, off)
+        if worst <= BALANCED:
+            break
+        _step_aside(off, first, second, aside, rest)
+        fill_side(sides, 2 * p, panel[FORM_1], aside, near, near_1, passing)
+        fill_side(sides, 2 * p + 1, panel[FORM_2], rest, near_other, near_2, passing)
+        follow(off, near, near_other, off)
+        mix(off, aside, first)
+        if worst <= NEARBY or n == 2:
+            # along the line to a point that is closer, with an error of its square
+            mix(off, near, load)
+            mix(off, near_other, other)
+            mix(off, near_1, one)
+            mix(off, near_2, two)
+            break
+    find_rest(eps, first, second)
+    take_weaker(first, second, other, load)
+
+
+@scalar
+def fill_particles(given, sides, panels, p, n, count):
+    """As `particle_at`, at so many ε in the row `AT` of the room behind the panels of part p.
+
+    Into the rows `LOAD`, `AREA_1` and `AREA_2` there.
+    """
+    apart()
+    wide, panel, room = padded(count), panels[p, n], panels[p, len(panels[p]) - ROOM :]
+    eps, first = room[AT, :wide], room[FIRST, :wide]
+    for j in range(count, wide):
+        eps[j] = eps[count - 1]
+    if panel[SURE] == 1:
+        _read_particles(
+            panel, eps, room[LOAD, :wide], room[AREA_1, :wide], room[AREA_2, :wide]
+        )  # fmt: skip
+    elif given[p, EQUAL] == 1:
+        for j in range(wide):
+            first[j] = 0.5 * eps[j]
+        fill_side(
+            sides, 2 * p, panel[FORM_1], first, room[LOAD, :wide], room[AREA_1, :wide],
+            room[PASSING : PASSING + 2, :wide],
+        )  # fmt: skip
+        for j in range(wide):
+            room[AREA_2, j] = room[AREA_1, j]
+    elif panel[HELD] != 0:
+        for j in range(count):
+            room[LOAD, j], room[AREA_1, j], room[AREA_2, j] = particle_at(
+                given, sides, panels, p, n, eps[j]
+            )
+    else:
+        _fill_unlike(sides, panel, p, room, wide)
+
+
+@exact
+def fill_places(places, begin, end, eps):
+    """Squeezes at the places of a series on a panel."""
+    if begin > 0:
+        half = 0.5 * math.log(end / begin)
+        for j in range(len(eps)):
+            eps[j] = begin * exp(half * (places[j] + 1))
+    else:
+        for j in range(len(eps)):
+            eps[j] = 0.25 * end * (places[j] + 1) ** 2
+
+
+@summed
+def transform(rule, values, series):
+    """Coefficients of the series that has these values at its places."""
+    for k in range(len(series)):
+        total = 0.0
+        for j in range(len(series)):
+            total += rule[1 + k, j] * values[j]
+        series[k] = total
