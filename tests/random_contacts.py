@@ -744,8 +744,9 @@ def _outputs(found: Findings, drawn: Drawn, at: Any) -> None:
     length, pressure = 2.0**9, 2.0**-7  # exact: no number is rounded another way
     got = tb.solve(in_other_units(contact, length, pressure), d=drawn.d * length).columns()
     ok = (np.asarray(want["status"], str) == "ok") & (np.asarray(got["status"], str) == "ok")
-    for load in ("F_star", "F_ss_star", "F_sa_star"):  # small ones are floats of few digits
-        ok &= ~((want[load] != 0) & (np.abs(want[load]) < LEAST_DIGITS))
+    small = {"F_star", "F_ss_star", "F_sa_star", "n_ss", "n_sa"} & want.keys()
+    for name in sorted(small):  # below, floats have few digits
+        ok &= ~((want[name] != 0) & (np.abs(want[name]) < LEAST_DIGITS))
     for name in (each for each in want if each not in COLUMNS):
         unit = about(name).unit
         if unit not in LENGTHS or want[name].dtype.kind != "f":
