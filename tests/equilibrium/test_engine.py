@@ -53,8 +53,20 @@ def numpy_engine():
         yield
 
 
+def beyond(contact: tb.Contact) -> bool:
+    """Whether no compiled way may suit: Weibull sizes off rough seats, whose area may outgrow them.
+
+    Nodes that states share need a load that falls, and states by their own laws other sizes.
+    """
+    return (
+        contact.particles is not None
+        and isinstance(contact.particles.diameter, tb.Weibull)
+        and contact.particle_law.seat != "rough"
+    )
+
+
 @contextmanager
-def compiled_engine(scanned: int = 3):
+def compiled_engine(scanned: int = 3, *, unless: bool = False):
     """Fails unless the compiled engine was asked; from ``scanned`` loads on it looks ahead."""
     solve = engine._Batch.solve
     with (
@@ -64,7 +76,7 @@ def compiled_engine(scanned: int = 3):
         mock.patch.object(own, "solve", side_effect=own.solve) as asked_own,
     ):
         yield asked_own
-    assert asked.called or asked_own.called
+    assert asked.called or asked_own.called or unless
 
 
 def columns(result) -> dict[str, np.ndarray]:
@@ -101,7 +113,7 @@ def hold(got, want, sigma, at, promise=1e-13) -> None:
         x, y = got[name][solved], want[name][solved]
         spread = np.abs(above[name] - below[name])
         if name in ("F_star", "pressure"):
-            np.testing.assert_allclose(x, y, rtol=1e-12, err_msg=name)
+            np.testing.assert_allclose(x, y, rtol=max(1e-12, promise), err_msg=name)
             continue
         floor = sigma if name in ("d", "h") else totals.get(name[0], np.ones_like(solved))[solved]
         bound = np.where(want["F_star"][solved] < 1e-11, 2e-12, 1e-12)
@@ -128,10 +140,14 @@ def hold_loads(contact: tb.Contact, loads=LOADS, scanned: int = 3) -> None:
         hold(got, want, contact.roughness.sigma, lambda d, _: tb.solve(contact, d=d))
 
 
+def promise(asked_own) -> float:
+    """Relative error of states by their own laws; by nodes that states share, of two tables."""
+    return 1e-9 if asked_own.called else 2e-13
+
+
 def hold_states(contact: tb.Contact, vary: dict, **load) -> None:
-    with compiled_engine() as asked_own:
+    with compiled_engine(unless=beyond(contact)) as asked_own:
         got = state_columns(contact, vary=vary, **load)
-    promise = 1e-9 if asked_own.called else 1e-13  # of states by their own laws, and by nodes
     with numpy_engine():
         want = state_columns(contact, vary=vary, **load)
         vary = dict(zip(vary, np.broadcast_arrays(*vary.values()), strict=True))
@@ -139,7 +155,9 @@ def hold_states(contact: tb.Contact, vary: dict, **load) -> None:
         def at(d, solved):
             return state_columns(contact, d=d, vary={k: v[solved] for k, v in vary.items()})
 
-        hold(got, want, vary.get("roughness.sigma", contact.roughness.sigma), at, promise)
+        hold(
+            got, want, vary.get("roughness.sigma", contact.roughness.sigma), at, promise(asked_own)
+        )
 
 
 # ------------------------------------------------------------------------------ drawing
@@ -351,7 +369,7 @@ def test_states_with_materials_and_shapes_of_their_own(seat):
 def test_states_at_given_separations(contact, seed):
     vary = variations(contact, seed, 5)
     d = vary["roughness.sigma"] * np.random.default_rng(seed).uniform(-3.5, 12, 5)
-    with compiled_engine():
+    with compiled_engine(unless=beyond(contact)) as asked_own:
         got = state_columns(contact, d=d, vary=vary)
     with numpy_engine():
         want = state_columns(contact, d=d, vary=vary)
@@ -360,7 +378,11 @@ def test_states_at_given_separations(contact, seed):
         touching = want["F_star"] > 1e-25
         got, want = ({k: v[touching] for k, v in x.items()} for x in (got, want))
         vary = {k: v[touching] for k, v in vary.items()}
-        hold(got, want, sigma[touching], lambda d, _: state_columns(contact, d=d, vary=vary))
+
+        def at(d, _):
+            return state_columns(contact, d=d, vary=vary)
+
+        hold(got, want, sigma[touching], at, promise(asked_own))
 
 
 def test_pressure_means_force():
