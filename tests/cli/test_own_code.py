@@ -6,24 +6,43 @@ import re
 import subprocess
 import sys
 import tomllib
+from contextlib import contextmanager
 from importlib.metadata import EntryPoint, EntryPoints
 from pathlib import Path
+from unittest import mock
 
+import numpy as np
 import pytest
+from scipy.integrate import quad
 from typer.testing import CliRunner
 
-from thirdbody import cli
-from thirdbody.effects import own_code
+import thirdbody as tb
+from thirdbody import cli, definition
+from thirdbody.equilibrium.states import state_columns
 from thirdbody.laws import asperity
 from thirdbody.quantities import installed
+from thirdbody.study import own_code
 
 ROOT = Path(__file__).parents[2]
+END = 6**0.5
 
 
-def code(page):
+@contextmanager
+def registries_kept():
+    """What is defined inside is forgotten outside."""
+    before = [(kind, dict(kind.registry)) for kind in own_code.KINDS]
+    try:
+        yield
+    finally:
+        for kind, known in before:
+            kind.registry.clear()
+            kind.registry.update(known)
+
+
+def code(page, number=0):
     return re.findall(
         r"^```python\n(.*?)^```$", (ROOT / "docs" / page).read_text("utf-8"), re.S | re.M
-    )[0]
+    )[number]
 
 
 def process(*arguments, **more):
@@ -37,6 +56,8 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "abrupt.py").write_text(code("add-a-law.md"), "utf-8")
     (tmp_path / "overload.py").write_text(code("add-an-output.md"), "utf-8")
+    (tmp_path / "sizes.py").write_text(code("add-a-distribution.md"), "utf-8")
+    (tmp_path / "heights.py").write_text(code("add-a-distribution.md", 1), "utf-8")
     return tmp_path
 
 
@@ -55,6 +76,73 @@ def test_a_law_of_ones_own_is_solved():
     without = process("solve", "two-body.toml", law)
     assert without.returncode == 2
     assert 'asperity_law.name = "abrupt" must be one of' in without.stderr
+
+
+SIZES = '{distribution="triangular", low="100 nm", mode="200 nm", high="300 nm"}'
+
+
+@pytest.mark.parametrize(
+    ("file", "setting", "place"),
+    [
+        ("sizes.py", f"particles={SIZES[:-1]}, material='SiO2', areal_density=1e11}}", "sizes"),
+        ("heights.py", "roughness.heights='triangular'", "heights"),
+    ],
+)
+def test_a_distribution_of_ones_own_is_solved(file, setting, place):
+    """As by Python; a study that does not import it is refused."""
+    process("new", "two-body")
+    found = process("solve", "two-body.toml", "--import", file, f"--set={setting}", "--json")
+    assert found.returncode == 0, found.stderr
+    result = json.loads(found.stdout)
+    assert set(result["states"]["status"]) == {"ok"}
+    part = result["inputs"]
+    part = part["particles"]["diameter"] if place == "sizes" else part["roughness"]["heights"]
+    assert part["type"].startswith("Triangular")
+    schema = process("schema", "--import", file).stdout
+    assert "triangular" in schema
+    without = process("solve", "two-body.toml", f"--set={setting}")
+    assert without.returncode == 2
+    assert '"triangular" must be one of' in without.stderr
+
+
+def test_distributions_of_ones_own_hold_in_every_engine():
+    """A triangle of sizes and of heights: moments by quadrature, states by three ways."""
+    steel = tb.materials["S45C"]
+    contact = tb.Contact(
+        surfaces=tb.MaterialPair(steel, steel),
+        roughness=tb.Roughness(sigma=100e-9, R=2.8e-6),
+        particles=tb.Particles(
+            material=tb.materials["SiO2"],
+            areal_density=1e11,
+            diameter=tb.Monodisperse(mean=300e-9),
+        ),
+    )
+    with registries_kept():
+        spaces = [{"__name__": "own"}, {"__name__": "own"}]
+        for space, number in zip(spaces, (0, 1), strict=True):
+            exec(code("add-a-distribution.md", number), space)  # the page's own text
+        sizes = spaces[0]["Triangular"](low=150e-9, mode=350e-9, high=420e-9)
+        heights = spaces[1]["TriangularHeights"]()
+        for n in range(4):
+            pieces = [(150e-9, 210e-9), (210e-9, 350e-9), (350e-9, 400e-9)]
+            want = sum(quad(lambda x: x**n * sizes.pdf(x), a, b)[0] for a, b in pieces)  # noqa: B023
+            assert sizes.partial_moment(n, 0, 400e-9) == pytest.approx(want, rel=1e-11)
+        assert heights.sf(1.0) == pytest.approx((END - 1) ** 2 / 12, rel=1e-13)
+
+        own = contact.replace(**{"particles.diameter": sizes})
+        modes = np.linspace(300e-9, 400e-9, 24)
+        by = {"vary": {"particles.diameter.mode": modes}, "F_star": 3e-5}
+        compiled = state_columns(own, **by)
+        with mock.patch.dict(os.environ, THIRDBODY_ENGINE="numpy"):
+            numpy = state_columns(own, **by)
+        for name in ("F_sa_star", "A_sa", "d"):
+            np.testing.assert_allclose(compiled[name], numpy[name], rtol=1e-9)
+
+        bare = contact.replace(particles=None, **{"roughness.heights": heights})
+        state = tb.solve(bare, d=150e-9)
+        plain = definition.state(bare, 150e-9)
+        assert state.A_t == pytest.approx(plain["A_t"], rel=1e-10)
+        assert state.F_star == pytest.approx(plain["F_ss"] / bare.E_ss, rel=1e-10)
 
 
 def test_tables_list_what_is_imported():
@@ -77,7 +165,7 @@ def test_every_command_imports(command):
         ("import numpy\n1 / 0\n", "mine.py, line 2: ZeroDivisionError: division by zero"),
         ("def (", "mine.py, line 1: SyntaxError"),
         ("import nowhere_at_all", "line 1: ModuleNotFoundError"),
-        ("x = 1", "mine.py brings no law and no output"),
+        ("x = 1", "mine.py brings nothing of its own"),
         ("LAW name = 'zmc'", "there is a law 'zmc' already"),
         ("LAW title = ''; del title", "Abrupt lacks title"),
         (None, "mine.py: there is no such file"),

@@ -246,13 +246,12 @@ def design(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, A
 
 def roughness(*, study: dict[str, Any], folder: str, report: Report) -> dict[str, Any]:
     """The table [roughness] in numbers, where it names measured files, and what is told of them."""
-    from ..study import HEIGHTS
 
     base = {"surfaces": {"first": "S45C", "second": "S45C"}, "load": {"F_star": 1e-5}}
     found = _study(base | study, folder)
     rough = found.contact.roughness
     heights = rough.heights
-    word = next(name for name, kind in HEIGHTS.items() if type(heights) is kind)
+    word = heights.name
     numbers = _fields(rough)
     table: dict[str, Any] = {k: v for k, v in numbers.items() if isinstance(v, float)}
     table["heights"] = {"name": word} | _fields(heights)

@@ -57,7 +57,7 @@ OwnCode = Annotated[
     typer.Option(
         "--import",
         metavar="FILE.py",
-        help="A Python file with laws or outputs of your own; may be repeated.",
+        help="A Python file with laws, outputs or distributions of your own; may be repeated.",
         show_default=False,
     ),
 ]
@@ -69,10 +69,10 @@ Verbose = Annotated[
 
 
 def load_own_code(files: Iterable[Path] | None) -> None:
-    """Laws and outputs of one's own: of installed packages, then of these files."""
+    """Laws, outputs and distributions of one's own: of installed packages, then of these files."""
     # asked by name first: loading takes a while, and most have none
     if files or offers() or os.environ.get("THIRDBODY_IMPORT"):
-        from ..effects.own_code import load_file, load_installed
+        from ..study.own_code import load_file, load_installed
 
         load_installed()
         for file in files or ():

@@ -28,8 +28,9 @@ from ..numerics.quadrature import panel_rule
 from ..populations.shape import Sphere
 from ..quantities.arguments import need_one
 from ..quantities.carried import takes_units
+from ..quantities.named import Named
 from ..quantities.say import value_of
-from ..quantities.value import Value, choice, quantity
+from ..quantities.value import choice, quantity
 from .spots import ParticleSpots
 
 if TYPE_CHECKING:
@@ -105,13 +106,11 @@ class Jump(NamedTuple):
     """Of dF/dω."""
 
 
-class Law(Value):
+class Law(Named):
     """What every law, for asperities or particles, says of itself."""
 
     __slots__ = ()
 
-    name: ClassVar[str]
-    """The word that study files use."""
     title: ClassVar[str]
     year: ClassVar[int]
     citation: ClassVar[str]
@@ -121,14 +120,6 @@ class Law(Value):
     valid_range: ClassVar[str]
     scale_free: ClassVar[bool] = True
     """F(λω; λR) = λ²F: the law has no length of its own, as a coating or adhesion gives it."""
-
-    def __init_subclass__(cls, **kwargs: Any) -> None:
-        super().__init_subclass__(**kwargs)
-        if "name" in vars(cls):
-            cls.registry[cls.name] = cls
-
-    registry: ClassVar[dict[str, type[Law]]] = {}
-    """Every law of one kind by name: a law enters it when its module is imported."""
 
 
 class AbstractAsperityLaw(Law):

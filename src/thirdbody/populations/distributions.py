@@ -74,6 +74,8 @@ class TruncatedGaussian(Distribution):
     [228.0, 372.0]
     """
 
+    name = "truncated-gaussian"
+
     mean: float = quantity("x_a", "m", "mean diameter", gt=0, hint=LENGTH_HINT)
     std: float = quantity(
         "σ_a",
@@ -195,6 +197,8 @@ class LogNormal(Distribution):
     1.085674
     """
 
+    name = "log-normal"
+
     median: float = quantity("x_m", "m", "median diameter", gt=0, hint=LENGTH_HINT)
     gsd: float = quantity("σ_g", "1", "geometric standard deviation", gt=1, le=20)
 
@@ -269,6 +273,8 @@ class Weibull(Distribution):
     0.886227
     """
 
+    name = "weibull"
+
     scale: float = quantity("x_0", "m", "scale diameter", gt=0, hint=LENGTH_HINT)
     shape: float = quantity("k", "1", "shape", ge=0.5, le=100)
 
@@ -332,6 +338,8 @@ class Uniform(Distribution):
     >>> round(Uniform(low=1e-7, high=3e-7).mean_diameter * 1e9, 6)
     200.0
     """
+
+    name = "uniform"
 
     low: float = quantity("x_min", "m", "smallest diameter", ge=0, hint=LENGTH_HINT)
     high: float = quantity("x_max", "m", "largest diameter", gt=0, hint=LENGTH_HINT)

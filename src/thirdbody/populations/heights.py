@@ -13,14 +13,15 @@ import math
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from scipy import special
 
 from ..errors import InvalidValue
 from ..numerics.quadrature import panel_rule
-from ..quantities.value import Value, quantity, sequences, several
+from ..quantities.named import Named
+from ..quantities.value import quantity, sequences, several
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -47,7 +48,7 @@ ASKED = 1e-8
 """Relative error of the moments of Johnson heights that is accepted."""
 
 
-class Heights(Value):
+class Heights(Named):
     """What every height distribution can do.
 
     Heights z are those of asperities over σ_s, with zero mean and unit variance. A distribution of
@@ -61,6 +62,7 @@ class Heights(Value):
     """
 
     __slots__ = ()
+    registry: ClassVar[dict[str, type[Any]]] = {}
 
     @property
     @abstractmethod
@@ -123,6 +125,8 @@ class GaussianHeights(Heights):
     0.398942
     """
 
+    name = "gaussian"
+
     @property
     def pieces(self) -> tuple[float, ...]:
         return tuple(np.arange(-13.5, 14, 1.5))
@@ -153,6 +157,8 @@ class ExponentialHeights(Heights):
     >>> float(ExponentialHeights().pdf(-1.5))
     0.0
     """
+
+    name = "exponential"
 
     @property
     def pieces(self) -> tuple[float, ...]:
@@ -194,6 +200,8 @@ class WeibullHeights(Heights):
     >>> round(WeibullHeights(shape=1.8).lowest, 6)
     -1.739515
     """
+
+    name = "weibull"
 
     shape: float = quantity("β", "1", "shape", ge=1, le=50)
 
@@ -265,6 +273,8 @@ class JohnsonHeights(Heights):
     >>> law.family, [round(p, 4) for p in law.parameters]
     ('SU', [2.2537, 2.9955, 1.8837, 2.1586])
     """
+
+    name = "johnson"
 
     skewness: float = quantity("Sk", "1", "skewness of asperity heights", default=0.0)
     kurtosis: float = quantity("κ", "1", "kurtosis of asperity heights", default=3.0)
@@ -439,12 +449,14 @@ class HistogramHeights(Heights):
     [-1.732051, 0.0, 1.732051]
     """
 
+    name = "histogram"
+
     edges: tuple[float, ...] = several("1", "edges of the classes of height, in any unit")
     counts: tuple[float, ...] = several("1", "asperities in each class")
 
     def __post_init__(self) -> None:
         sequences(self, "edges", "counts")
-        Value.__post_init__(self)
+        Heights.__post_init__(self)
 
     def _problems(self) -> list[str]:
         e, c = np.array(self.edges), np.array(self.counts)

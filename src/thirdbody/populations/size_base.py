@@ -14,12 +14,13 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ..numerics.quadrature import gauss_legendre
-from ..quantities.value import Value, quantity
+from ..quantities.named import Named
+from ..quantities.value import quantity
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -31,7 +32,7 @@ __all__ = ["LENGTH_HINT", "ONE_SIZE", "Distribution", "Monodisperse"]
 LENGTH_HINT = "nm are written 300e-9 or '300 nm'"
 
 
-class Distribution(Value):
+class Distribution(Named):
     """What every size distribution can do.
 
     Sizes are diameters x [m], by number, φ_a(x). A distribution of your own gives the abstract
@@ -47,6 +48,7 @@ class Distribution(Value):
     """
 
     __slots__ = ()
+    registry: ClassVar[dict[str, type[Any]]] = {}
 
     @property
     @abstractmethod
@@ -179,6 +181,8 @@ class Monodisperse(Distribution):
     >>> round(Monodisperse(mean=2e-7).moment(2) * 1e14, 12)
     4.0
     """
+
+    name = "monodisperse"
 
     mean: float = quantity("x_a", "m", "diameter", gt=0, hint=LENGTH_HINT)
 

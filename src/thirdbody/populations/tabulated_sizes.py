@@ -43,6 +43,8 @@ class Histogram(Distribution):
     125.0
     """
 
+    name = "histogram"
+
     edges: tuple[float, ...] = several("m", "edges of the classes of size")
     counts: tuple[float, ...] = several("1", "particles in each class")
 
@@ -140,6 +142,8 @@ class PowerLaw(Distribution):
     >>> round(sizes.mean_diameter * 1e6, 4)
     5.5787
     """
+
+    name = "power-law"
 
     edges: tuple[float, ...] = several("m", "edges of the classes of size")
     counts: tuple[float, ...] = several("1", "particles in each class")
@@ -260,6 +264,8 @@ class Mixture(Distribution):
     >>> round(both.mean_diameter * 1e9, 6)
     150.0
     """
+
+    name = "mixture"
 
     parts: tuple[Distribution, ...]
     weights: tuple[float, ...] = several("1", "weights of the parts")

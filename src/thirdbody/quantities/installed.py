@@ -7,7 +7,7 @@ from importlib.metadata import EntryPoint, entry_points
 
 __all__ = ["GROUPS", "offers"]
 
-GROUPS = ("thirdbody.laws", "thirdbody.outputs")
+GROUPS = ("thirdbody.laws", "thirdbody.outputs", "thirdbody.populations", "thirdbody.films")
 """Entry points of installed packages whose modules are imported."""
 
 

@@ -5,49 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from ..populations.distributions import (
-    Histogram,
-    LogNormal,
-    Mixture,
-    Monodisperse,
-    PowerLaw,
-    TruncatedGaussian,
-    Uniform,
-    Weibull,
-)
-from ..populations.heights import (
-    ExponentialHeights,
-    GaussianHeights,
-    Heights,
-    HistogramHeights,
-    JohnsonHeights,
-    WeibullHeights,
-)
+from ..populations.distributions import Distribution
+from ..populations.heights import Heights
 from ..quantities import nearest
 from ..quantities.study_words import in_study_words
 from ..quantities.value import quantity
 
 __all__ = ["DISTRIBUTIONS", "HEIGHTS", "LOADS", "in_words", "near"]
 
-DISTRIBUTIONS = {
-    "truncated-gaussian": TruncatedGaussian,
-    "log-normal": LogNormal,
-    "weibull": Weibull,
-    "uniform": Uniform,
-    "histogram": Histogram,
-    "power-law": PowerLaw,
-    "monodisperse": Monodisperse,
-    "mixture": Mixture,
-}
+DISTRIBUTIONS = Distribution.registry
 """Every size distribution by the word that study files use."""
 
-HEIGHTS: dict[str, type[Heights]] = {
-    "gaussian": GaussianHeights,
-    "exponential": ExponentialHeights,
-    "weibull": WeibullHeights,
-    "johnson": JohnsonHeights,
-    "histogram": HistogramHeights,
-}
+HEIGHTS = Heights.registry
 """Every distribution of asperity heights by the word that study files use."""
 
 LOADS = {

@@ -15,7 +15,6 @@ from pydantic import TypeAdapter, ValidationError
 from ..analysis.sweep.plan import Plan
 from ..analysis.uncertainty.inputs import Uncertainty
 from ..contact.contact import Contact
-from ..effects.own_code import load_installed
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.solve import deepest, solve, why_deep
 from ..errors import InvalidValue
@@ -28,6 +27,7 @@ from .body import loads_of
 from .film import on_body
 from .outputs import on_area
 from .overrides import override
+from .own_code import load_installed
 from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names
 from .tables import FIELDS, TABLES

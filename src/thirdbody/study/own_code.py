@@ -1,7 +1,7 @@
-"""Laws and outputs of one's own: files named on the command line, and installed packages.
+"""Laws, outputs, distributions of one's own: files of the command line, and installed packages.
 
-A class that derives from `AbstractAsperityLaw`, `AbstractParticleLaw` or `AbstractOutput` enters a
-registry when its module is imported; here modules are imported, and what they bring is looked over.
+A class that derives from `Named` enters the registry of its kind when its module is imported; here
+modules are imported, and what they bring is looked over.
 """
 
 from __future__ import annotations
@@ -11,21 +11,34 @@ import inspect
 import os
 import sys
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+from ..contact.output import AbstractOutput
 from ..errors import InvalidValue, Problem, tell_of_range
-from ..laws import asperity, particle
-from ..laws.base import Law
+from ..laws.base import AbstractAsperityLaw, AbstractParticleLaw, Law
+from ..populations.distributions import Distribution
+from ..populations.heights import Heights
 from ..quantities.installed import offers
-from . import REGISTRY as OUTPUTS
+from ..quantities.named import Named
+from ..systems.film_formulas import AbstractFilm
 
 __all__ = ["NAMED", "load_file", "load_installed"]
 
 NAMED = "THIRDBODY_IMPORT"
 """Environment variable that names files; `load_file` adds to it, for processes started later."""
+
+KINDS: dict[type[Named], str] = {
+    AbstractAsperityLaw: "law",
+    AbstractParticleLaw: "law",
+    AbstractOutput: "output",
+    Distribution: "size distribution",
+    Heights: "distribution of heights",
+    AbstractFilm: "film formula",
+}
+"""What one may add, and the word for it."""
 
 _loaded: set[str] = set()
 
@@ -64,8 +77,8 @@ def load_file(path: str | os.PathLike[str]) -> None:
     try:
         if not _looked_over(where, run, file):
             raise InvalidValue(
-                f"{where} brings no law and no output: a law derives from AbstractAsperityLaw or "
-                "AbstractParticleLaw, an output from AbstractOutput, and has a name"
+                f"{where} brings nothing of its own: a class that derives from one of "
+                f"{', '.join(kind.__name__ for kind in KINDS)} and has a name"
             )
     except BaseException:
         sys.modules.pop(name, None)
@@ -96,13 +109,9 @@ def _load_entry_points() -> None:
             tell_of_range(f"{error}; it is left out", UserWarning)
 
 
-def _registries() -> Iterator[tuple[str, dict[str, type[Law]]]]:
-    yield from (("law", asperity.REGISTRY), ("law", particle.REGISTRY), ("output", OUTPUTS))
-
-
-def _looked_over(where: str, run: Callable[[], Any], file: Path | None) -> list[type[Law]]:
+def _looked_over(where: str, run: Callable[[], Any], file: Path | None) -> list[type[Named]]:
     """What running this brings; where it fails the registries are as before."""
-    before = [(kind, registry, dict(registry)) for kind, registry in _registries()]
+    before = [(word, kind.registry, dict(kind.registry)) for kind, word in KINDS.items()]
     try:
         run()
         found = [
@@ -127,9 +136,9 @@ def _looked_over(where: str, run: Callable[[], Any], file: Path | None) -> list[
         raise InvalidValue(f"{where}{_place(error, file)}: {_why(error)}") from None
 
 
-def _complete(where: str, kind: str, law: type[Law]) -> None:
+def _complete(where: str, kind: str, law: type[Named]) -> None:
     """What a law must say of itself, and how to make one."""
-    needed = ["title", "citation", "provenance"]
+    needed = ["title", "citation", "provenance"] if issubclass(law, Law) else []
     needed += ["year", "valid_range"] if kind == "law" else []
     missing = [name for name in needed if not hasattr(law, name)]
     missing += sorted(getattr(law, "__abstractmethods__", ())) if inspect.isabstract(law) else []
