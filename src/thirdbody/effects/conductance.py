@@ -12,6 +12,7 @@ import numpy as np
 from ..contact.evaluation import bodies_of
 from ..contact.field_sums import FieldSpots
 from ..contact.output import AbstractOutput, Column, missing
+from ..errors import Note
 from ..populations.materials import Material
 from ..quantities.say import number, percent
 from ..quantities.value import choice, quantity
@@ -139,16 +140,17 @@ def _closing(
 def _about_single(output: _Conductance, found: SingleContacts, closed: str) -> list[str]:
     """Where the area holds so few particles that contacts with and without them differ."""
     say = f"outputs.{output.name}: A_n = {number(output.A_n)} m²"
-    out = []
+    out: list[str] = []
     unknown = found.concerned & np.isnan(found.values[closed])
     if np.any(known := found.concerned & ~unknown):
         i = int(np.flatnonzero(known)[np.argmax(found.without[known])])
-        out.append(
+        what = (
             f"{say} has no particle in the way in {percent(float(found.without[i]))} of all "
             f"contacts, closed there with probability {number(float(found.clean[i]))}: {closed} "
             "and the conductances are means over contacts with and without, each under the whole "
             "load; mode and shares of the state are of a surface that spreads it over all particles"
         )
+        out.append(Note(what, code=f"{output.name}.single", effect=1.0))
     for i in np.flatnonzero(unknown)[:1]:
         low, high = float(found.low[i]), float(found.high[i])
         why = (
@@ -157,7 +159,8 @@ def _about_single(output: _Conductance, found: SingleContacts, closed: str) -> l
         )
         if math.isnan(high):
             why = f"does not carry the load without particles: {closed} is not known"
-        out.append(f"{say} {why} (NaN); a larger A_n holds more")
+        what, code = f"{say} {why} (NaN)", f"{output.name}.unknown"
+        out.append(Note(what, code=code, effect=math.inf, action="a larger A_n holds more"))
     return out
 
 
@@ -169,30 +172,43 @@ def _about_open(
     if not len(n):
         return []
     least = float(np.min(n))
-    say = f"outputs.{output.name}: "
+    say, code = f"outputs.{output.name}: ", f"{output.name}.open"
     if output.A_n is None:
         if not 0 < least * SMALL < ONE:
             return []
-        return [
+        what = (
             f"{say}on average one contact conducts in {number(1 / least)} m²: a smaller area is "
-            "mostly open, and this is the mean over many; give A_n"
-        ]
+            "mostly open, and this is the mean over many"
+        )
+        return [Note(what, code=code, effect=1.0, action="give A_n")]
     count = output.A_n * least
     if not count < ONE:
         return []
     if not count:  # the mean over such areas is that of each: 0
-        told = f"{say}nothing conducts where least does: A_n is open there ({numbers} are NaN)"
-        return [told] if output.few == "open" else []
+        what = f"{say}nothing conducts where least does: A_n is open there ({numbers} are NaN)"
+        return [Note(what, code=code, effect=math.inf)] if output.few == "open" else []
     chance = f"closed with probability {number(-math.expm1(-count))}"
-    told = (
+    what = (
         f"{say}A_n = {number(output.A_n)} m² holds {number(count)} contacts that conduct on average"
     )
     if output.few == "open":
-        return [f'{told}: it is open ({numbers} are NaN), {chance}; few = "mean" gives the mean']
-    return [f"{told}: most such areas are open ({chance}), and this is the mean over all of them"]
+        what = f"{what}: it is open ({numbers} are NaN), {chance}"
+        return [Note(what, code=code, effect=math.inf, action='few = "mean" gives the mean')]
+    what = f"{what}: most such areas are open ({chance}), and this is the mean over all of them"
+    return [Note(what, code=code, effect=1.0)]
 
 
-def _wide(state: Solved) -> float:
+def about_wide(name: str, share: float) -> Note:
+    """What is known of the resistance of particles that touch on more than half their radius."""
+    what = (
+        f"outputs.{name}: particles with {percent(share, digits=2)} of the particle load touch on "
+        "more than half their radius, where their resistance is overestimated by 7 % and more"
+    )
+    action = "under less load, or with harder particles, it is known better"
+    return Note(what, code=f"{name}.wide", effect=0.07 * share, action=action)
+
+
+def wide_share(state: Solved) -> float:
     """Largest share of the particle load on particles with contacts wider than half of them."""
     wide = state.total_of_particles(
         lambda spots: spots.load * (np.maximum(*spots.areas) > np.pi * (WIDE * spots.x / 2) ** 2)
@@ -210,12 +226,8 @@ def _warnings(
     else:
         out = _about_open(output, state, numbers, ~found.concerned)
         out += _about_single(output, found, closed)
-    if particles == "conduct" and (share := _wide(state)) > 0.01:
-        out.append(
-            f"outputs.{output.name}: particles with {percent(share, digits=2)} of the particle "
-            "load touch on more than half their radius, where their resistance is overestimated "
-            "by 7 % and more"
-        )
+    if particles == "conduct" and (share := wide_share(state)) > 0.01:
+        out.append(about_wide(output.name, share))
     return out
 
 

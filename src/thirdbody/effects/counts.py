@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
+from ..errors import Note
 from ..quantities.say import percent
 from ..quantities.value import quantity
 
@@ -90,7 +91,9 @@ class Counts(AbstractOutput):
         most = float(np.nanmax(state.total(lambda spots: spots.area), initial=0.0))
         if most <= MERGED:
             return []
-        return [
+        what = (
             f"asperities are counted one by one, and they cover {percent(most, digits=2)} of the "
             f"surface: beyond some {percent(MERGED, digits=1)} spots merge, and fewer are found"
-        ]
+        )
+        action = "count them on pressed maps (`explicit`)"
+        return [Note(what, code=f"{self.name}.merged", action=action)]

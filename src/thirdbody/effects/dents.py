@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Note, Problem
 from ..laws.particle.series import Series
 from ..laws.particle.squashed import widest_disc
 from ..populations.materials import softer_hardness
@@ -385,7 +385,7 @@ class Dents(AbstractOutput):
 
     def _about_wide(self, state: Solved) -> list[str]:
         """Flattened particles whose marks are held to the widest disc that a surface bears."""
-        out = []
+        out: list[str] = []
         for each in state.contact.populations:
             mine = [spots for spots in self._groups(state) if spots.population is each]
             shares = [self._share_held(mine, side, state.contact) for side in (0, 1)]
@@ -393,12 +393,13 @@ class Dents(AbstractOutput):
             if share > 0:
                 law, pair = state.contact.law_of(each), state.contact.surfaces
                 widest = _widest(law, pair, each.material, side)
-                out.append(
+                what = (
                     f"outputs.dents: {percent(share, digits=2)} of the marks of "
                     f"{each.name or each.material.name or 'particles'} are of discs that would "
                     "press harder than the surface is: such a disc sinks in, and its mark is held "
                     f"to {number(widest, 3)} times the particle's size"
                 )
+                out.append(Note(what, code=f"{self.name}.wide", effect=share))
         return out
 
     def _share_held(self, groups: Sequence[ParticleSpots], side: int, contact: Contact) -> float:
@@ -423,22 +424,26 @@ class Dents(AbstractOutput):
         if not np.any(few := (found > 0) & (found < FEW)):
             return []
         least = found[few].min()
-        say = (
+        what = (
             f"outputs.dents: {number(least)} dents lie in A_n = {number(self.A_n)} m² on average: "
         )
         if least < ONE:
-            return [
-                f"{say}one such area in {number(-1 / math.expm1(-least))} has any, and "
-                "the deepest and the widest are NaN; a larger A_n has more"
-            ]
-        return [
-            f"{say}the deepest and the widest of so few scatter from one place to the next, and "
-            "are mostly less than what 5 % of the dents exceed; a larger A_n has more"
-        ]
+            what += (
+                f"one such area in {number(-1 / math.expm1(-least))} has any, and the deepest and "
+                "the widest are NaN"
+            )
+        else:
+            what += (
+                "the deepest and the widest of so few scatter from one place to the next, and are "
+                "mostly less than what 5 % of the dents exceed"
+            )
+        effect = math.inf if least < ONE else 0.5  # of so few, of the deepest alone
+        code = f"{self.name}.few"
+        return [Note(what, code=code, effect=effect, action="a larger A_n has more")]
 
     def _about_unknown(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
         """Particles that are flattened, whose depth is not known."""
-        out = []
+        out: list[str] = []
         pair = (state.contact.surfaces.first, state.contact.surfaces.second)
         for each in state.contact.populations:
             own = each.material
@@ -462,11 +467,12 @@ class Dents(AbstractOutput):
             told = f"are not harder than {where} and are flattened there"
             if self.debris == "ductile":
                 told = "flatten, as debris = 'ductile' says"
-            out.append(
+            what = (
                 f"outputs.dents: {each.name or each.material.name or 'particles'} {told}: "
                 "their marks are counted, with the widths "
                 "of their footprints; depth and volume are not known (NaN)"
             )
+            out.append(Note(what, effect=math.inf))
         return out
 
     def splits(self, probe: Probe) -> Sequence[float]:

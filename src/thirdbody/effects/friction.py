@@ -10,6 +10,7 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column
+from ..errors import Note
 from ..populations.shape import CUTS
 from ..quantities.say import value_of
 from ..quantities.value import choice, quantity
@@ -497,11 +498,12 @@ class Friction(AbstractOutput):
         steep = [each.angle for each in shapes if each and each.faced and each.angle > CUTS]
         if not steep:
             return []
-        return [
+        what = (
             f"outputs.friction: faces at {math.degrees(max(steep)):.3g}° cut rather than plough "
             "(critical angles from 45° are quoted for copper): grooves and the ploughing force are "
             "those of a plough that displaces"
-        ]
+        )
+        return [Note(what, code=f"{self.name}.cuts")]
 
     def splits(self, probe: Probe) -> Sequence[float]:
         def kind(spots: ParticleSpots) -> NDArray[np.intp]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..contact.output import AbstractOutput, Column
+from ..errors import Note
 from ..laws.base import REGIMES
 from ..numerics.quadrature import panel_rule
 from ..populations.materials import reduced_modulus
@@ -242,7 +243,9 @@ class StaticFriction(AbstractOutput):
         share = np.max(np.divide(F_p, F_sa, out=np.zeros_like(F_p), where=F_sa > 0), initial=0)
         if share <= 0.01:
             return []
-        return [
+        what = (
             f"outputs.static_friction: {percent(share, digits=2)} of the particles' load is on "
-            "plastic contacts, to which Kogut–Etsion give no friction at all; use law='full stick'"
-        ]
+            "plastic contacts, to which Kogut–Etsion give no friction at all"
+        )
+        code = f"{self.name}.plastic"
+        return [Note(what, code=code, effect=float(share), action="use law='full stick'")]

@@ -10,8 +10,10 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column, missing
-from ..quantities.say import number, percent
+from ..errors import Note
+from ..quantities.say import number
 from ..quantities.value import choice, quantity
+from .conductance import about_wide, wide_share
 from .single.heat import (
     body_conductance,
     bridge,
@@ -40,8 +42,6 @@ __all__ = ["FlashTemperature"]
 QUANTILES = {"p50": 0.5, "p95": 0.95, "p99": 0.99}
 LEVELS = 400
 """Temperatures at which spots are counted for quantiles and peaks that have no closed inverse."""
-WIDE = 0.5
-"""Contact radius over particle radius above which the particle's resistance is far off."""
 
 
 class Body(NamedTuple):
@@ -336,37 +336,24 @@ class FlashTemperature(AbstractOutput):
 
     def _about_few(self, state: Solved) -> list[str]:
         """Where less than half of all areas A_n hold a contact: no hottest one has a median."""
-        out = []
+        out: list[str] = []
         for group, kind, n in (
             ("ss", "asperity contacts", state.total(_pressing)),
             ("sa", "loaded particles", state.total_of_particles(_pressing)),
         ):
             if np.any(few := (n > 0) & (n * self.A_n < math.log(2))):
                 least = number(float(np.min(n[few])) * self.A_n)
-                out.append(
+                what = (
                     f"outputs.flash_temperature: A_n = {number(self.A_n)} m² holds {least} {kind} "
-                    f"on average: most such areas hold none, and dT_{group}_peak is NaN; a larger "
-                    "A_n has one"
+                    f"on average: most such areas hold none, and dT_{group}_peak is NaN"
                 )
+                code = f"{self.name}.few.{group}"
+                out.append(Note(what, code=code, effect=math.inf, action="a larger A_n has one"))
         return out
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        wide = state.total_of_particles(
-            lambda spots: (
-                spots.load * (np.maximum(*spots.areas) > np.pi * (WIDE * spots.x / 2) ** 2)
-            )
-        )
-        load = state.total_of_particles(lambda spots: spots.load)
-        share = np.max(wide / np.where(load > 0, load, 1.0), initial=0.0)
-        out = self._about_few(state)
-        if share < 0.01:
-            return out
-        return [
-            *out,
-            f"outputs.flash_temperature: particles with {percent(share, digits=2)} of the particle "
-            "load touch on more than half their radius, where their resistance is overestimated "
-            "by 7 % and more",
-        ]
+        share = wide_share(state)
+        return [*self._about_few(state), *([about_wide(self.name, share)] if share >= 0.01 else [])]
 
 
 def _pressing(spots: Any) -> Array:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..contact.field_sums import FieldSpots
 from ..contact.output import AbstractOutput, Column
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Note
 from ..laws.base import REGIMES
 from ..quantities.say import value_of
 from ..quantities.value import quantity
@@ -271,22 +271,25 @@ class Wear(AbstractOutput):
         return (math.exp(brentq(over, low, high, xtol=1e-15)),)
 
     def warnings(self, state: Solved, values: Mapping[str, Array]) -> list[str]:
-        out = []
+        out: list[str] = []
         if self.renewal is None and state.particles:
             length = float(np.min(values["groove_length"], initial=np.inf))
             if math.isfinite(length):
-                out.append(
+                what = (
                     "outputs.wear: without renewal the particles are frozen in their places; the "
                     f"rates hold for about {value_of(length, 'm', 2)} of sliding, when grooves "
                     "cover the surface"
                 )
+                action = "give renewal, the fresh particles per particle and sliding length"
+                out.append(Note(what, code=f"{self.name}.frozen", action=action))
         if (
             (self.K_sa or 0.0) > 0
             and (self.f_ab or 0.0) > 0
             and np.any((values["wear_sa"] > 0) & (values["wear_groove"] > 0))
         ):
-            out.append(
+            what = (
                 "outputs.wear: sliding particles wear by K_sa and by their grooves; a K_sa "
                 "measured with particles has the grooves in it already"
             )
+            out.append(Note(what, code=f"{self.name}.twice", effect=1.0))
         return out

@@ -24,7 +24,7 @@ from ..contact.contact import Contact
 from ..equilibrium.crowding import crowded_places
 from ..equilibrium.solve import solve
 from ..equilibrium.words import meets
-from ..errors import InvalidValue, NoEquilibrium, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning
 from ..laws.asperity import ZMC
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.carried import takes_units
@@ -351,12 +351,13 @@ class Pressed(Record):
             first = "the yield stress Y = 0.375 H: p_0 = 1.6 Y = 0.6 H at first yield under a ball"
         else:
             first = "p_0 = 1.6 Y = 0.6 H, at which yield begins below a ball (ZMC, k = 0.4)"
-        return (
-            *close,
+        what = (
             f"under {value_of(self.force, 'N')} the bodies themselves yield: the largest pressure, "
             f"{value_of(self.maximum, 'Pa')}, is above {value_of(self.yields, 'Pa')}, {first}; "
-            "Hertz and the elastic bodies then overestimate the pressure",
+            "Hertz and the elastic bodies then overestimate the pressure"
         )
+        effect = 1 - self.yields / self.maximum
+        return (*close, Note(what, code="bodies.yield", effect=effect))
 
     def sentence(self) -> str:
         """Force, pressures and what the integral gives, in words."""

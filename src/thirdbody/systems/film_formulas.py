@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from ..errors import Note
 from ..laws.base import Law
 from ..quantities.arguments import need_positive
 from ..quantities.value import choice
@@ -111,17 +112,19 @@ class AbstractFilm(Law):
 
     def warnings(self, regimes: Any, ratio: float) -> list[str]:
         """Where films of these regimes leave the range of the formula, one sentence each."""
-        out = []
+        out: list[str] = []
         for name, (low, high) in self.limits.items():
             if not low <= ratio <= high:
-                out.append(f"films.{self.name}: {name} = {ratio:g} is outside {low:g} to {high:g}")
+                what = f"films.{self.name}: {name} = {ratio:g} is outside {low:g} to {high:g}"
+                out.append(Note(what, code=f"films.{name}"))
         wrong = sorted(set(np.atleast_1d(regimes).tolist()) - set(self.regimes))
         if wrong:
             every = "NijenbanningVennerMoes" if self.shape == "point" else "MoesLine"
-            out.append(
+            what = (
                 f"films.{self.name} holds for {', '.join(self.regimes)} films; some here are "
-                f"{', '.join(wrong)}: take {every}"
+                f"{', '.join(wrong)}"
             )
+            out.append(Note(what, code="films.regime", effect=0.5, action=f"take {every}"))
         return out
 
 

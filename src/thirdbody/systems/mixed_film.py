@@ -29,7 +29,7 @@ from ..contact.interface import interface
 from ..equilibrium.columns import Equilibrium
 from ..equilibrium.load_scan import load_scan
 from ..equilibrium.solve import solve
-from ..errors import InvalidValue, NoEquilibrium, RangeWarning, tell_of_range
+from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning, tell_of_range
 from ..populations.heights import GaussianHeights
 from ..quantities.carried import takes_units
 from ..quantities.record import StateRecord, column, declared_columns
@@ -535,20 +535,21 @@ def _ranges(bodies: Lubricated, u: Array, ratio: Array) -> list[str]:
     at = full_range(conjunction.shape).asymptotes(**bodies.operation(u))
     out = bodies.film.warnings(at.regime, conjunction.ratio)
     if np.any(ratio < 1):
-        out.append(
+        what = (
             f"the film is down to {float(ratio.min()):.2g} sigma; below 1 sigma "
             "roughness hinders the flow, and no flow factors are applied"
         )
+        out.append(Note(what, code="film.thin"))
     if heights != GaussianHeights():
-        out.append(
+        what = (
             "the mean gap of the film is that of a Gaussian surface, and the asperities here have "
             f"{type(heights).__name__}"
         )
+        out.append(Note(what, code="film.heights"))
     if not load_scan(interface(bodies.contact)).monotone:
-        out.append(
-            "the load of these particles does not fall with the separation, so "
-            "another balance may exist"
-        )
+        what = "the load of these particles does not fall with the separation"
+        action = "another balance may exist: look at roots of the contact"
+        out.append(Note(what, code="branches", effect=1.0, action=action))
     return out
 
 
