@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import re
 from dataclasses import dataclass
@@ -16,9 +15,10 @@ from ..populations.measured import cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS
 from ..quantities.units import comma_may_part_thousands, quantity_to_si
 from ..quantities.value import allowed_range
-from ..study import DISTRIBUTIONS, HEIGHTS, LOADS, filled_in
+from ..study import DISTRIBUTIONS, HEIGHTS, LOADS
 from ..study.concentration import AMOUNT
 from ..study.counted import COUNTED
+from ..study.fields import declarations
 from ..study.reader import Reader
 from ..study.shape import SHAPES
 from ..study.tables import FIELDS, TABLES
@@ -78,51 +78,36 @@ class Field:
     default: Any = None
 
 
-NESTED = {
-    "Material",
-    "Heights",
-    "Ellipticity | None",
-    "AbstractAsperityLaw",
-    "Value | None",
-    "Distribution",
-}
+NESTED = {"Material", "Heights", "Ellipticity | None", "AbstractAsperityLaw"}
 """Types of fields that have widgets of their own."""
+TOML = "as in a study file, e.g. [1, 2, 5]"
+ENTRIES = {
+    "word": ("word", ""),
+    "switch": ("switch", ""),
+    "text": ("string", "text"),
+    "list": ("text", TOML),
+    "word or number": ("text", TOML),
+}
+"""The entry for each kind of declaration, and what is said of it."""
 
 
 def fields_of(kind: type) -> list[Field]:
     """The fields of a value class that a study file can set with one entry."""
     out = []
-    for item in dataclasses.fields(kind):
-        declared = str(getattr(item.type, "__name__", item.type))
-        if item.name in filled_in(kind) or declared in NESTED:
-            continue
-        default = None if item.default is dataclasses.MISSING else item.default
-        needed = item.default is dataclasses.MISSING and (
-            item.default_factory is dataclasses.MISSING
-        )
-        if about := item.metadata.get("quantity"):
-            out.append(number_field(item.name, about, default, needed))
-        elif about := item.metadata.get("choice"):
-            words = tuple(about["options"])
+    for each in declarations(kind):
+        if each.quantity is not None:
+            out.append(number_field(each.name, each.quantity, each.default, each.needed))
+        elif each.kind in ENTRIES or each.declared in FIELDS.keys() - NESTED:
+            entry, said = ENTRIES.get(each.kind, ("text", TOML))
             out.append(
                 Field(
-                    name=item.name,
-                    kind="word",
-                    label=item.name,
-                    about=about["meaning"],
-                    options=words,
-                    default=default,
+                    name=each.name,
+                    kind=entry,
+                    label=each.name,
+                    about=each.meaning or said,
+                    options=each.options,
+                    default=each.default,
                 )
-            )
-        elif declared == "bool":
-            out.append(
-                Field(name=item.name, kind="switch", label=item.name, about="", default=default)
-            )
-        else:
-            text = "text" if declared == "str" else "as in a study file, e.g. [1, 2, 5]"
-            kind_ = "string" if declared == "str" else "text"
-            out.append(
-                Field(name=item.name, kind=kind_, label=item.name, about=text, default=default)
             )
     return out
 

@@ -1,16 +1,22 @@
-"""What a value class says of its fields: which are needed, which count, what each is."""
+"""What a value class says of its fields: which are needed, which count, what each is.
+
+The readers of study files, the entries of the page and the lists of the command line are made from
+the same `declarations`.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, Literal
 
 from ..laws import asperity
 from ..quantities.units import EXAMPLES
-from ..quantities.value import problem_with
+from ..quantities.value import allowed_range, problem_with
 
-__all__ = ["UNITS_OF_LISTS", "about_of", "filled_in", "idle", "needed_fields"]
+__all__ = ["Declaration", "about_of", "declarations", "filled_in", "idle", "needed_fields"]
 
 UNITS_OF_LISTS = {
     "edges": "m",
@@ -23,14 +29,93 @@ UNITS_OF_LISTS = {
 """Units of the fields that hold lists."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class Declaration:
+    """What a value class declares of one field that a study file may hold.
+
+    Parameters
+    ----------
+    name : str
+        The key.
+    kind : {"number", "word", "list", "switch", "text", "word or number", "other"}
+        What is written there; "other" is a table, or what no file can express.
+    declared : str
+        Its type, as the class declares it.
+    needed : bool
+        Whether it has no default.
+    default : object
+        None where it is needed, or made anew for each value.
+    quantity : mapping, optional
+        What `thirdbody.quantities.value.quantity` says of a number.
+    options : tuple of str
+        The words of which it is one.
+    meaning : str
+        What it is.
+    unit : str
+        Of the numbers of a list.
+    any_unit : bool
+        Whether the numbers of a list may have other units, too.
+    allowed : str
+        The range of a number, or what the class says of a table.
+    """
+
+    name: str
+    kind: Literal["number", "word", "list", "switch", "text", "word or number", "other"]
+    declared: str
+    needed: bool
+    default: Any = None
+    quantity: dict[str, Any] | None = None
+    options: tuple[str, ...] = ()
+    meaning: str = ""
+    unit: str = ""
+    any_unit: bool = False
+    allowed: str = ""
+
+
+KINDS: Mapping[str, Literal["switch", "text", "word or number"]] = {
+    "bool": "switch",
+    "str": "text",
+    "str | float": "word or number",
+}
+"""What is written for the fields of these types."""
+
+
+@cache
+def declarations(kind: type) -> tuple[Declaration, ...]:
+    """What a value class declares of its fields, but for those that a contact fills in."""
+    return tuple(
+        _declaration(item) for item in dataclasses.fields(kind) if item.name not in filled_in(kind)
+    )
+
+
+def _declaration(item: dataclasses.Field[Any]) -> Declaration:
+    declared = str(getattr(item.type, "__name__", item.type))
+    missing = dataclasses.MISSING
+    plain: dict[str, Any] = {
+        "name": item.name,
+        "declared": declared,
+        "needed": item.default is missing and item.default_factory is missing,
+        "default": None if item.default is missing else item.default,
+    }
+    if about := item.metadata.get("quantity"):
+        plain |= {
+            "meaning": about["meaning"],
+            "allowed": allowed_range(about).removeprefix("must be "),
+        }
+        return Declaration(kind="number", quantity=about, **plain)
+    if about := item.metadata.get("choice"):
+        options, meaning = tuple(about["options"]), about["meaning"]
+        return Declaration(kind="word", options=options, meaning=meaning, **plain)
+    if item.name in UNITS_OF_LISTS:
+        unit = UNITS_OF_LISTS[item.name]
+        any_unit = item.metadata.get("several", {}).get("unit", unit) != unit
+        return Declaration(kind="list", unit=unit, any_unit=any_unit, **plain)
+    return Declaration(kind=KINDS.get(declared, "other"), **plain, **item.metadata.get("table", {}))
+
+
 def needed_fields(kind: type) -> list[str]:
     """Fields of a value class without a default."""
-    missing = dataclasses.MISSING
-    return [
-        item.name
-        for item in dataclasses.fields(kind)
-        if item.default is missing and item.default_factory is missing
-    ]
+    return [each.name for each in declarations(kind) if each.needed]
 
 
 @cache

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import math
 from collections.abc import Callable, Mapping
@@ -17,7 +16,7 @@ from ..errors import InvalidValue
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
 from ..quantities.units import say
-from .fields import UNITS_OF_LISTS, about_of, filled_in, needed_fields
+from .fields import about_of, declarations
 from .mistakes import Known, clash, in_file
 from .one_value import number, numbers, switch, text, word, word_or_number
 from .vocabulary import near
@@ -88,6 +87,12 @@ class Table:
 
 
 FieldReader = Callable[["Reader", str, Any], Any]
+PLAIN: Mapping[str, Callable[[str], Any]] = {
+    "switch": switch,
+    "text": text,
+    "word or number": word_or_number,
+}
+"""What reads the values of which the path is all that one must know."""
 
 
 class Ways(NamedTuple):
@@ -166,35 +171,25 @@ class Reader:
         and so is not a known key.
         """
         out = {}
-        own = filled_in(kind)
-        for item in dataclasses.fields(kind):
-            if item.name in own:
-                continue
-            where = f"{path}.{item.name}"
-            declared = str(getattr(item.type, "__name__", item.type))
-            about = ""
-            if meta := item.metadata.get("quantity"):
-                read, about = plain(number(self, where, meta)), about_of(item.name, meta)
-            elif meta := item.metadata.get("choice"):
-                read, about = plain(word(where, meta["options"])), meta["meaning"]
-            elif declared in self.fields:
-                read_field, about = self.fields[declared]
-                read = read_field(self, where, get(data, item.name))
-            elif item.name in UNITS_OF_LISTS:
-                unit = UNITS_OF_LISTS[item.name]
-                any_unit = item.metadata.get("several", {}).get("unit", unit) != unit
-                usual = math.inf if any_unit else None
-                read = plain(numbers(where, unit, usual=usual))
-                about = f"a list of numbers [{unit}]"
-            elif declared == "bool":
-                read = plain(switch(where))
-            elif declared == "str":
-                read = plain(text(where))
-            elif declared == "str | float":
-                read = plain(word_or_number(where))
+        for each in declarations(kind):
+            where, about = f"{path}.{each.name}", each.meaning
+            if each.quantity is not None:
+                read = plain(number(self, where, each.quantity))
+                about = about_of(each.name, each.quantity)
+            elif each.kind == "word":
+                read = plain(word(where, each.options))
+            elif each.kind == "list":
+                usual = math.inf if each.any_unit else None
+                read = plain(numbers(where, each.unit, usual=usual))
+                about = f"a list of numbers [{each.unit}]"
+            elif each.kind in PLAIN:
+                read = plain(PLAIN[each.kind](where))
+            elif each.declared in self.fields:
+                read_field, about = self.fields[each.declared]
+                read = read_field(self, where, get(data, each.name))
             else:
                 continue
-            out[item.name] = Key(read, item.name in needed_fields(kind), about)
+            out[each.name] = Key(read, each.needed, about)
         return out
 
     def variant(
@@ -217,10 +212,7 @@ class Reader:
             chosen = None
         self.known.variants[path] = (
             tag,
-            {
-                name: {item.name for item in dataclasses.fields(kind)} - filled_in(kind)
-                for name, kind in kinds.items()
-            },
+            {name: {each.name for each in declarations(kind)} for name, kind in kinds.items()},
         )
         words = ", ".join(map(say, kinds))
         keys = {tag: Key(plain(word(f"{path}.{tag}", kinds)), True, f"one of {words}")}

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ...quantities.tables import Table
 from ..options import AsJson
 from ..show import terminal, usual
+
+if TYPE_CHECKING:
+    from ...study.fields import Declaration
 
 __all__ = ["command"]
 
@@ -65,39 +67,28 @@ def command(
 
 
 def _about_law(law: type) -> dict[str, Any]:
-    from ...study import filled_in
+    from ...study.fields import declarations
 
     about = ("name", "title", "year", "citation", "doi", "provenance", "valid_range")
     usual = law()
-    options = [
-        _about_option(item, getattr(usual, item.name))
-        for item in dataclasses.fields(law)
-        if item.name not in filled_in(law)
-    ]
+    options = [_about_option(each, getattr(usual, each.name)) for each in declarations(law)]
     return {key: getattr(law, key) for key in about} | {"options": options}
 
 
-def _about_option(item: dataclasses.Field[Any], default: Any) -> dict[str, Any]:
+def _about_option(each: Declaration, default: Any) -> dict[str, Any]:
     from ...quantities.units import say
-    from ...quantities.value import allowed_range
 
     default = getattr(default, "name", default)
-    allowed, meaning, unit = "", "", ""
-    if about := item.metadata.get("quantity"):
-        allowed, unit = allowed_range(about).removeprefix("must be "), about["unit"]
-        meaning = f"{about['meaning']} {about['symbol']}"
-    elif about := item.metadata.get("choice"):
-        allowed, meaning = ", ".join(map(say, about["options"])), about["meaning"]
-    elif about := item.metadata.get("table"):
-        allowed, meaning = about["allowed"], about["meaning"]
-    elif isinstance(default, bool):
+    about = each.quantity or {"symbol": "", "unit": ""}
+    allowed = each.allowed or ", ".join(map(say, each.options))
+    if each.kind == "switch":
         allowed = "true, false"
-    elif isinstance(default, str):
+    elif each.declared == "AbstractAsperityLaw":
         allowed = "name of an asperity law, or a table with its options"
     return {
-        "key": item.name,
+        "key": each.name,
         "default": default,
         "allowed": allowed,
-        "unit": unit,
-        "meaning": meaning,
+        "unit": about["unit"],
+        "meaning": f"{each.meaning} {about['symbol']}".rstrip(),
     }

@@ -24,12 +24,12 @@ def command(
     ] = False,
 ) -> None:
     """The outputs of a contact: friction, temperature, conductance, wear ..., with their keys."""
-    from ...effects.catalogue import entries, page
+    from ...views.outputs_page import entries, outputs_page
 
     if as_json and as_page:
         raise typer.BadParameter("--json and --markdown exclude each other; run the command twice")
     if as_page:
-        print(page(), end="")
+        print(outputs_page(), end="")
         return
     if as_json:
         print(json.dumps(entries(), indent=1, allow_nan=False))

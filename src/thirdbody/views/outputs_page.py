@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import Any
 
 from ..contact.output import AbstractOutput
-from ..quantities.value import allowed_range
+from ..study.fields import Declaration, declarations
 
-__all__ = ["entries", "page"]
+__all__ = ["entries", "outputs_page"]
 
 HEAD = """# Table of outputs
 
@@ -39,25 +38,25 @@ def _entry(kind: Any) -> dict[str, Any]:
         **{key: getattr(kind, key) for key in about},
         "class": kind.__name__,
         "needs": list(kind.needs),
-        "options": [_option(item) for item in dataclasses.fields(kind)],
+        "options": [_option(each) for each in declarations(kind)],
         "columns": {name: column._asdict() for name, column in kind.columns.items()},
     }
 
 
-def _option(item: dataclasses.Field[Any]) -> dict[str, Any]:
-    required = item.default is dataclasses.MISSING and item.default_factory is dataclasses.MISSING
-    default = None if required else item.default
-    out = {"key": item.name, "required": required, "default": default}
-    symbol = unit = meaning = allowed = ""
-    if told := item.metadata.get("quantity"):
-        symbol, unit, meaning = told["symbol"], told["unit"], told["meaning"]
-        allowed = allowed_range(told).removeprefix("must be ")
-    elif told := item.metadata.get("choice"):
-        meaning, allowed = told["meaning"], ", ".join(told["options"])
-    return out | {"symbol": symbol, "unit": unit, "allowed": allowed, "meaning": meaning}
+def _option(each: Declaration) -> dict[str, Any]:
+    about = each.quantity or {"symbol": "", "unit": ""}
+    return {
+        "key": each.name,
+        "required": each.needed,
+        "default": each.default,
+        "symbol": about["symbol"],
+        "unit": about["unit"],
+        "allowed": each.allowed or ", ".join(each.options),
+        "meaning": each.meaning,
+    }
 
 
-def page() -> str:
+def outputs_page() -> str:
     """The page docs/outputs.md."""
     parts = [HEAD]
     for entry in entries():

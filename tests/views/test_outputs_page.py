@@ -11,9 +11,9 @@ import pytest
 from scipy.optimize import brentq
 
 import thirdbody as tb
-from thirdbody.effects import catalogue
 from thirdbody.laws.base import Law
 from thirdbody.study import load_study
+from thirdbody.views import outputs_page
 
 ROOT = Path(__file__).parents[2]
 GUIDE = ROOT / "docs" / "add-an-output.md"
@@ -64,7 +64,7 @@ def test_page_has_every_output_with_its_numbers():
 def test_page_says_which_numbers_are_yours():
     yours = {
         (entry["name"], option["key"])
-        for entry in catalogue.entries()
+        for entry in outputs_page.entries()
         for option in entry["options"]
         if option["required"]
     }
@@ -154,7 +154,7 @@ def test_the_output_of_the_guide_works_everywhere(overload, tmp_path):
     file.write_text(STUDY, "utf-8")
     (asked,) = load_study(file).contact.outputs
     assert asked == overload(strength=2e9)
-    assert "## `overload`: Crushed particles" in catalogue.page()
+    assert "## `overload`: Crushed particles" in outputs_page.outputs_page()
 
 
 @pytest.mark.filterwarnings("ignore::thirdbody.RangeWarning")
