@@ -237,7 +237,7 @@ def test_a_measured_surface_is_there_after_a_reload_and_asked_for_after_a_restar
     when(page, "() => location.search.includes('tab=take_away')")
     page.reload()
     page.locator('[data-download="states.json"]').wait_for()
-    when(page, "() => document.querySelector('[data-path=python]').innerText.length > 9")
+    when(page, "() => document.querySelector('[data-path=python]')?.innerText.length > 9")
     assert downloaded(page, "states.json") == by_command
     link = page.url
     elsewhere = browser.new_context(accept_downloads=True).new_page()
@@ -260,7 +260,7 @@ def test_a_measured_surface_is_there_after_a_reload_and_asked_for_after_a_restar
     assert heights_of(page) == read
     when(page, "() => !document.querySelector('[data-said=page]').innerText")
     tab(page, "Take away")
-    when(page, "() => document.querySelector('[data-path=python]').innerText.length > 9")
+    when(page, "() => document.querySelector('[data-path=python]')?.innerText.length > 9")
     assert downloaded(page, "states.json") == by_command
 
 
