@@ -71,25 +71,16 @@ BARE = (
 )
 """Words that say nothing of what a function does or returns."""
 LEFT = {
-    "at": 27,
-    "of": 26,
-    "part": 7,
-    "own": 3,
-    "known": 3,
+    "at": 21,
+    "of": 20,
+    "part": 5,
     "met": 3,
-    "each": 3,
-    "put": 3,
-    "named": 3,
-    "left": 2,
     "held": 2,
-    "listed": 2,
-    "drawn": 2,
-    "asked": 1,
+    "put": 2,
+    "drawn": 1,
+    "kept": 1,
     "shown": 1,
     "taken": 1,
-    "needed": 1,
-    "told": 1,
-    "kept": 1,
 }
 """How often each is left."""
 

@@ -109,7 +109,7 @@ def test_the_section_shows_no_more_particles_than_a_contact_holds(tmp_path):
 
 def _drawn(study, folder):
     state = State(study, folder)
-    return interface.drawn(state.answer, state.at, 0)
+    return interface.drawing_of(state.answer, state.at, 0)
 
 
 # ---------------------------------------------------------------- axes

@@ -34,7 +34,7 @@ from thirdbody.app.sizing import size_of, with_size
 from thirdbody.app.sliders import at_position, position_of
 from thirdbody.app.state import State
 from thirdbody.app.tabs.error_bars import _ranges, tornado_figure
-from thirdbody.app.tabs.interface import drawn as section_drawn
+from thirdbody.app.tabs.interface import drawing_of as section_drawn
 from thirdbody.app.tabs.interface import facts_of, headline
 from thirdbody.app.tabs.outputs import output_figures
 from thirdbody.app.uploads import harmless

@@ -24,7 +24,7 @@ from ..equilibrium.words import (
 )
 from ..quantities import notebook
 from ..quantities.plain_data import plain_data
-from ..quantities.say import listed, number, percent, span, times, value_of
+from ..quantities.say import join_words, number, percent, span, times, value_of
 from ..quantities.tables import WIDER, Table
 from .inputs import declared, words_of
 from .inputs import inputs as all_inputs
@@ -296,8 +296,8 @@ class Assessment:
         strongest = [self._words(label) for label in list(self.matter)[:3]]
         first = next(iter(self.matter.values()), math.nan)
         sentences = [
-            f"Of the inputs, {listed(strongest)} matter{'s' if len(strongest) == 1 else ''} most "
-            f"to {self._decisive()}."
+            f"Of the inputs, {join_words(strongest)} matter{'s' if len(strongest) == 1 else ''} "
+            f"most to {self._decisive()}."
             if self.moved
             else f"No input moves {self._decisive()}, within its range."
         ]

@@ -274,17 +274,17 @@ class Places:
         partial = self.along(moved, slope.value[:, -1])
         for each, (of_columns, of_held) in zip(moved, map(_last_apart, partial), strict=True):
             total = of_columns.less(ratio, of_held)
-            out[each.label] = self._told(total, size, each.scales[0])
+            out[each.label] = self._entries_of(total, size, each.scales[0])
         if load == self.held:
             level = centre[:, -1:]
-            out[load] = self._told(Slope(*(level * part for part in ratio)), size, level)
+            out[load] = self._entries_of(Slope(*(level * part for part in ratio)), size, level)
         elif load == "d" and self.held is None:
-            out[load] = self._told(columns, size, self.length[:, None])
+            out[load] = self._entries_of(columns, size, self.length[:, None])
         elif load:
-            out[load] = self._told(Slope(*(0 * part for part in columns)), size, 1.0)
+            out[load] = self._entries_of(Slope(*(0 * part for part in columns)), size, 1.0)
         return out
 
-    def _told(self, total: Slope, size: Array, scale: Any) -> list[Entry]:
+    def _entries_of(self, total: Slope, size: Array, scale: Any) -> list[Entry]:
         return _entries(total, size, scale, self.rule.doubtful)
 
 

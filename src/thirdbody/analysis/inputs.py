@@ -15,7 +15,7 @@ from ..equilibrium.columns import COLUMNS
 from ..equilibrium.states import carries, unknown_inputs, varied
 from ..errors import InvalidValue, Problem
 from ..populations.roughness import ETA_R_SIGMA
-from ..quantities.say import listed
+from ..quantities.say import join_words
 from ..quantities.value import Value
 
 if TYPE_CHECKING:
@@ -149,8 +149,8 @@ def words_of(contact: Contact, label: str) -> str:
     if owners == [BODIES["surfaces.first"], BODIES["surfaces.second"]]:
         owners = ["of both surfaces"]
     if len(owners) > 1 and len(meanings) > 1:
-        return listed([f"{meaning} {owner}".strip() for meaning, owner in each])
-    return f"{listed(meanings)} {listed(owners)}".strip()
+        return join_words([f"{meaning} {owner}".strip() for meaning, owner in each])
+    return f"{join_words(meanings)} {join_words(owners)}".strip()
 
 
 def _words_and_owner(contact: Contact, name: str) -> tuple[str, str]:

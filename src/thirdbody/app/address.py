@@ -49,7 +49,7 @@ READ_AS = ("file", "cutoff", "spacing", "unit", "channel", "resolution", "detren
 def query_of(state: State, at: float | None) -> str:
     """The query string that reopens the study at an operating load, and its files here."""
     query = to_link(state.study, at)
-    if named := state.named():
+    if named := state.file_keys():
         query += "&files=" + ",".join(f"{name}:{key}" for name, key in named.items())
     if state.surface:
         query += "&surface=" + quote(json.dumps(state.surface, ensure_ascii=False))
@@ -99,7 +99,7 @@ class Address:
 
     def _now(self) -> tuple[Any, ...]:
         state = self.state
-        return state.study, state.wanted, state.tab, state.named(), dict(state.surface)
+        return state.study, state.wanted, state.tab, state.file_keys(), dict(state.surface)
 
     def tell(self) -> str:
         """Follow the study; what is to be said about it."""

@@ -26,8 +26,8 @@ __all__ = [
     "empty",
     "figure",
     "fix",
+    "json_numbers",
     "line",
-    "listed",
     "log_title",
     "mark",
     "mode_bands",
@@ -231,7 +231,7 @@ def clipped(curves: Iterable[Any]) -> np.ndarray:
     return np.concatenate(kept)
 
 
-def listed(values: Any) -> list[float | None]:
+def json_numbers(values: Any) -> list[float | None]:
     """Numbers for JSON, None where there is none."""
     numbers: list[float | None] = plain_data(np.atleast_1d(np.asarray(values, dtype=float)))
     return numbers
@@ -276,8 +276,8 @@ def line(x: Any, y: Any, name: str, number: int = 0, **more: Any) -> dict[str, A
     return {
         "type": "scatter",
         "mode": "lines",
-        "x": listed(x),
-        "y": listed(y),
+        "x": json_numbers(x),
+        "y": json_numbers(y),
         "name": name,
         "line": style | more.pop("line", {}),
     } | more

@@ -306,7 +306,9 @@ class Inputs(ParticleInputs):
                     parts = dict.fromkeys(meanings.get(name, name) for name in label.split("+"))
                     ui.label(f"{', '.join(parts)}: {with_micro(in_words(entry))}")
                     ui.label(label).classes("hint break-any")
-                drop = ui.button(icon="delete", on_click=lambda _, k=label: self._known(k, None))
+                drop = ui.button(
+                    icon="delete", on_click=lambda _, k=label: self._set_uncertainty(k, None)
+                )
                 put(drop.props("flat dense"), {"aria-label": f"remove {label}"})
         kinds = {
             "uniform": "between two values",
@@ -337,11 +339,11 @@ class Inputs(ParticleInputs):
                 entry = dict(zip(keys, values, strict=False))
                 if kind == "log-uniform":
                     entry["spacing"] = "log"
-                self._known("+".join(which.value), entry)
+                self._set_uncertainty("+".join(which.value), entry)
 
             ui.button("Add", icon="add", on_click=add).props('dense data-path="uncertain.add"')
 
-    def _known(self, label: str, entry: dict[str, Any] | None) -> None:
+    def _set_uncertainty(self, label: str, entry: dict[str, Any] | None) -> None:
         flat = _flat(self.table("uncertainty", "inputs"))
         flat.pop(label, None)
         if entry is not None:

@@ -323,12 +323,12 @@ class State:
     ) -> None:
         """Another study in the place of this one."""
         self._step(kind)
-        self._put(study, at if at is not None else self.wanted)
+        self._set_study(study, at if at is not None else self.wanted)
 
     def open(self, study: dict[str, Any]) -> None:
         """A study that begins anew, with an operating load of its own."""
         self._step(None)
-        self._put(study, None)
+        self._set_study(study, None)
 
     def _step(self, kind: str | None) -> None:
         """Keep what is now, unless the change goes on with the last one."""
@@ -340,7 +340,7 @@ class State:
     def _keep(self) -> None:
         self.past = [*self.past[1 - MOST_STEPS :], (self.study, self.wanted)]
 
-    def _put(self, study: dict[str, Any], at: float | None) -> None:
+    def _set_study(self, study: dict[str, Any], at: float | None) -> None:
         self.began = time.perf_counter()
         self.study, self.wanted = study, at
         if not self.later:
@@ -352,13 +352,13 @@ class State:
         if self.past:
             self.kind = None
             self.steps += 1
-            self._put(*self.past.pop())
+            self._set_study(*self.past.pop())
 
     def travel(self, study: dict[str, Any], at: float | None) -> None:
         """What an entry of the browser's history holds."""
         self._keep()
         self.kind = None
-        self._put(study, at)
+        self._set_study(study, at)
 
     def check(self) -> None:
         """Read the study as the command line does; keep the last answer when it has mistakes."""
@@ -409,7 +409,7 @@ class State:
                 self.check()
         self.tell()
 
-    def named(self) -> dict[str, str]:
+    def file_keys(self) -> dict[str, str]:
         """The files that study and tabs name, with their keys."""
         names = [*files_of(self.study), self.surface.get("file", "")]
         return {name: self.files[name] for name in names if name in self.files}

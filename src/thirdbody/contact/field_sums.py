@@ -130,17 +130,17 @@ class FieldSpots(AsperitySpots):
         if share is None:
             number = np.broadcast_to(spots.number, (len(count), spots.number.shape[1]))
 
-        def each(values: Any) -> Any:
+        def flattened(values: Any) -> Any:
             flat = values if share is None else values[:, 0]
             return np.broadcast_to(flat, number.shape)
 
         return cls(
             share=None,
             number=number * count[:, None],
-            load=each(spots.load),
-            area=each(spots.area) * size[:, None],
-            regime=each(spots.regime),
-            depth=each(spots.depth),
+            load=flattened(spots.load),
+            area=flattened(spots.area) * size[:, None],
+            regime=flattened(spots.regime),
+            depth=flattened(spots.depth),
             R=spots.R,
             law=spots.law,
             E_star=spots.E_star,

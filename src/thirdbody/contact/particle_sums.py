@@ -294,12 +294,12 @@ class SeatedParticles(ParticleSum):
         return fixed
 
     def fields(self, d: Array) -> dict[str, Array]:
-        return self._named(np.sum([part.columns(d) for part in self.parts], axis=0))
+        return self._columns_of(np.sum([part.columns(d) for part in self.parts], axis=0))
 
     def direct_fields(self, d: Array) -> dict[str, Array]:
-        return self._named(np.sum([part.direct_columns(d) for part in self.parts], axis=0))
+        return self._columns_of(np.sum([part.direct_columns(d) for part in self.parts], axis=0))
 
-    def _named(self, total: Array) -> dict[str, Array]:
+    def _columns_of(self, total: Array) -> dict[str, Array]:
         total = np.maximum(total, 0.0)  # rounding of the other regimes
         return {
             "F_sa": total[:, 0],

@@ -93,10 +93,10 @@ def _shares(
                 beyond = _broken(spots, strength, one, each.material)
                 broken += spots.total(spots.load * beyond)
 
-    def of(part: Array) -> Array:
+    def share_of(part: Array) -> Array:
         return np.divide(part, total, out=np.zeros_like(part), where=total > 0)
 
-    return of(deep), of(broken)
+    return share_of(deep), share_of(broken)
 
 
 def about_pressed(contact: Contact, d: Array) -> list[str]:
@@ -254,10 +254,10 @@ def _at_most(contact: Contact, d: Array) -> tuple[Array, Array]:
                 squeeze = _squeeze_under(law, contact.surfaces, each.material, most)
                 broken += part.load_in_gaps(d, squeeze)
 
-    def of(part: Array) -> Array:
+    def share_of(part: Array) -> Array:
         return np.divide(part, total, out=np.full_like(part, math.inf), where=total > 0)
 
-    return of(deep), of(broken)
+    return share_of(deep), share_of(broken)
 
 
 @lru_cache(maxsize=512)

@@ -328,7 +328,7 @@ class ThermalConductance(AbstractOutput):
     }
 
     def problems(self, contact: Contact) -> list[str]:
-        return missing(self, _asked(contact, self.particles), "thermal_conductivity")
+        return missing(self, _conducting_bodies(contact, self.particles), "thermal_conductivity")
 
     def one_by_one(self, contact: Contact) -> bool:
         return bool(self.film or self.A_n)
@@ -449,7 +449,7 @@ class ElectricalConductance(AbstractOutput):
     }
 
     def problems(self, contact: Contact) -> list[str]:
-        return missing(self, _asked(contact, self.particles), "resistivity")
+        return missing(self, _conducting_bodies(contact, self.particles), "resistivity")
 
     def one_by_one(self, contact: Contact) -> bool:
         return bool(self.film or self.mean_free_path or self.A_n)
@@ -469,7 +469,7 @@ class ElectricalConductance(AbstractOutput):
         return _warnings(self, state, self.particles, "gc, gc_ss, gc_sa and rho_c", "gc_closed")
 
 
-def _asked(contact: Contact, particles: str) -> dict[str, Material]:
+def _conducting_bodies(contact: Contact, particles: str) -> dict[str, Material]:
     """Bodies whose conductivity counts."""
     bodies = bodies_of(contact)
     if particles == "conduct":

@@ -203,7 +203,7 @@ class Dents(AbstractOutput):
             layout = replace(layout, fragment=self.fragment)
         return replace(found, material=population.material, population=population, layout=layout)
 
-    def _left(self, spots: ParticleSpots, side: int, contact: Contact) -> Dent:
+    def _dent_left(self, spots: ParticleSpots, side: int, contact: Contact) -> Dent:
         population = spots.population
         assert population is not None
         law = contact.law_of(population)
@@ -310,7 +310,7 @@ class Dents(AbstractOutput):
         dents: list[tuple[Values, Values]] = []
         sinks: list[Values] = []
         for spots in groups:
-            dent = self._left(spots, side, state.contact)
+            dent = self._dent_left(spots, side, state.contact)
             deep = self._sunk(spots, side)
             told = np.isfinite(dent.depth)
             depth, volume = np.where(told, dent.depth, 0.0), np.where(told, dent.volume, 0.0)
@@ -411,7 +411,7 @@ class Dents(AbstractOutput):
             assert population is not None
             law, own = contact.law_of(population), population.material
             widest = _widest(law, contact.surfaces, own, side)
-            dent = self._left(spots, side, contact)
+            dent = self._dent_left(spots, side, contact)
             flat: Any = np.isnan(dent.depth) & (dent.diameter > 0)
             marks = marks + spots.total(flat.astype(float))
             wide: Any = flat & (dent.diameter >= widest * spots.x)

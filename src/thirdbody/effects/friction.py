@@ -95,15 +95,15 @@ def changes(probe: Probe, kind: Callable[[ParticleSpots], NDArray[np.intp]]) -> 
     [0.1]
     """
 
-    def at(eps: Array) -> NDArray[np.intp]:
+    def kinds_at(eps: Array) -> NDArray[np.intp]:
         return kind(probe(eps.ravel())).reshape(eps.shape)
 
-    jumps = np.flatnonzero(np.diff(at(SQUEEZES)))
+    jumps = np.flatnonzero(np.diff(kinds_at(SQUEEZES)))
     low, high = SQUEEZES[jumps], SQUEEZES[jumps + 1]
     steps, row = np.linspace(0.0, 1.0, FINER + 1), np.arange(len(jumps))
     for _ in range(ROUNDS if len(jumps) else 0):
         eps = low[:, None] + (high - low)[:, None] * steps
-        found = at(eps)
+        found = kinds_at(eps)
         first = np.argmax(found != found[:, :1], axis=1)
         low, high = eps[row, first - 1], eps[row, first]
     return [float(eps) for eps in high]

@@ -228,7 +228,7 @@ class _Whole:
 class _OnSeats(_Whole):
     """Particles on seats of Gaussian height."""
 
-    def _part(self, values: Array, x: Array, means: Array) -> Array:
+    def _share_above(self, values: Array, x: Array, means: Array) -> Array:
         """Part of the particles of sizes x that exceed the values."""
         width = self.layout.width
         out, x = np.zeros(np.broadcast(values, x).shape), np.maximum(x, TINY)
@@ -266,7 +266,7 @@ class _OnSeats(_Whole):
             out[part] = self._sum(values[part], means, edges)
             if pieces:
                 x = np.full(len(means), float(layout.fragment or 0.0))
-                out[part] += pieces * self._part(values[part], x, means)
+                out[part] += pieces * self._share_above(values[part], x, means)
         return self.density[rows] * out
 
     def _sum(self, values: Array, means: Array, edges: Array) -> Array:
@@ -274,14 +274,14 @@ class _OnSeats(_Whole):
             return np.zeros(len(values))
         low, high = float(edges[0]), float(edges[-1])
         if low == high:
-            return self._part(values, np.full(len(values), high), means)
+            return self._share_above(values, np.full(len(values), high), means)
         turn = self._turn(values, means, low, high)
         more = turn[:, None] + self.layout.width * np.array(WIDTHS)
         fixed = np.broadcast_to(edges, (len(values), len(edges)))
         ends = np.concatenate([fixed, more, self.bends(values)], axis=1)
         ends = np.sort(np.clip(ends, low, high), axis=1)
         x, weight = panel_rule(ends, NODES)
-        part = self._part(values[:, None], x, means[:, None])
+        part = self._share_above(values[:, None], x, means[:, None])
         density = np.where(weight > 0, self.density_of(np.maximum(x, TINY)), 0.0)
         return np.sum(weight * density * part, axis=1)
 

@@ -103,7 +103,7 @@ class Bodies:
     def __len__(self) -> int:
         return len(self.x)
 
-    def _each(self, name: str, values: Array) -> Array:
+    def _value_of_each(self, name: str, values: Array) -> Array:
         out = np.empty(len(values))
         for i, law in enumerate(self.laws):
             here = self.kind == i
@@ -112,15 +112,15 @@ class Bodies:
 
     def force(self, delta: Array) -> Array:
         """f [N] at the squeeze δ [m]."""
-        return self.diameter**2 * self._each("force", delta / self.diameter)
+        return self.diameter**2 * self._value_of_each("force", delta / self.diameter)
 
     def squeeze(self, force: Array) -> Array:
         """δ [m] under f [N]."""
-        return self.diameter * self._each("squeeze", force / self.diameter**2)
+        return self.diameter * self._value_of_each("squeeze", force / self.diameter**2)
 
     def stiffness(self, delta: Array) -> Array:
         """df/dδ [N/m]."""
-        return self.diameter * self._each("stiffness", delta / self.diameter)
+        return self.diameter * self._value_of_each("stiffness", delta / self.diameter)
 
     @property
     def limit(self) -> Array:
@@ -159,7 +159,7 @@ class Placed:
         np.add.at(out.reshape(-1), self.pixels, self.weights * values)
         return out
 
-    def own(self, green: Array, lattice: float) -> Array:
+    def own_displacement(self, green: Array, lattice: float) -> Array:
         """s: displacement of each by itself, without its periodic images [m/Pa]."""
         out = np.zeros(self.pixels.shape[1])
         n, m = self.shape

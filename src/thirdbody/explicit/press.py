@@ -305,7 +305,7 @@ class _Programme:
             self.full = self.space.energy_of_full_contact(self.z), h - float(np.mean(self.z))
         self.own = self.top = np.empty(0)
         if len(bodies):
-            self.own = self.placed.own(self.space.green(), self.space.lattice)
+            self.own = self.placed.own_displacement(self.space.green(), self.space.lattice)
             self.top = self.placed.at(self.z) + bodies.lift + bodies.diameter
 
     def first(self, start: tuple[Array, Array] | None) -> _Iterate:

@@ -166,7 +166,7 @@ def solve(
     for sentence in told:
         tell_of_range(sentence)
 
-    def of(name: str) -> Any:
+    def column(name: str) -> Any:
         every = [each[name] for each in columns]
         return every[0] if one else np.array(every)
 
@@ -178,7 +178,7 @@ def solve(
 
     return ExplicitState(
         contact=contact,
-        **{name: of(name) for name in columns[0]},
+        **{name: column(name) for name in columns[0]},
         seconds=seconds[0] if one else np.array(seconds),
         sigma=surface_map.sigma,
         seats=inside.seats,

@@ -374,16 +374,16 @@ class Ellipticity(Value):
 
         round_tips = 1 / (1 / R_first + 1 / R_second)
 
-        def at(theta: ArrayLike) -> tuple[Array, Array]:
+        def tips_at(theta: ArrayLike) -> tuple[Array, Array]:
             ratio, R = combined_tips(first_ratio, R_first, second_ratio, R_second, theta)
             return ratio, R / round_tips
 
         if not isinstance(angle, str):
-            ratio, radius = at(angle)
+            ratio, radius = tips_at(angle)
             return cls(ratios=(float(ratio),), radii=(float(radius),))
 
         def rule(count: int) -> tuple[Array, Array]:
-            return at((np.arange(count) + 0.5) * (0.5 * np.pi / count))
+            return tips_at((np.arange(count) + 0.5) * (0.5 * np.pi / count))
 
         exact = _means(*rule(8 * MOST_CLASSES))
         for count in range(1, MOST_CLASSES + 1):

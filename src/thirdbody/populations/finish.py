@@ -12,7 +12,7 @@ from itertools import product
 from typing import Any, NamedTuple
 
 from ..errors import InvalidValue
-from ..quantities.say import listed, number, value_of
+from ..quantities.say import join_words, number, value_of
 from ..quantities.value import Value, problem_with, quantity
 
 __all__ = ["STATED", "Drawing", "Finish", "drawing", "processes", "slopes"]
@@ -197,7 +197,7 @@ def _pair(faces: Sequence[tuple[float, float, float]]) -> tuple[float, float, fl
 
 def needs_process(faces: Sequence[Finish]) -> str:
     """The sentence for heights that nothing says the sharpness of."""
-    bare = listed([face.words for face in faces if face.process is None])
+    bare = join_words([face.words for face in faces if face.process is None])
     return (
         f"{bare} says how high the roughness is, not how sharp: give process = one of "
         f"{', '.join(processes())} for every face, which gives R, alpha and eta_R_sigma as ranges; "

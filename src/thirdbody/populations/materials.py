@@ -230,7 +230,7 @@ class MaterialLibrary(Mapping[str, Material]):
         named = os.environ.get(OWN_FILES, "").split(os.pathsep)
         out = dict(_own_materials())
         for file in (*(Path(name) for name in named if name), *self.files):
-            own = _own(file)
+            own = _entries_of_file(file)
             if taken := [name for name in own if name in out and out[name] != own[name]]:
                 raise InvalidValue(
                     *(f"{file}: [{name}] is in the library; choose another name" for name in taken)
@@ -352,7 +352,7 @@ def _own_materials() -> dict[str, dict[str, Any]]:
 
 
 # ------------------------------------------------------------------ files of one's own
-def _own(file: Path) -> dict[str, dict[str, Any]]:
+def _entries_of_file(file: Path) -> dict[str, dict[str, Any]]:
     """The entries of a file, in SI."""
     try:
         data = tomllib.loads(read_bytes(file, "a file of materials").decode("utf-8-sig"))

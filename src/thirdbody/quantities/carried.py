@@ -26,7 +26,7 @@ import numpy as np
 
 from ..errors import InvalidValue, Problem
 from .arguments import FAILURES, refuse_misfits
-from .kinds import kind_of, needed, registry, spelled
+from .kinds import kind_needed, kind_of, registry, spelled
 
 __all__ = ["carries_unit", "in_si", "takes_units"]
 
@@ -193,7 +193,7 @@ def _factor(name: Any, label: str, unit: str) -> float:
         return float(registry().convert(1.0, own or "dimensionless", wanted))
     except Exception:
         shown = f"{name or 'the array'} [{label}]"
-        raise InvalidValue(f"{shown} is {kind_of(own)}, but {needed(unit)}") from None
+        raise InvalidValue(f"{shown} is {kind_of(own)}, but {kind_needed(unit)}") from None
 
 
 def _why_not(value: Any, unit: str) -> str:
@@ -202,9 +202,9 @@ def _why_not(value: Any, unit: str) -> str:
     shown = " ".join(str(value).split())
     shown = shown if len(shown) <= 60 else f"an array [{own}]"
     if isinstance(getattr(value, "magnitude", getattr(value, "value", None)), str):
-        return f"{shown} is no number with a unit; it must be {needed(unit)}"
+        return f"{shown} is no number with a unit; it must be {kind_needed(unit)}"
     kind = kind_of(str(own))
-    return f"{shown} is {kind}, but {needed(unit)}"
+    return f"{shown} is {kind}, but {kind_needed(unit)}"
 
 
 def takes_units(function: F) -> F:
@@ -368,22 +368,26 @@ def _all_in_si(
     for name, value in given.arguments.items():
         parameter = given.signature.parameters[name]
         if parameter.kind is parameter.VAR_KEYWORD:  # another door takes them
-            own = {key: _of(units, key, each, problems) for key, each in value.items()
+            own = {key: _argument_in_si(units, key, each, problems) for key, each in value.items()
                    if carries_unit(each) and units.get(key)}  # fmt: skip
             given.arguments[name] = value | own
         elif not carries_unit(value):
             continue
         elif name == "vary" and isinstance(value, Mapping):
             inputs = {key: _unit_of_input(owner, key) for key in value}
-            given.arguments[name] = {k: _of(inputs, k, v, problems) for k, v in value.items()}
+            given.arguments[name] = {
+                k: _argument_in_si(inputs, k, v, problems) for k, v in value.items()
+            }
         elif units.get(name) or _is_number(parameter) or not hasattr(value, "attrs"):
-            given.arguments[name] = _of(units, name, value, problems)
+            given.arguments[name] = _argument_in_si(units, name, value, problems)
     if problems:
         raise InvalidValue(*problems)
     return given.args, given.kwargs
 
 
-def _of(units: Mapping[str, str | None], name: str, value: Any, problems: list[str]) -> Any:
+def _argument_in_si(
+    units: Mapping[str, str | None], name: str, value: Any, problems: list[str]
+) -> Any:
     """One argument in SI; why not is added to the problems."""
     if not carries_unit(value):
         return value

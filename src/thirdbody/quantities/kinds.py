@@ -12,9 +12,9 @@ from typing import Any
 __all__ = [
     "KINDS",
     "is_usual",
+    "kind_needed",
     "kind_of",
     "kind_of_parsed",
-    "needed",
     "one_spelling",
     "registry",
     "spelled",
@@ -144,10 +144,10 @@ def kind_of(unit: str) -> str:
     return kind_of_parsed(found)
 
 
-def needed(unit: str) -> str:
+def kind_needed(unit: str) -> str:
     """What a quantity must be, in words.
 
-    >>> needed("m"), needed("1")
+    >>> kind_needed("m"), kind_needed("1")
     ('a length [m] is needed', 'a pure number is needed')
     """
     plain = unit.replace("^", "**")

@@ -13,7 +13,7 @@ __all__ = [
     "NOT_KNOWN",
     "UNITS",
     "concentration_of",
-    "listed",
+    "join_words",
     "number",
     "percent",
     "plural",
@@ -191,10 +191,10 @@ def span(low: float | None, high: float | None, unit: str) -> str:
     return f"{value_of(low, unit)} to {value_of(high, unit)}"
 
 
-def listed(names: Sequence[str]) -> str:
+def join_words(names: Sequence[str]) -> str:
     """Words with "and" before the last.
 
-    >>> listed(["a", "b", "c"]), listed(["a"])
+    >>> join_words(["a", "b", "c"]), join_words(["a"])
     ('a, b and c', 'a')
     """
     return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))

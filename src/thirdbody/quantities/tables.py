@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from .say import listed
+from .say import join_words
 
 __all__ = ["WIDER", "Table"]
 
@@ -115,7 +115,7 @@ class Table:
         if told := [f"{head}: {self.legend[head]}" for head in told if head in self.legend]:
             yield "; ".join(told) + "."
         if gone := [self.heads[i] for i in every if i not in shown]:
-            yield f"Not shown for want of width: {listed(gone)}; {self.more}."
+            yield f"Not shown for want of width: {join_words(gone)}; {self.more}."
 
     def _draw_table(self, shown: list[int], widths: list[int], gap: int) -> Any:
         from rich import box

@@ -21,7 +21,7 @@ from .inputs import inputs_of
 from .one_value import count, number, numbers, switch, word
 from .reader import Key, Reader, Table, get, plain
 from .surfaces import material
-from .uncertainty import named
+from .uncertainty import field_of_input
 from .vocabulary import LOADS
 
 __all__ = ["TABLE"]
@@ -118,7 +118,7 @@ def _variable(reader: Reader, where: str, label: str, entry: Any) -> tuple[str, 
             raise InvalidValue(f"{where} must be by {own.by}, like particles.concentration")
         return label, tuple(each.amount for each in ends)
     inputs = inputs_of(reader.whole)
-    found = [named(where, name, inputs, reader.whole) for name in label.split("+")]
+    found = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
     ends_of = {end: number(reader, f"{where}.{end}", found[0][1]) for end in ("low", "high")}
     return "+".join(name for name, _ in found), tuple(read(entry[e]) for e, read in ends_of.items())
 

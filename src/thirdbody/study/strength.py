@@ -58,7 +58,7 @@ def _read(reader: Reader, path: str, data: Any, asked: _OfMaterial) -> Any:
     if not isinstance(data, dict):
         return plain(refused(path, NO_STRENGTH))
     keys = reader.keys_of(WeibullStrength, path, data)
-    keys["at"] = keys["x_0"]._replace(type=_at(reader, path), required=False)
+    keys["at"] = keys["x_0"]._replace(type=_size_tested(reader, path), required=False)
     of_material = not any(key in data for key in OWN)
     if of_material:
         keys = {name: key._replace(required=False) for name, key in keys.items()}
@@ -79,6 +79,6 @@ def _read(reader: Reader, path: str, data: Any, asked: _OfMaterial) -> Any:
     return reader.table(path, keys, build)
 
 
-def _at(reader: Reader, path: str) -> Any:
+def _size_tested(reader: Reader, path: str) -> Any:
     about = dict(WeibullStrength.__dataclass_fields__["x_0"].metadata["quantity"])
     return plain(number(reader, f"{path}.at", about))

@@ -32,7 +32,10 @@ def uncertainty(reader: Reader, path: str, data: Any) -> Any:
             where = f"{path}.inputs.{say(label)}"
             try:
                 names, about = zip(
-                    *(named(where, name, inputs, reader.whole) for name in label.split("+")),
+                    *(
+                        field_of_input(where, name, inputs, reader.whole)
+                        for name in label.split("+")
+                    ),
                     strict=True,
                 )
                 out["+".join(names)] = _uncertain(reader, where, about[0], entry)
@@ -55,7 +58,7 @@ def uncertainty(reader: Reader, path: str, data: Any) -> Any:
     return reader.table(path, keys, lambda values: Uncertainty(**values))
 
 
-def named(
+def field_of_input(
     where: str, name: str, inputs: list[Input], whole: dict[str, Any]
 ) -> tuple[str, dict[str, Any]]:
     """Dotted name of the field and what it is, for an input as the file calls it."""

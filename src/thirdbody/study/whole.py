@@ -193,10 +193,10 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     if reader.problems:
         raise InvalidValue(*reader.problems)
 
-    def of(role: str) -> dict[str, Any]:
+    def tables_of(role: str) -> dict[str, Any]:
         return {t.name: values[t.name] for t in TABLES if t.role == role and t.name in values}
 
-    parts, own = of("contact"), of("study")
+    parts, own = tables_of("contact"), tables_of("study")
     if "particles" not in parts and parts.pop("particle_law", None) is not None:
         reader.notes.append("[particle_law] has no effect, because there is no [particles] table")
     given = parts.get("particles", ())

@@ -483,12 +483,12 @@ def _with_and_without(
         "real_area": area,
         "particle_load_share": (1 - without) * some["particle_load_share"],
         "peak_pressure": usual["peak_pressure"],
-        "with_particles": _part(1 - without, some),
-        "without_particles": _part(without, clean | {"particle_load_share": 0.0}),
+        "with_particles": _integrals_of(1 - without, some),
+        "without_particles": _integrals_of(without, clean | {"particle_load_share": 0.0}),
     }
 
 
-def _part(share: float, found: dict[str, Any]) -> dict[str, float | None]:
+def _integrals_of(share: float, found: dict[str, Any]) -> dict[str, float | None]:
     names = ("real_area", "particle_load_share", "peak_pressure")
     return {"share": share} | {name: found[name] for name in names}
 

@@ -143,12 +143,12 @@ class Histogram:
         if load is None:
             if d is None:
                 raise InvalidValue("give exactly one of d, pressure, F_star")
-            return self._at(skin, d)
+            return self._balance_at(skin, d)
         low = high = skin.origin + float(np.max(self.heights))
         step = float(np.ptp(self.heights)) + (skin.step or abs(skin.one(low)[0] / skin.one(low)[1]))
 
         def excess(x: float) -> float:
-            return self._at(skin, x, bare=True).load - load
+            return self._balance_at(skin, x, bare=True).load - load
 
         for _ in range(WIDENED):
             if not excess(low) < 0:
@@ -165,11 +165,11 @@ class Histogram:
         from scipy.optimize import brentq
 
         def miss(x: float) -> float:
-            return math.log(max(self._at(skin, x, bare=True).load, 1e-300) / load)
+            return math.log(max(self._balance_at(skin, x, bare=True).load, 1e-300) / load)
 
-        return self._at(skin, brentq(miss, low, high, xtol=1e-300, rtol=1e-15))
+        return self._balance_at(skin, brentq(miss, low, high, xtol=1e-300, rtol=1e-15))
 
-    def _at(self, skin: Skin, d: float, bare: bool = False) -> Balance:
+    def _balance_at(self, skin: Skin, d: float, bare: bool = False) -> Balance:
         gap = d - self.heights
         p, slope = skin(gap)
         if not bare and skin.bound is not None and np.min(gap) < skin.floor:

@@ -179,17 +179,17 @@ class Propagation(Record):
         if np.ndim(self.loads) == 0:
             return self
 
-        def own(table: Mapping[str, Any], dims: int) -> dict[str, Any]:
+        def values_at(table: Mapping[str, Any], dims: int) -> dict[str, Any]:
             return {n: v[at] if np.ndim(v) > dims else v for n, v in table.items()}
 
         return dataclasses.replace(
             self,
             loads=float(self.loads[at]),
-            nominal={name: float(value) for name, value in own(self.nominal, 0).items()},
-            bands=own(self.bands, 1),
-            error=own(self.error, 1),
-            mode_probability={n: float(v) for n, v in own(self.mode_probability, 0).items()},
-            mode_error={n: float(v) for n, v in own(self.mode_error, 0).items()},
+            nominal={name: float(value) for name, value in values_at(self.nominal, 0).items()},
+            bands=values_at(self.bands, 1),
+            error=values_at(self.error, 1),
+            mode_probability={n: float(v) for n, v in values_at(self.mode_probability, 0).items()},
+            mode_error={n: float(v) for n, v in values_at(self.mode_error, 0).items()},
             solved=float(self.solved[at]),
             crowded=float(self.crowded[at]),
         )

@@ -15,7 +15,7 @@ from ...analysis.uncertainty.propagation import about_result
 from ...equilibrium.critical_loads import CRITICAL
 from ...quantities.say import percent, value_of
 from ...views.plot.style import OKABE_ITO
-from ..figures import AXES, GREY, INKS, SCALES, empty, figure, line, listed, mark, wrapped
+from ..figures import AXES, GREY, INKS, SCALES, empty, figure, json_numbers, line, mark, wrapped
 from ..inputs import Inputs
 from ..state import State
 from ..widgets import put
@@ -59,12 +59,14 @@ def band_figure(found: dict[str, Any], load: str) -> dict[str, Any]:
     pairs = len(order) // 2
     for k in range(pairs):
         low, high = order[k], order[-1 - k]
-        plain = {"mode": "lines", "line": {"width": 0}, "type": "scatter", "x": listed(x)}
-        traces.append(plain | {"y": listed(band[:, low]), "showlegend": False, "hoverinfo": "skip"})
+        plain = {"mode": "lines", "line": {"width": 0}, "type": "scatter", "x": json_numbers(x)}
+        traces.append(
+            plain | {"y": json_numbers(band[:, low]), "showlegend": False, "hoverinfo": "skip"}
+        )
         traces.append(
             plain
             | {
-                "y": listed(band[:, high]),
+                "y": json_numbers(band[:, high]),
                 "fill": "tonexty",
                 "fillcolor": f"rgba(0,114,178,{0.22 + 0.2 * k})",
                 "name": f"{percent(q[high] - q[low])} of cases",
@@ -193,7 +195,7 @@ class ErrorBars:
             "library count, where it states some."
         ).classes("hint")
         self.inputs = Inputs(state, self._renewed)
-        self.known = self._known()
+        self.known = self._inputs_and_ranges()
         """What the entries show."""
         self._entries()
         with ui.row().classes("w-full items-end gap-3"):
@@ -229,7 +231,7 @@ class ErrorBars:
             inputs.rest = ui.column().classes("w-full")
             inputs.tell()
 
-    def _known(self) -> Any:
+    def _inputs_and_ranges(self) -> Any:
         return self.state.get("uncertainty", "inputs"), _ranges(self.state)
 
     def _key(self) -> Any:
@@ -273,8 +275,8 @@ class ErrorBars:
         self.said.set_visibility(True)
 
     async def draw(self) -> None:
-        if self._known() != self.known:
-            self.known = self._known()
+        if self._inputs_and_ranges() != self.known:
+            self.known = self._inputs_and_ranges()
             self._renewed()
         self.inputs.tell()
         options, of = results_of(self.state), self.of

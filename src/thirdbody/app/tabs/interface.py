@@ -30,7 +30,7 @@ from ..cross_section import section, to_svg
 from ..state import Answer, State
 from ..widgets import Facts
 
-__all__ = ["TITLE", "abouts", "build", "drawn", "facts_of", "headline", "swatch"]
+__all__ = ["TITLE", "abouts", "build", "drawing_of", "facts_of", "headline", "swatch"]
 
 TITLE = "Interface"
 LETTERS = {"h": "h", "d": "d", "F*": "F_star"}
@@ -145,7 +145,7 @@ def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[Non
         force.draw()
         answer.classes(**{"add" if state.answer.study.forces is not None else "remove": "second"})
         film.set_visibility(state.answer.study.film is not None)
-        bad, found = await state.ask(drawn, state.at, seed["now"])
+        bad, found = await state.ask(drawing_of, state.at, seed["now"])
         status.set_text(bad)
         status.set_visibility(bool(bad))
         if bad:
@@ -239,7 +239,7 @@ def _integrated(answer: Answer) -> None:
     _ = answer.forces
 
 
-def drawn(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
+def drawing_of(answer: Answer, at: float, seed: int) -> tuple[str, Any]:
     """What is wrong with the state; else the drawing, what it shows, whose, and the state."""
     point = answer.solve(at, tb.outputs.Counts())
     if str(point.status) != "ok":

@@ -149,7 +149,7 @@ class Surface:
         """The file and how it is read, for the address."""
         return {"file": Path(self.file).name} | {k: v for k, v in self._written().items() if v}
 
-    def _of(self, name: str) -> None:
+    def _choose_file(self, name: str) -> None:
         """Another file is the one to read."""
         mine = name != "example"
         self.file = str(self.state.folder / name) if mine else name
@@ -166,7 +166,7 @@ class Surface:
         if not told or told == self.followed:
             return
         self.followed = told
-        self._of(told["file"])
+        self._choose_file(told["file"])
         for name, entry in self.texts.items():
             text = told.get(name, "")
             entry.set_value(text if name != "detrend" or text in FORMS else "")
@@ -186,7 +186,7 @@ class Surface:
         except InvalidValue as error:
             self.work.said.set_text("; ".join(error.problems))
             return
-        self._of(name)
+        self._choose_file(name)
         self._hide()
         self.chooser.reset()
         await self.work.run()

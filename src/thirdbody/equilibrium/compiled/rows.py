@@ -211,7 +211,7 @@ class StateRows(Rows):
             sums = gaussian_sums(law, step)
             return self._panels.add_family(sums), self._panels.add_inverse(sums)
 
-        sums = _each(step, family, layout.SUM)
+        sums = _records_of(step, family, layout.SUM)
         return {
             **{"kind": layout.FAMILY, "shadow": NONE, "coverage": 0.0},
             **{"panels": sums["panels"], "inverse": sums["inverse"], "across": across},
@@ -322,9 +322,9 @@ class StateRows(Rows):
             return -1.0 if near_rule(average, octave) is None else NEAR
 
         return {
-            "gaps": _each(octave, partial(place, seat_rule), RULE),
-            "few_gaps": _each(octave, place_few, RULE),
-            "near": _each(octave, reach, np.dtype(float)),
+            "gaps": _records_of(octave, partial(place, seat_rule), RULE),
+            "few_gaps": _records_of(octave, place_few, RULE),
+            "near": _records_of(octave, reach, np.dtype(float)),
         }
 
     def _sized(
@@ -379,7 +379,7 @@ def _fill(rows: Records, fields: Mapping[str, Any]) -> None:
         rows[name] = values
 
 
-def _each(number: Index, place: Callable[[int], Any], dtype: np.dtype[Any]) -> Records:
+def _records_of(number: Index, place: Callable[[int], Any], dtype: np.dtype[Any]) -> Records:
     """Records (N,) of what belongs to each number, asked for each number once."""
     lowest = int(number.min())
     table = np.zeros(int(number.max()) - lowest + 1, dtype)

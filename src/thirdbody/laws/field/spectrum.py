@@ -120,14 +120,14 @@ class Spectrum:
         return weight * (1 - WIGNER * r / self.box) if self.box else weight
 
     @cached_property
-    def _known(self) -> Array:
+    def _at_nodes(self) -> Array:
         return self.correlations(self.nodes[0])
 
     def filtered(self, tau: float) -> tuple[float, Array, Array]:
         """c, and ρ_s and ρ_zs at `nodes`, of the filter τ."""
         a = 1 - tau
         norm = a * a + 2 * a * tau * self.mean(1) + tau * tau * self.mean(2)
-        plain, once, twice = self._known
+        plain, once, twice = self._at_nodes
         of_s = (a * a * plain + 2 * a * tau * once + tau * tau * twice) / norm
         of_both = (a * plain + tau * once) / math.sqrt(norm)
         return (a + tau * self.mean(1)) / math.sqrt(norm), of_s, of_both
@@ -155,13 +155,13 @@ class Spectrum:
         near = 0.5 * r * (1 + at)
         weight = 0.5 * r * weight
         plain, once, _ = self.correlations(near)
-        own = _powers(self._known[0], self._weights, count) - _powers(plain, weight, count)
+        own = _powers(self._at_nodes[0], self._weights, count) - _powers(plain, weight, count)
         own[1] = self.mean(-1) - float(weight @ plain)
         mixed = np.empty((len(tau), count + 1))
         for row, t in zip(mixed, tau.tolist(), strict=True):
             a = 1 - t
             root = math.sqrt(a * a + 2 * a * t * self.mean(1) + t * t * self.mean(2))
-            far = (a * self._known[0] + t * self._known[1]) / root
+            far = (a * self._at_nodes[0] + t * self._at_nodes[1]) / root
             row[:] = _powers(far, self._weights, count)
             row[1] = (a * self.mean(-1) + t) / root
             row -= _powers((a * plain + t * once) / root, weight, count)

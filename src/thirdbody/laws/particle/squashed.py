@@ -146,14 +146,14 @@ class _SquashedSide(Side):
         turns = [y for y in (*self.law.breakpoints, float(self.cap), wide) if y < self.end]
         turns += self._more_turns()
         # the area grows like 1/t: its kinks lie so close that series resolve it
-        t, last = self._left(begin), self._left(self.end)
+        t, last = self._height_left(begin), self._height_left(self.end)
         while t > GRADING * last:
             t /= GRADING
             turns.append(self._tau(1 - t))
         self.kinks = np.unique([*turns, self.end])
         self.limit = self.unit * self.reduced_force(self.kinks[-1:])
 
-    def _left(self, y: Any) -> Any:
+    def _height_left(self, y: Any) -> Any:
         """Height t left at y, over x."""
         return 1 - 2 * self.delta_1 * y
 
@@ -176,7 +176,7 @@ class _SquashedSide(Side):
             y = np.array(self._tau(-math.expm1(log_t)))
             return float(self.pressure(y) * self.H) - surface
 
-        high = low = math.log(self._left(y))
+        high = low = math.log(self._height_left(y))
         while excess(low) < 0:
             high, low = low, low - math.log(2)
             if low < math.log(THINNEST):
@@ -212,7 +212,7 @@ class _SquashedSide(Side):
 
     def _hill(self, y: Array, radius: Array) -> Array:
         """Rise of the mean pressure by friction on the faces, over the yield strength."""
-        return self.hill * radius / self._left(y)
+        return self.hill * radius / self._height_left(y)
 
 
 class _OfLaw(_SquashedSide):
@@ -220,7 +220,7 @@ class _OfLaw(_SquashedSide):
 
     def reduced_area(self, y: Array) -> Array:
         y = np.minimum(y, self.end)
-        return np.minimum(self.law.reduced("area", y), self.full) / self._left(y)
+        return np.minimum(self.law.reduced("area", y), self.full) / self._height_left(y)
 
     def pressure(self, y: Array) -> Array:
         force, area = (self.law.reduced(name, y) for name in ("force", "area"))
@@ -239,7 +239,7 @@ class _OfJacksonGreen(_SquashedSide):
         """Where the area first reaches what the volume allows."""
 
         def excess(y: float) -> float:
-            return float(self.law.reduced("area", np.array(y))) * self._left(y) - self.full
+            return float(self.law.reduced("area", np.array(y))) * self._height_left(y) - self.full
 
         grid = np.linspace(0.0, self._tau(0.7), 701)
         first = int(np.argmax([excess(y) > 0 for y in grid]))
@@ -252,7 +252,7 @@ class _OfJacksonGreen(_SquashedSide):
 
     def reduced_area(self, y: Array) -> Array:
         y = np.minimum(y, self.end)
-        pancake = self.full / self._left(y)
+        pancake = self.full / self._height_left(y)
         return np.where(y < self.cap, self.law.reduced("area", y), pancake)
 
     def _bare(self, y: Array) -> Array:

@@ -494,7 +494,9 @@ class Topography:
             out.append("; ".join(unsure))
         least = self.recommended[0]
         if self.cutoff < least * (1 - 1e-9):
-            at = "the heights as sampled" if self.cutoff == 0 else f"a cut-off {self._at()}"
+            at = (
+                "the heights as sampled" if self.cutoff == 0 else f"a cut-off {self._cutoff_said()}"
+            )
             out.append(
                 f"{at} is below the recommended cut-off of {value_of(least, 'm')}: "
                 f"{self.recommended[1]}"
@@ -522,7 +524,7 @@ class Topography:
             )
         return tuple(out)
 
-    def _at(self) -> str:
+    def _cutoff_said(self) -> str:
         return f"of {value_of(self.cutoff, 'm')}"
 
     def _bandwidth(self) -> list[str]:
@@ -555,8 +557,8 @@ class Topography:
             return []
         error = percent(1 / math.sqrt(max(count, 1)), digits=2)
         return [
-            f"{count} summits on the map at a cut-off {self._at()}: their mean numbers are "
-            f"uncertain by some {error}; a larger map, or several, make them surer"
+            f"{count} summits on the map at a cut-off {self._cutoff_said()}: their mean numbers "
+            f"are uncertain by some {error}; a larger map, or several, make them surer"
         ]
 
     def to_dict(self) -> dict[str, Any]:

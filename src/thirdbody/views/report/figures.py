@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...equilibrium.modes import FAINT
-from ...quantities.say import listed, plural, value_of
+from ...quantities.say import join_words, plural, value_of
 from ..html import figure, svg_of, words
 from .found import Found
 
@@ -36,7 +36,7 @@ class Figures(Found):
                 _place(left=0.60, above=0.74),
                 transitions=self.result.transitions,
             )
-            out.append((self._at(ax), "Contact modes over the load."))
+            out.append((self._mark_loads_of_study(ax), "Contact modes over the load."))
         ax = self._mark_loads(plot.area(self.curve, _place(left=0.75)))
         out.append((ax, "Real contact area over the load."))
         if not self.contact.two_body:
@@ -48,7 +48,7 @@ class Figures(Found):
         ax.yaxis.set_major_formatter(EngFormatter("m"))
         ax.set_ylabel(ax.get_ylabel().removesuffix(" [m]"))
         out.append((ax, "Separation of the mean planes over the load."))
-        ax = self._at(plot.regimes(self.curve, _place(left=0.60, above=0.12)))
+        ax = self._mark_loads_of_study(plot.regimes(self.curve, _place(left=0.60, above=0.12)))
         out.append((ax, "How the real contact is deformed."))
         legend = f"F* = F/(A_n E_ss), with E_ss = {value_of(self.contact.E_ss, 'Pa')}."
         loads = len(set(self._marks()))
@@ -56,7 +56,7 @@ class Figures(Found):
             mark = "Bar" if loads > FEW else plural(loads, "Triangle").partition(" ")[2]
             legend += f" {mark} on the axis: the load{'s' if loads > 1 else ''} of the study."
         if drawn := self._critical_loads():
-            legend += f" Dotted: {listed(list(drawn))}."
+            legend += f" Dotted: {join_words(list(drawn))}."
         pictures = "\n".join(figure(svg_of(ax.figure), caption) for ax, caption in out)
         lead = f'<p class="soft lead-in">{words(legend)}</p>'
         return [lead, f"<div class=figures>{pictures}</div>"]
@@ -66,7 +66,7 @@ class Figures(Found):
         from matplotlib.ticker import EngFormatter, NullLocator
 
         E = self.contact.E_ss
-        self._at(ax)
+        self._mark_loads_of_study(ax)
         for name, F in self._critical_loads().items():
             ax.axvline(F, color="0.25", linewidth=0.8, linestyle=":")
             ax.annotate(
@@ -99,7 +99,7 @@ class Figures(Found):
         loads = self.result.states.F_star
         return [F for i in self.result.solved_states if (F := float(loads[i])) >= FAINT]
 
-    def _at(self, ax: Axes) -> Axes:
+    def _mark_loads_of_study(self, ax: Axes) -> Axes:
         """The loads of the study."""
         loads = self._marks()
         style: dict[str, Any] = dict(marker="^", markersize=5, linestyle="")

@@ -14,7 +14,7 @@ from ...contact.contact import Contact
 from ...equilibrium.columns import about
 from ...equilibrium.modes import FAINT
 from ...equilibrium.words import unsolved
-from ...quantities.say import listed, signed, value_of
+from ...quantities.say import join_words, signed, value_of
 from ...version import __version__
 from ..assess_page import pictures as pictures_of
 from ..html import document, figure, section, text_table, words
@@ -129,7 +129,7 @@ class Report(Sentences, Figures, Tables, Sources):
             return [
                 "<p>There are none: the study has no table [uncertainty] that says something of "
                 "this contact, and the materials library states no ranges for "
-                f"{escape(listed(list(dict.fromkeys(names))))}. Every input counts as exactly "
+                f"{escape(join_words(list(dict.fromkeys(names))))}. Every input counts as exactly "
                 "known.</p>"
             ]
         asked = self.study.uncertainty

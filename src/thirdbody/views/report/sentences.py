@@ -18,7 +18,7 @@ from ...equilibrium.words import (
     not_met,
     two_bodies,
 )
-from ...quantities.say import listed, number, percent, signed, times, value_of
+from ...quantities.say import join_words, number, percent, signed, times, value_of
 from .found import Found
 
 MATTER = 3
@@ -72,7 +72,7 @@ class Sentences(Found):
             )
             out.append(
                 f"At {value_of(speeds[i], 'm/s')} lubrication is {told['regime']}: {film[0]} "
-                f"carries {film[1]} of the load, {listed([' '.join(each) for each in solids])}."
+                f"carries {film[1]} of the load, {join_words([' '.join(each) for each in solids])}."
             )
         return out + (summary(self.film)[:1] if len(speeds) > 1 else [])
 
@@ -155,7 +155,7 @@ class Sentences(Found):
         else:
             path = mode_path(states.mode[i] for i in known)
         critical = "the critical load is" if len(found) == 1 else "critical loads are"
-        return f"{path}; {critical} {listed(found)}." if found else f"{path}."
+        return f"{path}; {critical} {join_words(found)}." if found else f"{path}."
 
     def _first_input(self) -> str:
         order = [] if self.slopes is None else _order(self.slopes, "A_t")
@@ -188,7 +188,7 @@ class Sentences(Found):
 
     def _strongest(self, of: str, order: list[str]) -> str:
         first = [words_of(self.contact, label) for label in order[:MATTER]]
-        most = f"{listed(first)} matter{'s' if len(first) == 1 else ''} most"
+        most = f"{join_words(first)} matter{'s' if len(first) == 1 else ''} most"
         most += f" to the {about(of).meaning}"
         if self.contact.two_body or of != "A_t":
             return most
