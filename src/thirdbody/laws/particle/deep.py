@@ -184,12 +184,16 @@ def _frictions() -> tuple[float, ...]:
     return tuple(sorted({run.friction for run in _runs() if run.softness == 0}))
 
 
-def _at_friction(friction: float, fans: Any, x: Any) -> Any:
-    """What functions of x, one a friction factor of the runs, say between these factors."""
-    nodes = _frictions()
-    if friction in nodes:
-        return fans[nodes.index(friction)](x)
-    return _between(nodes, [fan(x) for fan in fans])(friction)
+def _at_frictions(friction: Array, values: Array) -> Array:
+    """What stands at the friction factors of the runs (nodes, N, terms), at m (N,): (N, terms)."""
+    # at the factor of a run it is that run's, to the last digit
+    found, rest = np.empty(values.shape[1:]), np.ones(len(friction), bool)
+    for i, node in enumerate(_frictions()):
+        here = friction == node
+        found[here], rest = values[i, here], rest & ~here
+    if rest.any():
+        found[rest] = _each_at(_frictions(), values[:, rest], friction[rest])
+    return found
 
 
 @lru_cache(maxsize=512)
@@ -238,15 +242,7 @@ def _logarithms(x: Array, friction: Array, softness: Array) -> Array:
     from numpy.polynomial.chebyshev import chebint
 
     welded, rubbing, elastic = _fans()
-    changes = np.array([fan(x) for fan in rubbing])
-    # at the factor of a run it is that run's, to the last digit
-    row, rest = np.empty(changes.shape[1:]), np.ones(len(x), bool)
-    for i, node in enumerate(_frictions()):
-        here = friction == node
-        row[here], rest = changes[i, here], rest & ~here
-    if rest.any():
-        row[rest] = _each_at(_frictions(), changes[:, rest], friction[rest])
-    row = welded(x) + row
+    row = welded(x) + _at_frictions(friction, np.array([fan(x) for fan in rubbing]))
     of_softness = np.array([fan(softness) for _, fan in elastic])
     row = row + softness[:, None] * _each_at([node for node, _ in elastic], of_softness, x)
     both = np.stack([row[:, : TERMS + 1], row[:, TERMS + 1 :]])
@@ -287,10 +283,8 @@ def sink_rows(ratio: Array, friction: Array) -> Array:
     Between the rigid-plastic runs, never falling with the squeeze, nor rising faster than it, so
     that the squash of the particle never falls either.
     """
-    out = np.empty((len(ratio), len(SINK_AT)))
-    for m in np.unique(friction):
-        here = friction == m
-        out[here] = _at_friction(float(m), _share_lines(), np.log(ratio[here])) * SINK_AT
+    shares = np.array([line(np.log(ratio)) for line in _share_lines()])
+    out = _at_frictions(friction, shares) * SINK_AT
     for i in range(1, len(SINK_AT)):
         before = out[:, i - 1]
         out[:, i] = np.clip(out[:, i], before, before + (SINK_AT[i] - SINK_AT[i - 1]))
