@@ -48,7 +48,7 @@ from .fields import (
 )
 from .sides import chord, exact, narrowed, scalar
 
-__all__ = ["lay_tension", "lay_whole", "mark_sizes"]
+__all__ = ["is_held", "lay_tension", "lay_whole", "mark_sizes"]
 
 SMALL, CONFINED, BENDS, PIECES = range(4)
 """First row of what is known of G: tension of small caps, whether surfaces confine the particle,
@@ -61,8 +61,9 @@ FALLS = 2e-10
 STEEP = 6.0
 GENERATIONS = 40
 NEGLIGIBLE = 1e-15
-NEVER, SURELY = -600.0, 6.5
-"""ln of the hazard below which nothing breaks, and from which on nothing is whole."""
+NEVER, SAFE, SURELY = -600.0, -36.5, 6.5
+"""ln of the hazard: the least that is evaluated; below which nothing breaks, to rounding; and from
+which on nothing is whole."""
 
 
 @scalar
@@ -363,6 +364,17 @@ def met(panels, p, count, eps):
 
 
 @scalar
+def is_held(given, panels, p, count, first, n):
+    """Whether panel n is held by the tension that holds panel ``first``, and its parents too."""
+    apart()
+    held = panels[p, first, PULLED]
+    if held == 0 or panels[p, n, PULLED] != held:
+        return False
+    left = given[p, RATIO] * (1 - panels[p, first, EDGE])
+    return given[p, KEPT] == 0 or met(panels, p, count, 1 - left) == met(panels, p, count, 1.0)
+
+
+@scalar
 def survived(power):
     """exp(−exp(power))."""
     if power < -40:
@@ -382,29 +394,44 @@ def survival(given, p, x, log_met):
 
 
 @exact
-def _count_whole(shares, rows, wide, most, parents, gain, sizes, place):
-    """Densities of whole particles of a size, from its oldest parents down, to ``place``.
+def _follow(number, alive, gain, own):
+    """Densities of what has arrived at a size, from those of its parents and what is whole."""
+    apart()
+    for i in range(len(number)):
+        number[i] = gain * (1 - alive[i]) * number[i] + own
 
-    Of the last node too, where they stand in ``shares`` behind the tensions.
+
+@exact
+def _survive(tension, level, alive):
+    """Parts that are whole, of the logarithms of the hazard without the size."""
+    apart()
+    for i in range(len(alive)):
+        alive[i] = exp(-exp(min(max(tension[i] + level, NEVER), SURELY)))
+
+
+@scalar
+def _arrived(given, p, x, parents, until, log_met):
+    """Density of what has arrived, and the part that is whole, of the parents of a size.
+
+    From the oldest down to generation ``until`` above it, all of which have met one tension.
     """
     apart()
-    start = rows + (most + 1) * wide
-    # rows of their own, from zero: only then do loops over them become vectors
-    number, alive = shares[start : start + wide], shares[start + wide : start + 2 * wide]
-    for i in range(len(number)):
-        number[i], alive[i] = 0.0, 1.0
-    for k in range(parents, -1, -1):
-        tension = shares[rows + k * wide : rows + (k + 1) * wide]
-        own, level = sizes[2, k], sizes[3, k]
-        for i in range(len(number)):
-            number[i] = gain * (1 - alive[i]) * number[i] + own
-            power = min(max(tension[i] + level, NEVER), SURELY)
-            alive[i] = exp(-exp(power))
-    found = shares[place : place + wide - 1]
-    for i in range(len(number)):
-        number[i] *= alive[i]
-    for i in range(len(found)):
-        found[i] = number[i]
+    gain, number, alive = given[p, KEPT] * given[p, RATIO] ** -4, 0.0, 1.0
+    for k in range(parents, until - 1, -1):
+        y = x * given[p, RATIO] ** -k
+        number *= gain * (1 - alive)
+        if given[p, LOW] <= y <= given[p, HIGH]:
+            number += density(given, p, y)
+        alive = survival(given, p, y, log_met)
+    return number, alive
+
+
+@scalar
+def parents_of(given, p, x):
+    """How many generations of parents a size may have."""
+    if given[p, KEPT] == 0:
+        return 0
+    return max(0, math.floor(math.log(x / given[p, HIGH]) / math.log(given[p, RATIO]) + 1e-12))
 
 
 @scalar
@@ -413,37 +440,45 @@ def lay_whole(given, panels, p, count, squeezes, begin, end, sizes, first, last,
 
     Those of every size at the nodes, then those squeezed beyond the last panel. In a gap, how far
     a parent was squeezed depends on the squeeze of its pieces alone: the tensions of all
-    generations are found once, at the end of ``shares``; what a size and its parents have in
-    common at all nodes stands on the rows of ``sizes`` behind the two.
+    generations are found once, at the end of ``shares``, but for those that have met the largest.
     """
     apart()
-    high, low, ratio, m = given[p, HIGH], given[p, LOW], given[p, RATIO], given[p, MODULUS]
-    gain, shrink, edge = given[p, KEPT] * ratio**-4, math.log(ratio), panels[p, count - 1, TO]
-    wide, most = end - begin + 1, 0
-    if given[p, KEPT] > 0:
-        most = math.ceil(math.log(given[p, LEAST] / high) / shrink) + 1
-    rows = len(shares) - (most + 3) * wide  # of tensions; then numbers, and parts that are whole
+    ratio, m, edge = given[p, RATIO], given[p, MODULUS], panels[p, count - 1, TO]
+    gain, wide, varied = given[p, KEPT] * ratio**-4, end - begin + 1, 0
+    greatest, oldest = met(panels, p, count, 1.0), parents_of(given, p, given[p, LEAST]) + 1
+    left = 1 - squeezes[0, begin]
+    while varied < oldest and met(panels, p, count, 1 - left * ratio**varied) < greatest:
+        varied += 1
+    rows = len(shares) - (varied + 2) * wide  # of tensions; then numbers, and parts that are whole
     if place + (last - first) * wide > rows:
         return -1
-    for k in range(most + 1):
+    for k in range(varied):
         for i in range(begin, end + 1):
             left = 1 - squeezes[0, i] if i < end else 1 - edge
             found = met(panels, p, count, 1 - left * ratio**k)
             shares[rows + k * wide + i - begin] = m * found
-    tail = place + (last - first) * (wide - 1)
+    start, tail = len(shares) - 2 * wide, place + (last - first) * (wide - 1)
+    # rows of their own, from zero: only then do loops over them become vectors
+    number, alive = shares[start : start + wide], shares[start + wide : start + 2 * wide]
     for j in range(first, last):
-        x, parents = sizes[0, j], 0
-        if given[p, KEPT] > 0:
-            parents = min(most, max(0, math.floor(math.log(x / high) / shrink + 1e-12)))
-        y = x
-        for k in range(parents + 1):
-            sizes[2, k] = density(given, p, y) if low <= y <= high else 0.0
-            sizes[3, k] = m * (given[p, EXPONENT] * math.log(y) - given[p, LN_STRENGTH])
-            if y <= given[p, UNBROKEN]:
-                sizes[3, k] = NEVER
-            y /= ratio
-        _count_whole(shares, rows, wide, most, parents, gain, sizes, place)
-        shares[tail] = shares[rows + (most + 2) * wide - 1]
+        x = sizes[0, j]
+        parents = parents_of(given, p, x)
+        arrived, whole = _arrived(given, p, x, parents, varied, greatest)
+        for i in range(wide):
+            number[i], alive[i] = arrived, whole
+        for k in range(min(parents, varied - 1), -1, -1):
+            y = x * ratio**-k
+            own = density(given, p, y) if given[p, LOW] <= y <= given[p, HIGH] else 0.0
+            _follow(number, alive, gain, own)
+            level = m * (given[p, EXPONENT] * math.log(y) - given[p, LN_STRENGTH])
+            if y <= given[p, UNBROKEN] or m * greatest + level < SAFE:
+                for i in range(wide):
+                    alive[i] = 1.0
+            else:
+                _survive(shares[rows + k * wide : rows + (k + 1) * wide], level, alive)
+        for i in range(wide - 1):
+            shares[place + i] = number[i] * alive[i]
+        shares[tail] = number[wide - 1] * alive[wide - 1]
         place += wide - 1
         tail += 1
     return tail
@@ -469,6 +504,9 @@ def lay_tension(given, sides, panels, p, count, rule, inside):
     ratio, n, most = given[p, RATIO], count - 1, _generations(given, p)
     while given[p, KEPT] > 0 and n >= 0:
         left, before, born = (1 - panels[p, n, TO]) / ratio, count, panels[p, n, KINKED]
+        held = panels[p, n, PULLED]
+        if held > 0 and (n == count - 1 or panels[p, n + 1, PULLED] == held):
+            born = 0.0  # the largest tension does not change there
         if left < 1 - 1e-12 and 0 < born <= most:
             count = _cut(panels, p, count, 1 - left, born + 1)
         if count >= MOST_PANELS - 3:

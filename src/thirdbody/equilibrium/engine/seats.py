@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 
 from ..compiled.machine import apart, exp
+from .breakage import is_held
 from .curves import AREA_1, AREA_2, AT, EDGE, REGIME, ROOM, TO, fill_particles
 from .curves import LOAD as CARRIED
 from .densities import scale_of
@@ -112,28 +113,6 @@ def _lay_between(given, sides, panels, p, n, a, b, grid, place, gauss, weights, 
     return place
 
 
-@scalar
-def lay_broken(given, sides, panels, p, count, grid, place, sizes, size, rule):
-    """Nodes over ε and sizes of particles that break; where both end, −1 where there is no room."""
-    apart()
-    step = rule[0, SPAN] * given[p, WIDTH] / given[p, HIGH]
-    for n in range(count):
-        first, last = panels[p, n, EDGE], panels[p, n, TO]
-        nodes, row = int(rule[0, NODES]), int(0 * rule[0, NODES]) + RULE  # no constant, for numba
-        if last - first <= NARROW * min(first, 1 - last):
-            nodes, row = int(rule[0, NARROW_NODES]), row + NARROW_RULE - RULE
-        parts = max(1, math.ceil((last - first) / step))
-        if place + parts * nodes > MOST_NODES:
-            return -1, size
-        for m in range(parts):
-            a = first + (last - first) * m / parts
-            b = first + (last - first) * (m + 1) / parts
-            place = _lay_between(
-                given, sides, panels, p, n, a, b, grid, place, rule[row], rule[row + 1], nodes
-            )
-    return place, lay_sizes(given, p, sizes, size, rule, 1.0)
-
-
 @summed
 def _product(one, other):
     """Sum of the products of two rows."""
@@ -180,6 +159,70 @@ def _gather(grid, first, begin, end, a, b, rule):
 
 
 @scalar
+def _lay_piece(given, sides, panels, p, count, panel, a, b, grid, place, rule):
+    """Nodes between two squeezes, from ``panel`` on; where they end, −1 where there is no room.
+
+    Those of a polynomial, for which those of the panels are gathered, where these are more.
+    """
+    apart()
+    nodes, most = int(rule[0, NODES]), int(rule[0, SEAT_NODES])
+    parts, n = 1, panel
+    while n < count - 1 and panels[p, n, TO] < b:
+        parts += 1
+        n += 1
+    begin = place + most if parts * nodes > most else place
+    if begin + parts * nodes + VECTOR > MOST_NODES:
+        return -1
+    end = begin
+    for n in range(panel, panel + parts):
+        low, high = max(a, panels[p, n, EDGE]), min(b, panels[p, n, TO])
+        end = _lay_between(
+            given, sides, panels, p, n, low, high, grid, end, rule[RULE], rule[RULE + 1], nodes
+        )
+    if begin > place:
+        _gather(grid, place, begin, end, a, b, rule)
+        end = place + most
+    return end
+
+
+@scalar
+def lay_broken(given, sides, panels, p, count, grid, place, sizes, size, rule):
+    """Nodes over ε and sizes of particles that break; where both end, −1 where there is no room.
+
+    As many particles are whole on all panels that are held alike: there K is smooth.
+    """
+    apart()
+    step, n = rule[0, SPAN] * given[p, WIDTH] / given[p, HIGH], int(panels[p, 0, EDGE])
+    wide = rule[0, SEAT_SPAN] * given[p, WIDTH] / given[p, HIGH]
+    while n < count:  # n begins at 0, but as no constant, for numba
+        first, last, held = panels[p, n, EDGE], panels[p, n, TO], n
+        while held < count and is_held(given, panels, p, count, n, held):
+            last = panels[p, held, TO]
+            held += 1
+        parts = max(1, math.ceil((last - first) / (step if held == n else wide)))
+        nodes, row = int(rule[0, NODES]), int(0 * rule[0, NODES]) + RULE
+        if last - first <= NARROW * min(first, 1 - last):
+            nodes, row = int(rule[0, NARROW_NODES]), row + NARROW_RULE - RULE
+        if place + parts * nodes > MOST_NODES:
+            return -1, size
+        for m in range(parts):
+            a = first + (last - first) * m / parts
+            b = first + (last - first) * (m + 1) / parts
+            if held == n:
+                place = _lay_between(
+                    given, sides, panels, p, n, a, b, grid, place, rule[row], rule[row + 1], nodes
+                )
+                continue
+            while n < held - 1 and panels[p, n, TO] <= a:
+                n += 1
+            place = _lay_piece(given, sides, panels, p, held, n, a, b, grid, place, rule)
+            if place < 0:
+                return -1, size
+        n = max(held, n + 1)
+    return place, lay_sizes(given, p, sizes, size, rule, 1.0)
+
+
+@scalar
 def _ends_smoothly(given, p):
     """Whether the density of the sizes has no jump at its ends, which K would show."""
     if given[p, KIND] == GAUSSIAN:
@@ -220,28 +263,14 @@ def lay_pieces(given, sides, panels, p, count, grid, place, sizes, size, piece, 
     """
     apart()
     until = _cut_squeeze(given, panels, p, count, grid, piece, rule)
-    nodes, most = int(rule[0, NODES]), int(rule[0, SEAT_NODES])
     panel, closest = int(panels[p, 0, EDGE]), 0.0  # 0, and no constant
     for s in range(piece, until):
         a, b = grid[FROM, s], grid[UNTIL, s]
         while panel < count - 1 and panels[p, panel, TO] <= a:
             panel += 1
-        parts, n = 1, panel
-        while n < count - 1 and panels[p, n, TO] < b:
-            parts += 1
-            n += 1
-        begin = place + most if parts * nodes > most else place
-        if begin + parts * nodes + VECTOR > MOST_NODES:
+        end = _lay_piece(given, sides, panels, p, count, panel, a, b, grid, place, rule)
+        if end < 0:
             return -1, place, size
-        end = begin
-        for n in range(panel, panel + parts):
-            low, high = max(a, panels[p, n, EDGE]), min(b, panels[p, n, TO])
-            end = _lay_between(
-                given, sides, panels, p, n, low, high, grid, end, rule[RULE], rule[RULE + 1], nodes
-            )
-        if begin > place:
-            _gather(grid, place, begin, end, a, b, rule)
-            end = place + most
         while (end - place) % VECTOR != 0:  # nodes that carry nothing
             for row in range(LOAD, SUM):
                 grid[row, end] = 0.0
@@ -319,8 +348,10 @@ def gather_gaps(given, p, grid, begin, end, sizes, first, last, shares, whole, r
     """
     apart()
     nodes, width, wide = int(rule[0, SEAT_NODES]), given[p, WIDTH], end - begin
-    low = sizes[0, first] * (1 - grid[EPS, end - 1])
-    high = sizes[0, last - 1] * (1 - grid[EPS, begin])
+    least, most = 1.0, 0.0  # nodes of a polynomial stand in another order
+    for i in range(begin, end):
+        least, most = min(least, grid[EPS, i]), max(most, grid[EPS, i])
+    low, high = sizes[0, first] * (1 - most), sizes[0, last - 1] * (1 - least)
     cells = max(1, math.ceil((high - low) / (CELL * width)))
     step, place = (high - low) / cells, end + cells * nodes
     scratch = place + VECTOR

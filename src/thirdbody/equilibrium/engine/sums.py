@@ -304,15 +304,17 @@ def _lay_pieces(given, p, sizes, count, rule, low, high):
     gauss, weights = rule[SIZE_RULE], rule[SIZE_RULE + 1]
     nodes, span = int(rule[0, SIZE_NODES]), rule[0, SIZE_SPAN]
     middle = math.sqrt(low * high)
-    own = middle / max(2.0, 2 * given[p, MODULUS] * given[p, EXPONENT])
+    own, empty = middle / max(2.0, 2 * given[p, MODULUS] * given[p, EXPONENT]), True
     y, ratio, shrunk = middle, given[p, RATIO], 1.0
     while y <= given[p, HIGH]:
         if y >= given[p, LOW]:
-            own = min(own, shrunk * scale_of(given, p, y))
+            own, empty = min(own, shrunk * scale_of(given, p, y)), False
         if given[p, KEPT] == 0:
             break
         y /= ratio
         shrunk *= ratio
+    if empty:  # neither particles nor pieces are of such sizes
+        return count
     step = span / math.sqrt(1 / (own * own) + 1 / given[p, WIDTH] ** 2)
     parts = max(1, math.ceil((high - low) / step - 1e-9))
     if high - low <= NARROW * step:
