@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import base64
 import contextlib
+import gc
 import hashlib
 import os
 import pickle
@@ -33,11 +34,6 @@ COMPILE = (
     "function = getattr(importlib.import_module(module), name); "
     "function.compile_whole(pickle.loads(base64.b64decode(signature)))"
 )
-PARTS = (
-    *(("_optimize_final_module", None), ("_finalize_specific", None)),
-    ("get_pointer_to_function", 0),
-)
-"""What numba does with the code of every function, and what it gives."""
 PATIENCE = 600
 """Seconds after which this process compiles for itself."""
 
@@ -84,16 +80,27 @@ class Cached:
     def compile_whole(self, signature: tuple[Any, ...]) -> None:
         """Compile for these types, in a process of its own: functions that it calls with it.
 
-        numba optimises every function together with all that it calls, and turns it into machine
-        code, again for each function above it. What is called from here alone needs that once.
+        numba gathers what every function calls, optimises that and turns it into machine code,
+        again for each function above it. Of what is called from here alone, only this one needs it.
         """
+        gc.disable()  # a fifth of the time would go into cycles, for a third of a gigabyte
         with contextlib.suppress(ImportError, AttributeError):  # numba's own; without it, as ever
             from numba.core.codegen import JITCodeLibrary, JITCPUCodegen
 
             name = self.function.py_func.__qualname__
-            for step, result in PARTS:
-                setattr(JITCodeLibrary, step, _of_one(getattr(JITCodeLibrary, step), name, result))
-            set_env = JITCPUCodegen.set_env
+            finalize, set_env = JITCodeLibrary.finalize, JITCPUCodegen.set_env
+            pointer_to = JITCodeLibrary.get_pointer_to_function
+
+            def finalize_whole(library: Any) -> None:
+                if library.name == name:
+                    library._linking_libraries = _below(library)
+                    finalize(library)
+                library._finalized = True
+
+            JITCodeLibrary.finalize = finalize_whole
+            JITCodeLibrary.get_pointer_to_function = lambda library, symbol: (
+                pointer_to(library, symbol) if library.name == name else 0
+            )
             JITCPUCodegen.set_env = lambda codegen, place, env: (
                 set_env(codegen, place, env) if f"{len(name)}{name}" in place else None
             )
@@ -138,13 +145,16 @@ class Cached:
             return  # compiled here instead, by the call
 
 
-def _of_one(step: Callable[..., Any], name: str, result: Any) -> Callable[..., Any]:
-    """A step of numba's that is taken for the code of one function alone."""
-
-    def taken(library: Any, *args: Any) -> Any:
-        return step(library, *args) if library.name == name else result
-
-    return taken
+def _below(library: Any) -> list[Any]:
+    """Code libraries that one needs, each once."""
+    found: dict[Any, None] = {}
+    rest = [library]
+    while rest:
+        for each in rest.pop()._linking_libraries:
+            if each not in found:
+                found[each] = None
+                rest.append(each)
+    return list(found)
 
 
 def _kind(value: Any) -> Any:
