@@ -251,7 +251,7 @@ def area_panel() -> Panel:
     )
 
 
-STUDY = Study.of(
+STUDY = Study.read_data(
     "frontiers2024",
     READINGS,
     (area_panel,),

@@ -156,7 +156,7 @@ def closing_pressure(reading: Reading, **factors: float) -> Measurement:
     return Measurement.of(high, reading.trend(high * (1 + 1e-9), **factors).ratio[0])
 
 
-STUDY = Study.of(
+STUDY = Study.read_data(
     "ghaednia2013",
     READINGS,
     (

@@ -277,7 +277,7 @@ def conductance_panel(name: str) -> Panel:
     )
 
 
-STUDY = Study.of(
+STUDY = Study.read_data(
     "ghaednia2014",
     READINGS,
     (

@@ -46,7 +46,7 @@ class Study:
     panels: tuple[Callable[[], Panel], ...]
 
     @classmethod
-    def of(
+    def read_data(
         cls,
         name: str,
         readings: Mapping[str, Reading],

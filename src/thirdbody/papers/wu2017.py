@@ -335,7 +335,7 @@ def density_panel() -> Panel:
     )
 
 
-STUDY = Study.of(
+STUDY = Study.read_data(
     "wu2017",
     READINGS,
     (size_panel, density_panel),
