@@ -75,6 +75,16 @@ def test_imports_point_up_the_table_of_files():
     assert seen > 300
 
 
+# ---------------------------------------------------------------- what ships
+def test_every_file_of_data_is_declared():
+    folder = Path(tb.__file__).parent
+    declared = PYPROJECT["tool"]["setuptools"]["package-data"]["thirdbody"]
+    shipped = {path for pattern in declared for path in folder.glob(pattern) if path.is_file()}
+    there = {path for path in (folder / "data").rglob("*") if path.is_file()}
+    assert folder / "data" / "papers" / "horng2022.toml" in there
+    assert {path for path in there if "__pycache__" not in path.parts} <= shipped
+
+
 # ---------------------------------------------------------------- import
 def test_import_is_light():
     code = "import sys, thirdbody; print(*sys.modules)"

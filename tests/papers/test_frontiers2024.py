@@ -68,8 +68,8 @@ def test_crossing_is_between_boundary_and_mixed(ledger):
 
 
 def test_every_claim_says_where_it_comes_from():
-    assert {claim.standing for claim in study.CLAIMS} <= {SEEN, OWN}
-    assert all(claim.place for claim in study.CLAIMS)
+    assert {claim.standing for claim in study.STUDY.claims} <= {SEEN, OWN}
+    assert all(claim.place for claim in study.STUDY.claims)
 
 
 def test_pages(tmp_path, ledger, monkeypatch):

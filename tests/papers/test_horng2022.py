@@ -9,7 +9,6 @@ import pytest
 
 from thirdbody import InvalidValue
 from thirdbody.papers.horng2022 import PANELS, READINGS, Curves, claims, reproduce, score, study
-from thirdbody.papers.horng2022.claims import study_data
 from thirdbody.papers.horng2022.measures import (
     MEASURES,
     critical_load_1,
@@ -17,7 +16,7 @@ from thirdbody.papers.horng2022.measures import (
     interior_peak_of,
 )
 from thirdbody.papers.horng2022.readings import LOADS, RANGE, Curve
-from thirdbody.papers.ledger import Claim, Measurement
+from thirdbody.papers.ledger import Claim, Measurement, data_of
 
 EXPECTED = {"published": 66, "window": 60, "window_E2": 57, "all_terms": 56, "literal": 35}
 """Totals of the search that found the presets, on an independent implementation."""
@@ -264,7 +263,7 @@ def test_the_ledger_file(made):
         words = [claim["results"][name]["verdict"] for claim in data["claims"]]
         assert set(words) <= {"pass", "fail", "not reproduced"}
         assert words.count("pass") == data["readings"][name]["passed"] == summary.totals[name]
-    assert data["errata"] == study_data()["errata"]
+    assert data["errata"] == data_of("horng2022")["errata"]
 
 
 @pytest.mark.slow

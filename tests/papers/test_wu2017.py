@@ -1,6 +1,7 @@
 """Friction with particles as Wu, Chen and Horng (2017) and Wu and Chen state it."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from thirdbody.papers import PAPERS
 from thirdbody.papers import wu2017 as study
 from thirdbody.papers.ledger import NO_SOURCE, OWN, SEEN
+from thirdbody.papers.report import Summary
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::thirdbody.errors.RangeWarning")]
 READINGS = ("few", "many", "smooth")
@@ -58,5 +60,6 @@ def test_every_claim_says_where_it_comes_from():
 
 def test_study_is_registered_and_writes_its_ledger(ledger):
     assert "wu2017" in PAPERS
-    text = json.dumps(study.STUDY.as_json(ledger))
+    summary = Summary(out=Path(), study=study.STUDY, ledger=ledger)
+    text = json.dumps(summary.as_json())
     assert "10.3390/mi8100302" in text

@@ -7,7 +7,6 @@ that holds supports the physics, and no number of the paper is reproduced.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from functools import cache
 
@@ -18,10 +17,11 @@ import thirdbody as tb
 
 from ..systems.film_formulas import Oil, Point
 from ..systems.mixed_film import MixedFilm, mixed_film
-from .ledger import OWN, SEEN, Measurement
+from .engine import ignore_ranges
+from .ledger import Measurement
 from .panels import Line, Panel
 from .report import Study
-from .trends import Reading, Trend, claim
+from .trends import Reading, Trend, readings_of
 
 __all__ = ["READINGS", "STUDY", "contact", "lubricated", "reproduce"]
 
@@ -80,51 +80,25 @@ def lubricated(
 ) -> MixedFilm:
     """The ball in oil on the contact; ``viscosity`` multiplies that of the oil."""
     oil = Oil(eta=VISCOSITY * viscosity, alpha=ALPHA)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+    with ignore_ranges():
         return mixed_film(case, conjunction=BALL, oil=oil, load=load, speed=speed)
 
 
-def reading(name: str, title: str, seat: str) -> Reading:
-    """The dry contact under pressure, with particles on one seat."""
-
-    def solve(pressures: Array, factors: Mapping[str, float]) -> Trend:
-        with_them, without = contact(name, **factors), contact(name, **{**factors, "density": 0.0})
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", tb.RangeWarning)
-            state = tb.solve(with_them, pressure=pressures)
-            bare = tb.solve(without, pressure=pressures)
-        return Trend(
-            pressures,
-            np.asarray(state.A_t),
-            np.asarray(bare.A_t),
-            np.asarray(state.particle_load_share),
-        )
-
-    return Reading(
-        name,
-        title,
-        PRESSURES,
-        solve,
-        ("size", "density", "roughness", "viscosity"),
-        {
-            "surfaces": "S45C on S45C, σ = 100 nm, R = 2.8 µm, ηRσ = 0.0455",
-            "particles": "SiO₂, mean 300 nm, standard deviation 60 nm, 10¹⁰ per m²",
-            "seat": seat,
-            "bodies": "ball of 19 mm on a flat, 20 N (mean Hertz pressure 542 MPa)",
-            "oil": "20 mPa s, 20 GPa⁻¹; Nijenbanning–Venner–Moes film; load sharing after "
-            "Johnson, Greenwood and Poon",
-            "speeds": "0.5 m/s (mixed) and 0.02 m/s (boundary)",
-        },
+def solve(seat: str, pressures: Array, factors: Mapping[str, float]) -> Trend:
+    """The trend of the dry contact, with particles on one seat."""
+    with_them, without = contact(seat, **factors), contact(seat, **{**factors, "density": 0.0})
+    with ignore_ranges():
+        state = tb.solve(with_them, pressure=pressures)
+        bare = tb.solve(without, pressure=pressures)
+    return Trend(
+        pressures,
+        np.asarray(state.A_t),
+        np.asarray(bare.A_t),
+        np.asarray(state.particle_load_share),
     )
 
 
-READINGS = {
-    "rough": reading("rough", "particles anywhere on the roughness", "rough (default)"),
-    "offset": reading(
-        "offset", "particles on a plane 2.5σ up", "plane, 2.5 σ above the asperities"
-    ),
-}
+READINGS = readings_of("frontiers2024", PRESSURES, solve)
 
 
 # ------------------------------------------------------------------ measures
@@ -182,8 +156,7 @@ def equal_gap(seat: str, size: float, density: float, roughness: float) -> tuple
     """
     case = contact(seat, size=size, density=density, roughness=roughness)
     sigma = case.roughness.sigma
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", tb.RangeWarning)
+    with ignore_ranges():
         d = np.linspace(6.0, -1.5, 400) * sigma
         state = tb.solve(case, d=d)
         above = np.asarray(state.particle_load_share) - 0.5
@@ -252,151 +225,6 @@ def turning_ratios(reading: Reading, pressures: tuple[float, ...]) -> Measuremen
     return Measurement.of(min(found), max(found))
 
 
-MEASURES = {
-    one.__name__: one
-    for one in (
-        dry_change,
-        film_change,
-        boundary_viscosity,
-        crossing,
-        turning_pressure,
-        turning_load_in_oil,
-        turning_ratios,
-    )
-}
-
-# ------------------------------------------------------------------ what is stated
-PAPER = "abstract, doi:10.3389/fmech.2024.1390335"
-RISES, FALLS = {"kind": "above", "value": 1.0}, {"kind": "below", "value": 1.0}
-HALF = "Read as the load at which particles and asperities carry half each"
-
-CLAIMS = (
-    *(
-        claim(
-            f"mixed-{of}",
-            f"In three-body mixed lubrication the real area rises with particle {of}",
-            SEEN,
-            PAPER,
-            f"A after multiplying the {of} by {by:g}, over A before, at 0.5 m/s",
-            "film_change",
-            RISES,
-            of=of,
-            by=by,
-            speed=MIXED_SPEED,
-        )
-        for of, by in (("size", 5 / 3), ("density", 3.0))
-    ),
-    *(
-        claim(
-            f"boundary-{of}",
-            f"In boundary lubrication it falls with particle {of}",
-            SEEN,
-            PAPER,
-            f"the same at 0.02 m/s, {of} multiplied by {by:g}",
-            "film_change",
-            FALLS,
-            of=of,
-            by=by,
-            speed=BOUNDARY_SPEED,
-        )
-        for of, by in (("size", 5 / 3), ("density", 3.0))
-    ),
-    *(
-        claim(
-            f"dry-{of}",
-            f"In dry contact it falls with particle {of}",
-            SEEN,
-            PAPER,
-            f"dry A at 542 MPa, {of} multiplied by {by:g}, over A before",
-            "dry_change",
-            FALLS,
-            of=of,
-            by=by,
-        )
-        for of, by in (("size", 5 / 3), ("density", 3.0))
-    ),
-    claim(
-        "viscosity",
-        "When the viscosity falls, boundary lubrication comes earlier with particles than without",
-        SEEN,
-        PAPER,
-        "viscosity at which solids carry 99 %, with particles over without",
-        "boundary_viscosity",
-        RISES,
-    ),
-    claim(
-        "ratio",
-        "The turning point of the contact area is usually at x_a/σ of 0.8 to 1.3",
-        SEEN,
-        PAPER,
-        "x_a/σ at which particles carry half of a dry load, smallest and largest from 1 to 100 MPa",
-        "turning_ratios",
-        {"kind": "range", "value": [0.8, 1.3]},
-        f"{HALF}. The ratio depends on load and density, so it is no constant",
-        pressures=(1e6, 1e7, 1e8),
-    ),
-    claim(
-        "load-scale",
-        "At equal x_a/σ the load of the turning point rises with particle size and roughness",
-        SEEN,
-        PAPER,
-        "dry pressure with x_a, σ and R doubled, over that before",
-        "turning_pressure",
-        RISES,
-        HALF,
-        of="size",
-        by=2.0,
-        roughness=2.0,
-    ),
-    claim(
-        "load-density",
-        "It falls with particle density",
-        SEEN,
-        PAPER,
-        "dry pressure with the density doubled, over that before",
-        "turning_pressure",
-        FALLS,
-        f"{HALF}. More particles then need more load to lose half of it",
-        of="density",
-        by=2.0,
-    ),
-    claim(
-        "load-viscosity",
-        "It falls with the viscosity of the oil",
-        SEEN,
-        PAPER,
-        "load in oil at 0.02 m/s with twice the viscosity, over that before",
-        "turning_load_in_oil",
-        FALLS,
-        f"{HALF}. A thicker film keeps asperities apart up to a higher load",
-        of="viscosity",
-        by=2.0,
-    ),
-    claim(
-        "crossing",
-        "Between the two, particles leave the real area as it is",
-        OWN,
-        "this library",
-        "load share of the film there",
-        "crossing",
-        {},
-    ),
-    claim(
-        "load-scale-density",
-        "The same with the particles' cover of the area kept (density over 4)",
-        OWN,
-        "this library",
-        "dry pressure with x_a, σ and R doubled and a quarter of the density, over that before",
-        "turning_pressure",
-        {},
-        of="size",
-        by=2.0,
-        roughness=2.0,
-        density=0.25,
-    ),
-)
-
-
 def area_panel() -> Panel:
     """Change of the real area by particles, from boundary lubrication to a mixed film."""
     speeds = np.geomspace(5e-3, 0.3, 60)
@@ -423,23 +251,17 @@ def area_panel() -> Panel:
     )
 
 
-STUDY = Study(
+STUDY = Study.read_data(
     "frontiers2024",
-    "What can be reproduced of Front. Mech. Eng. 2024, 1390335",
-    "Front. Mech. Eng. 2024, 10, 1390335, doi:10.3389/fmech.2024.1390335",
-    (
-        "Read: the abstract. Not read: its film formula, its load sharing, its parameters and "
-        "curves.",
-        "Here: the film of Nijenbanning, Venner and Moes, the load sharing of Johnson, Greenwood "
-        "and Poon with particles as a third carrier, nothing adjusted to the statements.",
-        "Why the sign of the area changes: where the film carries the load, it also sets the gap, "
-        "almost whoever carries the rest, and particles add contacts; where solids carry the "
-        "load, the load sets the gap, and particles lift asperities out of contact.",
-    ),
     READINGS,
-    CLAIMS,
-    MEASURES,
     (area_panel,),
+    dry_change,
+    film_change,
+    boundary_viscosity,
+    crossing,
+    turning_pressure,
+    turning_load_in_oil,
+    turning_ratios,
 )
 
 reproduce = STUDY.reproduce

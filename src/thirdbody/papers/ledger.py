@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+import tomllib
+from dataclasses import dataclass, field
+from functools import cache
+from importlib import resources
 from typing import Any, SupportsFloat
 
 __all__ = [
@@ -15,6 +18,8 @@ __all__ = [
     "Claim",
     "Measurement",
     "Verdict",
+    "claims_of",
+    "data_of",
     "number",
 ]
 
@@ -74,6 +79,11 @@ class Verdict:
         """Whether the word is "pass"."""
         return self.word == "pass"
 
+    def as_json(self) -> dict[str, Any]:
+        """Numbers, word and reason."""
+        values = list(self.measured.values) if self.measured.exists else None
+        return {"values": values, "verdict": self.word, "why": self.why}
+
 
 @dataclass(frozen=True)
 class Claim:
@@ -101,13 +111,13 @@ class Claim:
     """
 
     id: str
-    place: str
-    statement: str
-    quantity: str
-    measure: str
-    inputs: dict[str, Any]
-    paper: str
-    rule: dict[str, Any]
+    place: str = ""
+    statement: str = ""
+    quantity: str = ""
+    measure: str = ""
+    inputs: dict[str, Any] = field(default_factory=dict)
+    paper: str = ""
+    rule: dict[str, Any] = field(default_factory=dict)
     remark: str = ""
     conflicts: tuple[str, ...] = ()
     """Claims that the printed equations cannot meet at the same time."""
@@ -167,6 +177,28 @@ class Claim:
         if measured.note:
             why += f" ({measured.note})"
         return Verdict(measured, word or ("pass" if good else "fail"), why)
+
+
+@cache
+def data_of(paper: str) -> dict[str, Any]:
+    """The data file of a paper: what it states, and where that is from."""
+    file = resources.files("thirdbody").joinpath(f"data/papers/{paper}.toml")
+    return tomllib.loads(file.read_text("utf-8"))
+
+
+@cache
+def claims_of(paper: str) -> tuple[Claim, ...]:
+    """The statements of a paper, in the order of its data file.
+
+    Examples
+    --------
+    >>> len(claims_of("horng2022"))
+    84
+    """
+    entries = data_of(paper)["claims"]
+    return tuple(
+        Claim(**entry | {"conflicts": tuple(entry.get("conflicts", ()))}) for entry in entries
+    )
 
 
 def number(value: float) -> str:

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import csv
 import io
-import re
+from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..quantities.files import whole, write_text
-from ..quantities.run_files import MARK, claim_folder, read_json
+from .engine import Picture
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Line", "Panel", "draw", "keep", "prepare_folder", "save", "table_of"]
+__all__ = ["Line", "Panel", "draw", "picture_of", "table_of"]
 
 Array = NDArray[np.float64]
 COLOURS = ("blue", "vermilion", "green", "purple", "orange", "sky")
@@ -139,58 +137,8 @@ def table_of(panel: Panel) -> str:
     return out.getvalue()
 
 
-FILES = re.compile(
-    r"(?:fig[^/]*|share)\.(?:png|svg|csv)|comparison\.(?:csv|json|md)|surfaces|index\.html|"
-    r"(?:claims|measurements)\.json"
-)
-"""What studies of papers write."""
-SURFACE = re.compile(r"[^/]+/(?:surface_\d{3,}\.json|\.surface_\d{3,}\.[0-9a-f-]+\.part\.json)")
-
-
-def prepare_folder(out: str | Path, paper: str, preset: str | None = None) -> Path:
-    """A folder for a study, made when missing.
-
-    Parameters
-    ----------
-    out : path-like
-        A new folder, an empty one, or one of the same study.
-    paper : str
-        Name of the study.
-    preset : str, optional
-        The reading or effort that decides what is drawn.
-
-    Raises
-    ------
-    InvalidValue
-        It holds another study or anything else, or cannot be made.
-    """
-    told = {"command": "reproduce", "paper": paper, "preset": preset}
-    return claim_folder(out, told, files=FILES, unmarked=_unmarked_study)
-
-
-def _unmarked_study(folder: Path) -> dict[str, Any] | None:
-    """Nothing, where a ledger of an earlier version lies in a folder, or surfaces of one."""
-    ledgers = ("claims.json", "measurements.json", "comparison.json")
-    if any("version" in (read_json(folder / name) or {}) for name in ledgers):
-        return {}
-    kept = folder / "surfaces"
-    files = [file.relative_to(kept).as_posix() for file in kept.rglob("*") if file.is_file()]
-    alone = {each.name for each in folder.iterdir()} <= {MARK, kept.name}
-    return {} if alone and files and all(map(SURFACE.fullmatch, files)) else None
-
-
-def keep(figure: Any, csv: str, folder: Path, stem: str) -> tuple[list[str], bytes]:
-    """Write a figure as PNG and SVG and its table; the names of the files, and the SVG."""
-    save(figure, folder, stem)
-    write_text(folder / f"{stem}.csv", csv)
-    return [f"{stem}.{end}" for end in ("png", "svg", "csv")], (folder / f"{stem}.svg").read_bytes()
-
-
-def save(figure: Any, folder: Path, stem: str) -> None:
-    """PNG and SVG without dates; names inside the SVG come from the panel's own name."""
-    from matplotlib import rc_context
-
-    with whole(folder / f"{stem}.png") as draft:
-        figure.savefig(draft, format="png", dpi=180, metadata={"Software": None})
-    with rc_context({"svg.hashsalt": stem}), whole(folder / f"{stem}.svg") as draft:
-        figure.savefig(draft, format="svg", metadata={"Date": None, "Creator": None})
+def picture_of(stem: str, make: Callable[[], Panel]) -> Picture:
+    """The panel drawn, with its table."""
+    panel = make()
+    about = panel.about.replace("$", "").replace(r"\propto", "∝")
+    return Picture(stem + panel.name, panel.name, about, panel.note, draw(panel), table_of(panel))

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from html import escape
 from pathlib import Path
 from typing import Any
 
 from ..errors import InvalidValue
-from ..quantities.files import write_text
+from ..version import __version__
 from ..views.html import symbols, table
-from .ledger import OWN, WORDS, Claim, Verdict
-from .page import document, figures
-from .panels import Panel, draw, keep, prepare_folder, table_of
-from .trends import Measure, Reading, score
+from . import engine
+from .engine import Picture, Progress
+from .ledger import OWN, WORDS, Claim, Verdict, claims_of, data_of
+from .page import document
+from .panels import Panel, picture_of
+from .trends import MEASURES, Measure, Reading, score
 
 __all__ = ["Study", "Summary"]
 
-Progress = Callable[[str, int, int], None]
 SIGNS = {
     "pass": "✓ agrees",
     "fail": "✗ disagrees",
@@ -43,6 +44,19 @@ class Study:
     claims: tuple[Claim, ...]
     measures: Mapping[str, Measure]
     panels: tuple[Callable[[], Panel], ...]
+
+    @classmethod
+    def read_data(
+        cls,
+        name: str,
+        readings: Mapping[str, Reading],
+        panels: tuple[Callable[[], Panel], ...],
+        *measures: Measure,
+    ) -> Study:
+        """The study of a data file; ``measures`` beside those that any reading has."""
+        data, own = data_of(name), {one.__name__: one for one in measures}
+        title, paper, known = data["title"], data["paper"], tuple(data["known"])
+        return cls(name, title, paper, known, readings, claims_of(name), MEASURES | own, panels)
 
     def ledger(self) -> dict[str, dict[str, Verdict]]:
         """Verdicts of every reading, by reading name and claim id."""
@@ -79,52 +93,53 @@ class Study:
                 f"preset = {preset!r} has no meaning for {self.name}: figures and ledger show all "
                 f"readings ({', '.join(self.readings)}); leave it out"
             )
-        folder = prepare_folder(out, self.name)
-        report = progress or (lambda stage, done, total: None)
+        return engine.reproduce(self.name, self._find, out, progress=progress)
 
+    def _find(self, folder: Path, report: Progress) -> Summary:
         report("claims", 0, 1)
-        ledger = self.ledger()
+        found = Summary(out=folder, study=self, ledger=self.ledger())
         report("claims", 1, 1)
-        files: list[str] = []
-        images: list[tuple[str, str, str, bytes]] = []
-        for done, panel_of in enumerate(self.panels):
-            report("figures", done, len(self.panels))
-            panel = panel_of()
-            new, svg = keep(draw(panel), table_of(panel), folder, f"fig{panel.name}")
-            files += new
-            about = panel.about.replace("$", "").replace(r"\propto", "∝")
-            images.append((panel.name, about, panel.note, svg))
-        report("figures", len(self.panels), len(self.panels))
-        report("page", 0, 1)
-        text = json.dumps(self.as_json(ledger), ensure_ascii=False, indent=1, allow_nan=False)
-        write_text(folder / "claims.json", text + "\n")
-        write_text(folder / "index.html", self.page(ledger, images))
-        report("page", 1, 1)
-        return Summary(self, folder, ledger, (*files, "claims.json", "index.html"))
+        return found
 
-    def as_json(self, ledger: Mapping[str, Mapping[str, Verdict]]) -> dict[str, Any]:
+
+@dataclass(frozen=True, kw_only=True)
+class Summary(engine.Summary):
+    """What `Study.reproduce` did."""
+
+    study: Study
+    ledger: Mapping[str, Mapping[str, Verdict]]
+
+    def counts(self, reading: str) -> dict[str, int]:
+        """How often each verdict was given."""
+        words = [verdict.word for verdict in self.ledger[reading].values()]
+        return {word: words.count(word) for word in WORDS}
+
+    def findings(self) -> list[str]:
+        """Counts of every reading."""
+        stated = [claim for claim in self.study.claims if claim.standing != OWN]
+        out = [f"{self.study.paper}: {len(stated)} statements", ""]
+        for name in self.study.readings:
+            count = self.counts(name)
+            out.append(
+                f"  {name:<16}{count['pass']} agree, {count['fail']} disagree, "
+                f"{count['not reproduced']} not reproduced, {count['not sourced']} not sourced"
+            )
+        return out
+
+    def pictures(self) -> list[Callable[[], Picture]]:
+        """A panel each."""
+        return [partial(picture_of, "fig", panel) for panel in self.study.panels]
+
+    def as_json(self) -> dict[str, Any]:
         """The content of claims.json."""
-        from ..version import __version__
-
-        def results(claim: Claim) -> dict[str, Any]:
-            out = {}
-            for name in self.readings:
-                verdict = ledger[name][claim.id]
-                exists = verdict.measured.exists
-                out[name] = {
-                    "values": list(verdict.measured.values) if exists else None,
-                    "verdict": verdict.word,
-                    "why": verdict.why,
-                }
-            return out
-
+        readings = self.study.readings
         return {
-            "paper": self.paper,
+            "paper": self.study.paper,
             "version": __version__,
-            "known": list(self.known),
+            "known": list(self.study.known),
             "readings": {
                 name: {"title": one.title, "inputs": dict(one.inputs)}
-                for name, one in self.readings.items()
+                for name, one in readings.items()
             },
             "claims": [
                 {
@@ -137,33 +152,30 @@ class Study:
                     "allowed": claim.allowed,
                     "rule": claim.rule,
                     "remark": claim.remark,
-                    "results": results(claim),
+                    "results": {name: self.ledger[name][claim.id].as_json() for name in readings},
                 }
-                for claim in self.claims
+                for claim in self.study.claims
             ],
         }
 
-    def page(
-        self,
-        ledger: Mapping[str, Mapping[str, Verdict]],
-        images: list[tuple[str, str, str, bytes]],
-    ) -> str:
+    def page(self, figures: str) -> str:
         """The whole page."""
+        study = self.study
         body = [
-            f"<h1>{escape(self.title)}</h1>",
-            f"<p class=soft>{escape(self.paper)}</p>",
+            f"<h1>{escape(study.title)}</h1>",
+            f"<p class=soft>{escape(study.paper)}</p>",
             "<nav><a href='#ledger'>Ledger</a><a href='#figures'>Figures</a>"
             "<a href='#readings'>Readings</a></nav>",
-            *(f"<p>{symbols(text)}</p>" for text in self.known),
+            *(f"<p>{symbols(text)}</p>" for text in study.known),
             "<h2 id=ledger>Ledger</h2><p>“Not sourced” is measured all the same: the papers may "
             "say it, but no text could be found that does. “Own result” is what the reading does "
             "beyond the statements, mostly where a trend ends.</p>",
             table(
-                ["claim", "statement", "source", "measured, allowed", *self.readings],
-                (self._row(claim, ledger) for claim in self.claims),
+                ["claim", "statement", "source", "measured, allowed", *study.readings],
+                (self._row(claim) for claim in study.claims),
             ),
             "<h2 id=figures>Figures</h2>",
-            figures(images),
+            figures,
             "<h2 id=readings>Readings</h2>",
             table(
                 ["reading", "assumed"],
@@ -172,17 +184,17 @@ class Study:
                         f"<b>{escape(name)}</b>",
                         "<br>".join(f"{symbols(k)}: {symbols(v)}" for k, v in one.inputs.items()),
                     ]
-                    for name, one in self.readings.items()
+                    for name, one in study.readings.items()
                 ),
             ),
         ]
-        return document(self.title, body)
+        return document(study.title, body)
 
-    def _row(self, claim: Claim, ledger: Mapping[str, Mapping[str, Verdict]]) -> list[str]:
+    def _row(self, claim: Claim) -> list[str]:
         kinds = {"pass": "pass", "fail": "fail"}
         cells = []
-        for name in self.readings:
-            verdict = ledger[name][claim.id]
+        for name in self.study.readings:
+            verdict = self.ledger[name][claim.id]
             measured = verdict.measured
             text = f"<b>{escape(measured.text)}</b>" if measured.exists else escape(verdict.why)
             note = f"<br><span class=soft>{escape(measured.note)}</span>" * bool(
@@ -201,31 +213,3 @@ class Study:
             f"{symbols(claim.quantity)}{allowed}",
             *cells,
         ]
-
-
-@dataclass(frozen=True)
-class Summary:
-    """What `Study.reproduce` did."""
-
-    study: Study
-    out: Path
-    ledger: Mapping[str, Mapping[str, Verdict]]
-    files: tuple[str, ...]
-
-    def counts(self, reading: str) -> dict[str, int]:
-        """How often each verdict was given."""
-        words = [verdict.word for verdict in self.ledger[reading].values()]
-        return {word: words.count(word) for word in WORDS}
-
-    def lines(self) -> list[str]:
-        """The summary for a terminal."""
-        stated = [claim for claim in self.study.claims if claim.standing != OWN]
-        out = [f"{self.study.paper}: {len(stated)} statements", ""]
-        for name in self.study.readings:
-            count = self.counts(name)
-            out.append(
-                f"  {name:<16}{count['pass']} agree, {count['fail']} disagree, "
-                f"{count['not reproduced']} not reproduced, {count['not sourced']} not sourced"
-            )
-        out += ["", f"{len(self.files)} files in {self.out}; read {self.out / 'index.html'}"]
-        return out

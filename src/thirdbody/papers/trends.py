@@ -9,12 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .ledger import Claim, Measurement, Verdict
+from .ledger import Claim, Measurement, Verdict, data_of
 from .panels import Line, Panel
 
 __all__ = [
@@ -23,9 +24,9 @@ __all__ = [
     "Trend",
     "area_panel",
     "changes_panel",
-    "claim",
     "exponent_panel",
     "ratio_panel",
+    "readings_of",
     "score",
 ]
 
@@ -81,25 +82,31 @@ class Reading:
         return self.solve(p, factors)
 
 
-def claim(
-    id: str,
-    statement: str,
-    standing: str,
-    source: str,
-    quantity: str,
-    measure: str,
-    rule: dict[str, Any],
-    remark: str = "",
-    **inputs: object,
-) -> Claim:
-    """A claim of which the inputs of the measure are written out."""
-    return Claim(id, source, statement, quantity, measure, inputs, "", rule, remark, (), standing)
-
-
 def measure(function: Measure) -> Measure:
     """Make a function known to claims by its name."""
     MEASURES[function.__name__] = function
     return function
+
+
+def readings_of(
+    paper: str,
+    pressures: Array,
+    solve: Callable[[str, Array, Mapping[str, float]], Trend],
+) -> dict[str, Reading]:
+    """The readings of a data file; ``solve`` takes the name of one first."""
+    readings = data_of(paper)["readings"]
+    first = next(iter(readings.values()))
+    return {
+        name: Reading(
+            name,
+            one["title"],
+            pressures,
+            partial(solve, name),
+            tuple(one.get("factors", first["factors"])),
+            first["inputs"] | one.get("inputs", {}),
+        )
+        for name, one in readings.items()
+    }
 
 
 def score(

@@ -23,10 +23,10 @@ from numpy.typing import NDArray
 import thirdbody as tb
 
 from ..effects import Friction
-from .ledger import NO_SOURCE, OWN, SEEN, Measurement
+from .ledger import Measurement
 from .panels import Line, Panel
 from .report import Study
-from .trends import MEASURES, Reading, Trend, claim
+from .trends import Reading, Trend, readings_of
 
 __all__ = ["PRESSURES", "READINGS", "STUDY", "Slid", "contact", "reproduce"]
 
@@ -100,54 +100,37 @@ class Slid(Trend):
     elastoplastic: Array
 
 
-def reading(name: str, title: str, density: float, rear: str | float = "recovery") -> Reading:
-    """The contact with one density and one rule for the rear half of ploughing contacts."""
+CASES: dict[str, tuple[float, str | float]] = {
+    "few": (FEW, "recovery"),
+    "many": (MANY, "recovery"),
+    "smooth": (FEW, 1.0),
+}
+"""Density [1/m²], and support of the rear half of ploughing contacts, by reading."""
 
-    def solve(pressures: Array, factors: Mapping[str, float]) -> Trend:
-        given = dict(factors)
-        count = density * given.pop("density", 1.0)
-        with_them = tb.solve(contact(count, rear, **given), pressure=pressures)
-        bare = tb.solve(contact(0.0, rear, **given), pressure=pressures)
-        mu = {name: np.asarray(value) for name, value in with_them.outputs.items()}
-        return Slid(
-            pressures,
-            np.asarray(with_them.A_t),
-            np.asarray(bare.A_t),
-            np.asarray(with_them.particle_load_share),
-            mu["mu"],
-            np.asarray(bare.outputs["mu"]),
-            mu["mu_ss"],
-            mu["mu_sa"],
-            np.asarray(with_them.A_e / with_them.A_t),
-            np.asarray(with_them.A_ep / with_them.A_t),
-        )
 
-    support = {"recovery": "by recovery", 1.0: "as much as in front (no ploughing)"}[rear]
-    return Reading(
-        name,
-        title,
-        PRESSURES,
-        solve,
-        ("size", "density", "roughness"),
-        {
-            "bodies": "S45C on S45C, σ = 100 nm, R = 2.8 µm",
-            "particles": f"SiO₂ spheres, mean 300 nm, standard deviation 60 nm, {density:.0e} "
-            "per m²".replace("e+", "·10^"),
-            "shear strength": "τ_ss = 580 MPa, τ_sa = 200 MPa, constant",
-            "rear half of a contact carries": support,
-            "a particle": "takes the cheapest of rolling and sliding over either surface",
-            "pressures": "10⁶ to 5·10⁷ Pa, 9 values",
-        },
+def solve(name: str, pressures: Array, factors: Mapping[str, float]) -> Trend:
+    """The trend of one of the cases, with friction."""
+    density, rear = CASES[name]
+    given = dict(factors)
+    count = density * given.pop("density", 1.0)
+    with_them = tb.solve(contact(count, rear, **given), pressure=pressures)
+    bare = tb.solve(contact(0.0, rear, **given), pressure=pressures)
+    mu = {name: np.asarray(value) for name, value in with_them.outputs.items()}
+    return Slid(
+        pressures,
+        np.asarray(with_them.A_t),
+        np.asarray(bare.A_t),
+        np.asarray(with_them.particle_load_share),
+        mu["mu"],
+        np.asarray(bare.outputs["mu"]),
+        mu["mu_ss"],
+        mu["mu_sa"],
+        np.asarray(with_them.A_e / with_them.A_t),
+        np.asarray(with_them.A_ep / with_them.A_t),
     )
 
 
-CASES: dict[str, tuple[str, float, str | float]] = {
-    "few": ("few particles", FEW, "recovery"),
-    "many": ("many particles", MANY, "recovery"),
-    "smooth": ("few particles that do not plough", FEW, 1.0),
-}
-"""Title, density [1/m²], and support of the rear half of ploughing contacts."""
-READINGS = {name: reading(name, *case) for name, case in CASES.items()}
+READINGS = readings_of("wu2017", PRESSURES, solve)
 
 
 def slid(reading: Reading, pressures: Array | None = None, **factors: float) -> Slid:
@@ -209,7 +192,7 @@ def share_at_small_load(reading: Reading, size: float, pressure: float) -> Measu
 
 def critical_load(reading: Reading, size: float) -> float | None:
     """Load below which the particles carry nearly everything, F* [1]."""
-    _, density, rear = CASES[reading.name]
+    density, rear = CASES[reading.name]
     found = tb.transitions(contact(density, rear, size=size).replace(outputs=()))
     return found.F_cr1.value
 
@@ -275,7 +258,7 @@ def slope_follows(reading: Reading) -> Measurement:
 
 def density_of_no_effect(reading: Reading, size: float, pressure: float) -> Measurement:
     """Density [1/m²] at which the particles leave μ as it is."""
-    base = CASES[reading.name][1]
+    base = CASES[reading.name][0]
 
     def is_higher(factor: float) -> bool:
         trend = slid(reading, np.array([pressure]), size=size, density=factor)
@@ -293,156 +276,7 @@ def density_of_no_effect(reading: Reading, size: float, pressure: float) -> Meas
     return Measurement.of((low * high) ** 0.5 * base)
 
 
-# ------------------------------------------------------------------ what is stated
-MICRO = "Wu, Chen, Horng 2017, abstract"
-NCKU = "Wu, Chen, abstract (record of the university)"
-
-CLAIMS = (
-    claim(
-        "grows",
-        "The coefficient of friction grows with the size of the particles",
-        SEEN,
-        MICRO,
-        "smallest and largest μ over μ at the next smaller x_a/σ, 1.5 to 5, σ = 100 nm",
-        "friction_grows",
-        {"kind": "at_least", "value": 1.0},
-        "Contradicts “falls”; sizes and densities of the paper are not known",
-    ),
-    claim(
-        "falls",
-        "At each load and roughness (σ = 50–400 nm) the coefficient of friction falls with x_a/σ",
-        SEEN,
-        NCKU,
-        "smallest and largest μ over μ at the next smaller x_a/σ, 1.5 to 5",
-        "friction_falls",
-        {"kind": "at_most", "value": 1.0},
-        "Contradicts “grows”",
-    ),
-    claim(
-        "smaller",
-        "The coefficient of friction of a particle is below that of the asperities",
-        SEEN,
-        NCKU,
-        "smallest and largest μ_sa/μ_ss over loads and sizes",
-        "particle_over_asperity",
-        {"kind": "below", "value": 1.0},
-        "Given there as the reason of “falls”",
-    ),
-    claim(
-        "varies",
-        "The coefficient of friction depends on the operating conditions",
-        SEEN,
-        MICRO,
-        "largest over smallest μ over loads and sizes",
-        "friction_range",
-        {"kind": "at_least", "value": 1.05},
-        "5 % chosen here",
-    ),
-    claim(
-        "alone",
-        "At small loads the particles carry everything",
-        SEEN,
-        NCKU,
-        "particles' share of 10⁴ Pa, x_a = 500 nm",
-        "share_at_small_load",
-        {"kind": "at_least", "value": 0.95},
-        size=5 / 3,
-        pressure=1e4,
-    ),
-    claim(
-        "critical",
-        "The critical load grows with x_a/σ",
-        SEEN,
-        NCKU,
-        "smallest F_cr1 over that of the next smaller x_a/σ, 3 to 5",
-        "critical_load_steps",
-        {"kind": "above", "value": 1.0},
-    ),
-    claim(
-        "elastic",
-        "Below the critical load elastic peaks have the largest part of the area",
-        SEEN,
-        NCKU,
-        "elastic share of the real area at half the critical load",
-        "elastic_below",
-        {"kind": "at_least", "value": 0.5},
-        "May mean the asperities alone; here the particles have most of the area, and yield",
-    ),
-    claim(
-        "elastoplastic",
-        "Above the critical load elastoplastic contacts dominate",
-        SEEN,
-        NCKU,
-        "elastoplastic share of the real area at 1000 times the critical load",
-        "elastoplastic_above",
-        {"kind": "at_least", "value": 0.5},
-        factor=1000.0,
-    ),
-    claim(
-        "two-body",
-        "Above the critical load the area comes close to that without particles",
-        SEEN,
-        NCKU,
-        "A/A_bare at 1000 times the critical load",
-        "two_body_above",
-        {"kind": "range", "value": [0.9, 1.1]},
-        "How close, and how far above, is chosen here",
-        factor=1000.0,
-    ),
-    claim(
-        "temperature",
-        "The surface temperature grows with plasticity index and load, that of the particles with "
-        "their size",
-        SEEN,
-        MICRO,
-        "temperature",
-        "not_in_the_model",
-        {},
-        why="needs speed and conductivities, which are not stated; see outputs.FlashTemperature",
-    ),
-    claim(
-        "numbers",
-        "Values of the coefficient of friction",
-        NO_SOURCE,
-        "the papers",
-        "μ",
-        "not_in_the_model",
-        {},
-        why="shear strengths, sizes and densities are not known",
-    ),
-    claim(
-        "rule",
-        "Particles lower friction where μ_sa is below μ without them",
-        OWN,
-        "this model",
-        "part of all loads and sizes where it holds",
-        "rule_holds",
-        {},
-    ),
-    claim(
-        "slope",
-        "Friction falls with size where μ_sa is below μ_ss",
-        OWN,
-        "this model",
-        "part of all loads and steps in x_a/σ where it holds",
-        "slope_follows",
-        {},
-        "Larger particles carry more of the load, and sit less deep once they carry most of it",
-    ),
-    claim(
-        "flip",
-        "Density at which particles change from raising to lowering friction",
-        OWN,
-        "this model",
-        "η_a [1/m²], x_a = 500 nm, 5 MPa",
-        "density_of_no_effect",
-        {},
-        size=5 / 3,
-        pressure=5e6,
-    ),
-)
-
-
+# ------------------------------------------------------------------ figures
 def size_panel() -> Panel:
     """μ against x_a/σ for three densities, and without ploughing."""
     ratios = np.linspace(0.5, 6.0, 34)
@@ -501,42 +335,22 @@ def density_panel() -> Panel:
     )
 
 
-STUDY = Study(
+STUDY = Study.read_data(
     "wu2017",
-    "What can be reproduced of Wu, Chen and Horng 2017",
-    "Wu, Chen, Horng 2017, Micromachines 8, 302, doi:10.3390/mi8100302; Wu, Chen, Effect of "
-    "two-body and three-body microcontacts under dry friction on contact characteristics",
-    (
-        "Read: the abstracts of both papers. Not obtained: the papers, with their equations for "
-        "friction, shear strengths, sizes and densities.",
-        "The abstracts contradict each other about the size of the particles. In the model both "
-        "signs occur, even at one density: with growing size friction rises as particles take load "
-        "over from the asperities and plough, and falls again as they share it and sit less deep. "
-        "The sign is not forced.",
-        "Chosen here: shear strengths, sizes, densities, the ploughing formula, and that a "
-        "particle takes the cheapest of rolling and sliding.",
-    ),
     READINGS,
-    CLAIMS,
-    MEASURES
-    | {
-        one.__name__: one
-        for one in (
-            friction_grows,
-            friction_falls,
-            particle_over_asperity,
-            friction_range,
-            share_at_small_load,
-            critical_load_steps,
-            elastic_below,
-            elastoplastic_above,
-            two_body_above,
-            rule_holds,
-            slope_follows,
-            density_of_no_effect,
-        )
-    },
     (size_panel, density_panel),
+    friction_grows,
+    friction_falls,
+    particle_over_asperity,
+    friction_range,
+    share_at_small_load,
+    critical_load_steps,
+    elastic_below,
+    elastoplastic_above,
+    two_body_above,
+    rule_holds,
+    slope_follows,
+    density_of_no_effect,
 )
 
 reproduce = STUDY.reproduce

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -16,10 +15,10 @@ from scipy.stats import t as student
 
 from ...contact.contact import Contact
 from ...equilibrium.solve import solve
-from ...errors import RangeWarning
 from ...explicit import Ensemble, ensemble, surface_of
 from ...laws.asperity import Field, OwnSpectrum
 from ...quantities.say import percent
+from ..engine import ignore_ranges
 from ..seats import explicit_particles
 from .cases import SIGMA, Case
 
@@ -158,8 +157,7 @@ def compared(
     case: Case, effort: Effort, folder: Path | None, report: Callable[[int], None]
 ) -> Ensemble:
     """The surfaces of a case, finished ones read from the folder."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)
+    with ignore_ranges():
         return ensemble(
             case.contact,
             surfaces=effort.surfaces,
@@ -181,8 +179,7 @@ def box_of(contact: Contact, size: int, spacing: float) -> OwnSpectrum:
 def by_field(model: Contact, loads: Sequence[float], own: OwnSpectrum | None) -> list[Any]:
     """Share, separation over σ and real area by the law of one field, for each F*: (N, 3)."""
     contact = model.replace(asperity_law=Field(spectrum=own))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)
+    with ignore_ranges():
         state = solve(contact, F_star=np.array(loads))
     rows = (state.particle_load_share, np.asarray(state.h) / SIGMA, state.A_t)
     return np.stack([np.asarray(row, dtype=float) for row in rows], axis=-1).tolist()

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 from textwrap import fill
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ...errors import InvalidValue
-from ...quantities.files import write_text
 from ...quantities.plain_data import plain_data
 from ...quantities.say import number, percent, signed
+from ...version import __version__
 from ...views.html import symbols, table
-from ..page import document, figures
-from ..panels import keep, prepare_folder
+from .. import engine
+from ..engine import Picture, Progress
+from ..page import document
 from .cases import CASES, GROUPS
 from .compared import FULL, QUICK, Effort, Point, compared, points_of
 
@@ -30,27 +30,25 @@ if TYPE_CHECKING:
 
 __all__ = ["Summary", "figure", "markdown", "reproduce"]
 
-Progress = Callable[[str, int, int], None]
 PRESETS = {None: FULL, "full": FULL, "quick": QUICK}
 HEAVY = 1.01e-4
-STEM, RECORD = "share", "comparison.json"
 
 
-@dataclass(frozen=True)
-class Summary:
+@dataclass(frozen=True, kw_only=True)
+class Summary(engine.Summary):
     """What `reproduce` did."""
 
-    out: Path
+    LEDGER: ClassVar[str] = "comparison.json"
+
     effort: Effort
     points: tuple[Point, ...]
     left_out: int
     """States that did not converge, and count nowhere."""
-    files: tuple[str, ...]
     lost: tuple[str, ...] = ()
     """Names of the cases of those."""
 
-    def lines(self) -> list[str]:
-        """The summary for a terminal."""
+    def findings(self) -> list[str]:
+        """Every state, and how far both laws are off."""
         off = sum(point.off for point in self.points)
         out = [
             f"{len(CASES)} contacts, each on {self.effort.words}",
@@ -67,8 +65,29 @@ class Summary:
                         f"{_explicit(point):>18}  model {percent(point.statistical)}  "
                         f"{_apart(point)}  one field {_by_field(point)}"
                     )
-        out += ["", f"{len(self.files)} files in {self.out}; read {self.out / 'index.html'}"]
         return out
+
+    def pictures(self) -> list[Callable[[], Picture]]:
+        """The one figure."""
+        return [self._picture]
+
+    def _picture(self) -> Picture:
+        about = "load share of particles, statistical over explicit"
+        drawn = figure(self.points)
+        return Picture("share", "share", about, "Grey: 10 %.", drawn, _csv(self.points))
+
+    def tables(self) -> dict[str, str]:
+        """The states as a table, and as those of a book."""
+        states = markdown(self.as_json()["states"])
+        return {"comparison.csv": _csv(self.points), "comparison.md": states}
+
+    def as_json(self) -> dict[str, Any]:
+        """The content of comparison.json."""
+        return _as_json(self)
+
+    def page(self, figures: str) -> str:
+        """The whole page."""
+        return _page(self, figures)
 
 
 def reproduce(
@@ -97,8 +116,14 @@ def reproduce(
     if preset not in PRESETS:
         raise InvalidValue(f"preset = {preset!r} must be 'full' or 'quick'")
     effort = PRESETS[preset]
-    folder = prepare_folder(out, "explicit", preset or "full")
-    report = progress or (lambda stage, done, total: None)
+
+    def find(folder: Path, report: Progress) -> Summary:
+        return _find(effort, folder, report)
+
+    return engine.reproduce("explicit", find, out, preset=preset or "full", progress=progress)
+
+
+def _find(effort: Effort, folder: Path, report: Progress) -> Summary:
     total = len(CASES) * effort.surfaces
     points: list[Point] = []
     left_out = 0
@@ -116,17 +141,9 @@ def reproduce(
             lost.append(case.name)
         points += points_of(case, found, effort)
     report("surfaces", total, total)
-    summary = Summary(folder, effort, tuple(points), left_out, ())
-    drawn, svg = keep(figure(summary.points), _csv(summary.points), folder, STEM)
-    files = (*drawn, "comparison.csv", "comparison.md", RECORD, "index.html")
-    summary = Summary(folder, effort, tuple(points), left_out, files, tuple(lost))
-    write_text(folder / "comparison.csv", _csv(summary.points))
-    record = _as_json(summary)
-    text = json.dumps(record, ensure_ascii=False, indent=1, allow_nan=False)
-    write_text(folder / RECORD, text + "\n")
-    write_text(folder / "comparison.md", markdown(record["states"]))
-    write_text(folder / "index.html", _page(summary, svg))
-    return summary
+    return Summary(
+        out=folder, effort=effort, points=tuple(points), left_out=left_out, lost=tuple(lost)
+    )
 
 
 def _worst(points: tuple[Point, ...]) -> list[str]:
@@ -193,8 +210,6 @@ def _csv(points: tuple[Point, ...]) -> str:
 
 
 def _as_json(summary: Summary) -> dict[str, Any]:
-    from ...version import __version__
-
     return {
         "version": __version__,
         "effort": summary.effort.words,
@@ -330,7 +345,7 @@ def _explicit(point: Point) -> str:
     return _bounds_text(*(100 * each for each in point.bounds)) + " %"
 
 
-def _page(summary: Summary, svg: bytes) -> str:
+def _page(summary: Summary, figures: str) -> str:
     title = "The statistical model against particles at their places"
     body = [
         f"<h1>{title}</h1>",
@@ -354,9 +369,7 @@ def _page(summary: Summary, svg: bytes) -> str:
         if stored:
             head.insert(4, "stored runs")
         body.append(table(head, (_row(point, stored) for point in mine)))
-    body += ["<h2>Figure</h2>",
-             figures([(STEM, "load share of particles, statistical over explicit",
-                       "Grey: 10 %.", svg)])]  # fmt: skip
+    body += ["<h2>Figure</h2>", figures]
     return document(title, body)
 
 

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
-from typing import Any
 
-from ..ledger import Claim
+from ..ledger import Claim, claims_of, data_of
 
-__all__ = ["Errata", "claims", "errata", "study_data"]
+__all__ = ["PAPER", "Errata", "claims", "errata"]
 
-
-@cache
-def study_data() -> dict[str, Any]:
-    """The data file: paper, definitions, claims and errata."""
-    text = resources.files("thirdbody").joinpath("data/horng2022_claims.json").read_text("utf-8")
-    return json.loads(text)
+PAPER = "horng2022"
 
 
 @dataclass(frozen=True)
@@ -32,7 +24,6 @@ class Errata:
     applied: str
 
 
-@cache
 def claims() -> tuple[Claim, ...]:
     """All statements in the order of the paper.
 
@@ -45,10 +36,7 @@ def claims() -> tuple[Claim, ...]:
     >>> len(claims())
     84
     """
-    return tuple(
-        Claim(**{**entry, "conflicts": tuple(entry.get("conflicts", ()))})
-        for entry in study_data()["claims"]
-    )
+    return claims_of(PAPER)
 
 
 @cache
@@ -64,4 +52,4 @@ def errata() -> tuple[Errata, ...]:
     >>> errata()[0].erratum
     1
     """
-    return tuple(Errata(**entry) for entry in study_data()["errata"])
+    return tuple(Errata(**entry) for entry in data_of(PAPER)["errata"])

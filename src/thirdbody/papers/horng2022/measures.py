@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..ledger import Measurement
-from .claims import study_data
+from ..ledger import Measurement, data_of
+from .claims import PAPER
 from .readings import RANGE, SEARCH_TO, SILICA, STEEL, Curve, Curves
 
 __all__ = [
@@ -68,7 +68,7 @@ def slope(curve: Curve, values: Array, loads: Sequence[float]) -> float:
 
 def critical_load_1(curve: Curve) -> float:
     """F_cr1*: NaN when the particles do not hold the contact at first, inf when always."""
-    threshold = study_data()["definitions"]["first_share"]
+    threshold = data_of(PAPER)["definitions"]["first_share"]
     share = curve.particle_share
     if not share[0] >= threshold:
         return math.nan
@@ -78,7 +78,7 @@ def critical_load_1(curve: Curve) -> float:
 
 def critical_load_2(curve: Curve) -> float:
     """F_cr2*: inf when the asperities never take over, the lowest load when they always hold."""
-    threshold = 1 - study_data()["definitions"]["second_share"]
+    threshold = 1 - data_of(PAPER)["definitions"]["second_share"]
     share = curve.particle_share
     above = np.flatnonzero(~(share <= threshold))
     if not len(above):
@@ -102,7 +102,7 @@ def interior_peak_of(curve: Curve, *, turns: bool) -> tuple[float, float] | None
     part = inside(curve)
     F, share = curve.F[part], curve.particle_share[part]
     top = int(np.argmax(share))
-    limit = study_data()["definitions"]["turn_share"] if turns else 1 - 1e-6
+    limit = data_of(PAPER)["definitions"]["turn_share"] if turns else 1 - 1e-6
     if not max(share[: top + 1].min(), share[top:].min()) < limit * share[top]:
         return None
     if not 0 < top < len(F) - 1:

@@ -6,9 +6,9 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from ...views.html import symbols, table
-from ..ledger import Claim, Verdict, number
-from ..page import document, figures
-from .claims import claims, errata, study_data
+from ..ledger import Claim, Verdict, data_of, number
+from ..page import document
+from .claims import PAPER, claims, errata
 from .readings import READINGS, Reading
 
 if TYPE_CHECKING:
@@ -20,9 +20,9 @@ SIGNS = {"pass": "✓", "fail": "✗", "not reproduced": "–"}
 PRINTED = ["published", "window", "window_E2", "all_terms"]
 
 
-def page(ledger: Ledger, drawn: Reading, images: list[tuple[str, str, str, bytes]]) -> str:
-    """The whole page; images are name, content, note and SVG of each panel."""
-    paper = study_data()["paper"]
+def page(ledger: Ledger, drawn: Reading, figures: str) -> str:
+    """The whole page; its figures are HTML."""
+    paper = data_of(PAPER)["paper"]
     body = [
         "<h1>What can be reproduced of Horng et al. 2022</h1>",
         f"<p class=soft>{escape(paper['title'])}. {escape(paper['journal'])}, "
@@ -34,7 +34,9 @@ def page(ledger: Ledger, drawn: Reading, images: list[tuple[str, str, str, bytes
         "<a href='#definitions'>Definitions</a></nav>",
         _finding(ledger),
         _totals(ledger),
-        _figures(images),
+        "<h2 id=figures>Figures</h2><p>Numbers that the paper quotes are dotted or dashed lines, "
+        "crosses, or tinted bands. A line may hide another: with 25 nm particles the curve is "
+        "that of bare surfaces.</p>" + figures,
         _ledger(ledger),
         _booking(ledger),
         _parameters(),
@@ -88,14 +90,6 @@ def _totals(ledger: Ledger) -> str:
         f"<p>Of {count} statements. “–” counts statements about something that the reading does "
         "not have, such as a turning point; they are not met either.</p>"
         + table([*head, "", "adjusted to the paper"], rows)
-    )
-
-
-def _figures(images: list[tuple[str, str, str, bytes]]) -> str:
-    return (
-        "<h2 id=figures>Figures</h2><p>Numbers that the paper quotes are dotted or dashed lines, "
-        "crosses, or tinted bands. A line may hide another: with 25 nm particles the curve is "
-        "that of bare surfaces.</p>" + figures(images)
     )
 
 
@@ -220,7 +214,7 @@ def _errata() -> str:
 
 
 def _definitions() -> str:
-    words = study_data()["definitions"]
+    words = data_of(PAPER)["definitions"]
     names = {
         "F_cr1": "F_cr1*",
         "F_cr2": "F_cr2*",
@@ -231,7 +225,7 @@ def _definitions() -> str:
     items = "".join(
         f"<li>{symbols(name)}: {symbols(words[key])}.</li>" for key, name in names.items()
     )
-    low, high = study_data()["load_range"]
+    low, high = data_of(PAPER)["load_range"]
     return (
         f"<h2 id=definitions>Definitions</h2><ul>{items}<li>Loads run from {number(low)} to "
         f"{number(high)} unless a statement names others; “growing” and “falling” are judged by "

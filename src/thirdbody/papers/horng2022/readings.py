@@ -7,7 +7,6 @@ consistent model.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -18,12 +17,12 @@ from numpy.typing import NDArray
 from ...contact.contact import Contact
 from ...equilibrium.columns import Equilibrium
 from ...equilibrium.solve import solve
-from ...errors import RangeWarning
 from ...laws.particle import AbstractParticleLaw, Horng2022, Series
 from ...populations.distributions import TruncatedGaussian
 from ...populations.materials import MaterialPair, materials
 from ...populations.particles import Particles
 from ...populations.roughness import ETA_R_SIGMA, Roughness
+from ..engine import ignore_ranges
 
 __all__ = ["LOADS", "READINGS", "SILICA", "STEEL", "Curve", "Curves", "Reading"]
 
@@ -318,9 +317,7 @@ class Curves:
     def under(self, loads: Array, material: str, sigma: float, x_a: float) -> Curve:
         """The curve at other loads, not kept."""
         contact = self.reading.contact(material, sigma, x_a)
-        with warnings.catch_warnings():
-            # several readings leave the range of the laws on purpose
-            warnings.simplefilter("ignore", RangeWarning)
+        with ignore_ranges():  # several readings leave the range of the laws on purpose
             state = solve(contact, F_star=loads * self.reading.F_star_scale)
             areas = {name: getattr(state, name) for name in AREAS}
             if self.reading.paper_booking and x_a:

@@ -7,8 +7,8 @@ from itertools import pairwise, product
 
 import numpy as np
 
-from ..ledger import Measurement
-from .claims import study_data
+from ..ledger import Measurement, data_of
+from .claims import PAPER
 from .measures import (
     add_measures,
     curve_measure,
@@ -80,7 +80,7 @@ def _change(c: Curve, loads: list[float]) -> float:
 
 def _area_lost(c: Curve, growth: float) -> float | Measurement:
     """Over all pairs of hybrid states with d* larger by the factor: the smallest loss of area."""
-    share, definitions = c.particle_share, study_data()["definitions"]
+    share, definitions = c.particle_share, data_of(PAPER)["definitions"]
     above, below = definitions["first_share"], 1 - definitions["second_share"]
     hybrid = inside(c) & (share < above) & (share > below)
     d, A = c.d_star[hybrid], c.A_t[hybrid]

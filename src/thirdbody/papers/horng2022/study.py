@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from ...errors import InvalidValue
-from ...quantities.files import write_text
-from ..ledger import Verdict
-from ..panels import keep, prepare_folder
-from .claims import claims, study_data
+from ...version import __version__
+from .. import engine
+from ..engine import Picture, Progress
+from ..ledger import data_of
+from .claims import PAPER, claims
 from .drawing import draw
-from .figures import PANELS, table
+from .figures import PANELS, Panel, table
 from .ledger import score
 from .page import page
 from .readings import READINGS, Curves, Reading
@@ -22,31 +23,28 @@ from .record import Ledger
 
 __all__ = ["Summary", "reproduce"]
 
-Progress = Callable[[str, int, int], None]
 CONSISTENT = ("series-offset", "series-plane", "series-rough")
 """Readings that have areas of their own under the particles."""
 
 
-@dataclass(frozen=True)
-class Summary:
+@dataclass(frozen=True, kw_only=True)
+class Summary(engine.Summary):
     """What `reproduce` did."""
 
-    out: Path
-    """Folder it wrote."""
     preset: str
     """Reading in which the panels are drawn."""
     ledger: Ledger
     """Verdicts of every reading."""
-    files: tuple[str, ...]
-    """Names of what it wrote."""
+    books: Mapping[str, Curves]
+    """Curves of every reading."""
 
     @property
     def totals(self) -> dict[str, int]:
         """Claims met by each reading."""
         return {name: self.ledger.total(name) for name in READINGS}
 
-    def lines(self) -> list[str]:
-        """The summary for a terminal."""
+    def findings(self) -> list[str]:
+        """Claims met by each reading."""
         count = len(claims())
         out = [
             f"Horng et al. 2022, Lubricants 10(7), 164: {count} statements, "
@@ -61,12 +59,71 @@ class Summary:
             f"{READINGS[name].key} {self.ledger.total(name, paper_booking=True)}"
             for name in CONSISTENT
         )
-        out += [
-            f"  with particle area booked as the paper does (F_sa/H_s, all plastic): {booked}",
-            "",
-            f"{len(self.files)} files in {self.out}; read {self.out / 'index.html'}",
-        ]
+        out.append(
+            f"  with particle area booked as the paper does (F_sa/H_s, all plastic): {booked}"
+        )
         return out
+
+    def pictures(self) -> list[Callable[[], Picture]]:
+        """Every panel, drawn in one reading."""
+        return [partial(self._picture, name, panel_of) for name, panel_of in PANELS.items()]
+
+    def _picture(self, name: str, panel_of: Callable[[Curves], Panel]) -> Picture:
+        reading, panel = READINGS[self.preset], panel_of(self.books[self.preset])
+        drawn = draw(panel, f"reading {reading.key}: {reading.title}")
+        return Picture(f"fig{name}", name, panel.about, panel.note, drawn, table(panel))
+
+    def page(self, figures: str) -> str:
+        """The whole page."""
+        return page(self.ledger, READINGS[self.preset], figures)
+
+    def as_json(self) -> dict[str, Any]:
+        """The content of claims.json."""
+        data = data_of(PAPER)
+        verdicts, booked = self.ledger.verdicts, self.ledger.paper_booking
+        return {
+            "paper": data["paper"],
+            "version": __version__,
+            "figures_drawn_with": self.preset,
+            "load_range": data["load_range"],
+            "definitions": data["definitions"],
+            "readings": {
+                name: {
+                    "key": reading.key,
+                    "title": reading.title,
+                    "passed": self.ledger.total(name),
+                    "of": len(claims()),
+                    "parameters": reading.parameters(),
+                }
+                for name, reading in READINGS.items()
+            },
+            "claims": [
+                {
+                    "id": claim.id,
+                    "place": claim.place,
+                    "statement": claim.statement,
+                    "quantity": claim.quantity,
+                    "inputs": claim.inputs,
+                    "paper": claim.paper,
+                    "allowed": claim.allowed,
+                    "rule": claim.rule,
+                    "remark": claim.remark,
+                    "conflicts_with": list(claim.conflicts),
+                    "results": {name: verdicts[name][claim.id].as_json() for name in READINGS},
+                }
+                for claim in claims()
+            ],
+            "paper_booking": {
+                name: {
+                    "passed": self.ledger.total(name, paper_booking=True),
+                    "gained": self.ledger.changed_by_booking(name)[0],
+                    "lost": self.ledger.changed_by_booking(name)[1],
+                    "results": {key: one.as_json() for key, one in booked[name].items()},
+                }
+                for name in CONSISTENT
+            },
+            "errata": data["errata"],
+        }
 
 
 def reproduce(
@@ -110,29 +167,12 @@ def reproduce(
     """
     if preset not in READINGS:
         raise InvalidValue(f"preset = {preset!r} must be one of {', '.join(READINGS)}")
-    folder = prepare_folder(out, "horng2022", preset)
-    report = progress or (lambda stage, done, total: None)
 
-    books = {name: Curves(reading) for name, reading in READINGS.items()}
-    ledger = keep_ledger(books, report)
-    files: list[str] = []
-    images: list[tuple[str, str, str, bytes]] = []
-    for done, (name, panel_of) in enumerate(PANELS.items()):
-        report("figures", done, len(PANELS))
-        panel = panel_of(books[preset])
-        drawn = draw(panel, f"reading {READINGS[preset].key}: {READINGS[preset].title}")
-        new, svg = keep(drawn, table(panel), folder, f"fig{name}")
-        files += new
-        images.append((name, panel.about, panel.note, svg))
-    report("figures", len(PANELS), len(PANELS))
+    def find(folder: Path, report: Progress) -> Summary:
+        books = {name: Curves(reading) for name, reading in READINGS.items()}
+        return Summary(out=folder, preset=preset, ledger=keep_ledger(books, report), books=books)
 
-    report("page", 0, 1)
-    text = json.dumps(as_json(ledger, preset), ensure_ascii=False, indent=1, allow_nan=False)
-    write_text(folder / "claims.json", text + "\n")
-    write_text(folder / "index.html", page(ledger, READINGS[preset], images))
-    report("page", 1, 1)
-    files += ["claims.json", "index.html"]
-    return Summary(folder, preset, ledger, tuple(files))
+    return engine.reproduce(PAPER, find, out, preset=preset, progress=progress)
 
 
 def keep_ledger(books: dict[str, Curves], report: Progress) -> Ledger:
@@ -154,61 +194,3 @@ def keep_ledger(books: dict[str, Curves], report: Progress) -> Ledger:
         {reading.name: verdicts for reading, verdicts in scored if not reading.paper_booking},
         {reading.name: verdicts for reading, verdicts in scored if reading.paper_booking},
     )
-
-
-def as_json(ledger: Ledger, preset: str) -> dict[str, Any]:
-    """The content of claims.json."""
-    from ...version import __version__
-
-    data = study_data()
-
-    def verdict(one: Verdict) -> dict[str, Any]:
-        return {
-            "values": list(one.measured.values) if one.measured.exists else None,
-            "verdict": one.word,
-            "why": one.why,
-        }
-
-    return {
-        "paper": data["paper"],
-        "version": __version__,
-        "figures_drawn_with": preset,
-        "load_range": data["load_range"],
-        "definitions": data["definitions"],
-        "readings": {
-            name: {
-                "key": reading.key,
-                "title": reading.title,
-                "passed": ledger.total(name),
-                "of": len(claims()),
-                "parameters": reading.parameters(),
-            }
-            for name, reading in READINGS.items()
-        },
-        "claims": [
-            {
-                "id": claim.id,
-                "place": claim.place,
-                "statement": claim.statement,
-                "quantity": claim.quantity,
-                "inputs": claim.inputs,
-                "paper": claim.paper,
-                "allowed": claim.allowed,
-                "rule": claim.rule,
-                "remark": claim.remark,
-                "conflicts_with": list(claim.conflicts),
-                "results": {name: verdict(ledger.verdicts[name][claim.id]) for name in READINGS},
-            }
-            for claim in claims()
-        ],
-        "paper_booking": {
-            name: {
-                "passed": ledger.total(name, paper_booking=True),
-                "gained": ledger.changed_by_booking(name)[0],
-                "lost": ledger.changed_by_booking(name)[1],
-                "results": {key: verdict(one) for key, one in ledger.paper_booking[name].items()},
-            }
-            for name in CONSISTENT
-        },
-        "errata": data["errata"],
-    }

@@ -1,8 +1,9 @@
 """The model held against measurements, the lost ones first.
 
 ``thirdbody reproduce measurements`` writes a page, a ledger and figures. Each measurement is a
-module with its `ROW`: conditions, what was measured and how well that is known, the inputs with
-their standing, and the prediction over those that are not known. Nothing is fitted.
+module with its `ROW`: the predictions over the inputs that are not known. Conditions, inputs with
+their standing, and what was measured and how well that is known are in
+``data/papers/measurements.toml``. Nothing is fitted.
 """
 
 from __future__ import annotations

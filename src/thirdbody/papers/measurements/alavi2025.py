@@ -6,7 +6,7 @@ import numpy as np
 
 import thirdbody as tb
 
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+from .row import Band, row_of
 
 __all__ = ["ROW", "friction"]
 
@@ -65,31 +65,4 @@ def _change() -> Band:
     return Band.of(list(ratios.values()), "; ".join([words, *others]))
 
 
-ROW = Row(
-    "alavi2025",
-    "Friction over pressure with wear particles",
-    "Alavi, Rocchi, Leppin, Molinari, Anciaux 2025, arXiv:2510.13470",
-    "Strip drawing of aluminium; friction over normal pressure and size of the tool pads.",
-    (
-        Input("strip", "E = 70 GPa, H = 1.2 GPa", CHOSEN),
-        Input("tool", "100Cr6", CHOSEN),
-        Input("roughness", "σ = 0.5 µm, R = 10 µm", CHOSEN),
-        Input("particles", "alumina of 1 µm, none to 1e11 per m²", CHOSEN),
-        Input("shear strengths", "30 to 300 MPa, of both alike", CHOSEN),
-        Input("pressure", "5 and 100 MPa", CHOSEN),
-    ),
-    (
-        statement(
-            "falls",
-            "The coefficient of friction falls as the pressure rises",
-            ABSTRACT,
-            "friction at 100 MPa over that at 5 MPa",
-            {"kind": "below", "value": 1.0},
-            _change,
-            remark="Lost with every law here, so it is not a matter of the law of a particle or of "
-            "crowded asperities. Missing: particles that wear makes, more of them the higher the "
-            "pressure, until they part the surfaces; here their number is given",
-        ),
-    ),
-    "Whether friction falls or rises with pressure depends on how many particles there are.",
-)
+ROW = row_of("alavi2025", {"falls": _change})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import thirdbody as tb
 from thirdbody.systems.plate_over_particle import PlateOverParticle
 
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+from .row import Band, row_of
 
 __all__ = ["ROW", "chuck"]
 
@@ -54,39 +54,4 @@ def _heights(deep: str) -> list[float]:
     ]
 
 
-ROW = Row(
-    "backside_particles",
-    "A wafer over a particle",
-    "The effect of backside particles on substrate topography (abstract; authors, year and DOI "
-    "were not on the page seen)",
-    "A wafer held on a flat by a pressure difference, a particle under it; height of its face.",
-    (
-        Input("wafer", "silicon, 675 to 775 µm, E = 160 GPa, ν = 0.22, H = 12 GPa", CHOSEN),
-        Input("pressure difference", "0.5 to 1 bar", CHOSEN),
-        Input("flat", "steel, H = 5 GPa", CHOSEN),
-        Input("particle", "silica or alumina of 1 to 20 µm", CHOSEN),
-    ),
-    (
-        statement(
-            "width",
-            "Height variations of 100 nm extend over several millimetres",
-            ABSTRACT,
-            "diameter of the bump 100 nm high [m]",
-            {"kind": "range", "value": [2e-3, 15e-3]},
-            _width,
-            remark="Tests the plate alone",
-        ),
-        statement(
-            "height",
-            "Indentation and plastic deformation make the height orders of magnitude smaller than "
-            "was predicted",
-            ABSTRACT,
-            "height of the bump over the diameter of the particle",
-            {"kind": "at_most", "value": 0.01},
-            _height,
-            remark="Read against a particle that does not yield; what was predicted before is not "
-            "in the abstract",
-        ),
-    ),
-    "A hard particle of 10 µm lifts a wafer by nanometres: the height goes with x⁴H².",
-)
+ROW = row_of("backside_particles", {"width": _width, "height": _height})

@@ -8,7 +8,7 @@ import numpy as np
 
 import thirdbody as tb
 
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+from .row import Band, row_of
 
 __all__ = ["ROW", "pressure"]
 
@@ -63,35 +63,4 @@ def _most() -> Band:
     return Band.of(pressure(0.95, "table"), f'deep = "off": {off.text}')
 
 
-ROW = Row(
-    "bishop1945",
-    "Deep indentation of a soft metal",
-    "Bishop, Hill, Mott 1945, Proc. Phys. Soc. 57, 147",
-    "Lubricated cone-headed punches driven into copper, 4 to 5 diameters deep.",
-    (
-        Input("modulus of the metal", "70 to 206 GPa, H = 1 GPa", CHOSEN),
-        Input("friction factor of the faces", "0.05 to 1", CHOSEN),
-        Input("what is pressed in", "a sphere, 0.4 and 0.95 of its radius deep", CHOSEN),
-    ),
-    (
-        statement(
-            "rises",
-            "The load goes on rising long after the head has sunk in",
-            ABSTRACT,
-            "mean pressure at 0.95 R over that at 0.4 R",
-            {"kind": "above", "value": 1.0},
-            _band,
-        ),
-        statement(
-            "limit",
-            "It tends to some five times the yield stress, 4 to 5 diameters deep",
-            ABSTRACT,
-            "mean pressure over Y, 0.95 R deep",
-            {"kind": "below", "value": 5.0},
-            _most,
-            undecided="a sphere here goes no deeper than half a diameter, where it must be below",
-        ),
-    ),
-    "The pressure under a deep grain goes on rising with its depth; without the computed table it "
-    "stayed at the hardness.",
-)
+ROW = row_of("bishop1945", {"rises": _band, "limit": _most})

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 import thirdbody as tb
 
 from ..panels import Line, Panel
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+from .row import Band, row_of
 
 __all__ = ["ROW", "pressure"]
 
@@ -98,48 +98,12 @@ def _panel() -> Panel:
     )
 
 
-ROW = Row(
+ROW = row_of(
     "chaudhri1984",
-    "Metal spheres squashed between hard platens",
-    "Chaudhri, Hutchings, Makin 1984, Phil. Mag. A 49, 493, doi:10.1080/01418618408236551",
-    "Work-hardened metal spheres compressed between smooth parallel platens; mean contact "
-    "pressure over the radius of the contact.",
-    (
-        Input("hardness of the sphere", "1 to 2 GPa", CHOSEN),
-        Input("modulus of the sphere", "70 to 120 GPa, ν = 0.33", CHOSEN),
-        Input("platens", "rigid, and harder than the sphere", ABSTRACT),
-    ),
-    (
-        statement(
-            "pressure",
-            "The mean pressure rises to 0.7 to 0.8 of the Vickers hardness",
-            ABSTRACT,
-            "largest p/HV",
-            {"kind": "range", "value": [0.7, 0.8]},
-            lambda: _band("most"),
-            remark="HV is a load over facets: 0.927 of the mean pressure H of the model",
-        ),
-        statement(
-            "where",
-            "It does so at a/R = 0.20 to 0.28",
-            ABSTRACT,
-            "a/R of the largest p/HV",
-            {"kind": "range", "value": [0.20, 0.28]},
-            lambda: _band("where"),
-        ),
-        statement(
-            "falls",
-            "Beyond, it falls steadily",
-            ABSTRACT,
-            "p at a/R = 0.5 over p at 0.28",
-            {"kind": "below", "value": 1.0},
-            lambda: _band("fall"),
-        ),
-    ),
-    "A soft particle is given some 35 to 55 % too much load up to a/R of 0.3 and some 30 % at 0.4. "
-    "Missing is the physics of the start: up to a squeeze of 0.05, which is a/R = 0.3, the default "
-    "has the law of one contact, whose plastic pressure is that of an indentation; a flattened "
-    "sphere loses constraint sooner. The computation behind the default has 0.85 to 1.0 HV "
-    "there, above the measured 0.7 to 0.8 too: hardening, or how smooth the platens were, is open.",
-    (_panel,),
+    {
+        "pressure": lambda: _band("most"),
+        "where": lambda: _band("where"),
+        "falls": lambda: _band("fall"),
+    },
+    panels=(_panel,),
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from thirdbody.effects.single.heat import spot_resistance
 
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+from .row import Band, row_of
 
 __all__ = ["ROW"]
 
@@ -17,26 +17,4 @@ def _resistance() -> Band:
     )
 
 
-ROW = Row(
-    "doumouro2020",
-    "Heat through one glass sphere on glass",
-    "Doumouro et al. 2020, arXiv:2012.04291",
-    "A glass microsphere on a heated probe brought to a glass plate in vacuum.",
-    (
-        Input("radius of the contact", "36 ± 4 nm", ABSTRACT),
-        Input("conductivity of glass", "1.0 to 1.1 W/(m K)", CHOSEN),
-    ),
-    (
-        statement(
-            "resistance",
-            "The resistance of the contact is (1.4 ± 0.18)·10⁷ K/W",
-            ABSTRACT,
-            "resistance of the spot [K/W]",
-            {"kind": "absolute", "value": 1.4e7, "of": 0.36e7},
-            _resistance,
-            remark="Within two of their errors",
-            undecided="the radius was itself inferred from the resistance",
-        ),
-    ),
-    "Agrees, and proves nothing: a test needs the size of the sphere and the force on it.",
-)
+ROW = row_of("doumouro2020", {"resistance": _resistance})

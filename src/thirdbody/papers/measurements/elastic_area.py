@@ -11,7 +11,7 @@ import thirdbody as tb
 from thirdbody.reference import persson_area
 
 from ..panels import Line, Panel
-from .row import COMPUTED, Band, Input, Row, statement
+from .row import COMPUTED, Band, row_of, statement
 
 __all__ = ["ROW", "area"]
 
@@ -81,18 +81,11 @@ def _panel() -> Panel:
     )
 
 
-ROW = Row(
+ROW = row_of(
     "elastic_area",
-    "Elastic real area against boundary elements",
-    "Boundary elements, one self-affine map of 1024² points, Hurst exponent 0.8, wave numbers "
-    "8 to 128 of the side, rms gradient 1; no correction of the perimeter",
-    "A rigid rough surface pressed into an elastic half-space; share of the surface in contact.",
-    (
-        Input("Nayak's α", "11.6, from the map", COMPUTED),
-        Input("asperities", "radius, density and height spread from the map's moments", COMPUTED),
-        Input("hardness", "none: elastic", COMPUTED),
-    ),
-    tuple(
+    {},
+    panels=(_panel,),
+    statements=tuple(
         statement(
             f"area-{load:g}",
             f"At p/(E* g) = {load:g} the real area is {known:g} of the nominal one",
@@ -104,7 +97,4 @@ ROW = Row(
         )
         for load, known in COMPUTED_AREA.items()
     ),
-    "Elastic sums over asperities lose 30 to 40 % of the area at α of 12, and factors where the "
-    "spectrum is broader; where contacts are plastic A = p/H holds whatever the law.",
-    (_panel,),
 )

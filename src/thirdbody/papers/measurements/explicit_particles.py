@@ -10,7 +10,7 @@ import thirdbody as tb
 
 from ..panels import Line, Panel
 from ..seats import contact, explicit_particles
-from .row import COMPUTED, Band, Input, Row, statement
+from .row import COMPUTED, Band, row_of, statement
 
 __all__ = ["ROW"]
 
@@ -58,19 +58,11 @@ def _panel() -> Panel:
     )
 
 
-ROW = Row(
+ROW = row_of(
     "explicit_particles",
-    "Explicit particles on explicit surfaces",
-    "Boundary elements, 28 maps of 2048² points, kept in data/explicit_particles.json",
-    "Particles placed at random on Gaussian height maps, pressed by a rigid flat, contact "
-    "pressure capped at the hardness.",
-    (
-        Input("surface", "σ = 0.3 µm, R = 3 µm, α = 5, from the maps", COMPUTED),
-        Input("materials", "E* = 112 GPa, H = 5 GPa", COMPUTED),
-        Input("particles", "one size, 1e11 per m²", COMPUTED),
-        Input("seat", "rough, nothing adjusted", COMPUTED),
-    ),
-    tuple(
+    {},
+    panels=(_panel,),
+    statements=tuple(
         statement(
             f"share-{diameter * 1e9:g}",
             f"At x/σ = {diameter / 300e-9:.2g} and F* = 1e-5 particles carry "
@@ -83,6 +75,4 @@ ROW = Row(
         )
         for diameter, runs in sorted(_runs().items(), reverse=True)
     ),
-    "The load share of particles may be trusted on surfaces like these, from x/σ of 0.7 to 2.",
-    (_panel,),
 )

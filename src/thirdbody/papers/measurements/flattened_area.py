@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
 import thirdbody as tb
 
 from .chaudhri1984 import HARD, PLATEN, STIFF
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, Statement, statement
+from .row import Band, row_of
 
 __all__ = ["ROW", "over_truncation"]
 
@@ -48,37 +48,9 @@ def over_truncation(squash: float, deep: str) -> tuple[float, ...]:
     return tuple(found)
 
 
-def _statement(squash: float) -> Statement:
-    cut = squash * (2 - squash)
-
-    def band() -> Band:
-        off = Band.of(over_truncation(squash, "off"))
-        return Band.of(over_truncation(squash, "table"), f'deep = "off": {off.text}')
-
-    return statement(
-        f"area-{squash:g}",
-        f"Squashed by {squash:g} R, the area is that of a sphere cut off, {cut:.2f} πR²",
-        ABSTRACT,
-        f"A over {cut:.2f} πR²",
-        {"kind": "relative", "value": 1.0, "of": 0.1},
-        band,
-        remark="Within 10 %, chosen",
-    )
+def _band(squash: float) -> Band:
+    off = Band.of(over_truncation(squash, "off"))
+    return Band.of(over_truncation(squash, "table"), f'deep = "off": {off.text}')
 
 
-ROW = Row(
-    "flattened_area",
-    "The area of a flattened sphere",
-    "Jamari, Schipper 2006, J. Tribol. 128(2), 230",
-    "Deformable spheres pressed against a hard flat beyond full yield; contact area measured, and "
-    "found to be that of simple truncation.",
-    (
-        Input("hardness of the sphere", "1 to 2 GPa", CHOSEN),
-        Input("modulus of the sphere", "70 to 120 GPa, ν = 0.33", CHOSEN),
-        Input("friction factor of the faces", "0.05 to 0.5", CHOSEN),
-        Input("squash of one half", "0.2, 0.3, 0.4 of the radius", CHOSEN),
-    ),
-    tuple(_statement(squash) for squash in SQUASHED),
-    "A squashed particle is as wide as its law says; without the computed table it was 40 to 75 % "
-    "too wide.",
-)
+ROW = row_of("flattened_area", {f"area-{squash:g}": partial(_band, squash) for squash in SQUASHED})

@@ -6,7 +6,7 @@ import numpy as np
 
 import thirdbody as tb
 
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+from .row import Band, row_of
 
 __all__ = ["ROW"]
 
@@ -42,45 +42,11 @@ def _over(what: str) -> Band:
     return Band.of(values(default), f"Jackson–Green: {other.text}")
 
 
-ROW = Row(
+ROW = row_of(
     "jamari2006",
-    "A sphere against a hard flat, fully plastic",
-    "Jamari, Schipper 2006, J. Tribol. 128(2), 230",
-    "Deformable spheres pressed against a hard flat beyond full yield; contact area measured.",
-    (
-        Input("hardness of the sphere", "0.8 to 3 GPa", CHOSEN),
-        Input("contact modulus", "70 to 200 GPa, where the default law is fully plastic", CHOSEN),
-        Input("interference", "0.02 to 0.1 of the radius", CHOSEN),
-    ),
-    (
-        statement(
-            "pressure",
-            "The mean contact pressure is lower than the hardness",
-            ABSTRACT,
-            "p/H, fully plastic",
-            {"kind": "below", "value": 1.0},
-            lambda: _over("pressure"),
-            remark="By how much is not in the abstract",
-        ),
-        statement(
-            "constant",
-            "The mean contact pressure stays constant as the load rises",
-            ABSTRACT,
-            "p at five times the interference over p",
-            {"kind": "relative", "value": 1.0, "of": 0.05},
-            lambda: _over("constant"),
-            remark="Constant is read as within 5 %",
-        ),
-        statement(
-            "area",
-            "The contact area is that of a sphere cut off by the flat",
-            ABSTRACT,
-            "A over π ω (2R − ω)",
-            {"kind": "relative", "value": 1.0, "of": 0.1},
-            lambda: _over("area"),
-            remark="Within 10 %, chosen",
-        ),
-    ),
-    "Take the hardness that a flattened tip shows, not that of an indentation, where the load of "
-    "fully plastic tips matters.",
+    {
+        "pressure": lambda: _over("pressure"),
+        "constant": lambda: _over("constant"),
+        "area": lambda: _over("area"),
+    },
 )

@@ -2,50 +2,48 @@
 
 from __future__ import annotations
 
-import json
-import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from html import escape
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ClassVar
 
-from ...errors import InvalidValue, RangeWarning
-from ...quantities.files import write_text
+from ...errors import InvalidValue
+from ...version import __version__
 from ...views.html import symbols, table
-from ..page import document, figures
-from ..panels import draw, keep, prepare_folder, table_of
+from .. import engine
+from ..engine import Picture, Progress, ignore_ranges
+from ..page import document
+from ..panels import Panel, picture_of
 from .listed import rows
 from .row import STANDINGS, WORDS, Row, Verdict, word_of
 
 __all__ = ["Summary", "reproduce"]
 
-Progress = Callable[[str, int, int], None]
-Made = TypeVar("Made")
 Ledger = Mapping[str, Mapping[str, Verdict]]
 
 SIGNS = {"lost": "✗ lost", "undecided": "? undecided", "met": "✓ met"}
 KINDS = {"lost": "fail", "undecided": "none", "met": "pass"}
-LEDGER = "measurements.json"
 
 
-@dataclass(frozen=True)
-class Summary:
+@dataclass(frozen=True, kw_only=True)
+class Summary(engine.Summary):
     """What `reproduce` did."""
 
-    out: Path
+    LEDGER: ClassVar[str] = "measurements.json"
+
     rows: tuple[Row, ...]
     """Lost ones first."""
     ledger: Ledger
-    files: tuple[str, ...]
 
     def counts(self) -> dict[str, int]:
         """How many measurements were lost, undecided, met."""
         words = [word_of(dict(self.ledger[row.name])) for row in self.rows]
         return {word: words.count(word) for word in WORDS}
 
-    def lines(self) -> list[str]:
-        """The summary for a terminal."""
+    def findings(self) -> list[str]:
+        """Counts, and every verdict."""
         count = self.counts()
         out = [
             f"{len(self.rows)} measurements: {count['lost']} lost, {count['undecided']} undecided, "
@@ -59,8 +57,19 @@ class Summary:
                 verdict = verdicts[one.claim.id]
                 value = verdict.band.text if verdict.band else "–"
                 out.append(f"    {verdict.word:<11}{one.claim.quantity}: {value}")
-        out += ["", f"{len(self.files)} files in {self.out}; read {self.out / 'index.html'}"]
         return out
+
+    def pictures(self) -> list[Callable[[], Picture]]:
+        """The panels of every row, in the order of the page."""
+        return [partial(_picture, panel) for row in self.rows for panel in row.panels]
+
+    def as_json(self) -> dict[str, Any]:
+        """The content of measurements.json."""
+        return _as_json(self)
+
+    def page(self, figures: str) -> str:
+        """The whole page."""
+        return _page(self, figures)
 
 
 def reproduce(
@@ -88,45 +97,27 @@ def reproduce(
     """
     if preset is not None:
         raise InvalidValue(f"preset = {preset!r} has no meaning for measurements; leave it out")
-    folder = prepare_folder(out, "measurements")
-    report = progress or (lambda stage, done, total: None)
+    return engine.reproduce("measurements", _find, out, progress=progress)
 
+
+def _find(folder: Path, report: Progress) -> Summary:
     known = rows()
     ledger: dict[str, dict[str, Verdict]] = {}
     for done, row in enumerate(known):
         report("measurements", done, len(known))
-        ledger[row.name] = _quietly(row.judge)
+        with ignore_ranges():
+            ledger[row.name] = row.judge()
     report("measurements", len(known), len(known))
     shown = tuple(sorted(known, key=lambda row: WORDS.index(word_of(ledger[row.name]))))
-
-    files: list[str] = []
-    images: list[tuple[str, str, str, bytes]] = []
-    panels = [panel for row in shown for panel in row.panels]
-    for done, panel_of in enumerate(panels):
-        report("figures", done, len(panels))
-        panel = _quietly(panel_of)
-        new, svg = keep(draw(panel), table_of(panel), folder, f"fig_{panel.name}")
-        files += new
-        images.append((panel.name, panel.about, panel.note, svg))
-    report("figures", len(panels), len(panels))
-
-    summary = Summary(folder, shown, ledger, (*files, LEDGER, "index.html"))
-    text = json.dumps(_as_json(summary), ensure_ascii=False, indent=1, allow_nan=False)
-    write_text(folder / LEDGER, text + "\n")
-    write_text(folder / "index.html", _page(summary, images))
-    return summary
+    return Summary(out=folder, rows=shown, ledger=ledger)
 
 
-def _quietly(made: Callable[[], Made]) -> Made:
-    """What is beyond the laws stands in the row's own words."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RangeWarning)
-        return made()
+def _picture(panel_of: Callable[[], Panel]) -> Picture:
+    with ignore_ranges():
+        return picture_of("fig_", panel_of)
 
 
 def _as_json(summary: Summary) -> dict[str, Any]:
-    from ...version import __version__
-
     def verdict_entries(verdict: Verdict) -> dict[str, Any]:
         band = verdict.band
         return {
@@ -168,7 +159,7 @@ def _as_json(summary: Summary) -> dict[str, Any]:
     }
 
 
-def _page(summary: Summary, images: list[tuple[str, str, str, bytes]]) -> str:
+def _page(summary: Summary, figures: str) -> str:
     count = summary.counts()
     title = "The model against measurements"
     return document(
@@ -185,7 +176,7 @@ def _page(summary: Summary, images: list[tuple[str, str, str, bytes]]) -> str:
             "<h2 id=ledger>Ledger</h2>",
             *(_row(row, summary.ledger[row.name]) for row in summary.rows),
             "<h2 id=figures>Figures</h2>",
-            figures(images),
+            figures,
         ],
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...laws.particle.deep import SINK_AT, squeeze_curve
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+from .row import Band, row_of
 
 __all__ = ["ROW", "embeds_from"]
 
@@ -42,26 +42,4 @@ def _band() -> Band:
     return Band.of(found, 'deep = "off": 1')
 
 
-ROW = Row(
-    "pintaude2010",
-    "The hardness that scratches",
-    "Pintaude 2010, a review of abrasion (abstract)",
-    "What scratches must be harder than what is scratched.",
-    (
-        Input("squeeze of a side", "0.2 to 0.4 of the radius", CHOSEN),
-        Input("friction factor of the faces", "0.05 to 1", CHOSEN),
-    ),
-    (
-        statement(
-            "ratio",
-            "An indenter must be at least 1.2 times as hard as the surface to scratch it",
-            ABSTRACT,
-            "hardness ratio from which a grain sinks by half of its squeeze",
-            {"kind": "above", "value": 1.2},
-            _band,
-            undecided="it was said of pointed indenters; a sphere loses its constraint sooner",
-        ),
-    ),
-    "A round grain hardly dents a surface of its own hardness: it embeds from a ratio of 1.4 to 2 "
-    "on, more the rougher its faces.",
-)
+ROW = row_of("pintaude2010", {"ratio": _band})

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from ..ledger import Claim, number
+from ..ledger import Claim, data_of, number
 from ..panels import Panel
 
 __all__ = [
@@ -20,6 +20,7 @@ __all__ = [
     "Row",
     "Statement",
     "Verdict",
+    "row_of",
     "statement",
 ]
 
@@ -142,6 +143,34 @@ class Row:
     def judge(self) -> dict[str, Verdict]:
         """Every statement's verdict, by its id."""
         return {one.claim.id: one.judge() for one in self.statements}
+
+
+def row_of(
+    name: str,
+    predictions: Mapping[str, Callable[[], Band | None]],
+    *,
+    statements: tuple[Statement, ...] = (),
+    panels: tuple[Callable[[], Panel], ...] = (),
+) -> Row:
+    """A row of the data file; a prediction for each of its statements, by their ids.
+
+    ``statements`` are those whose numbers are computed, and stand in no file.
+    """
+    data = data_of("measurements")[name]
+    stated: list[Statement] = []
+    for entry in data.get("statements", ()):
+        claim = Claim(**{key: value for key, value in entry.items() if key != "undecided"})
+        stated.append(Statement(claim, predictions[claim.id], entry.get("undecided", "")))
+    return Row(
+        name,
+        data["title"],
+        data["source"],
+        data["conditions"],
+        tuple(Input(*one) for one in data["inputs"]),
+        (*stated, *statements),
+        data["means"],
+        panels,
+    )
 
 
 def word_of(verdicts: dict[str, Verdict]) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 
 import thirdbody as tb
 
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+from .row import Band, row_of
 
 __all__ = ["ROW", "exponents"]
 
@@ -39,28 +39,4 @@ def exponents() -> list[float]:
     return out
 
 
-ROW = Row(
-    "thomas1972",
-    "Thermal conductance of joints over load",
-    "Thomas, Probert 1972, J. Heat Transfer 94, 276",
-    "350 measurements from the literature on aluminium and stainless steel in vacuum, as "
-    "C* = C/(σk) over W* = W/(σ²M).",
-    (
-        Input("metals", "E = 70 and 200 GPa, H = 1.2 and 3 GPa", CHOSEN),
-        Input("roughness", "σ of 0.5 to 5 µm, R of 20 to 50 µm, ηRσ = 0.05", CHOSEN),
-        Input("pressure", "0.1 to 10 MPa", CHOSEN),
-    ),
-    (
-        statement(
-            "exponent",
-            "The conductance grows as the load to the power 0.73",
-            ABSTRACT,
-            "exponent of the conductance over load",
-            {"kind": "absolute", "value": 0.73, "of": 0.05},
-            lambda: Band.of(exponents()),
-            remark="One power through joints of different area and roughness; ±0.05 chosen",
-        ),
-    ),
-    "Over decades of load the conductance of real joints rises less than the model says: flatness, "
-    "loading history and the tails of the heights are not in it.",
-)
+ROW = row_of("thomas1972", {"exponent": lambda: Band.of(exponents())})

@@ -11,7 +11,7 @@ import thirdbody as tb
 
 from ...quantities.say import number
 from ..panels import Line, Panel
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+from .row import Band, row_of
 
 __all__ = ["ROW", "turning", "wear_columns"]
 
@@ -155,54 +155,6 @@ def _panel() -> Panel:
     )
 
 
-ROW = Row(
-    "trezona1999",
-    "Wear over the amount of abrasive",
-    "Trezona, Allsopp, Hutchings 1999, Wear 225–229, 205, doi:10.1016/S0043-1648(98)00358-5",
-    "Ball cratering with slurries of SiC, alumina and diamond, loads of 0.1 to 5 N, volume "
-    "fractions of 3.1e-5 to 0.24.",
-    (
-        Input("abrasive", "SiC, mean 0.5 µm, on σ = 0.1 µm, R = 2.8 µm", CHOSEN),
-        Input("surfaces", "steel of 5 and 2.5 GPa", CHOSEN),
-        Input("nominal pressure", "1 and 10 MPa", CHOSEN),
-        Input("particles per area", "1e8 to 1e12 per m², for the volume fraction", CHOSEN),
-        Input("removed part of grooves and tracks", "0.1 to 0.5; 0.001 to 0.01", CHOSEN),
-        Input("wear coefficient of asperities", "0 to 1e-3", CHOSEN),
-        Input("shear strengths", "580 MPa of asperities, 200 MPa of particles", CHOSEN),
-    ),
-    (
-        statement(
-            "maximum",
-            "The wear rate has a maximum at an intermediate concentration",
-            ABSTRACT,
-            "largest wear over the larger of both ends",
-            {"kind": "above", "value": 1.0},
-            _maximum,
-            remark="Place and cause are open: here it is where particles take the load over, there "
-            "it may be the change from grooving to rolling",
-        ),
-        statement(
-            "rolling",
-            "Grooving turns into rolling where the load over the concentration is low",
-            ABSTRACT,
-            "rolling share at the most particles less that at the fewest",
-            {"kind": "above", "value": 0.0},
-            _rolling,
-            remark="By the balance of moments of spheres; the critical ratio itself is not in the "
-            "abstract",
-        ),
-        statement(
-            "line",
-            "Grooving turns into rolling at a critical ratio of load to concentration",
-            ABSTRACT,
-            "pressure over particles per area where a tenth rolls, at 10 MPa over that at 1 MPa",
-            {"kind": "relative", "value": 1.0, "of": 0.2},
-            _line,
-            undecided="any law of the load of one particle gives a constant ratio; its number "
-            "would decide, and is not in the abstract",
-        ),
-    ),
-    "More abrasive is not always more wear: beyond the density at which particles carry all, each "
-    "presses less deep.",
-    (_panel,),
+ROW = row_of(
+    "trezona1999", {"maximum": _maximum, "rolling": _rolling, "line": _line}, panels=(_panel,)
 )

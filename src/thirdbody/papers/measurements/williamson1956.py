@@ -11,7 +11,7 @@ import thirdbody as tb
 from thirdbody.systems.contact_probability import ContactProbability
 
 from ..panels import Line, Panel
-from .row import ABSTRACT, CHOSEN, Band, Input, Row, statement
+from .row import Band, row_of
 
 __all__ = ["ROW", "closing", "share"]
 
@@ -155,53 +155,12 @@ def _panel() -> Panel:
     )
 
 
-ROW = Row(
+ROW = row_of(
     "williamson1956",
-    "Dust between two solids",
-    "Williamson, Greenwood, Harris 1956, Proc. R. Soc. A 237, 560, doi:10.1098/rspa.1956.0197",
-    "Two solids closed on dust, many times; whether they touch.",
-    (
-        Input("solids", "steel, H = 5 GPa, smooth or σ = 0.3 µm", CHOSEN),
-        Input(
-            "dust",
-            "alumina, mean 10 µm, equal or spread by a factor 1.2; 0.25, 1 or 3 in the way",
-            CHOSEN,
-        ),
-        Input("radius of the solids", "5 mm; enters through the number in the way alone", CHOSEN),
-        Input("particles per area on rough solids", "1e11 per m²", CHOSEN),
-    ),
-    (
-        statement(
-            "threshold",
-            "The probability changes sharply when the area of contact of the solids is made "
-            "comparable with the cross-section of a particle",
-            ABSTRACT,
-            "area W/H over πx²/4 of the sharpest change",
-            {"kind": "range", "value": [0.5, 2.0]},
-            _sharpest,
-            remark="“Comparable” is read as within a factor 2. The authors' own reason may be "
-            "another; here it is the load of an embedded particle",
-        ),
-        statement(
-            "roughness",
-            "The effect of dust falls off rapidly once the roughness is comparable in height with "
-            "the particles",
-            ABSTRACT,
-            "σ/x of the steepest fall of the particles' share",
-            {"kind": "range", "value": [0.3, 1.0]},
-            _roughness,
-            remark="Height of the irregularities is read as σ to 3σ",
-        ),
-        statement(
-            "manner",
-            "The probability is related in a simple manner to number and size of the particles",
-            ABSTRACT,
-            "−ln P over the number in the way, under no load",
-            {},
-            lambda: Band.of([-np.log(closing(N).probability(0.0)) / N for N in NUMBERS]),
-            undecided="the abstract does not say which manner; here P = exp(−2πR η x)",
-        ),
-    ),
-    "Solids touch through dust once their load exceeds that of an embedded particle, πx²H/4.",
-    (_panel,),
+    {
+        "threshold": _sharpest,
+        "roughness": _roughness,
+        "manner": lambda: Band.of([-np.log(closing(N).probability(0.0)) / N for N in NUMBERS]),
+    },
+    panels=(_panel,),
 )

@@ -1,4 +1,12 @@
-"""The model that one sentence leaves open: three readings, and what they measure."""
+"""Ghaednia, Jackson and Gao 2014: elastic asperities, and particles beside them.
+
+``thirdbody reproduce ghaednia2014`` writes ledger and figures. Neither the paper nor its abstract
+could be obtained; what is known of it is one sentence of another paper. The model is `Contact`
+with `GW` asperities and `Series` particles on the mean asperity plane, loads and areas added:
+
+.. math:: p = \\eta\\int F(z-d)\\,\\phi\\,dz + \\eta_a\\int_{x>d} f(x, d)\\,\\psi(x)\\,dx,
+          \\qquad f = \\tfrac43 E^*_{sa}\\sqrt{x/2}\\,\\Bigl(\\frac{x-d}{2}\\Bigr)^{3/2} .
+"""
 
 from __future__ import annotations
 
@@ -9,15 +17,33 @@ from numpy.typing import NDArray
 
 import thirdbody as tb
 
-from ...contact.interface import interface
-from ...laws.asperity import GW, JG, AbstractAsperityLaw
-from ...laws.particle import Series
-from ...systems.fractal import GhaedniaMultiscale, Stack
-from ..ledger import Measurement
-from ..trends import (
+from ..contact.interface import interface
+from ..laws.asperity import GW, JG, AbstractAsperityLaw
+from ..laws.particle import Series
+from ..systems.fractal import GhaedniaMultiscale, Stack
+from .ledger import Measurement
+from .panels import Line, Panel
+from .report import Study
+from .trends import (
+    PRESSURE,
     Reading,
     Trend,
+    area_panel,
+    changes_panel,
+    exponent_panel,
+    ratio_panel,
+    readings_of,
 )
+
+__all__ = [
+    "PRESSURES",
+    "READINGS",
+    "STUDY",
+    "conductance_ratio",
+    "contact",
+    "reproduce",
+    "stacked",
+]
 
 Array = NDArray[np.float64]
 
@@ -126,9 +152,12 @@ def stacked(
     )
 
 
-def solve_asperities(law: str, pressures: Array, factors: Mapping[str, float]) -> Trend:
-    """The trend of GW asperities with particles."""
-    full = contact(law, **factors)
+def solve(reading: str, pressures: Array, factors: Mapping[str, float]) -> Trend:
+    """The trend of a reading: of stacked sinusoids, or of asperities with one of `LAWS`."""
+    if reading == "stack":
+        state = stacked(**factors).solve(pressures)
+        return Trend(pressures, state.A_real, state.A_0, state.particle_load_share)
+    full = contact(reading, **factors)
     dusty = tb.solve(full, pressure=pressures)
     bare = tb.solve(full.replace(particles=None), pressure=pressures)
     return Trend(
@@ -139,62 +168,7 @@ def solve_asperities(law: str, pressures: Array, factors: Mapping[str, float]) -
     )
 
 
-def solve_stacked(pressures: Array, factors: Mapping[str, float]) -> Trend:
-    """The trend of stacked sinusoids with particles."""
-    state = stacked(**factors).solve(pressures)
-    return Trend(pressures, state.A_real, state.A_0, state.particle_load_share)
-
-
-COMMON = {
-    "bodies": "S45C on S45C, E = 205 GPa, ν = 0.29, H = 5 GPa",
-    "particles": "SiO₂ (68 GPa, 0.19, 7.7 GPa), mean 200 nm, standard deviation 40 nm",
-    "pressures": "10⁵ to 10⁸ Pa, 61 values",
-}
-ASPERITIES = {
-    "surface": "GW asperities",
-    **COMMON,
-    "roughness": "σ = 50 nm, R = 100 µm, ηRσ = 0.0455, α = 5",
-    "density": "10¹⁰ per m² of nominal area",
-    "seat": "mean asperity plane; loads and areas added, nothing shaded",
-}
-BOTH = ("size", "spread", "density", "stiffness", "roughness")
-READINGS = {
-    "elastic": Reading(
-        "elastic",
-        "GW, elastic particles",
-        PRESSURES,
-        lambda p, factors: solve_asperities("elastic", p, factors),
-        (*BOTH, "sharpness"),
-        {**ASPERITIES, "one particle": "Hertz on both sides, in series"},
-    ),
-    "elastic-plastic": Reading(
-        "elastic-plastic",
-        "GW, elastic-plastic particles",
-        PRESSURES,
-        lambda p, factors: solve_asperities("elastic-plastic", p, factors),
-        (*BOTH, "sharpness"),
-        {
-            **ASPERITIES,
-            "one particle": "Jackson–Green on both sides, in series; H = 2.8 S_y; "
-            "the largest particles are beyond its range a/R < 0.41",
-        },
-    ),
-    "stack": Reading(
-        "stack",
-        "stacked sinusoids,\nelastic particles",
-        PRESSURES,
-        solve_stacked,
-        BOTH,
-        {
-            "surface": "8 sinusoids",
-            **COMMON,
-            "roughness": "amplitude 100 nm at 1/mm, eight octaves, exponent 0.8; RMS 61 nm",
-            "density": "10¹² per m² of bare contact",
-            "seat": "between the patches where the bare surfaces touch, taken as flat",
-            "one particle": "Hertz on both sides, in series",
-        },
-    ),
-}
+READINGS = readings_of("ghaednia2014", PRESSURES, solve)
 
 
 # ------------------------------------------------------------------ conductance
@@ -278,3 +252,77 @@ def flattening(reading: Reading, pressure: float) -> Measurement:
     dusty = contact(reading.name)
     assert isinstance(dusty.particles, tb.Particles)
     return Measurement.of(tb.solve(dusty, pressure=pressure).A_sa / dusty.particles.coverage)
+
+
+# ------------------------------------------------------------------ figures
+def conductance_panel(name: str) -> Panel:
+    """Conductance of the spots over that of bare surfaces."""
+    curves = (
+        ("insulating, elastic", conductance_ratio("elastic", PRESSURES)),
+        ("insulating, elastic-plastic", conductance_ratio("elastic-plastic", PRESSURES)),
+        ("conducting, elastic", conductance_ratio("elastic", PRESSURES, conducting=True)),
+    )
+    return Panel(
+        name,
+        "conductance of the contact spots over that without particles",
+        PRESSURE,
+        "$h/h_{bare}$ [1]",
+        ("pressure_Pa", "conductance_ratio"),
+        tuple(Line(label, PRESSURES, y, i, i) for i, (label, y) in enumerate(curves)),
+        ylog=True,
+        ylim=(1e-3, 3),
+        levels=((1.0, "no effect"),),
+        note="Clean spots, electrical or thermal; no gas, no interference of spots. "
+        "Conducting: without resistance of their own.",
+    )
+
+
+STUDY = Study.read_data(
+    "ghaednia2014",
+    READINGS,
+    (
+        lambda: area_panel(READINGS, "1"),
+        lambda: ratio_panel(READINGS, "2"),
+        lambda: exponent_panel(
+            READINGS,
+            "3",
+            "Bend near 50 MPa: at d = 0 every elastic particle has reached its great circle.",
+        ),
+        lambda: changes_panel(
+            READINGS["elastic-plastic"],
+            "4",
+            "size",
+            {0.5: "$x_a$ = 100 nm", 0.75: "150 nm", 1.0: "200 nm", 1.5: "300 nm", 2.0: "400 nm"},
+            "effect of the particle size",
+            ylog=False,
+            note="Kinks: all particles have reached their great circle and carry no more.",
+        ),
+        lambda: changes_panel(
+            READINGS["elastic-plastic"],
+            "5",
+            "density",
+            {0.1: r"$\eta_a = 10^9$ m$^{-2}$", 1.0: "$10^{10}$", 10.0: "$10^{11}$"},
+            "effect of the particle density",
+            ylog=False,
+        ),
+        lambda: changes_panel(
+            READINGS["elastic-plastic"],
+            "6",
+            "stiffness",
+            {
+                0.03: "$E_a$, $H_a$: 0.03 × silica",
+                0.1: "0.1 × silica",
+                0.3: "0.3 × silica",
+                1.0: "silica",
+                5.0: "5 × silica",
+            },
+            "effect of stiffness and hardness of the particles",
+        ),
+        lambda: conductance_panel("7"),
+    ),
+    largest_conductance_ratio,
+    pressure_over_hardness,
+    flattening,
+)
+
+reproduce = STUDY.reproduce
