@@ -64,13 +64,20 @@ NARROWEST = 1e-5
 """Width of sizes over their middle below which differences of sizes keep too few digits."""
 
 
-@lru_cache(maxsize=1)
-def rules() -> Array:
+BREAKING = (8, 16)
+"""Nodes of a panel at the first level where particles break: how many are whole bends more than
+what one carries."""
+
+
+@lru_cache(maxsize=2)
+def rules(breaks: bool = False) -> Array:
     """Rules of every level, then places and transform of the series of a panel."""
     most = max(asked[4] for asked in itertools.chain(*NODES))
     out = np.zeros((2 * len(NODES) + 1, f.POLYNOMIAL + 1 + most, most))
     _add_series(out[-1], TERMS)
     for i, asked in enumerate(itertools.chain(*NODES)):
+        if breaks and i < len(BREAKING):
+            asked = (BREAKING[i], *asked[1:])
         out[i, 0, :6] = asked
         narrow = out[i, 0, f.NARROW_NODES] = asked[0] // 2
         each = (f.RULE, asked[0]), (f.SIZE_RULE, asked[2]), (f.NARROW_RULE, int(narrow))

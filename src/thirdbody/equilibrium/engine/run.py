@@ -95,11 +95,12 @@ def solve(
     goal = np.array(np.broadcast_to(0.0 if target is None else target, count), dtype=float)
     evaluations, fate = np.zeros(count, np.int64), np.zeros(count, np.int64)
     error, rows = np.zeros(count), np.zeros((count, len(f.COLUMNS)))
+    rule = rules(bool(numbers.inside[0, 0] > 0))
 
     def solve_from(start: int) -> None:
         here = slice(start, start + AT_ONCE)
         solve_own(
-            *(numbers.skins[here], numbers.parts[here], numbers.bodies[here], rules()),
+            *(numbers.skins[here], numbers.parts[here], numbers.bodies[here], rule),
             *(numbers.inside, numbers.coating),
             *(goal[here], h[here], evaluations[here], fate[here], error[here], rows[here]),
         )
