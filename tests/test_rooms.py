@@ -80,7 +80,6 @@ LEFT = {
     "drawn": 1,
     "kept": 1,
     "shown": 1,
-    "taken": 1,
 }
 """How often each is left."""
 
