@@ -25,6 +25,10 @@ from thirdbody.study import own_code
 
 ROOT = Path(__file__).parents[2]
 END = 6**0.5
+PLAIN = """from thirdbody.populations.distributions import Distribution
+class Plain(Distribution):
+    name = "plain"
+"""
 
 
 @contextmanager
@@ -168,6 +172,7 @@ def test_every_command_imports(command):
         ("x = 1", "mine.py brings nothing of its own"),
         ("LAW name = 'zmc'", "there is a law 'zmc' already"),
         ("LAW title = ''; del title", "Abrupt lacks title"),
+        (PLAIN, "Plain lacks partial_moment, pdf, ppf, scaled, standardised, support, @dataclass("),
         (None, "mine.py: there is no such file"),
     ],
 )

@@ -7,11 +7,11 @@ modules are imported, and what they bring is looked over.
 from __future__ import annotations
 
 import importlib.util
-import inspect
 import os
 import sys
 import traceback
 from collections.abc import Callable
+from dataclasses import is_dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -141,7 +141,9 @@ def _complete(where: str, kind: str, law: type[Named]) -> None:
     needed = ["title", "citation", "provenance"] if issubclass(law, Law) else []
     needed += ["year", "valid_range"] if kind == "law" else []
     missing = [name for name in needed if not hasattr(law, name)]
-    missing += sorted(getattr(law, "__abstractmethods__", ())) if inspect.isabstract(law) else []
+    missing += [n for n in dir(law) if getattr(getattr(law, n), "__isabstractmethod__", False)]
+    if not is_dataclass(law):
+        missing.append("@dataclass(frozen=True, slots=True, kw_only=True) above it")
     if missing:
         raise InvalidValue(Problem(where, f": {law.__name__} lacks {', '.join(missing)}"))
 
