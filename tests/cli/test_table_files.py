@@ -26,7 +26,12 @@ COMMANDS = [
 def read(path):
     import pandas
 
-    return pandas.read_excel(path) if path.suffix == ".xlsx" else pandas.read_parquet(path)
+    if path.suffix != ".xlsx":
+        return pandas.read_parquet(path)
+    from openpyxl import load_workbook
+
+    names = load_workbook(path, read_only=True).sheetnames
+    return pandas.read_excel(path, sheet_name="States" if "States" in names else "Table")
 
 
 @pytest.mark.parametrize("kind", LIBRARY)
@@ -103,10 +108,17 @@ def test_a_file_that_fails_leaves_the_older_one(tmp_path, monkeypatch):
     assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]
 
 
-def test_json_and_a_file_of_states_exclude_each_other(tmp_path):
-    done = run("solve", SWEEP, "--json", "--parquet", tmp_path / "t.parquet")
-    assert done.exit_code == 2
-    assert "exclude each other" in done.stderr
+def test_json_goes_to_the_output_or_into_a_file(tmp_path):
+    """Beside any other file; and what follows --json is its file only where it says so."""
+    printed = run("solve", "--json", SWEEP, "--csv", tmp_path / "t.csv")
+    assert printed.exit_code == 0, printed.output
+    for name in (["--json", tmp_path / "t.json"], [f"--json={tmp_path / 'u.json'}"]):
+        kept = run("solve", SWEEP, *name, "--csv", tmp_path / "v.csv")
+        assert kept.exit_code == 0, kept.output
+        assert kept.stdout == ""
+    assert (tmp_path / "t.json").read_text("utf-8") == printed.stdout
+    assert (tmp_path / "u.json").read_text("utf-8") == printed.stdout
+    assert (tmp_path / "t.csv").read_bytes() == (tmp_path / "v.csv").read_bytes()
 
 
 @pytest.mark.usefixtures("short_search")

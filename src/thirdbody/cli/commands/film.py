@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -11,12 +9,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ...quantities.progress import heartbeat
-from ...quantities.say import number, value_of
+from ...quantities.say import value_of
 from ...quantities.tables import Table
 from ...version import __version__
-from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
+from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import TableFiles, figure_format, warn_of, write_figure
+from ..streams import STDOUT, TableFiles, figure_format, warn_of, write_figure
 
 if TYPE_CHECKING:
     from ...study import FilmResult
@@ -39,7 +37,7 @@ def command(
     study: Annotated[
         Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [film].")
     ],
-    as_json: AsJson = False,
+    json_file: JsonFile = None,
     csv_file: Annotated[
         Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per speed.")
     ] = None,
@@ -53,9 +51,11 @@ def command(
 ) -> None:
     """Film, load shares and friction of a lubricated contact, at one speed or over many."""
     from ...study import run_film
+    from ...views.film_words import bodies, summary
+    from ...views.study_sheets import film_sheets
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
-    asked = read_study(study, settings, writes=[*files, figure])
+    files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
+    asked = read_study(study, settings, writes=[*files.paths, figure])
     files.need(figure, force=force)
     if figure is not None:
         figure_format(figure)  # refused before long work
@@ -67,14 +67,16 @@ def command(
         from ...views.plot.film import stribeck
 
         drawn = stribeck(result.states, result.regime_speeds)
-    files.write(*result.table())
+    files.write(
+        *result.table(),
+        sheets=lambda: film_sheets(result, [bodies(result), *summary(result)]),
+        data=result.to_dict,
+    )
     for path in files.paths:
         print(f"written: {path}", file=sys.stderr)
     if figure is not None:
         write_figure(figure, drawn)
-    if as_json:
-        print(json.dumps(result.to_dict(), indent=1, allow_nan=False))
-    else:
+    if json_file != STDOUT:
         _show(result)
 
 
@@ -103,22 +105,12 @@ def _show(result: FilmResult) -> None:
 
 def _curve(result: FilmResult) -> Any:
     """A row a speed; of many speeds some, evenly spread."""
-    from ...views.film_words import share
+    from ...views.study_sheets import film_columns
 
-    states = result.states
-    shares = {"film_share": "on film", "ss_share": "on asperities"}
-    if result.passing:
-        shares["sa_share"] = "on particles"
-    known = any(map(math.isfinite, states["mu"]))
-    heads = ["speed", "film h_T", "lambda", *shares.values(), *["friction"] * known, "regime"]
+    states, columns = result.states, film_columns(result)
+    heads = [*(each.head for each in columns), "regime"]
     table = Table(heads, right=True, drop=DROP, more=ALL, legend=MEANS)
     for i in some(len(states["speed"])):
-        table.add_row(
-            value_of(states["speed"][i], "m/s"),
-            value_of(states["h_T"][i], "m"),
-            number(states["lambda_ratio"][i]),
-            *(share(states[name][i]) for name in shares),
-            *[number(states["mu"][i])] * known,
-            states["regime"][i],
-        )
+        cells = (each.words(float(states[each.name][i])) for each in columns)
+        table.add_row(*cells, states["regime"][i])
     return table
