@@ -44,7 +44,7 @@ def need_places(places: Iterable[tuple[Path | None, str]], *, force: bool) -> No
     ----------
     places : iterable of (path or None, str)
         Files to write, and their kinds: "table", "workbook", "Parquet file", "picture", "page",
-        "JSON", "export".
+        "PDF", "JSON", "export".
     force : bool
         Replace what exists, whosever it is.
 
@@ -198,6 +198,7 @@ KINDS: dict[str, Callable[[Path], bool]] = {
     "workbook": _is_workbook,
     "Parquet file": _is_parquet,
     "picture": _is_picture,
+    "PDF": _is_picture,
     "page": is_page,
     "JSON": _is_answer,
     "export": _is_export,

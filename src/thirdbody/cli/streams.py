@@ -19,6 +19,7 @@ import textwrap
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextvars import ContextVar
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -46,6 +47,7 @@ __all__ = [
     "warn_of",
     "without_output",
     "write_figure",
+    "write_together",
 ]
 
 BAD_INPUT, NO_ANSWER, BROKEN_PIPE = 2, 3, 141
@@ -262,34 +264,44 @@ class TableFiles(NamedTuple):
         data : callable, optional
             Makes what goes into JSON, which is printed where its file is "-".
         """
-        from ..quantities.files import csv_of, refused_by_disk, whole, with_units
+        from ..quantities.files import csv_of, with_units
 
         named = with_units(columns, units)
-        made: list[tuple[Path, Callable[[Path], Any]]] = []
+        made: dict[Path, Callable[[Path], Any]] = {}
         if self.csv is not None:
-            text = csv_of(named).encode()
-            made.append((self.csv, lambda part: part.write_bytes(text)))
+            made[self.csv] = partial(Path.write_bytes, data=csv_of(named).encode())
         if self.xlsx is not None:
             from ..views.workbook import sheet_of_table, workbook_bytes
 
             held = [sheet_of_table("Table", columns, units)] if sheets is None else sheets()
-            book = workbook_bytes(held)
-            made.append((self.xlsx, lambda part: part.write_bytes(book)))
+            made[self.xlsx] = partial(Path.write_bytes, data=workbook_bytes(held))
         if self.parquet is not None:
-            made.append((self.parquet, lambda part: _write_parquet(part, named)))
+            made[self.parquet] = partial(_write_parquet, columns=named)
         said = None
         if self.json is not None and data is not None:
             said = json.dumps(data(), indent=1, allow_nan=False)
             if self.json != STDOUT:
-                plain = f"{said}\n".encode()
-                made.append((self.json, lambda part: part.write_bytes(plain)))
-        with contextlib.ExitStack() as together:
-            drafts = [(path, together.enter_context(whole(path)), write) for path, write in made]
-            for path, draft, write in drafts:
-                with refused_by_disk(path, draft):
-                    write(draft)
+                made[self.json] = partial(Path.write_bytes, data=f"{said}\n".encode())
+        write_together(made)
         if said is not None and self.json == STDOUT:
             print(said)
+
+
+def write_together(files: Mapping[Path, Callable[[Path], Any]]) -> None:
+    """Write several files, each whole, and none where one cannot be written.
+
+    Parameters
+    ----------
+    files : mapping
+        What writes each of them, into a path that it is given.
+    """
+    from ..quantities.files import refused_by_disk, whole
+
+    with contextlib.ExitStack() as together:
+        drafts = [(path, together.enter_context(whole(path))) for path in files]
+        for path, draft in drafts:
+            with refused_by_disk(path, draft):
+                files[path](draft)
 
 
 def _write_parquet(path: Path, columns: Mapping[str, Sequence[Any]]) -> None:

@@ -29,7 +29,7 @@ from .report.figures import Figures
 from .report.found import some_of
 from .report.make import USUAL, curve_over
 from .report.sources import Row, alike, laws_of, rows_of, sources_of, value_rows
-from .workbook import Cell, Grid, Sheet, Shown, cell_of, cell_of_words, sheet_of_table
+from .workbook import Cell, Grid, Sheet, Shown, cell_of, cell_of_words, in_unit, sheet_of_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -283,7 +283,7 @@ def _amount(row: Row) -> tuple[Cell | str, str]:
     if row.amount is None:
         return row.value, ""
     size, unit = prefixed(row.amount, row.unit)
-    return Cell(row.amount / size, number(row.amount / size)), unit
+    return Cell(in_unit(row.amount, size), number(row.amount / size)), unit
 
 
 def _notes(

@@ -12,6 +12,7 @@ import re
 import zipfile
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from decimal import ROUND_HALF_UP, Decimal
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..quantities.files import with_units
@@ -28,6 +29,7 @@ __all__ = [
     "Shown",
     "cell_of",
     "cell_of_words",
+    "in_unit",
     "sheet_of_table",
     "shown_in_excel",
     "workbook_bytes",
@@ -39,7 +41,7 @@ PROSE, WIDEST, LEAST_WIDTH = 100, 60, 6
 """Characters of a line of sentences, of the widest column of a table, and of the narrowest."""
 LINE = 15.0
 """Height of a line [pt]."""
-PRINTED = re.compile(r"−?\d+(?:\.(\d+))?(×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?( %)?")
+PRINTED = re.compile(r"(−?\d+(?:\.(\d+))?)(×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?( %)?")
 """A number as `thirdbody.quantities.say` prints it."""
 
 
@@ -109,9 +111,9 @@ class Shown(NamedTuple):
     def column(self, values: Iterable[float | None]) -> tuple[str, list[Cell | str]]:
         """Head and cells of all values, in the unit in which most are read.
 
-        >>> Shown("h", "h", "m").column([1e-7, 1.2e-6, 3e-7])
-        ('h [nm]', [Cell(value=100.0, text='100'), Cell(value=1200.0, text='1200'), \
-Cell(value=300.0, text='300')])
+        >>> Shown("h", "h", "m").column([1e-7, 2e-7, 1.2e-6])
+        ('h [nm]', [Cell(value=100.0, text='100'), Cell(value=200.0, text='200'), \
+Cell(value=1200.0, text='1200')])
         """
         known = [None if v is None or not math.isfinite(v) else float(v) for v in values]
         sizes = sorted(abs(v) for v in known if v)
@@ -126,7 +128,19 @@ Cell(value=300.0, text='300')])
             return NOT_KNOWN
         if self.unit == "share":
             return Cell(value, percent(value, least=self.least))
-        return Cell(value / size, number(value / size, least=self.least))
+        return Cell(in_unit(value, size), number(value / size, least=self.least))
+
+
+def in_unit(value: float, size: float) -> float:
+    """A number in a unit of so many SI units; one of a power of ten moves the point alone.
+
+    >>> in_unit(1e-7, 1e-9), 1e-7 / 1e-9
+    (100.0, 99.99999999999999)
+    """
+    power = round(math.log10(size))
+    if not math.isclose(size, 10.0**power, rel_tol=1e-12):
+        return value / size
+    return float(Decimal(repr(value)).scaleb(-power))
 
 
 def cell_of(value: Any) -> Cell | str | None:
@@ -153,7 +167,7 @@ def cell_of_words(text: str) -> tuple[Cell | str, str]:
         return text, ""
     plain = found[0].removesuffix(" %").replace("−", "-").replace("×10", "e")
     value = float(plain.translate(DIGITS))
-    return Cell(value / 100 if found[3] else value, found[0]), text[found.end() :].strip()
+    return Cell(value / 100 if found[4] else value, found[0]), text[found.end() :].strip()
 
 
 def sheet_of_table(
@@ -165,20 +179,27 @@ def sheet_of_table(
     return Sheet(name, (Grid(list(named), rows),), frozen="B2")
 
 
-def shown_in_excel(text: str) -> str:
+def shown_in_excel(cell: Cell) -> str:
     """The number format that shows a number as it is printed.
 
-    >>> shown_in_excel("226.4"), shown_in_excel("4.468×10⁻⁵"), shown_in_excel("12.3 %")
-    ('0.0', '0.000E+00', '0.0 %')
-    >>> shown_in_excel("< 0.0001 %")
-    '"< 0.0001 %"'
+    What a spreadsheet would round to another digit, as it does halves, stands there as words.
+
+    >>> [shown_in_excel(Cell(v, number(v))) for v in (226.4, 4.4678e-5, 12.325)]
+    ['0.0', '0.000E+00', '"12.32"']
+    >>> shown_in_excel(Cell(0.1234, "12.3 %")), shown_in_excel(Cell(1e-8, "< 0.0001 %"))
+    ('0.0 %', '"< 0.0001 %"')
     """
-    found = PRINTED.fullmatch(text)
+    found = PRINTED.fullmatch(cell.text)
     if found is None:
-        return f'"{text}"'
-    decimals, power, share = found.groups()
-    plain = f"0.{'0' * len(decimals)}" if decimals else "0"
-    return plain + ("E+00" if power else "") + (" %" if share else "")
+        return f'"{cell.text}"'
+    plain, decimals, power, share = found.groups()
+    tens = int(power.removeprefix("×10").translate(DIGITS)) if power else 0
+    digits = Decimal(f"{cell.value:.15g}").scaleb(2 * bool(share) - tens)
+    rounded = digits.quantize(Decimal(1).scaleb(-len(decimals or "")), ROUND_HALF_UP)
+    if rounded != Decimal(plain.replace("−", "-")):
+        return f'"{cell.text}"'
+    form = f"0.{'0' * len(decimals)}" if decimals else "0"
+    return form + ("E+00" if power else "") + (" %" if share else "")
 
 
 def workbook_bytes(sheets: Sequence[Sheet]) -> bytes:
@@ -278,7 +299,7 @@ def _draw_grid(
         for i, value in enumerate(line):
             if isinstance(value, Cell):
                 cell = drawn.cell(row, i + 1, value.value)
-                cell.number_format = shown_in_excel(value.text)
+                cell.number_format = shown_in_excel(value)
                 if lines > 1:
                     cell.alignment = top
             elif words[i]:
