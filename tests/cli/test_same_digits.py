@@ -198,7 +198,8 @@ def test_a_film(folder):
 
 def test_what_a_cell_shows_is_what_is_printed():
     """Numbers of every size, rounded up and down, and shares near nothing and the whole."""
-    from thirdbody.views.workbook import Cell, Grid, Sheet, workbook_bytes
+    from thirdbody.views.columns import Cell
+    from thirdbody.views.workbook import Grid, Sheet, workbook_bytes
 
     values = [
         s * m * 10.0**p for s in (1, -1) for m in (1, 1.23449, 9.99951, 5.5) for p in range(-9, 9)

@@ -12,11 +12,9 @@ import numpy as np
 from ..contact.evaluation import bodies_of
 from ..equilibrium.modes import FAINT
 from ..equilibrium.words import (
-    RARE,
     critical_load,
     critical_name,
     happens,
-    is_rare,
 )
 from ..errors import Note, RangeWarning, ranked
 from ..populations.materials import NUMBERS
@@ -24,12 +22,13 @@ from ..quantities.say import NOT_KNOWN, number, prefixed, unit_of, value_of
 from ..study.body import FORCE
 from ..study.vocabulary import LOADS
 from ..version import __version__
+from .columns import Cell, Shown, film_columns, in_unit, modes_of, state_columns
 from .film_words import point
 from .report.figures import Figures
 from .report.found import some_of
 from .report.make import USUAL, curve_over
 from .report.sources import Row, alike, laws_of, rows_of, sources_of, value_rows
-from .workbook import Cell, Grid, Sheet, Shown, cell_of, cell_of_words, in_unit, sheet_of_table
+from .workbook import Grid, Sheet, cell_of, cell_of_words, sheet_of_table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,41 +36,8 @@ if TYPE_CHECKING:
     from ..contact.contact import Contact
     from ..study import FilmResult, StudyResult
 
-__all__ = [
-    "FILM_COLUMNS",
-    "STATE_COLUMNS",
-    "film_columns",
-    "film_sheets",
-    "grid_of",
-    "modes_of",
-    "state_columns",
-    "state_sheets",
-]
+__all__ = ["film_sheets", "grid_of", "state_sheets"]
 
-STATE_COLUMNS = (
-    Shown("F*", "F_star", "1"),
-    Shown("pressure", "pressure", "Pa"),
-    Shown("h", "h", "m"),
-    Shown("d", "d", "m"),
-    Shown("d/sigma", "d_star", "1"),
-    Shown("A_t", "A_t", "1"),
-    Shown("A_ss", "A_ss", "1"),
-    Shown("A_sa", "A_sa", "1"),
-    Shown("particles' load", "particle_load_share", "share"),
-    Shown("particles' area", "particle_area_share", "share"),
-)
-"""Columns of a table of states; the last three where there are particles."""
-OF_DUST = ("A_sa", "particle_load_share", "particle_area_share")
-FILM_COLUMNS = (
-    Shown("speed", "speed", "m/s"),
-    Shown("film h_T", "h_T", "m"),
-    Shown("lambda", "lambda_ratio", "1"),
-    Shown("on film", "film_share", "share", 1e-6),
-    Shown("on asperities", "ss_share", "share", 1e-6),
-    Shown("on particles", "sa_share", "share", 1e-6),
-    Shown("friction", "mu", "1"),
-)
-"""Columns of a table of a film over the speed."""
 CHART_DPI = 150
 MOST_LOADS = 6
 """Loads beside each other in the table of outputs."""
@@ -102,20 +68,6 @@ def state_sheets(result: StudyResult, sentences: Sequence[str]) -> list[Sheet]:
     return _sheets(result, found, _rows_of_study(result), meanings)
 
 
-def state_columns(contact: Contact) -> list[Shown]:
-    """Columns of a table of states of a contact."""
-    dusty = not contact.two_body
-    return [each for each in STATE_COLUMNS if dusty or each.name not in OF_DUST]
-
-
-def modes_of(result: StudyResult) -> list[str]:
-    """The mode of every state, as far as the contact itself has one."""
-    return [
-        RARE if is_rare(mode, result.particles_in(i)) else mode or "-"
-        for i, mode in enumerate(result.states.mode)
-    ]
-
-
 def film_sheets(result: FilmResult, sentences: Sequence[str]) -> list[Sheet]:
     """Sheets of what `run_film` found; arguments as of `state_sheets`."""
     from ..systems.mixed_film import COLUMNS
@@ -138,13 +90,6 @@ def film_sheets(result: FilmResult, sentences: Sequence[str]) -> list[Sheet]:
         meanings[f"{part.name}: areal_density"] = "particles that enter, per area"
     inputs = [*value_rows(result.conditions, "film."), *rows_of(result.study.contact)]
     return _sheets(result, found, inputs, meanings)
-
-
-def film_columns(result: FilmResult) -> list[Shown]:
-    """Columns of a table of a film: particles and friction where there are any."""
-    gone = {"sa_share"} if not result.passing else set()
-    gone |= set() if np.isfinite(result.states["mu"]).any() else {"mu"}
-    return [each for each in FILM_COLUMNS if each.name not in gone]
 
 
 def grid_of(columns: Sequence[Shown], values: Mapping[str, Any]) -> Grid:

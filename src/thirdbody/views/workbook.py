@@ -16,20 +16,18 @@ from decimal import ROUND_HALF_UP, Decimal
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..quantities.files import with_units
-from ..quantities.say import NOT_KNOWN, number, percent, prefixed
+from ..quantities.say import number
+from .columns import Cell
 
 if TYPE_CHECKING:
     from openpyxl.worksheet.worksheet import Worksheet
 
 __all__ = [
     "MADE",
-    "Cell",
     "Grid",
     "Sheet",
-    "Shown",
     "cell_of",
     "cell_of_words",
-    "in_unit",
     "sheet_of_table",
     "shown_in_excel",
     "workbook_bytes",
@@ -46,13 +44,6 @@ PRINTED = re.compile(r"(−?\d+(?:\.(\d+))?)(×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹
 
 
 DIGITS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-
-
-class Cell(NamedTuple):
-    """A number, and how a reader gets it printed."""
-
-    value: float
-    text: str
 
 
 class Grid(NamedTuple):
@@ -81,66 +72,6 @@ class Sheet:
     parts: tuple[str | Grid | bytes, ...]
     title: str = ""
     frozen: str = "A2"
-
-
-class Shown(NamedTuple):
-    """A column as a reader gets it: in sentences of its own unit, in a workbook in one for all.
-
-    ``unit`` is an SI unit, "1", or "share", which is printed in per cent; shares below ``least``
-    are printed as such.
-    """
-
-    head: str
-    name: str
-    unit: str
-    least: float = 0.0
-
-    def words(self, value: float | None) -> str:
-        """One value with its unit.
-
-        >>> Shown("h", "h", "m").words(2.264e-7), Shown("area", "A_t", "share").words(0.1234)
-        ('226.4 nm', '12.3 %')
-        """
-        if self.unit == "share":
-            return percent(value, least=self.least)
-        if value is None or not math.isfinite(value):
-            return NOT_KNOWN
-        size, unit = prefixed(value, self.unit)
-        return f"{number(value / size, least=self.least)} {unit}".rstrip()
-
-    def column(self, values: Iterable[float | None]) -> tuple[str, list[Cell | str]]:
-        """Head and cells of all values, in the unit in which most are read.
-
-        >>> Shown("h", "h", "m").column([1e-7, 2e-7, 1.2e-6])
-        ('h [nm]', [Cell(value=100.0, text='100'), Cell(value=200.0, text='200'), \
-Cell(value=1200.0, text='1200')])
-        """
-        known = [None if v is None or not math.isfinite(v) else float(v) for v in values]
-        sizes = sorted(abs(v) for v in known if v)
-        size, unit = 1.0, ""
-        if sizes and self.unit not in ("1", "share"):
-            size, unit = prefixed(sizes[len(sizes) // 2], self.unit)
-        head = f"{self.head} [{unit}]" if unit else self.head
-        return head, [self._cell(value, size) for value in known]
-
-    def _cell(self, value: float | None, size: float) -> Cell | str:
-        if value is None:
-            return NOT_KNOWN
-        if self.unit == "share":
-            return Cell(value, percent(value, least=self.least))
-        return Cell(in_unit(value, size), number(value / size, least=self.least))
-
-
-def in_unit(value: float, size: float) -> float:
-    """A number in a unit of so many SI units; one of a power of ten moves the point alone.
-
-    >>> in_unit(1e-7, 1e-9), 1e-7 / 1e-9
-    (100.0, 99.99999999999999)
-    """
-    power = round(math.log10(size))
-    if not math.isclose(size, 10.0**power, rel_tol=1e-12):
-        return value / size
-    return float(Decimal(repr(value)).scaleb(-power))
 
 
 def cell_of(value: Any) -> Cell | str | None:
@@ -194,7 +125,7 @@ def shown_in_excel(cell: Cell) -> str:
         return f'"{cell.text}"'
     plain, decimals, power, share = found.groups()
     tens = int(power.removeprefix("×10").translate(DIGITS)) if power else 0
-    digits = Decimal(f"{cell.value:.15g}").scaleb(2 * bool(share) - tens)
+    digits = Decimal(repr(cell.value)).scaleb(2 * bool(share) - tens)
     rounded = digits.quantize(Decimal(1).scaleb(-len(decimals or "")), ROUND_HALF_UP)
     if rounded != Decimal(plain.replace("−", "-")):
         return f'"{cell.text}"'

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,6 +19,7 @@ from ..streams import STDOUT, TableFiles, figure_format, warn_of, write_figure
 
 if TYPE_CHECKING:
     from ...study import FilmResult
+    from ...views.workbook import Sheet
 
 __all__ = ["command"]
 
@@ -51,8 +53,6 @@ def command(
 ) -> None:
     """Film, load shares and friction of a lubricated contact, at one speed or over many."""
     from ...study import run_film
-    from ...views.film_words import bodies, summary
-    from ...views.study_sheets import film_sheets
 
     files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
     asked = read_study(study, settings, writes=[*files.paths, figure])
@@ -69,7 +69,7 @@ def command(
         drawn = stribeck(result.states, result.regime_speeds)
     files.write(
         *result.table(),
-        sheets=lambda: film_sheets(result, [bodies(result), *summary(result)]),
+        sheets=partial(_sheets, result),
         data=result.to_dict,
     )
     for path in files.paths:
@@ -78,6 +78,13 @@ def command(
         write_figure(figure, drawn)
     if json_file != STDOUT:
         _show(result)
+
+
+def _sheets(result: FilmResult) -> list[Sheet]:
+    from ...views.film_words import bodies, summary
+    from ...views.study_sheets import film_sheets
+
+    return film_sheets(result, [bodies(result), *summary(result)])
 
 
 def _show(result: FilmResult) -> None:
@@ -105,7 +112,7 @@ def _show(result: FilmResult) -> None:
 
 def _curve(result: FilmResult) -> Any:
     """A row a speed; of many speeds some, evenly spread."""
-    from ...views.study_sheets import film_columns
+    from ...views.columns import film_columns
 
     states, columns = result.states, film_columns(result)
     heads = [*(each.head for each in columns), "regime"]

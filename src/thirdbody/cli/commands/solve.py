@@ -37,7 +37,8 @@ if TYPE_CHECKING:
     from ...equilibrium.columns import PopulationShare
     from ...equilibrium.transitions import Transitions
     from ...study import StudyResult
-    from ...views.workbook import Shown
+    from ...views.columns import Shown
+    from ...views.workbook import Sheet
 
 __all__ = ["command", "summary"]
 
@@ -75,7 +76,6 @@ def command(
 ) -> None:
     """Separation, real contact area, load shares and contact mode under the loads of a study."""
     from ...study import run_study
-    from ...views.study_sheets import state_sheets
 
     files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
     asked = read_study(study, settings, writes=files.paths)
@@ -87,7 +87,7 @@ def command(
         files = TableFiles(json=STDOUT if json_file == STDOUT else None)
     files.write(
         *result.table(),
-        sheets=lambda: state_sheets(result, [summary(result)]),
+        sheets=partial(_sheets, result),
         data=result.to_dict,
     )
     for path in files.paths:
@@ -102,9 +102,15 @@ def command(
     result.need_state()
 
 
+def _sheets(result: StudyResult) -> list[Sheet]:
+    from ...views.study_sheets import state_sheets
+
+    return state_sheets(result, [summary(result)])
+
+
 def _show(result: StudyResult) -> None:
     """The result for a reader: states, populations, transitions, one sentence."""
-    from ...views.study_sheets import modes_of, state_columns
+    from ...views.columns import modes_of, state_columns
 
     console = terminal()
     states, contact = result.states, result.study.contact
