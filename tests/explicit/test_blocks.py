@@ -4,9 +4,12 @@ import json
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import thirdbody as tb
+from thirdbody import cli
 from thirdbody.explicit.blocks import ERRORS, errors_of
+from thirdbody.quantities.say import percent
 from thirdbody.study import load_study
 from thirdbody.study.run_explicit import run_explicit
 
@@ -93,6 +96,9 @@ def test_blocks_are_whole_and_two_at_least():
 
 
 def test_a_study_of_a_measured_surface_has_error_bars(tmp_path):
+    """On the screen and in JSON."""
+    surface, _ = made(128, 3e-6)
+    np.save(tmp_path / "part.npy", surface.heights)
     file = tmp_path / "study.toml"
     file.write_text(
         """
@@ -100,18 +106,25 @@ def test_a_study_of_a_measured_surface_has_error_bars(tmp_path):
         first = "S45C"
         second = "S45C"
         [roughness]
-        topography = "example"
-        cutoff = "1 um"
+        topography = "part.npy"
+        spacing = "100 nm"
+        unit = "m"
+        cutoff = 0
         [particles]
         material = "SiO2"
         distribution = "monodisperse"
-        mean = "2 um"
-        areal_density = "1e10 / m^2"
+        mean = "200 nm"
+        areal_density = "1e12 / m^2"
         [load]
         F_star = 1e-3
         """
     )
-    found = run_explicit(load_study(file))
-    table = json.loads(json.dumps(found.data["table"]))
-    assert 0 < table["particle_load_share_raw_error"][0] < 1
-    assert 0 < table["h_raw_error"][0] < 1e-6
+    study = load_study(file)
+    table = json.loads(json.dumps(run_explicit(study).data["table"]))
+    state = tb.explicit.solve(study.contact, study.faces[0], F_star=1e-3, blocks=4)
+    for name in ERRORS:
+        assert table[f"{name}_raw_error"] == [pytest.approx(state.errors[name])]
+    printed = CliRunner().invoke(cli.app, ["explicit", str(file)])
+    share = percent(table["particle_load_share_raw"][0], table["particle_load_share_raw_error"][0])
+    assert share in printed.stdout
+    assert "±" in share
