@@ -136,3 +136,33 @@ def test_points_of_a_design_have_units(tmp_path):
         "front",
         "reason",
     ]
+
+
+@pytest.mark.parametrize("design", ["sampled", "reduced"])
+def test_a_sweep_has_tables_beside_its_folder(tmp_path, design):
+    """The numbers of the folder, modes in words; a table that nobody reads is refused before."""
+    openpyxl = pytest.importorskip("openpyxl", reason="pip install 'thirdbody[xlsx]'")
+    zarr = pytest.importorskip("zarr", reason="pip install 'thirdbody[sweep]'")
+    study, text = tmp_path / "study.toml", SWEEP.read_text("utf-8")
+    study.write_text(text if design == "reduced" else text.partition("[sweep.reduce]")[0], "utf-8")
+    out, csv_file, book = tmp_path / "out", tmp_path / "t.csv", tmp_path / "t.xlsx"
+    done = run("sweep", study, "--out", out, "--csv", csv_file, "--xlsx", book)
+    assert done.exit_code == 0, done.output
+    held = zarr.open(out / "states.zarr", mode="r")
+    rows = list(csv.DictReader(csv_file.open(encoding="utf-8")))
+    name = "h [m]" if design == "sampled" else "h_quantile [m]"
+    assert [float(row[name]) for row in rows] == held[name[:-4]][:].ravel().tolist()
+    sheets = openpyxl.load_workbook(book)
+    assert sheets.sheetnames == ["States", "Notes"]
+    assert [cell.value for cell in sheets["States"][1]] == list(rows[0])
+    if design == "sampled":
+        assert {row["status"] for row in rows} == {"ok"}
+        assert {row["mode"] for row in rows} <= {"p-s", "hybrid", "s-s"}
+        big = run("sweep", study, "--out", tmp_path / "big", "--csv", tmp_path / "b.csv",
+                  "--set", "sweep.samples=65536")  # fmt: skip
+        assert big.exit_code == 2
+        assert "would have 196,608 rows" in big.stderr
+        assert not (tmp_path / "big").exists()
+    again = run("sweep", study, "--out", out, "--csv", csv_file, "--xlsx", tmp_path / "u.xlsx")
+    assert again.exit_code == 0, again.output
+    assert (tmp_path / "u.xlsx").read_bytes() == book.read_bytes()

@@ -25,8 +25,9 @@ HEADS = (
     {"law", "F_star [1]", "A_t [1]", "mean_pressure [Pa]", "d_star_difference [1]", "note"},
     {"cutoff [m]", "m0 [m^2]", "m2 [1]", "m4 [1/m^2]", "eta_counted [1/m^2]", "R_counted [m]"},
     {"feasible", "front", "reason"},
+    {"row of the sweep"},
 )
-"""Columns by which a table is known: of solve, film, compare, surface, design."""
+"""Columns by which a table is known: of solve, film, compare, surface, design, sweep."""
 JSON_KEYS = (
     {"curve", "units"},
     {"title", "version", "inputs", "warnings", "citations"},
