@@ -143,7 +143,10 @@ def spelled_out(text):
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_template(kind, folder):
     study = folder / f"{kind}.toml"
-    assert run("new", kind).exit_code == 0
+    made = run("new", kind)
+    assert made.exit_code == 0
+    if made.stdout.split()[1] != "solve":
+        pytest.skip("has no states")
     files = {end: folder / f"a.{end}" for end in ("json", "xlsx", "csv")}
     named = [word for end, file in files.items() for word in (f"--{end}", file)]
     done = run("solve", study, *named)

@@ -108,6 +108,37 @@ def test_a_file_that_fails_leaves_the_older_one(tmp_path, monkeypatch):
     assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]
 
 
+def test_files_of_a_run_appear_together_or_not_at_all(tmp_path, monkeypatch):
+    """The last of four cannot be written: an older one stays, and no other appears."""
+    pandas = pytest.importorskip("pandas")
+    for library in LIBRARY.values():
+        pytest.importorskip(library)
+    names = [tmp_path / f"t.{end}" for end in ("csv", "json", "xlsx", "parquet")]
+    options = [word for name in names for word in (f"--{name.suffix[1:]}", name)]
+    assert run("solve", SWEEP, *options[:2]).exit_code == 0
+    older = names[0].read_bytes()
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(pandas.DataFrame, "to_parquet", full)
+    done = run("solve", SWEEP, "--set", "load.pressure=2e6", *options)
+    assert done.exit_code == 2
+    assert "no space left" in done.stderr.lower()
+    assert [path.name for path in tmp_path.iterdir()] == ["t.csv"]
+    assert names[0].read_bytes() == older
+    monkeypatch.undo()
+    assert run("solve", SWEEP, "--set", "load.pressure=2e6", *options).exit_code == 0
+    assert sorted(tmp_path.iterdir()) == sorted(names)
+    assert names[0].read_bytes() != older
+    again = run("solve", SWEEP, *options)
+    assert again.exit_code == 0, again.output
+    names[1].write_text('{"mine": 1}')
+    refused = run("solve", SWEEP, *options)
+    assert refused.exit_code == 2
+    assert "it exists and is no JSON of thirdbody" in refused.stderr
+
+
 def test_json_goes_to_the_output_or_into_a_file(tmp_path):
     """Beside any other file; and what follows --json is its file only where it says so."""
     printed = run("solve", "--json", SWEEP, "--csv", tmp_path / "t.csv")
