@@ -183,8 +183,15 @@ def _rows_of_study(result: StudyResult) -> list[Row]:
     values = study.values.tolist()
     if result.forces:
         about, name, values = FORCE, "force", [each.force for each in result.forces]
-    told = (f"load.{name}", about["symbol"], "", about["meaning"], False)
-    rows = [Row(*told, float(value), about["unit"]) for value in values]
+    told = {about["meaning"]: values[0]}
+    if len(values) > 1:
+        which = (f"least of {len(values)}", "greatest")
+        told = {f"{about['meaning']}, {word}": value
+                for word, value in zip(which, (min(values), max(values)), strict=True)}  # fmt: skip
+    rows = [
+        Row(f"load.{name}", about["symbol"], "", meaning, False, float(value), about["unit"])
+        for meaning, value in told.items()
+    ]
     rows += value_rows(study.body, "body.") if study.body is not None else []
     return [*rows, *rows_of(study.contact)]
 

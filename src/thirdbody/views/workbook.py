@@ -215,14 +215,17 @@ def _draw_grid(
     below = Border(bottom=Side(style="thin", color="999999"))
     numeric = [any(isinstance(line[i], Cell) for line in grid.rows) for i in range(len(grid.heads))]
     sides = ["right" if each else "left" for each in numeric]
-    folded = [Alignment(horizontal=side, vertical="top", wrap_text=True) for side in sides]
+    # words keep off the number before them
+    places = [{"horizontal": side, "vertical": "top", "indent": int(i > 0 and side == "left")}
+              for i, side in enumerate(sides)]  # fmt: skip
+    folded = [Alignment(**place, wrap_text=True) for place in places]
     if free:
-        folded[-1] = Alignment(horizontal=sides[-1], vertical="top")
+        folded[-1] = Alignment(**places[-1])
     top = Alignment(vertical="top")
     for i, head in enumerate(grid.heads):
         cell = _write_words(drawn, row, i + 1, head)
         cell.font, cell.fill, cell.border = bold, fill, below
-        cell.alignment = Alignment(horizontal=sides[i], vertical="top")
+        cell.alignment = Alignment(**places[i])
     for line in grid.rows:
         row += 1
         words = [str(v) if v is not None and not isinstance(v, Cell) else "" for v in line]
