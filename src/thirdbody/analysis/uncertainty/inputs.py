@@ -127,6 +127,7 @@ class Uncertain:
         return cls(kind="lognormal", first=median, second=gsd)
 
     @classmethod
+    @takes_units
     def from_ufloat(cls, number: Any) -> Uncertain:
         """A number of the package `uncertainties`: normal, about its nominal value.
 

@@ -159,6 +159,7 @@ class Propagation(Record):
         }
         return xarray.Dataset(data, coords=coordinates, attrs=attributes)
 
+    @takes_units
     def ufloat(self, of: str) -> Any:
         """The band of an output as a number with an uncertainty.
 
