@@ -253,3 +253,24 @@ def test_a_workbook_is_laid_out_for_a_reader(folder):
     told = {row[0]: row[1:3] for row in notes.iter_rows(values_only=True)}
     assert told["h"] == ("m", "separation of the mean planes")
     assert not math.isnan(answer.row_dimensions[3].height)
+
+
+def test_of_many_states_the_answer_shows_some(folder):
+    """And one sheet that cannot hold them is refused in one line, with no file."""
+    from thirdbody.cli import streams
+
+    run("new", "two-body")
+    many = ("--set", "load.pressure={from=1e5, to=1e8, points=150, spacing='log'}")
+    done = run("solve", "two-body.toml", *many, "--xlsx", "a.xlsx", "--csv", "a.csv")
+    assert done.exit_code == 0, done.output
+    book = openpyxl.load_workbook("a.xlsx")
+    _, rows = grid(book["Answer"], "F*")
+    assert len(rows) == 100
+    assert any("100 of 150 states" in str(row[0].value) for row in book["Answer"].iter_rows())
+    assert len(list(book["States"].iter_rows())) == 151
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(streams, "MOST_IN_A_SHEET", 149)
+        more = run("solve", "two-body.toml", *many, "--xlsx", "b.xlsx", "--csv", "b.csv")
+    assert more.exit_code == 2
+    assert "150 rows, and a sheet holds 149; take --csv or --parquet" in more.stderr
+    assert not list(folder.glob("b.*"))

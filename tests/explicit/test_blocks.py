@@ -91,7 +91,9 @@ def test_long_waves_are_told():
 def test_blocks_are_whole_and_two_at_least():
     surface, contact = made(128, 3e-6)
     for blocks in (1, 2.5, True):
-        with pytest.raises(tb.InvalidValue, match="blocks = .* must be a whole number, at least 2"):
+        with pytest.raises(
+            tb.InvalidValue, match=r"blocks = .* must be a whole number, at least 2"
+        ):
             tb.explicit.solve(contact, surface, F_star=1e-3, blocks=blocks)
 
 

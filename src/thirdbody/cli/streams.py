@@ -57,6 +57,8 @@ SHOWS_ALL: ContextVar[bool] = ContextVar("shows_all", default=False)
 """Whether a command shows every note."""
 WARNINGS: ContextVar[int] = ContextVar("warnings", default=0)
 """How many warnings a command has shown."""
+MOST_IN_A_SHEET = 2**20 - 1
+"""Rows of a sheet below its head."""
 STDOUT = Path("-")
 """What stands for standard output where a file may be named."""
 LEAST = 40
@@ -271,6 +273,12 @@ class TableFiles(NamedTuple):
         if self.csv is not None:
             made[self.csv] = partial(Path.write_bytes, data=csv_of(named).encode())
         if self.xlsx is not None:
+            rows = max(map(len, columns.values()), default=0)
+            if rows > MOST_IN_A_SHEET:
+                raise InvalidValue(
+                    f"cannot write {self.xlsx}: {rows:,} rows, and a sheet holds "
+                    f"{MOST_IN_A_SHEET:,}; take --csv or --parquet"
+                )
             from ..views.workbook import sheet_of_table, workbook_bytes
 
             held = [sheet_of_table("Table", columns, units)] if sheets is None else sheets()

@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 __all__ = ["film_sheets", "grid_of", "state_sheets"]
 
 CHART_DPI = 150
+MOST_ROWS = 100
+"""States on the sheet of the answer."""
 MOST_LOADS = 6
 """Loads beside each other in the table of outputs."""
 
@@ -58,7 +60,7 @@ def state_sheets(result: StudyResult, sentences: Sequence[str]) -> list[Sheet]:
     table = grid_of(columns, {each.name: getattr(states, each.name) for each in columns})
     if not contact.two_body:
         table = _with_column(table, "mode", modes_of(result))
-    found: list[str | Grid | bytes] = [*result.force_sentences, *sentences, table]
+    found: list[str | Grid | bytes] = [*result.force_sentences, *sentences, *_some_rows(table)]
     if not contact.two_body:
         found.append(_critical_grid(result))
     if contact.outputs:
@@ -81,7 +83,7 @@ def film_sheets(result: FilmResult, sentences: Sequence[str]) -> list[Sheet]:
         found.append(Grid(("at this speed", "value", "unit"), rows))
     else:
         table = grid_of(film_columns(result), states)
-        found.append(_with_column(table, "regime", states["regime"].tolist()))
+        found += _some_rows(_with_column(table, "regime", states["regime"].tolist()))
         found.append(_png(stribeck(states, result.regime_speeds)))
     meanings = {name: COLUMNS[name].meaning for name in states if name in COLUMNS}
     meanings |= {"hersey": "Hersey number", "largest": "largest particle dragged in"}
@@ -90,6 +92,15 @@ def film_sheets(result: FilmResult, sentences: Sequence[str]) -> list[Sheet]:
         meanings[f"{part.name}: areal_density"] = "particles that enter, per area"
     inputs = [*value_rows(result.conditions, "film."), *rows_of(result.study.contact)]
     return _sheets(result, found, inputs, meanings)
+
+
+def _some_rows(grid: Grid) -> list[str | Grid]:
+    """A table, of many rows some, evenly spread, and a sentence that says so."""
+    total = len(grid.rows)
+    if total <= MOST_ROWS:
+        return [grid]
+    some = Grid(grid.heads, [grid.rows[i] for i in some_of(total, MOST_ROWS)])
+    return [some, f"{MOST_ROWS} of {total} states; the sheet States has all."]
 
 
 def grid_of(columns: Sequence[Shown], values: Mapping[str, Any]) -> Grid:
