@@ -128,7 +128,7 @@ def test_the_table_of_a_study_has_the_units_of_each_population():
 def test_states_declare_what_they_hold():
     """No field of numbers stands beside the columns without a symbol, unit and meaning."""
     beside = {"contact", "warnings", "populations", "outputs", "engine", "status_code", "state"}
-    beside |= {"seconds", "sigma", "seats", "maps", "particles", "name"}
+    beside |= {"seconds", "sigma", "seats", "maps", "particles", "name", "errors"}
     for kind in StateRecord.__subclasses__():
         for each in (kind, *kind.__subclasses__()):
             if hasattr(each, "__dataclass_fields__"):

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import Note
+from ..quantities.carried import takes_units
 from ..quantities.say import percent
 from .press import contact_share
 
@@ -61,6 +62,7 @@ def block_sums(inside: Interface, state: Pressed, dented: Array, blocks: int) ->
     return np.stack([load, on_particles, area, dents, volume])
 
 
+@takes_units
 def errors_of(sums: Array, steeper: Array, area: float) -> Array:
     """Standard errors of `ERRORS` at the load of a map (4,); NaN where nothing is known.
 
