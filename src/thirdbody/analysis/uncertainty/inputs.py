@@ -334,8 +334,8 @@ def drawn_inputs(
             continue
         except TypeError:
             problems.append(
-                f"{place} = {given!r} must be (low, high), a ufloat, or one of Uncertain.uniform, "
-                "log_uniform, normal, lognormal"
+                f"{place} = {given!r} must be (low, high), or one of Uncertain.uniform, "
+                "log_uniform, normal, lognormal; or a ufloat"
             )
             continue
         names = (each,) if isinstance(each, str) else each.names
