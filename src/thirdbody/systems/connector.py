@@ -50,8 +50,9 @@ CLASSES = 300
 """Classes of size, equally wide in ln x."""
 SQUEEZES = 4096
 """Squeezes at which the load of a particle is tabled."""
-HEIGHTS = 40
-"""Heights at which contacts stand on insulating dust, where other dust conducts."""
+HEIGHTS, COARSE = 40, 256
+"""Heights at which contacts stand on insulating dust, where other dust conducts, and steps
+of the load there."""
 NONE = 1e-15
 """Classes with less than this part of all particles are left out."""
 
@@ -77,7 +78,8 @@ class Connector(Value):
     wipe : float, optional
         Way s along the flat after touch [m].
     pushed_aside : float, optional
-        Part c of the particles in front of the wipe that it pushes aside [1]; nobody can predict it.
+        Part c of the particles before the wipe that it pushes aside [1]. Nobody can predict it;
+        without it none is, and the wipe changes nothing.
     conducting : tuple of str, optional
         Names of the kinds of dust that conduct.
     law : AbstractParticleLaw, optional
@@ -119,10 +121,9 @@ class Connector(Value):
         "m", "1", "spots of each contact of which one is enough", default=1.0, ge=1, le=100
     )
     wipe: float = quantity("s", "m", "way along the flat after touch", default=0.0, ge=0)
-    pushed_aside: float = quantity(
-        "c", "1", "part of the dust in front of the wipe that it pushes aside", default=0.0, ge=0,
-        le=1,
-    )  # fmt: skip
+    pushed_aside: float | None = quantity(
+        "c", "1", "part of the dust before the wipe that it pushes aside", default=None, ge=0, le=1
+    )
     conducting: tuple[str, ...] = ()
     law: AbstractParticleLaw = Series()
 
@@ -241,7 +242,7 @@ class _Kind:
         """In the way before the wipe, at touch."""
         self.k = plug.wipe / np.sqrt(2 * plug.radius * self.x)
         """Wipe over the radius of the disc."""
-        self.aside = plug.pushed_aside if plug.wipe > 0 else 0.0
+        self.aside = plug.pushed_aside or 0.0 if plug.wipe > 0 else 0.0
 
     @cached_property
     def curve(self) -> tuple[Array, Array]:
@@ -304,7 +305,7 @@ def _open(kinds: list[_Kind], load: float, height: float) -> tuple[float, float]
         return 0.0, 0.0
     if load == 0:
         return (-math.expm1(-number),) * 2
-    step = load / min(max(CELLS, PER_PARTICLE * number), MOST_CELLS)
+    step = load / min(max(CELLS if height == 0 else COARSE, PER_PARTICLE * number), MOST_CELLS)
     if len(kinds) == 1 and len(kinds[0].x) == 1 and height == 0:
         jump = kinds[0].most * float(kinds[0].x[0]) ** 2
         if jump < load + step:  # the jumps of one size lie on multiples of the step

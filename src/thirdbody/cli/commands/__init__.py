@@ -5,6 +5,7 @@ COMMANDS = (
     "solve",
     "sweep",
     "film",
+    "probability",
     "explicit",
     "assess",
     "design",
