@@ -46,7 +46,7 @@ def give_answer(
     heads: Sequence[str],
     rows: Sequence[Sequence[str]],
     means: Mapping[str, str],
-    last: str,
+    last: Sequence[str],
 ) -> None:
     """The answer first, then the table, then what moves it most; warnings at the very end."""
     files.write(*found.table())
@@ -65,8 +65,8 @@ def give_answer(
         console.print(table)
         if len(rows) > MOST_ROWS:
             console.print(f"{MOST_ROWS} of {len(rows)} rows shown; --csv FILE writes all")
-        if last:
-            console.print(last)
+        for sentence in last:
+            console.print(sentence)
         sys.stdout.flush()
     for sentence in found.asked.assumed:
         remark(sentence)

@@ -27,9 +27,7 @@ AMOUNT = {
         "oil_density": quantity("ρ_f", "kg/m^3", "density of the fluid", gt=0),
         "smallest": quantity("x_min", "m", "smallest diameter", gt=0),
         "largest": quantity("x_max", "m", "largest diameter", gt=0),
-        "exposure": quantity(
-            "t", "s", "time for which dust settles", gt=0, hint="a day is '24 h'"
-        ),
+        "exposure": quantity("t", "s", "time for which dust settles", gt=0, hint="a day is '24 h'"),
     }.items()
 }
 """The numbers that lead from a count or a concentration to an areal density."""

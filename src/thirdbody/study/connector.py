@@ -98,7 +98,10 @@ def connector_of(reader: Reader, values: dict[str, Any]) -> AskedConnector:
         notes.append('connector.pushed_aside has no effect without a wipe, e.g. wipe = "0.2 mm"')
     notes += reader.notes
     return AskedConnector(
-        title=values.get("title", ""), connector=made, forces=forces, notes=tuple(notes),
+        title=values.get("title", ""),
+        connector=made,
+        forces=forces,
+        notes=tuple(notes),
         assumed=tuple(reader.assumed),
     )
 

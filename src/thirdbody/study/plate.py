@@ -76,7 +76,10 @@ def plate_of(reader: Reader, values: dict[str, Any]) -> AskedPlate:
     whole = given | {"surfaces": values["surfaces"], "particles": dust, "law": law}
     made = reader.make(Chuck, "plate", whole)
     return AskedPlate(
-        title=values.get("title", ""), chuck=made, grains=grains, notes=tuple(reader.notes),
+        title=values.get("title", ""),
+        chuck=made,
+        grains=grains,
+        notes=tuple(reader.notes),
         assumed=tuple(reader.assumed),
     )
 

@@ -36,9 +36,7 @@ CITATIONS = (
 )
 
 
-def load_connector(
-    path: str | os.PathLike[str], overrides: Iterable[str] = ()
-) -> AskedConnector:
+def load_connector(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedConnector:
     """The connector of a study file, which needs no roughness and no load.
 
     Parameters
@@ -63,13 +61,24 @@ class WhatIf(Record):
 
     what: str
     """What is uncertain, in words."""
-    low: float
-    high: float
-    """The least and the largest failure of all contacts [1]."""
+    values: tuple[float, ...]
+    """What the answer is at the ends."""
     between: str
     """From what to what it is changed."""
     action: str
     """What to do about it."""
+    code: str = ""
+    """What it is about, where others look for it."""
+
+    @property
+    def low(self) -> float:
+        """The least of the answers."""
+        return min(self.values)
+
+    @property
+    def high(self) -> float:
+        """The largest."""
+        return max(self.values)
 
     @property
     def ratio(self) -> float:
@@ -169,7 +178,7 @@ def run_connector(asked: AskedConnector) -> ConnectorResult:
     ...                  contacts=20)
     >>> found = run_connector(AskedConnector(title="", connector=plug, forces=np.array([0.5])))
     >>> [f"{each:.4f}" for each in found.failure_of_all]
-    ['0.0754', '0.0224', '0.0048', '0.0005', '0.0000']
+    ['0.0652', '0.0230', '0.0048', '0.0005', '0.0000']
     """
     plug, forces = asked.connector, asked.forces
     one = len(forces) == 1
@@ -188,7 +197,7 @@ def run_connector(asked: AskedConnector) -> ConnectorResult:
         threshold=plug.threshold,
     )
     at = found.places[0]
-    notes = _bounds_note(found, at)
+    notes = [*_bounds_note(found, at), *_breaking_note(plug)]
     what_ifs = _what_ifs(plug, float(shown[at]))
     return ConnectorResult(
         **{name: getattr(found, name) for name in found.__dataclass_fields__}
@@ -199,9 +208,8 @@ def run_connector(asked: AskedConnector) -> ConnectorResult:
 def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
     """What the answer hangs on, each varied alone."""
 
-    def failures(*plugs: Connector) -> dict[str, float]:
-        found = [each.failure_of_all(force) for each in plugs]
-        return {"low": min(found), "high": max(found)}
+    def failures(*plugs: Connector) -> tuple[float, ...]:
+        return tuple(each.failure_of_all(force) for each in plugs)
 
     def with_dust(number: float = 1.0, size: float = 1.0) -> Connector:
         return plug.replace(
@@ -227,19 +235,19 @@ def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
             what="the number of particles",
             between="half and twice as many",
             action="count the dust on your contacts, e.g. from a tape lift",
-            **failures(with_dust(0.5), with_dust(2.0)),
+            values=failures(with_dust(0.5), with_dust(2.0)),
         ),
         WhatIf(
             what="the size of the particles",
             between=f"{percent(1 - 1 / SIZES)} smaller and {percent(SIZES - 1)} larger",
             action="measure the sizes of the dust on your contacts, above all the largest",
-            **failures(with_dust(size=1 / SIZES), with_dust(size=SIZES)),
+            values=failures(with_dust(size=1 / SIZES), with_dust(size=SIZES)),
         ),
         WhatIf(
             what="the hardness of the contacts",
             between=f"{percent(1 - 1 / HARDNESS)} softer and {percent(HARDNESS - 1)} harder",
             action="measure the hardness of the plated contact itself",
-            **failures(with_hardness(1 / HARDNESS), with_hardness(HARDNESS)),
+            values=failures(with_hardness(1 / HARDNESS), with_hardness(HARDNESS)),
         ),
     ]
     if plug.wipe > 0 and plug.pushed_aside is None:
@@ -248,13 +256,14 @@ def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
                 what="what the wipe pushes aside",
                 between="all of the dust before it and none, as taken",
                 action="give connector.pushed_aside from a test with and without wipe",
-                **failures(plug.replace(pushed_aside=1.0), plug),
+                code="wipe",
+                values=failures(plug.replace(pushed_aside=1.0), plug),
             )
         )
     return tuple(sorted(out, key=lambda each: -each.ratio))
 
 
-def _bounds_note(found: ConnectorResult, at: int) -> list[str]:
+def _bounds_note(found: ConnectorResult, at: int) -> list[Note]:
     """Where rounding blurs the answer."""
     low, high = found.failure_low[at], found.failure_high[at]
     if not high > 0 or (high - low) < VAGUE * high:
@@ -265,6 +274,20 @@ def _bounds_note(found: ConnectorResult, at: int) -> list[str]:
             "a jump, where particles of one size are just pressed in",
             code="jump",
             effect=(high - low) / high,
-            action="give the dust its spread of sizes, e.g. distribution = \"log-normal\"",
+            action='give the dust its spread of sizes, e.g. distribution = "log-normal"',
         )
+    ]
+
+
+def _breaking_note(plug: Connector) -> list[Note]:
+    """Dust that is not pressed in whole."""
+    return [
+        Note(
+            f"most particles of {name} of the mean size would break before they are pressed in; "
+            "they count as whole, so that the contacts fail less often than told where the pieces "
+            "carry less, and more often where they spread",
+            code="brittle",
+            action="take the answer for dust that stays whole, or measure with and without force",
+        )
+        for name in plug.breaking()
     ]

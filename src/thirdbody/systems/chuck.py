@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..laws.particle.series import Series
-from ..populations.materials import Material, MaterialPair
+from ..laws.particle.tension import breaks
+from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
 from ..quantities.value import Value, items_of, quantity
 from .plate_over_particle import Bump, PlateOverParticle
@@ -70,7 +71,7 @@ class Chuck(Value):
 
     surfaces: MaterialPair
     thickness: float = quantity("t", "m", "thickness of the plate", gt=0, usual=0.1)
-    pressure: float = quantity("p", "Pa", "pressure that holds the plate", gt=0)
+    pressure: float = quantity("p", "Pa", "pressure that holds the plate", gt=0, usual=1e3)
     diameter: float | None = quantity(
         "D_w", "m", "diameter of the plate", default=None, gt=0, usual=10
     )
@@ -93,8 +94,13 @@ class Chuck(Value):
 
     def over(self, diameter: float, dust: Particles) -> Bump:
         """The bump over a particle of this diameter [m] of a kind of dust."""
-        law = (dust.law or self.law).of_shape(dust.shape)  # type: ignore[attr-defined]
-        return self._plate(law).over(diameter, dust.material)
+        return self._plate(self._law(dust)).over(diameter, dust.material)
+
+    def breaks(self, bump: Bump, dust: Particles) -> bool:
+        """Whether most particles of this kind would break under this bump."""
+        one = self._law(dust).one(surfaces=self.surfaces, particle=dust.material)
+        x = bump.height + bump.squeeze
+        return breaks(one, dust.material, x=x, squeeze=bump.squeeze / x)
 
     def bump(self, height: float) -> Bump:
         """The plate lifted by a point of this height [m], rigid."""
@@ -124,10 +130,12 @@ class Chuck(Value):
             out += self.touching * self.area * dust.areal_density * max(above, 0.0)
         return out
 
+    def _law(self, dust: Particles) -> Any:
+        return (dust.law or self.law).of_shape(dust.shape)  # type: ignore[attr-defined]
+
     def _plate(self, law: AbstractParticleLaw) -> PlateOverParticle:
-        first: Material = self.surfaces.first
         return PlateOverParticle(
-            plate=first,
+            plate=self.surfaces.first,
             flat=self.surfaces.second,
             thickness=self.thickness,
             pressure=self.pressure,

@@ -29,6 +29,7 @@ import numpy as np
 
 from ..errors import InvalidValue, Problem
 from ..laws.particle.series import Series
+from ..laws.particle.tension import breaks
 from ..populations.distributions import Monodisperse
 from ..populations.materials import MaterialPair
 from ..populations.particles import Particles
@@ -145,7 +146,9 @@ class Connector(Value):
                 out.append(Problem("conducting", f"must name particles, here {known}", say(name)))
         for dust, name in zip(self.particles, names, strict=True):
             if dust.strength is not None:
-                out.append(f"{name}: particles that break are not followed here; leave out strength")
+                out.append(
+                    f"{name}: particles that break are not followed here; leave out strength"
+                )
             largest = dust.diameter.support[1]
             if self.radius <= largest:
                 out.append(
@@ -175,17 +178,24 @@ class Connector(Value):
         mean = sum(float(kind.each @ kind.x) for kind in kinds) / weight
         return math.sqrt(2 * self.radius * mean)
 
+    def breaking(self) -> list[str]:
+        """Kinds of dust whose mean particle in the way would break before it is pressed in."""
+        return [
+            kind.name
+            for kind in self._kinds()
+            if breaks(kind.one, kind.material, x=kind.mean, squeeze=1.0)
+        ]
+
     def _kinds(self, *, conduct: bool | None = None) -> list[_Kind]:
         return [
-            _Kind(self, dust)
+            _Kind(self, dust, name_of(dust, i))
             for i, dust in enumerate(self.particles)
-            if dust.areal_density > 0
-            and conduct in (None, name_of(dust, i) in self.conducting)
+            if dust.areal_density > 0 and conduct in (None, name_of(dust, i) in self.conducting)
         ]
 
     # ------------------------------------------------------------------ how often it fails
     def failure(self, load: float) -> float:
-        """How often one pair of contacts stays open under a load W [N]: in the middle of `bounds`."""
+        """How often one pair stays open under a load W [N]: in the middle of `bounds`."""
         return float(np.mean(self.bounds(load)))
 
     def failure_of_all(self, load: float) -> float:
@@ -234,7 +244,8 @@ def name_of(dust: Particles, i: int) -> str:
 class _Kind:
     """One kind of dust in classes of size: how many are in the way, and what each carries."""
 
-    def __init__(self, plug: Connector, dust: Particles) -> None:
+    def __init__(self, plug: Connector, dust: Particles, name: str) -> None:
+        self.name, self.material = name, dust.material
         law: Any = (dust.law or plug.law).of_shape(dust.shape)  # type: ignore[attr-defined]
         self.one = law.one(surfaces=plug.surfaces, particle=dust.material)
         self.x, weight = _classes(dust)
@@ -243,6 +254,11 @@ class _Kind:
         self.k = plug.wipe / np.sqrt(2 * plug.radius * self.x)
         """Wipe over the radius of the disc."""
         self.aside = plug.pushed_aside or 0.0 if plug.wipe > 0 else 0.0
+
+    @property
+    def mean(self) -> float:
+        """Diameter of the mean particle in the way [m]."""
+        return float(self.each @ self.x / self.each.sum())
 
     @cached_property
     def curve(self) -> tuple[Array, Array]:
@@ -310,10 +326,10 @@ def _open(kinds: list[_Kind], load: float, height: float) -> tuple[float, float]
         jump = kinds[0].most * float(kinds[0].x[0]) ** 2
         if jump < load + step:  # the jumps of one size lie on multiples of the step
             step = jump / math.ceil(jump / step)
-    places = step * np.arange(math.floor(load / step * (1 + SURE)) + 1)
+    places = np.asarray(step * np.arange(math.floor(load / step * (1 + SURE)) + 1), float)
     out = []
-    for ends in (places, (places + step) * (1 - 2 * SURE)):
-        below = sum(kind.number_below(ends, height) for kind in kinds)
+    for ends in (places, np.asarray((places + step) * (1 - 2 * SURE), float)):
+        below = np.sum([kind.number_below(ends, height) for kind in kinds], axis=0)
         mass = np.diff(below, prepend=0.0) / number
         out.append(1 - float(compound(number, mass)[-1]))
     return max(out[1], 0.0), max(out[0], 0.0)
@@ -331,8 +347,6 @@ def overlap(u: ArrayLike, k: ArrayLike) -> Array:
     safe_k, safe_r = np.where(apart | within, 1.0, k), np.where(apart | within, 1.0, r)
     first = np.arccos(np.clip((safe_k**2 + safe_r**2 - 1) / (2 * safe_k * safe_r), -1, 1))
     second = np.arccos(np.clip((safe_k**2 + 1 - safe_r**2) / (2 * safe_k), -1, 1))
-    four = (
-        (-safe_k + safe_r + 1) * (safe_k + safe_r - 1) * (safe_k - safe_r + 1) * (safe_k + safe_r + 1)
-    )  # fmt: skip
-    lens = safe_r**2 * first + second - 0.5 * np.sqrt(np.maximum(four, 0.0))
+    sides = (safe_k + safe_r) ** 2 - 1, 1 - (safe_k - safe_r) ** 2
+    lens = safe_r**2 * first + second - 0.5 * np.sqrt(np.maximum(sides[0] * sides[1], 0.0))
     return np.where(apart, 0.0, np.where(within, np.minimum(u, 1.0), lens / np.pi))

@@ -25,8 +25,8 @@ MEANS = {
 def once_in(failure: float) -> str:
     """How often, as people say it.
 
-    >>> once_in(0.0048), once_in(0.35), once_in(0.0), once_in(1.0)
-    ('once in 208 closings (0.48 %)', 'in 35 % of all closings', 'never', 'in 100 % of all closings')
+    >>> once_in(0.0048), once_in(0.35), once_in(0.0)
+    ('once in 208 closings (0.48 %)', 'in 35 % of all closings', 'never')
     >>> once_in(1e-13)
     'less than once in 10¹² closings'
     """
@@ -56,9 +56,11 @@ def answer(found: ConnectorResult) -> list[str]:
     """How often it fails, in one or two sentences."""
     plug = found.asked.connector
     many = _makes(found)
-    out = []
+    out: list[str] = []
     for i in sorted({found.places[0], found.places[-1]}):
-        force, one, every = (float(c[i]) for c in (found.force, found.failure, found.failure_of_all))
+        force, one, every = (
+            float(c[i]) for c in (found.force, found.failure, found.failure_of_all)
+        )
         what = "connector" if many else "contact"
         said = f"Under {value_of(force, 'N')} the {what} fails to close {once_in(every)}"
         if many and not out:
@@ -83,15 +85,16 @@ def _makes(found: ConnectorResult) -> str:
     return f"{series} with {m} spots each" if series else f"{m} spots, of which one is enough"
 
 
-def uncertainty(found: ConnectorResult) -> str:
-    """What moves the answer most, by how much, and what to do about it; empty where nothing does."""
-    if not found.what_ifs or not found.what_ifs[0].ratio > 1:
-        return ""
-    most = found.what_ifs[0]
-    return (
-        f"Most uncertain: {most.what}. With {most.between} it fails between {once_in(most.low)} "
-        f"and {once_in(most.high)}; {most.action}."
-    )
+def uncertainty(found: ConnectorResult) -> list[str]:
+    """What moves the answer most, and what the wipe may do: a sentence each, with what to do."""
+    every = [each for each in found.what_ifs if each.ratio > 1]
+    heads = ["Most uncertain"] + ["Besides"] * len(every)
+    return [
+        f"{head}: {each.what}. With {each.between} it fails {once_in(each.low)} to "
+        f"{once_in(each.high)}; {each.action}."
+        for head, each in zip(heads, every, strict=False)
+        if each is every[0] or each.code == "wipe"
+    ]
 
 
 def rows(found: ConnectorResult) -> list[list[str]]:

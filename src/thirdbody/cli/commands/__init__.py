@@ -6,6 +6,7 @@ COMMANDS = (
     "sweep",
     "film",
     "probability",
+    "plate",
     "explicit",
     "assess",
     "design",

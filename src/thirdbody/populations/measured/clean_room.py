@@ -63,16 +63,16 @@ def read_class(value: object) -> float:
     return found
 
 
-def airborne(iso_class: float, x: ArrayLike) -> Array:
+def airborne(x: ArrayLike, *, iso_class: float) -> Array:
     """Particles of at least this diameter [m] in a volume of air [1/m³].
 
-    >>> [f"{float(airborne(5, x)):.3g}" for x in (0.1e-6, 0.5e-6, 5e-6)]
+    >>> [f"{float(airborne(x, iso_class=5)):.3g}" for x in (0.1e-6, 0.5e-6, 5e-6)]
     ['1e+05', '3.52e+03', '29.3']
     """
     return 10.0**iso_class * (0.1e-6 / np.asarray(x, float)) ** 2.08
 
 
-def settling_speed(x: ArrayLike, density: float) -> Array:
+def settling_speed(x: ArrayLike, *, density: float) -> Array:
     """Speed at which spheres of this diameter [m] and density [kg/m³] fall through air [m/s]."""
     x = np.asarray(x, float)
     slip = 1 + 2 * PATH / x * (1.257 + 0.4 * np.exp(-1.1 * x / (2 * PATH)))
@@ -125,7 +125,7 @@ def settled(
 
     def per_log(x: Array) -> Array:
         """Particles per area and ln x."""
-        return exposure * settling_speed(x, particle_density) * 2.08 * airborne(iso_class, x)
+        return exposure * settling_speed(x, density=particle_density) * 2.08 * airborne(x, iso_class=iso_class)
 
     nodes, weights = panel_rule(np.log(edges), 4)
     counts = (per_log(np.exp(nodes)) * weights).reshape(count, -1).sum(axis=1)
