@@ -109,6 +109,7 @@ def connector_of(reader: Reader, values: dict[str, Any]) -> AskedConnector:
 TABLE = Table(
     name="connector",
     read=_connector,
-    about='contacts that close on dust, e.g. radius = "2 mm", force = "0.5 N", contacts = 20',
+    about='contacts that close on dust, e.g. radius = "2 mm", force = "0.5 N"; '
+    "thirdbody new connector writes a whole study",
     role="study",
 )

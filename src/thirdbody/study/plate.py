@@ -87,6 +87,7 @@ def plate_of(reader: Reader, values: dict[str, Any]) -> AskedPlate:
 TABLE = Table(
     name="plate",
     read=_plate,
-    about='a wafer, film or plate on a flat, e.g. thickness = "775 um", pressure = "80 kPa"',
+    about='a wafer, film or plate on a flat, e.g. thickness = "775 um", pressure = "80 kPa"; '
+    "thirdbody new wafer-chuck writes a whole study",
     role="study",
 )

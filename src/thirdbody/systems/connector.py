@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue
 from ..laws.particle.series import Series
 from ..laws.particle.tension import breaks
 from ..populations.distributions import Monodisperse
@@ -138,12 +138,12 @@ class Connector(Value):
         out: list[str] = []
         for name in ("contacts", "parallel"):
             if getattr(self, name) % 1:
-                out.append(Problem(name, "must be a whole number", f"{getattr(self, name):g}"))
+                out.append(f"Connector.{name} = {getattr(self, name):g} must be a whole number")
         names = [name_of(dust, i) for i, dust in enumerate(self.particles)]
         for name in self.conducting:
             if name not in names:
                 known = ", ".join(map(say, names))
-                out.append(Problem("conducting", f"must name particles, here {known}", say(name)))
+                out.append(f"Connector.conducting = {say(name)} must name particles, here {known}")
         for dust, name in zip(self.particles, names, strict=True):
             if dust.strength is not None:
                 out.append(
@@ -152,8 +152,9 @@ class Connector(Value):
             largest = dust.diameter.support[1]
             if self.radius <= largest:
                 out.append(
-                    f"radius = {value_of(self.radius, 'm')} must be above the largest particle of "
-                    f"{name}, {value_of(largest, 'm')}: contacts come down on dust, not on boulders"
+                    f"Connector.radius = {value_of(self.radius, 'm')} must be above the largest "
+                    f"particle of {name}, {value_of(largest, 'm')}: contacts come down on dust, "
+                    "not on boulders"
                 )
         return out
 

@@ -125,7 +125,12 @@ def settled(
 
     def per_log(x: Array) -> Array:
         """Particles per area and ln x."""
-        return exposure * settling_speed(x, density=particle_density) * 2.08 * airborne(x, iso_class=iso_class)
+        return (
+            exposure
+            * settling_speed(x, density=particle_density)
+            * 2.08
+            * airborne(x, iso_class=iso_class)
+        )
 
     nodes, weights = panel_rule(np.log(edges), 4)
     counts = (per_log(np.exp(nodes)) * weights).reshape(count, -1).sum(axis=1)
