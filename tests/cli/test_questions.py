@@ -169,3 +169,14 @@ def test_without_dust_there_is_nothing_to_ask():
     assert done.exit_code == 2
     assert "particles" in done.stderr
     assert done.stderr.count("error: ") == 1
+
+
+@pytest.mark.parametrize(
+    ("command", "kind", "page"),
+    [("probability", "connector", "connector.md"), ("plate", "wafer-chuck", "wafer.md")],
+)
+def test_the_book_shows_what_is_printed(command, kind, page):
+    text = (Path(__file__).parents[2] / "docs" / page).read_text("utf-8")
+    shown = text.split("```text\n")[1].split("```")[0]
+    printed = [line.rstrip() for line in run(command, f"{kind}.toml").stdout.splitlines()]
+    assert shown.splitlines() == printed[2:]
