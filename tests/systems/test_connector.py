@@ -66,6 +66,17 @@ def test_one_kind_of_dust_is_that_of_contact_probability(sizes):
         assert several.failure(load) == pytest.approx(1 - alone.probability(load), abs=2e-3)
 
 
+def test_a_curve_is_its_points():
+    spread = plug(dust(1.3, tb.LogNormal(median=8e-6, gsd=1.4)))
+    loads = np.geomspace(1e-3, 2.0, 25)
+    expected = [spread.failure(float(load)) for load in loads]
+    assert spread.failures(loads) == pytest.approx(expected, rel=0.03, abs=1e-4)
+    kinds = dust(0.3, name="sand"), dust(0.3, material="CuSn8", name="debris")
+    mixed = plug(*kinds, conducting=["debris"])
+    assert mixed.failures([0.05])[0] == mixed.failure(0.05)
+    assert spread.failures([0.0, 0.1])[0] == spread.failure(0.0)
+
+
 def test_two_halves_are_the_whole():
     whole = plug(dust(0.8))
     halves = plug(dust(0.4, name="a"), dust(0.4, name="b"))

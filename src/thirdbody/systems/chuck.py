@@ -93,7 +93,15 @@ class Chuck(Value):
         return None if self.diameter is None else math.pi / 4 * self.diameter**2
 
     def over(self, diameter: float, dust: Particles) -> Bump:
-        """The bump over a particle of this diameter [m] of a kind of dust."""
+        """The bump over a particle of a kind of dust.
+
+        Parameters
+        ----------
+        diameter : float
+            Diameter x of the particle [m].
+        dust : Particles
+            What it is of.
+        """
         return self._plate(self._law(dust)).over(diameter, dust.material)
 
     def breaks(self, bump: Bump, dust: Particles) -> bool:
@@ -103,11 +111,25 @@ class Chuck(Value):
         return breaks(one, dust.material, x=x, squeeze=bump.squeeze / x)
 
     def bump(self, height: float) -> Bump:
-        """The plate lifted by a point of this height [m], rigid."""
+        """The plate lifted by a rigid point.
+
+        Parameters
+        ----------
+        height : float
+            Height h of the point [m].
+        """
         return self._plate(self.law).bump(height)
 
     def lifting(self, height: float, dust: Particles | None = None) -> float:
-        """Diameter of the particle that lifts the plate by this height [m]."""
+        """Diameter of the particle that lifts the plate so high [m].
+
+        Parameters
+        ----------
+        height : float
+            Height h of the plate [m].
+        dust : Particles, optional
+            What the particle is of, by default the first kind.
+        """
         from scipy.optimize import brentq
 
         kind = dust or self.particles[0]
@@ -122,7 +144,13 @@ class Chuck(Value):
         return math.exp(brentq(excess, low, high, xtol=1e-12))
 
     def bumps_above(self, height: float) -> float:
-        """Mean number N of bumps higher than this [m] under the whole plate [1]."""
+        """Mean number N of bumps that are higher, under the whole plate [1].
+
+        Parameters
+        ----------
+        height : float
+            Height l [m].
+        """
         assert self.area is not None
         out = 0.0
         for dust in self.particles:

@@ -49,6 +49,8 @@ __all__ = ["Connector"]
 
 CLASSES = 300
 """Classes of size, equally wide in ln x."""
+SHARED = 20.0
+"""Loads of a curve within this factor share their steps."""
 SQUEEZES = 4096
 """Squeezes at which the load of a particle is tabled."""
 HEIGHTS, COARSE = 40, 256
@@ -196,15 +198,52 @@ class Connector(Value):
 
     # ------------------------------------------------------------------ how often it fails
     def failure(self, load: float) -> float:
-        """How often one pair stays open under a load W [N]: in the middle of `bounds`."""
+        """How often one pair stays open: in the middle of `bounds`.
+
+        Parameters
+        ----------
+        load : float
+            Load W [N].
+        """
         return float(np.mean(self.bounds(load)))
 
     def failure_of_all(self, load: float) -> float:
-        """How often a connector of all its contacts stays open under a load W on each [N]."""
+        """How often a connector of all its contacts stays open.
+
+        Parameters
+        ----------
+        load : float
+            Load W on each contact [N].
+        """
         return self.of_all(self.failure(load))
 
+    def failures(self, loads: ArrayLike) -> Array:
+        """How often one pair stays open under many loads: as `failure`, for a curve.
+
+        Parameters
+        ----------
+        loads : array_like
+            Loads W [N].
+        """
+        every = np.asarray(loads, float)
+        if self.conducting:
+            return np.array([self.failure(float(load)) for load in every])
+        out, left = np.empty(len(every)), every.copy()
+        kinds = self._kinds(conduct=False)
+        while np.any(left >= 0):
+            here = left >= left.max() / SHARED
+            out[here] = np.mean(_open(kinds, left[here], 0.0), axis=0)
+            left[here] = -1.0
+        return out
+
     def of_all(self, failure: float) -> float:
-        """How often n contacts of m spots stay open where one spot does so often [1]."""
+        """How often n contacts of m spots stay open.
+
+        Parameters
+        ----------
+        failure : float
+            How often one spot does [1].
+        """
         return -math.expm1(self.contacts * math.log1p(-min(failure**self.parallel, 1 - 1e-16)))
 
     def bounds(self, load: float) -> tuple[float, float]:
@@ -224,12 +263,14 @@ class Connector(Value):
             raise InvalidValue("load must be finite and not below 0 N")
         insulating, conductors = self._kinds(conduct=False), self._kinds(conduct=True)
         if not conductors:
-            return _open(insulating, load, 0.0)
+            low, high = _open(insulating, np.array([load]), 0.0)
+            return float(low[0]), float(high[0])
         if not insulating:
             return 0.0, 0.0
         largest = max(float(kind.x.max()) for kind in insulating)
         heights = np.array([0.0, *np.geomspace(largest / 300, largest, HEIGHTS)])
-        above = np.array([_open(insulating, load, h) for h in heights])
+        one = np.array([load])
+        above = np.array([_open(insulating, one, h) for h in heights])[:, :, 0]
         closed = np.exp([-sum(kind.number(h) for kind in conductors) for h in heights])
         between = above[:-1] - above[1:]
         low = between[:, 0] @ closed[:-1] + above[-1, 0] * closed[-1]
@@ -315,25 +356,26 @@ def _classes(dust: Particles) -> tuple[Array, Array]:
     return np.concatenate(x), np.concatenate(weight)
 
 
-def _open(kinds: list[_Kind], load: float, height: float) -> tuple[float, float]:
-    """How often these particles carry more than a load at a height: bounds [1]."""
+def _open(kinds: list[_Kind], loads: Array, height: float) -> tuple[Array, Array]:
+    """How often these particles carry more than loads at a height: bounds [1]."""
     number = sum(kind.number(height) for kind in kinds)
-    if not number > 0:
-        return 0.0, 0.0
-    if load == 0:
-        return (-math.expm1(-number),) * 2
-    step = load / min(max(CELLS if height == 0 else COARSE, PER_PARTICLE * number), MOST_CELLS)
+    top = float(loads.max())
+    if not number > 0 or top == 0:
+        none = np.full(len(loads), -math.expm1(-number))
+        return none, none
+    step = top / min(max(CELLS if height == 0 else COARSE, PER_PARTICLE * number), MOST_CELLS)
     if len(kinds) == 1 and len(kinds[0].x) == 1 and height == 0:
         jump = kinds[0].most * float(kinds[0].x[0]) ** 2
-        if jump < load + step:  # the jumps of one size lie on multiples of the step
+        if jump < top + step:  # the jumps of one size lie on multiples of the step
             step = jump / math.ceil(jump / step)
-    places = np.asarray(step * np.arange(math.floor(load / step * (1 + SURE)) + 1), float)
+    places = np.asarray(step * np.arange(math.floor(top / step * (1 + SURE)) + 1), float)
+    at = np.floor(loads / step * (1 + SURE)).astype(int)
     out = []
     for ends in (places, np.asarray((places + step) * (1 - 2 * SURE), float)):
         below = np.sum([kind.number_below(ends, height) for kind in kinds], axis=0)
         mass = np.diff(below, prepend=0.0) / number
-        out.append(1 - float(compound(number, mass)[-1]))
-    return max(out[1], 0.0), max(out[0], 0.0)
+        out.append(np.maximum(1 - compound(number, mass)[at], 0.0))
+    return out[1], out[0]
 
 
 def overlap(u: ArrayLike, k: ArrayLike) -> Array:
