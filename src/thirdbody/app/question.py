@@ -133,7 +133,7 @@ class QuestionTab:
         self.words.clear()
         with self.words:
             for i, text in enumerate(shown.answer):
-                said = ui.label(with_micro(text)).classes("answer" if i == 0 else "")
+                said = ui.label(with_micro(text)).classes("whole-contact" if i == 0 else "")
                 put(said, {"data-fact": f"{name}: answer {i}"})
         self.facts.clear()
         with self.facts:
