@@ -10,9 +10,8 @@ from ..systems.connector import name_of
 if TYPE_CHECKING:
     from ..study.run_plate import PlateResult
 
-__all__ = ["HEADS", "MEANS", "answer", "facts", "rows", "uncertainty"]
+__all__ = ["MEANS", "answer", "facts", "heads", "rows", "uncertainty"]
 
-HEADS = ("particle", "of", "plate stands", "of its size", "bump wide", "force")
 MEANS = {
     "plate stands": "height above the chuck over the particle",
     "of its size": "that over the particle's diameter",
@@ -61,19 +60,28 @@ def uncertainty(found: PlateResult) -> list[str]:
     return [f"Most uncertain: {most.what}. With {most.between} {ends}; {most.action}."]
 
 
+def _columns(found: PlateResult, i: int) -> dict[str, str]:
+    """The cells of one particle by their heads; its kind where there are several."""
+    kinds = {"of": found.particles[i]} if len(found.asked.chuck.particles) > 1 else {}
+    height, grain = float(found.height[i]), float(found.grain[i])
+    return {
+        "particle": value_of(grain, "m", 3),
+        **kinds,
+        "plate stands": value_of(height, "m", 3),
+        "of its size": percent(height / grain, digits=2, least=FEW),
+        "bump wide": value_of(float(found.width[i]), "m", 3),
+        "force": value_of(float(found.force[i]), "N", 3),
+    }
+
+
+def heads(found: PlateResult) -> tuple[str, ...]:
+    """The heads of the table."""
+    return tuple(_columns(found, 0))
+
+
 def rows(found: PlateResult) -> list[list[str]]:
     """The table: a row a particle."""
-    return [
-        [
-            value_of(float(found.grain[i]), "m", 3),
-            found.particles[i],
-            value_of(float(found.height[i]), "m", 3),
-            percent(float(found.height[i] / found.grain[i]), digits=2, least=FEW),
-            value_of(float(found.width[i]), "m", 3),
-            value_of(float(found.force[i]), "N", 3),
-        ]
-        for i in range(len(found.grain))
-    ]
+    return [list(_columns(found, i).values()) for i in range(len(found.grain))]
 
 
 def facts(found: PlateResult) -> dict[str, str]:

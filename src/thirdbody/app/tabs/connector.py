@@ -68,7 +68,7 @@ def shown(answer_of_study: Answer) -> Shown:
     return Shown(
         answer=answer(found),
         facts=list(facts(found).items()),
-        notes=[*uncertainty(found), *found.run_warnings],
+        notes=[*uncertainty(found), *(f"Note: {text}" for text in found.run_warnings)],
         heads=HEADS,
         rows=rows(found),
         figure=made,

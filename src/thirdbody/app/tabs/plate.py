@@ -11,7 +11,7 @@ from ...study.plate import AskedPlate
 from ...study.run_plate import run_plate
 from ...systems.chuck import Chuck
 from ...systems.connector import name_of
-from ...views.plate_words import HEADS, answer, facts, rows, uncertainty
+from ...views.plate_words import answer, facts, heads, rows, uncertainty
 from ..fields import Field
 from ..figures import figure, line, plain
 from ..question import Question, QuestionTab, Shown
@@ -61,8 +61,8 @@ def shown(answer_of_study: Answer) -> Shown:
     return Shown(
         answer=answer(found),
         facts=list(facts(found).items()),
-        notes=[*uncertainty(found), *found.run_warnings],
-        heads=HEADS,
+        notes=[*uncertainty(found), *(f"Note: {text}" for text in found.run_warnings)],
+        heads=heads(found),
         rows=rows(found),
         figure=figure(
             traces,

@@ -35,7 +35,7 @@ def command(
 ) -> None:
     """How high a wafer, film or plate stands over a particle, and how often too high."""
     from ...study.run_plate import load_plate, run_plate
-    from ...views.plate_words import HEADS, MEANS, answer, rows, uncertainty
+    from ...views.plate_words import MEANS, answer, heads, rows, uncertainty
 
     files = TableFiles(csv_file, xlsx_file, parquet_file)
     asked = read_question(load_plate, study, settings, files, force=force)
@@ -46,7 +46,7 @@ def command(
         files,
         as_json=as_json,
         answer=answer(found),
-        heads=HEADS,
+        heads=heads(found),
         rows=rows(found),
         means=MEANS,
         last=uncertainty(found),
