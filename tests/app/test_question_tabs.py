@@ -39,7 +39,7 @@ def printed(tab, study):
 def test_the_tab_shows_what_the_command_prints(tab):
     kind, module = TABS[tab]
     study = check(study_of(kind))
-    shown = module.shown(Answer(study))
+    shown = module.contents_of(Answer(study))
     answer, rows, notes = printed(tab, study)
     assert (shown.answer, shown.rows) == (answer, rows)
     assert shown.notes[: len(notes)] == notes
@@ -52,7 +52,7 @@ def test_a_study_without_the_table_is_answered_for_the_start(tab):
     data = study_of(kind)
     del data[tab]
     data["load"] = {"pressure": "1 MPa"}
-    shown = module.shown(Answer(check(data)))
+    shown = module.contents_of(Answer(check(data)))
     begun = check(data | {tab: module.START})
     assert shown.answer == printed(tab, begun)[0]
 

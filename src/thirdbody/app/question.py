@@ -45,7 +45,7 @@ class Question(NamedTuple):
         The table where the study has none.
     left_out : tuple of str
         Fields of the class that have no entry.
-    found : callable
+    contents : callable
         What is shown of an answer, and of the start where the study has no such table.
     """
 
@@ -55,7 +55,7 @@ class Question(NamedTuple):
     own: tuple[Field, ...]
     start: dict[str, Any]
     left_out: tuple[str, ...]
-    found: Callable[[Answer], Shown]
+    contents: Callable[[Answer], Shown]
 
 
 class QuestionTab:
@@ -124,7 +124,7 @@ class QuestionTab:
             part.set_visibility(not answer.contact.two_body)
         if answer.contact.two_body or answer is self.answer:
             return
-        shown: Shown = await self.state.ask(self.question.found)
+        shown: Shown = await self.state.ask(self.question.contents)
         self.answer = answer
         self._show(shown)
 

@@ -16,7 +16,7 @@ from ..figures import figure, line, mark
 from ..question import Question, QuestionTab, Shown
 from ..state import Answer, State
 
-__all__ = ["START", "TITLE", "build", "shown"]
+__all__ = ["START", "TITLE", "build", "contents_of"]
 
 TITLE = "Connector"
 START: dict[str, Any] = {"radius": "2 mm", "force": "0.5 N", "contacts": 20}
@@ -30,7 +30,7 @@ FORCE = Field(
 )
 
 
-def _asked(answer: Answer) -> AskedConnector:
+def _question_of(answer: Answer) -> AskedConnector:
     """What the study asks, or the start where it has no such table."""
     if (own := answer.study.connector) is not None:
         return own
@@ -45,9 +45,9 @@ def _asked(answer: Answer) -> AskedConnector:
     return AskedConnector(title="", connector=plug, forces=np.array([0.5]))
 
 
-def shown(answer_of_study: Answer) -> Shown:
+def contents_of(answer_of_study: Answer) -> Shown:
     """The answer in words, numbers and a curve over the force."""
-    asked = _asked(answer_of_study)
+    asked = _question_of(answer_of_study)
     found, plug = run_connector(asked), asked.connector
     forces = np.geomspace(asked.forces[0] / REACH, asked.forces[-1] * REACH, POINTS)
     one = plug.failures(forces)
@@ -84,7 +84,7 @@ QUESTION = Question(
     own=(FORCE,),
     start=START,
     left_out=("law",),
-    found=shown,
+    contents=contents_of,
 )
 
 

@@ -17,7 +17,7 @@ from ..figures import figure, line, plain
 from ..question import Question, QuestionTab, Shown
 from ..state import Answer, State
 
-__all__ = ["START", "TITLE", "build", "shown"]
+__all__ = ["START", "TITLE", "build", "contents_of"]
 
 TITLE = "Wafer"
 START: dict[str, Any] = {"thickness": "775 um", "pressure": "80 kPa"}
@@ -30,7 +30,7 @@ GRAIN = Field(
 )
 
 
-def _asked(answer: Answer) -> AskedPlate:
+def _question_of(answer: Answer) -> AskedPlate:
     """What the study asks, or the start where it has no such table."""
     if (own := answer.study.plate) is not None:
         return own
@@ -45,9 +45,9 @@ def _asked(answer: Answer) -> AskedPlate:
     return AskedPlate(title="", chuck=chuck, grains=np.empty(0))
 
 
-def shown(answer_of_study: Answer) -> Shown:
+def contents_of(answer_of_study: Answer) -> Shown:
     """The answer in words, numbers and a curve over the size of the particle."""
-    asked = _asked(answer_of_study)
+    asked = _question_of(answer_of_study)
     found, chuck = run_plate(asked), asked.chuck
     sizes = np.geomspace(found.grain.min() / REACH, found.grain.max() * REACH, POINTS)
     traces = []
@@ -82,7 +82,7 @@ QUESTION = Question(
     own=(GRAIN,),
     start=START,
     left_out=("law",),
-    found=shown,
+    contents=contents_of,
 )
 
 

@@ -28,6 +28,7 @@ import numpy as np
 
 from ...errors import InvalidValue
 from ...numerics.quadrature import panel_rule
+from ...quantities.carried import takes_units
 from ..distributions import Distribution
 from ..tabulated_sizes import PowerLaw
 
@@ -79,6 +80,7 @@ def settling_speed(x: ArrayLike, *, density: float) -> Array:
     return density * x**2 * GRAVITY * slip / (18 * VISCOSITY)
 
 
+@takes_units
 def settled(
     iso_class: float,
     *,
