@@ -176,6 +176,14 @@ def test_dust_that_only_conducts_never_keeps_a_circuit_open():
     assert plug(dust(3.0, name="debris"), conducting=("debris",)).failure(0.01) == 0.0
 
 
+def test_by_material_metal_conducts_and_sand_does_not():
+    kinds = dust(0.7, name="sand"), dust(0.5, material="CuSn8", name="debris")
+    named, told = plug(*kinds, conducting=("debris",)), plug(*kinds, conducting="by material")
+    assert told.failure(0.05) == named.failure(0.05)
+    sand = plug(dust(0.7), conducting="by material")
+    assert sand.failure(0.05) == plug(dust(0.7)).failure(0.05)
+
+
 def test_dust_that_conducts_closes_more_often_than_dust_that_does_not():
     kinds = dust(0.7, name="sand"), dust(0.5, material="CuSn8", name="debris")
     insulating, alone = plug(*kinds), plug(kinds[0])

@@ -67,7 +67,9 @@ def _connector(reader: Reader, path: str, data: Any) -> Any:
             about_of("force", FORCE),
         ),
         "conducting": Key(
-            plain(words(f"{path}.conducting", None)), False, "names of particles that conduct"
+            plain(words(f"{path}.conducting", None)),
+            False,
+            'names of particles that conduct, or "by material"',
         ),
     }
     return reader.table(path, keys, dict)

@@ -47,6 +47,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Connector"]
 
+BY_MATERIAL = "by material"
 CLASSES = 300
 """Classes of size, equally wide in ln x."""
 SHARED = 20.0
@@ -84,7 +85,8 @@ class Connector(Value):
         Part c of the particles before the wipe that it pushes aside [1]. Nobody can predict it;
         without it none is, and the wipe changes nothing.
     conducting : tuple of str, optional
-        Names of the kinds of dust that conduct.
+        Names of the kinds of dust that conduct; ``"by material"`` for those whose resistivity is
+        known.
     law : AbstractParticleLaw, optional
         What one particle does between the contacts.
 
@@ -133,7 +135,8 @@ class Connector(Value):
     def __post_init__(self) -> None:
         several = (self.particles,) if isinstance(self.particles, Particles) else self.particles
         object.__setattr__(self, "particles", items_of(several))
-        object.__setattr__(self, "conducting", tuple(self.conducting))
+        given = (self.conducting,) if isinstance(self.conducting, str) else self.conducting
+        object.__setattr__(self, "conducting", tuple(given))
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:
@@ -143,7 +146,7 @@ class Connector(Value):
                 out.append(f"Connector.{name} = {getattr(self, name):g} must be a whole number")
         names = [name_of(dust, i) for i, dust in enumerate(self.particles)]
         for name in self.conducting:
-            if name not in names:
+            if name not in (*names, BY_MATERIAL):
                 known = ", ".join(map(say, names))
                 out.append(f"Connector.conducting = {say(name)} must name particles, here {known}")
         for dust, name in zip(self.particles, names, strict=True):
@@ -193,8 +196,12 @@ class Connector(Value):
         return [
             _Kind(self, dust, name_of(dust, i))
             for i, dust in enumerate(self.particles)
-            if dust.areal_density > 0 and conduct in (None, name_of(dust, i) in self.conducting)
+            if dust.areal_density > 0 and conduct in (None, self._conducts(dust, name_of(dust, i)))
         ]
+
+    def _conducts(self, dust: Particles, name: str) -> bool:
+        by_material = BY_MATERIAL in self.conducting and dust.material.resistivity is not None
+        return by_material or name in self.conducting
 
     # ------------------------------------------------------------------ how often it fails
     def failure(self, load: float) -> float:
