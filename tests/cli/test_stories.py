@@ -140,3 +140,22 @@ def test_the_text_of_the_package_index():
     assert "<img" not in text
     (example,) = re.findall(r"^```python\n(.*?)^```$", text, re.S | re.M)
     assert example in (ROOT / "README.md").read_text("utf-8")
+
+
+def test_how_often_does_this_connector_fail_to_close(run):
+    assert run("new", "connector").strip() == "thirdbody probability connector.toml"
+    told = " ".join(run("probability", "connector.toml").split())
+    assert "Under 0.5 N the connector fails to close once in 210 closings (0.477 %)" in told
+    harder = run("probability", "connector.toml", "--set", "connector.force=2 N", "--json")
+    often = json.loads(harder)["states"]
+    assert often["force"][2] == 2.0
+    assert often["failure_of_all"][2] < 1e-4
+
+
+def test_how_high_does_a_wafer_stand_over_a_grain(run):
+    assert run("new", "wafer-chuck").strip() == "thirdbody plate wafer-chuck.toml"
+    told = " ".join(run("plate", "wafer-chuck.toml").split())
+    assert "The plate stands 410 nm high over a particle of 10 µm (quartz)" in told
+    assert "1.78 bumps on a plate, and 16.8 % of the plates have none" in told
+    pins = json.loads(run("plate", "wafer-chuck.toml", "--json", "--set", "plate.touching=0.02"))
+    assert pins["bumps"] == pytest.approx(0.02 * 1.78, rel=0.01)

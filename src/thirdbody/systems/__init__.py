@@ -1,6 +1,8 @@
 """Systems around a contact: films, oil, bodies, waves, bearings."""
 
 from . import bearing_life as bearing_life
+from . import chuck as chuck
+from . import connector as connector
 from . import contact_probability as contact_probability
 from . import film_conditions as film_conditions
 from . import fractal as fractal
@@ -13,6 +15,8 @@ from . import waviness as waviness
 
 __all__ = [
     "bearing_life",
+    "chuck",
+    "connector",
     "contact_probability",
     "film_conditions",
     "fractal",

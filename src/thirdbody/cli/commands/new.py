@@ -20,11 +20,15 @@ KINDS = (
     "rolling-bearing",
     "additive",
     "electrical",
+    "connector",
+    "wafer-chuck",
     "two-body",
     "measured-surface",
 )
 
 
+ANSWERED_BY = {"connector": "probability", "wafer-chuck": "plate"}
+"""Commands that answer what a file is for, where it is not `solve`."""
 SCHEMA = "study.schema.json"
 
 
@@ -91,4 +95,4 @@ def command(
     for file, content in written.items():
         write_text(file, content)
         print(f"written: {file}", file=sys.stderr)
-    print(f"thirdbody solve {target}")
+    print(f"thirdbody {ANSWERED_BY.get(kind, 'solve')} {target}")
