@@ -27,6 +27,7 @@ AMOUNT = {
         "oil_density": quantity("ρ_f", "kg/m^3", "density of the fluid", gt=0),
         "smallest": quantity("x_min", "m", "smallest diameter", gt=0),
         "largest": quantity("x_max", "m", "largest diameter", gt=0),
+        "share": quantity("w", "1", "part of the counted particles of this kind", gt=0, le=1),
     }.items()
 }
 """The numbers that lead from a count or a concentration to an areal density."""

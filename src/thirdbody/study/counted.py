@@ -20,9 +20,9 @@ from .reader import Key, Reader, get, plain
 __all__ = ["COUNTED", "counted"]
 
 COUNTED = {
-    "iso4406": ("level", "smallest", "largest"),
-    "as4059": ("smallest", "largest"),
-    "nas1638": ("smallest", "largest"),
+    "iso4406": ("level", "smallest", "largest", "share"),
+    "as4059": ("smallest", "largest", "share"),
+    "nas1638": ("smallest", "largest", "share"),
     "test_dust": ("limit", "smallest"),
     "sizes": ("weighting", "fit", "smallest"),
 }
@@ -69,6 +69,8 @@ def counted(
                 source = found.fit(options["fit"]) if "fit" in options else found
                 return laden(reader, path, values, source.by_number(smallest))
             gap = values.pop("gap", values.pop("film", None))
+            if part := options.pop("share", None):
+                gap *= part
             if kind == "iso4406":
                 return Particles.from_iso4406(found, gap=gap, **options, **values)
             if kind == "test_dust":

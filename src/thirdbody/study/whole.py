@@ -28,6 +28,7 @@ from .film import on_body
 from .outputs import on_area
 from .overrides import override
 from .own_code import load_installed
+from .particles import gaps_of
 from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names
 from .tables import FIELDS, TABLES
@@ -73,6 +74,9 @@ class Study:
         Forces on the body [N]; ``values`` are then the mean and the largest pressure of each.
     assumed : tuple of str
         Those of the ``notes`` that say what numbers were taken for what a drawing says.
+    gaps : tuple of float or None
+        Of each population the height of oil that brings it [m]; None where the file states how
+        many lie on an area.
     """
 
     title: str
@@ -90,6 +94,7 @@ class Study:
     body: Body | None = None
     forces: np.ndarray | None = None
     assumed: tuple[str, ...] = ()
+    gaps: tuple[float | None, ...] = ()
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -211,7 +216,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     given_forces = loaded[1] if loaded and loaded[0] == "force" else None
     contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
     reader.notes += notes
-    film = on_body(reader, film, bodies, given_forces)
+    film = on_body(reader, film, bodies, given_forces, contact.E_ss)
     load, loads = loaded or _film_load(film, contact)
     forces = None
     if load == "force":
@@ -230,6 +235,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         values=loads,
         notes=tuple(dict.fromkeys([*reader.assumed, *reader.notes])),
         assumed=tuple(dict.fromkeys(reader.assumed)),
+        gaps=gaps_of(reader.whole),
         sweep=states,
         uncertainty=own.get("uncertainty"),
         design=own.get("design"),

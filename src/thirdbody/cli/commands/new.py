@@ -16,6 +16,7 @@ from .schema import schema_text
 __all__ = ["KINDS", "command"]
 
 KINDS = (
+    "ball-bearing",
     "ball-screw",
     "rolling-bearing",
     "additive",
