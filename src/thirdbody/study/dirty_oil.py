@@ -82,7 +82,7 @@ class Life(Record):
     e_C, a_ISO, clean : float
         Contamination factor, life factor, and that of clean oil, e_C = 1 [1]; NaN with ``why``.
     hours : float
-        Rating life a_ISO L_10 [h]; NaN without the dynamic load rating.
+        Rating life a_ISO L_10 [h].
     why : str
         Why there is no factor.
     """
@@ -285,8 +285,6 @@ def _life(
         clean = life_factor(body.rated_as, kappa=kappa, load=own)
     except InvalidValue as error:
         return Life(**known, why=error.problems[0])
-    hours = math.nan
-    if body.dynamic_rating is not None:
-        exponent = 3.0 if body.rated_as == "ball" else 10 / 3
-        hours = float(a_ISO * (body.dynamic_rating / P) ** exponent * 1e6 / (turns * HOUR))
+    exponent = 3.0 if body.rated_as == "ball" else 10 / 3
+    hours = float(a_ISO * (body.rating / P) ** exponent * 1e6 / (turns * HOUR))
     return Life(**known, e_C=e_C, a_ISO=a_ISO, clean=clean, hours=hours)

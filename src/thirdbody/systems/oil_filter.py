@@ -28,8 +28,10 @@ __all__ = ["Filter"]
 FINEST = 0.5
 """Size from which a filter holds something, over the smallest one of its data sheet, where that
 names one size alone."""
-CLASSES = 96
+CLASSES = 24
 """Sections of the sizes behind a filter."""
+STEEPEST = 100.0
+"""Largest exponent of the number over size within a section."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,6 +112,22 @@ class Filter(Value):
             sizes=tuple(sizes[i] for i in order), betas=tuple(betas[i] for i in order)
         )
 
+    def _line(self) -> tuple[Array, Array]:
+        """ln x and ln β of the line, two points at least."""
+        known, logs = np.log(self.sizes), np.log(self.betas)
+        if len(known) > 1:
+            return known, logs
+        return np.array([known[0] + math.log(FINEST), known[0]]), np.array([0.0, logs[0]])
+
+    @property
+    def _finest(self) -> float:
+        """The size from which it holds something [m]."""
+        known, logs = self._line()
+        rise = logs[1] - logs[0]
+        if rise == 0:
+            return 0.0
+        return math.exp(known[0] - logs[0] * (known[1] - known[0]) / rise)
+
     def beta(self, x: ArrayLike) -> Array:
         """β ratios at sizes x [m].
 
@@ -118,10 +136,7 @@ class Filter(Value):
         x : float or array
             Sizes [m].
         """
-        at, known = np.log(np.asarray(x, float)), np.log(self.sizes)
-        logs = np.log(self.betas)
-        if len(known) == 1:
-            known, logs = np.array([known[0] + math.log(FINEST), known[0]]), np.array([0, logs[0]])
+        at, (known, logs) = np.log(np.asarray(x, float)), self._line()
         slope = (logs[1] - logs[0]) / (known[1] - known[0])
         below = np.maximum(logs[0] + slope * (at - known[0]), 0.0)
         return np.exp(np.where(at < known[0], below, np.interp(at, known, logs)))
@@ -146,17 +161,23 @@ class Filter(Value):
             raise InvalidValue(
                 "a filter needs sizes that are spread: particles of one size have no count above it"
             )
-        own = [x for x in (*self.sizes, *diameter.kinks) if low < x < high]
+        own = [x for x in (*self.sizes, self._finest, *diameter.kinks) if low < x < high]
         edges = np.unique([*np.geomspace(low, high, CLASSES + 1), *own])
-        above = np.array([float(diameter.partial_moment(0, x, high)) for x in edges])
+        above = number * np.array([float(diameter.partial_moment(0, x, high)) for x in edges])
         above[-1] = 0.0
-        left = number * above / self.beta(edges)
+        beta = self.beta(edges)
+        left = above / beta
         if not left[0] > 0:
             return 0.0, diameter
+        # −dN/dx behind, N/β, at both ends of each section, in which β is a power of x
+        power = np.diff(np.log(beta)) / np.diff(np.log(edges))
+        ends = (edges[:-1], np.nextafter(edges[1:], 0.0))
+        logs = [
+            np.log(np.maximum((number * diameter.pdf(x) + N * power / x) / b, 1e-300))
+            for x, N, b in zip(ends, (above[:-1], above[1:]), (beta[:-1], beta[1:]), strict=True)
+        ]
+        slopes = -(logs[1] - logs[0]) / np.diff(np.log(edges)) - 1
         counts = np.maximum(left[:-1] - left[1:], 0.0)
-        # inside a section the density falls as it does from end to end
-        density = np.maximum(diameter.pdf(edges) / self.beta(edges), 1e-300)
-        slopes = -np.diff(np.log(density)) / np.diff(np.log(edges)) - 1
-        slopes = np.where(counts > 0, np.clip(slopes, -20, 20), 0.0)
+        slopes = np.where(counts > 0, np.clip(slopes, -STEEPEST, STEEPEST), 0.0)
         found = PowerLaw(edges=tuple(edges), counts=tuple(counts), slopes=tuple(slopes))
         return float(left[0]), found

@@ -89,7 +89,7 @@ def _life(life: Life) -> str:
         if life.a_ISO >= 0.995 * life.clean
         else f"{number(life.clean, 2)} in clean oil"
     )
-    hours = "" if math.isnan(life.hours) else f", {number(life.hours, 2)} h of rating life"
+    hours = "" if math.isnan(life.hours) else f", {_count(life.hours)} h of rating life"
     return (
         f"By ISO 281 oil {life.code} with {kappa} has e_C = {number(life.e_C, 2)}, and the life "
         f"factor a_ISO is {number(life.a_ISO, 2)} ({lost}){hours}."
@@ -147,7 +147,7 @@ def filter_rows(before: DirtyOil, after: DirtyOil) -> list[list[str]]:
         add("e_C", [number(each.e_C, 2) for each in lives])
         add("life factor a_ISO", [number(each.a_ISO, 2) for each in lives])
         if not math.isnan(before.life.hours):
-            add("rating life [h]", [number(each.hours, 2) for each in lives])
+            add("rating life [h]", [_count(each.hours) for each in lives])
         add("kappa", [number(each.kappa, 3) for each in lives])
     add("lambda", [number(each.lambda_ratio, 2) for each in both])
     add("load on the film", [_share(each.film_share) for each in both])
@@ -172,6 +172,8 @@ def _rate(each: PopulationDents) -> str:
 
 def _count(value: float) -> str:
     """A number of dents as people say it."""
+    if not math.isfinite(value):
+        return number(value)
     return number(float(f"{value:.2g}"), 6 if 1 <= value < 1e6 else 2)
 
 
