@@ -62,7 +62,9 @@ def test_stribecks_numbers():
     """4.37 F/Z of balls, 4.08 F/Z of rollers, without clearance."""
     assert 1 / radial_integral(0.5) == pytest.approx(4.37, abs=0.005)
     assert 1 / radial_integral(0.5, exponent=1.1) == pytest.approx(4.08, abs=0.005)
-    exact = 2 * math.pi / quad(lambda p: math.cos(p) ** 2.5, -math.pi / 2, math.pi / 2, epsabs=1e-13)[0]
+    exact = (
+        2 * math.pi / quad(lambda p: math.cos(p) ** 2.5, -math.pi / 2, math.pi / 2, epsabs=1e-13)[0]
+    )
     found = share_radial_load(900.0, bodies=9, stiffness=1e10)
     assert found.largest == pytest.approx(exact * 100, rel=1e-11)
     assert found.eps == pytest.approx(0.5, rel=1e-12)
@@ -96,7 +98,9 @@ def test_the_bodies_hold_the_load(clearance, exponent):
 
 
 def test_clearance_and_load_work_against_each_other():
-    shares = [share_radial_load(F, bodies=9, stiffness=1e10, clearance=20e-6) for F in (1, 1e3, 1e6)]
+    shares = [
+        share_radial_load(F, bodies=9, stiffness=1e10, clearance=20e-6) for F in (1, 1e3, 1e6)
+    ]
     assert [each.carrying for each in shares] == sorted(each.carrying for each in shares)
     zones = [each.eps for each in shares]
     assert zones == sorted(zones)

@@ -55,7 +55,12 @@ def test_all_sizes_held_alike_keep_their_distribution():
 
 
 def test_as_written_on_data_sheets():
-    for text in ("5=75, 10=1000", "beta5(c) = 75; beta10(c) = 1000", "10=1000,5=75", "5um=75, 10 um=1000"):
+    for text in (
+        "5=75, 10=1000",
+        "beta5(c) = 75; beta10(c) = 1000",
+        "10=1000,5=75",
+        "5um=75, 10 um=1000",
+    ):
         found = Filter.from_text(text)
         assert found.sizes == pytest.approx(FINE.sizes, rel=1e-12)
         assert found.betas == FINE.betas

@@ -10,7 +10,7 @@ __all__ = ["bearing_file"]
 
 WIDTH = 27
 """Characters before a comment."""
-LOAD = 0.1
+LOAD = 0.0366
 """Radial load over the dynamic load rating."""
 
 
@@ -49,7 +49,7 @@ def bearing_file(template: str, which: str) -> str:
     for key, (value, comment) in lines.items():
         line = f"{key} = {value}".ljust(WIDTH) + f" # {comment}"
         text = re.sub(rf"^{key} = .*$", line.replace("\\", r"\\"), text, count=1, flags=re.M)
-    return text.replace("6205", size.name, 2).replace("under 1.4 kN", f"under {force} kN")
+    return text.replace("6205", size.name, 2).replace("under 0.5 kN", f"under {force} kN")
 
 
 def _mm(value: float) -> str:

@@ -25,7 +25,7 @@ from ..systems.oil_filter import Filter
 from ..systems.oil_particles import FilmParticles
 from .whole import Study
 
-__all__ = ["DirtyOil", "Life", "PopulationDents", "dirty_oil", "read_filter"]
+__all__ = ["DirtyOil", "Life", "PopulationDents", "dirty_oil", "need_particles", "read_filter"]
 
 DENSITY = 870.0
 """Of the oil [kg/m³], as elsewhere in study files."""
@@ -135,6 +135,13 @@ def read_filter(text: str) -> Filter:
         raise InvalidValue(f"--filter {say(text)}: {first}") from None
 
 
+def need_particles(study: Study) -> None:
+    """Refuse a filter where it has nothing to hold."""
+    if study.film is None or study.contact.two_body:
+        lacks = "[film]" if study.film is None else "[particles]"
+        raise InvalidValue(f"--filter has nothing to hold: the study has no table {lacks}")
+
+
 def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
     """What the particles of the oil do to the rolling contact of a study, behind a filter or not.
 
@@ -179,7 +186,7 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
         speed = own if own is not None else film.speed[len(film.speed) // 2]
         before = contact.populations
         if filter is not None:
-            contact = _filtered(contact, study.gaps, filter)
+            contact = _behind_filter(contact, filter)
         state = film.at(contact, speed=speed)
         h = float(state.h_T)
         solids = 1 - float(state.film_share)
@@ -219,10 +226,10 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
         )
 
 
-def _filtered(contact: Contact, gaps: tuple[float | None, ...], filter: Filter) -> Contact:
+def _behind_filter(contact: Contact, filter: Filter) -> Contact:
     """The contact with the particles that come through a filter."""
     behind = []
-    for i, each in enumerate(contact.populations):
+    for each in contact.populations:
         number, sizes = filter.behind(each.areal_density, each.diameter)
         behind.append(each.replace(areal_density=number, diameter=sizes))
     return contact.replace(particles=tuple(behind) if len(behind) > 1 else behind[0])
@@ -245,7 +252,8 @@ def _in_film(
 
 def _track(study: Study, film: FilmConditions, speed: float) -> tuple[float, float, str]:
     """Area of track rolled over per second [m²/s], area of the whole track [m²], and its name."""
-    body, E_star = study.body, study.contact.E_ss
+    body: Any = study.body
+    E_star = study.contact.E_ss
     if hasattr(body, "swept_area") and study.forces is not None:
         share = body.share_load(float(study.forces[0]), E_star)
         swept = body.swept_area(share, body.ring, E_star) * speed

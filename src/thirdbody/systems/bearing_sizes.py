@@ -14,7 +14,7 @@ from ..quantities.nearest import guess
 from ..quantities.units import say
 from .machine_elements import BallBearing
 
-__all__ = ["BearingSize", "DESIGNATIONS", "bearing_size"]
+__all__ = ["DESIGNATIONS", "BearingSize", "bearing_size"]
 
 FILL = 0.6
 """Part of the pitch circle that balls of a Conrad bearing take, in angle."""
@@ -115,14 +115,11 @@ def bearing_size(which: str) -> BearingSize:
         )
     bore, outer, width, balls, ball = known[found[1]]
     name, limits = _clearance(bore, found[2])
-    return BearingSize(
-        found[1], *(_mm(x) for x in (bore, outer, width)), balls, _mm(ball), limits, name, False
-    )
+    d, D, B = _mm(bore), _mm(outer), _mm(width)
+    return BearingSize(found[1], d, D, B, balls, _mm(ball), limits, name, False)
 
 
-def _of_dimensions(
-    which: str, bore: float, outer: float, width: float, suffix: str
-) -> BearingSize:
+def _of_dimensions(which: str, bore: float, outer: float, width: float, suffix: str) -> BearingSize:
     """The bearing with balls as large and as many as usual."""
     largest = _table()["clearance"]["bores"][-1]
     if not (0 < bore < outer and width > 0):

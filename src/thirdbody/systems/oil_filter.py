@@ -80,7 +80,9 @@ class Filter(Value):
         if any(not (math.isfinite(v) and v >= 1) for v in beta):
             out.append("Filter.betas must be at least 1: a filter adds no particles")
         elif any(b < a for a, b in zip(beta, beta[1:], strict=False)):
-            out.append("Filter.betas must not fall: a filter that holds small ones holds large ones")
+            out.append(
+                "Filter.betas must not fall: a filter that holds small ones holds large ones"
+            )
         return out
 
     @classmethod
@@ -108,9 +110,7 @@ class Filter(Value):
                     f'{why}; a filter is written as on its data sheet, size [µm]=β: "5=75, 10=1000"'
                 ) from None
         order = np.argsort(sizes, kind="stable")
-        return cls(
-            sizes=tuple(sizes[i] for i in order), betas=tuple(betas[i] for i in order)
-        )
+        return cls(sizes=tuple(sizes[i] for i in order), betas=tuple(betas[i] for i in order))
 
     def _line(self) -> tuple[Array, Array]:
         """ln x and ln β of the line, two points at least."""

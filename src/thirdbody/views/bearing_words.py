@@ -35,11 +35,12 @@ def sharing(study: Study) -> str:
     found = body.share_load(force, study.contact.E_ss)
     even = body.replace(clearance=0.0).share_load(force, study.contact.E_ss)
     name = body.rolling_bodies
+    parts = [number(each.largest * body.bodies / force, 3) for each in (found, even)]
     return (
         f"Of {number(body.bodies)} {name} {found.carrying} carry, the most loaded "
-        f"{value_of(found.largest, 'N')}, {number(found.largest * body.bodies / force, 3)} F_r/Z "
+        f"{value_of(found.largest, 'N')}, {parts[0]} F_r/Z "
         f"(Sjövall's integral with {value_of(body.clearance, 'm')} clearance, epsilon = "
-        f"{number(found.eps, 3)}; without clearance {number(even.largest * body.bodies / force, 3)} "
+        f"{number(found.eps, 3)}; without clearance {parts[1]} "
         f"F_r/Z, Stribeck); the sum over the {name} is {number(found.balance, 4)} of the load."
     )
 

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ...errors import InvalidValue
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, value_of
 from ...quantities.tables import Table
 from ...version import __version__
-from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
+from ..options import AsJson, FilterText, Force, ParquetFile, Settings, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import TableFiles, figure_format, warn_of, write_figure
 
@@ -51,24 +50,18 @@ def command(
     figure: Annotated[
         Path | None, typer.Option("--figure", metavar="FILE", help="Draw the curve over speed.")
     ] = None,
-    filter_text: Annotated[
-        str | None,
-        typer.Option(
-            "--filter",
-            metavar="SIZE=BETA,...",
-            help="A filter by the beta ratios of its data sheet, sizes in um(c), e.g. "
-            '"5=75, 10=1000": the oil before and after.',
-        ),
-    ] = None,
+    filter_text: FilterText = None,
     settings: Settings = None,
 ) -> None:
     """Film, load shares and friction of a lubricated contact, at one speed or over many."""
     from ...study import run_film
-    from ...study.dirty_oil import dirty_oil, read_filter
+    from ...study.dirty_oil import dirty_oil, need_particles, read_filter
 
     fine = None if filter_text is None else read_filter(filter_text)
     files = TableFiles(csv_file, xlsx_file, parquet_file)
     asked = read_study(study, settings, writes=[*files, figure])
+    if fine is not None:
+        need_particles(asked)
     files.need(figure, force=force)
     if figure is not None:
         figure_format(figure)  # refused before long work
@@ -76,8 +69,6 @@ def command(
         result = run_film(asked)
         oil = dirty_oil(asked)
         filtered = None if fine is None else dirty_oil(asked, filter=fine)
-        if fine is not None and filtered is None:
-            raise InvalidValue("--filter has nothing to hold: the study has no particles")
     warn_of(result.run_warnings)
     drawn = None
     if figure is not None:
