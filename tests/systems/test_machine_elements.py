@@ -9,7 +9,15 @@ from scipy.special import ellipe, ellipk
 
 from thirdbody import InvalidValue
 from thirdbody.systems.bearing_sizes import DESIGNATIONS, bearing_size
-from thirdbody.systems.machine_elements import BallBearing
+from thirdbody.systems.bodies import BallInGroove
+from thirdbody.systems.machine_elements import (
+    BallBearing,
+    BallScrew,
+    Gear,
+    LinearGuide,
+    RollerBearing,
+    preloaded_load,
+)
 
 E_STAR = 113e9
 BEARING = BallBearing(
@@ -171,3 +179,131 @@ def test_designations():
 def test_mistakes(change, words):
     with pytest.raises(InvalidValue, match=words):
         BEARING.replace(**change)
+
+
+# ------------------------------------------------------------------ rollers
+ROLLER = RollerBearing(
+    bore=25e-3, outer_diameter=52e-3, roller_diameter=7.5e-3, length=7.5e-3, rollers=12,
+    shaft_speed=100 * math.pi,
+)  # fmt: skip
+
+
+def test_rollers_on_both_rings():
+    inner, outer = (ROLLER.on_ring(ring) for ring in ("inner", "outer"))
+    assert inner.R == pytest.approx(1 / (1 / 3.75e-3 + 1 / 15.5e-3), rel=1e-12)
+    assert outer.R == pytest.approx(1 / (1 / 3.75e-3 - 1 / 23e-3), rel=1e-12)
+    # Palmgren for steel: 3.84e-5 Q^0.9 l^-0.8 in mm and N on each ring
+    steel = 2.07e11 / 2 / (1 - 0.3**2)
+    approach = 2 * 3.84e-5 * 1000**0.9 / 7.5**0.8 * 1e-3
+    assert ROLLER.stiffness(steel) * approach ** (10 / 9) == pytest.approx(1000, rel=0.02)
+    assert ROLLER.load_on_one(2000.0, steel) == pytest.approx(4.085 * 2000 / 12, rel=1e-3)
+    share = ROLLER.replace(clearance=-60e-6).share_load(1e-3, steel)
+    swept = ROLLER.swept_area(share, "inner", steel) * ROLLER.rolling_speed
+    area = ROLLER.track_area(share, "inner", steel)
+    assert swept / area == pytest.approx(ROLLER.overrollings("inner"), rel=1e-9)
+
+
+def test_rollers_are_rated():
+    """C_0 = 44 (1 − γ) Z l D_w [N, mm]: 4000 MPa below the most loaded roller, ISO 76."""
+    steel = 2.07e11 / 2 / (1 - 0.3**2)
+    Q = 5 * ROLLER.static_rating / 12
+    p_0 = float(ROLLER.hertz_of(Q, "inner", steel).maximum)
+    assert p_0 == pytest.approx(4.0e9, rel=0.01)
+    assert ROLLER.fatigue_load == ROLLER.static_rating / 8.2
+    assert math.isnan(ROLLER.rating)
+
+
+# ------------------------------------------------------------------ screws and guides
+def test_preload_by_the_known_limits():
+    """F_0 alone; relieved from 2.83 F_0 on; between, what one gives way the other gets."""
+    assert preloaded_load(0.0, 100.0) == 100
+    assert preloaded_load(2**1.5 * 100, 100.0) == pytest.approx(2**1.5 * 100, rel=1e-12)
+    assert preloaded_load(500.0, 100.0) == 500
+    assert preloaded_load(500.0, 0.0) == 500
+    small = 1e-3  # both nuts are as stiff: each takes half
+    assert preloaded_load(small, 100.0) - 100 == pytest.approx(small / 2, rel=1e-4)
+    for F in (10.0, 100.0, 250.0, 280.0):
+        one = preloaded_load(F, 100.0)
+        assert one ** (2 / 3) + (one - F) ** (2 / 3) == pytest.approx(2 * 100 ** (2 / 3), rel=1e-9)
+
+
+SCREW = BallScrew(diameter=6.35e-3, pitch_diameter=40e-3, lead=10e-3, balls=60)
+
+
+@pytest.mark.parametrize("side", ["screw", "nut"])
+def test_without_lead_a_screw_is_a_bearing(side):
+    """A lead so small counts for nothing; the least that a screw may have is that of the ball."""
+    fine = SCREW.replace(diameter=6.35e-6, lead=6.35e-6, side=side)
+    ring = {"screw": "inner", "nut": "outer"}[side]
+    groove = BallInGroove(
+        diameter=6.35e-6, conformity=0.53, pitch_diameter=40e-3, ring=ring,
+        contact_angle=math.pi / 4,
+    ).conjunction  # fmt: skip
+    assert fine.conjunction.R == pytest.approx(groove.R, rel=1e-7)
+    assert fine.conjunction.R_y == pytest.approx(groove.R_y, rel=1e-12)
+
+
+@pytest.mark.parametrize("side", ["screw", "nut"])
+@pytest.mark.parametrize("lead", [10e-3, 40e-3])
+def test_the_curvature_of_the_helix_by_differences(side, lead):
+    """Second derivative of the line of contact over its length, along the normal of the ball."""
+    screw = SCREW.replace(lead=lead, side=side)
+    sign = 1 if side == "screw" else -1
+    r = 0.5 * (40e-3 - sign * 6.35e-3 * math.cos(math.pi / 4))
+
+    def place(t):
+        return np.array([r * math.cos(t), r * math.sin(t), lead * t / (2 * math.pi)])
+
+    step = 1e-3
+    ahead, here, behind = place(step), place(0.0), place(-step)
+    length = np.linalg.norm(ahead - behind) / 2
+    bend = (ahead - 2 * here + behind) / length**2
+    normal = np.array([math.cos(math.pi / 4), 0.0, math.sin(math.pi / 4)])
+    along = 1 / (2 / 6.35e-3 + sign * abs(float(bend @ normal)))
+    assert screw.conjunction.R == pytest.approx(along, rel=1e-5)
+
+
+def test_the_force_on_a_ball_of_a_screw():
+    """The balls' forces, resolved along the axis, hold the axial force; torque turns it."""
+    Q = float(SCREW.load_on_one(2000.0, E_STAR))
+    axial = 60 * Q * math.sin(math.pi / 4) * math.cos(SCREW.lead_angle)
+    assert axial == pytest.approx(2000, rel=1e-12)
+    torque = 60 * Q * math.sin(math.pi / 4) * math.sin(SCREW.lead_angle) * 20e-3
+    assert torque * 2 * math.pi == pytest.approx(2000 * 10e-3, rel=1e-12)  # work of one turn
+    tight = SCREW.replace(preload=500.0)
+    assert tight.load_on_one(0.1, E_STAR) == pytest.approx(Q / 4, rel=1e-3)
+    assert tight.load_on_one(2000.0, E_STAR) == pytest.approx(Q, rel=1e-12)
+    with pytest.raises(InvalidValue, match="between two turns"):
+        SCREW.replace(lead=2e-3)
+
+
+def test_a_guide_is_a_straight_screw():
+    guide = LinearGuide(diameter=4e-3, rows=2, balls=12, speed=1.0)
+    groove = BallInGroove(diameter=4e-3, conformity=0.52).conjunction
+    assert guide.conjunction == groove
+    assert guide.load_on_one(1000.0, E_STAR) == pytest.approx(1000 / 24 * math.sqrt(2), rel=1e-12)
+    assert guide.rolling_speed == 0.5
+    assert guide.replace(preload=1e4).load_on_one(1e-6, E_STAR) == pytest.approx(
+        1e4 / 24 * math.sqrt(2), rel=1e-6
+    )
+
+
+# ------------------------------------------------------------------ gears
+@pytest.mark.parametrize("beta", [0.0, 15.0, 30.0])
+@pytest.mark.parametrize("ratio", [1.0, 3.0])
+def test_the_pitch_point_is_that_of_iso_6336(beta, ratio):
+    """σ_H0 = Z_H Z_E √(F_t/(d_1 b) (u + 1)/u), with the zone factor of the standard."""
+    pair = Gear(
+        pinion_teeth=20, wheel_teeth=20 * ratio, module=2e-3, face_width=20e-3,
+        helix_angle=math.radians(beta), shaft_speed=100.0,
+    )  # fmt: skip
+    a_n = math.radians(20)
+    a_t = math.atan(math.tan(a_n) / math.cos(math.radians(beta)))
+    b_b = math.atan(math.tan(math.radians(beta)) * math.cos(a_t))
+    Z_H = math.sqrt(2 * math.cos(b_b) * math.cos(a_t) / (math.cos(a_t) ** 2 * math.sin(a_t)))
+    Z_E = math.sqrt(E_STAR / math.pi)
+    d_1 = 20 * 2e-3 / math.cos(math.radians(beta))
+    sigma = Z_H * Z_E * math.sqrt(1000 / (d_1 * 20e-3) * (ratio + 1) / ratio)
+    assert float(pair.hertz(1000.0, E_STAR).maximum) == pytest.approx(sigma, rel=1e-12)
+    assert pair.rolling_speed == pytest.approx(50.0 * d_1 * math.sin(a_t), rel=1e-12)
+    assert pair.pitch_diameters[1] == pytest.approx(ratio * d_1, rel=1e-12)

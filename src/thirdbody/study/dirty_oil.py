@@ -19,8 +19,8 @@ from ..populations.particles import Particles
 from ..quantities.record import Record
 from ..quantities.units import say
 from ..systems.bearing_life import contamination_factor, life_factor, viscosity_ratio
-from ..systems.conjunctions import Line
 from ..systems.film_conditions import FilmConditions
+from ..systems.machine_elements import RadialBearing
 from ..systems.oil_filter import Filter
 from ..systems.oil_particles import FilmParticles
 from .whole import Study
@@ -182,7 +182,7 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
     gaps = dict(enumerate(study.gaps))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        own = getattr(study.body, "rolling_speed", None)
+        own = None if study.body is None else study.body.rolling_speed
         speed = own if own is not None else film.speed[len(film.speed) // 2]
         before = contact.populations
         if filter is not None:
@@ -252,19 +252,15 @@ def _in_film(
 
 def _track(study: Study, film: FilmConditions, speed: float) -> tuple[float, float, str]:
     """Area of track rolled over per second [m²/s], area of the whole track [m²], and its name."""
-    body: Any = study.body
-    E_star = study.contact.E_ss
-    if hasattr(body, "swept_area") and study.forces is not None:
+    body, E_star = study.body, study.contact.E_ss
+    if isinstance(body, RadialBearing) and study.forces is not None:
         share = body.share_load(float(study.forces[0]), E_star)
         swept = body.swept_area(share, body.ring, E_star) * speed
-        return swept, body.track_area(share, body.ring, E_star), f"the {body.ring} ring"
-    shape = film.conjunction
-    if isinstance(shape, Line):
-        width = shape.length
-    else:
-        width = 2 * float(shape.semi_axes(film.load, E=2 * E_star)[1])
-    count = 1.0 if body is None else body.bodies
-    return count * width * speed, count * width * speed, "surface 2"
+        return swept, body.track_area(share, body.ring, E_star), body.track
+    width = 2 * float(film.conjunction.semi_axes(film.load, E=2 * E_star)[1])
+    if body is None:
+        return width * speed, width * speed, "surface 2"
+    return body.bodies * width * speed, body.bodies * width * speed, body.track
 
 
 def _life(
@@ -276,7 +272,8 @@ def _life(
 ) -> Life | None:
     """Life factors where [body] is a bearing that turns."""
     body: Any = study.body
-    if getattr(body, "shaft_speed", None) is None or study.forces is None:
+    turns_not = not isinstance(body, RadialBearing) or body.shaft_speed is None
+    if turns_not or study.forces is None:
         return None
     turns, D, P = body.shaft_speed / (2 * math.pi), body.pitch_diameter, float(study.forces[0])
     numbers = [each.per_volume for each in parts]

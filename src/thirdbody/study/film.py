@@ -96,16 +96,17 @@ def on_body(
     shape = None if bodies is None else bodies.conjunction
     if bodies is not None and forces is not None and len(forces) == 1 and shape is not None:
         own = {"conjunction": shape, "load": float(bodies.load_on_one(forces[0], E_star))}
-    if (speed := getattr(bodies, "rolling_speed", None)) is not None:
-        own["speed"] = (speed,)
+    if bodies is not None and bodies.rolling_speed is not None:
+        own["speed"] = (bodies.rolling_speed,)
     missing = [name for name in OF_BODY if name not in film | own]
     if not missing:
         return reader.make(FilmConditions, "film", own | film)
     problems = []
     if "speed" in missing:
         missing.remove("speed")
-        turned = " or body.shaft_speed" * hasattr(bodies, "shaft_speed")
-        problems.append(Problem("film.speed", f"is missing{turned}: {about_of('speed', SPEED)}"))
+        turns = [name for name in ("shaft_speed", "speed") if hasattr(bodies, name)]
+        rule = "is missing" + "".join(f", or body.{name}" for name in turns)
+        problems.append(Problem("film.speed", f"{rule}: {about_of('speed', SPEED)}"))
     if missing:
         problems.append(
             Problem(

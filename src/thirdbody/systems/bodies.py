@@ -31,7 +31,7 @@ from ..quantities.record import Record
 from ..quantities.say import number, percent, value_of
 from .body_shapes import BallInGroove, BallOnFlat, Body, Cylinders, Flat, Roller
 from .conjunctions import Hertz, Line, Point
-from .machine_elements import BallBearing
+from .machine_elements import BallBearing, BallScrew, Gear, LinearGuide, RollerBearing
 from .rough_body import rough_cylinder, rough_sphere
 
 if TYPE_CHECKING:
@@ -62,6 +62,10 @@ BODIES: dict[str, type[Body]] = {
     "cylinders": Cylinders,
     "flat": Flat,
     "ball-bearing": BallBearing,
+    "roller-bearing": RollerBearing,
+    "ball-screw": BallScrew,
+    "linear-guide": LinearGuide,
+    "gear": Gear,
 }
 """Every pair of bodies by the word that study files use."""
 

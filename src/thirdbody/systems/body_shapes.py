@@ -31,6 +31,16 @@ class Body(Value, ABC):
     def conjunction(self) -> Point | Line | None:
         """The shape between the bodies; None for flat ones."""
 
+    @property
+    def rolling_speed(self) -> float | None:
+        """Mean speed at which the bodies drag oil in u [m/s]; None where it is not known."""
+        return None
+
+    @property
+    def track(self) -> str:
+        """What the second surface is."""
+        return "surface 2"
+
     def load_on_one(self, force: Any, E_star: float) -> Any:
         """Load on the contact that carries most of the force on all [N]."""
         return np.asarray(force, float) / self.bodies

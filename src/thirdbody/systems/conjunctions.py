@@ -181,6 +181,19 @@ class Line(Value):
         area = 2 * b * self.length
         return Hertz(area, load / area, 4 / math.pi * load / area)
 
+    def semi_axes(self, load: Any, *, E: Any) -> tuple[Any, Any]:
+        """Half the line along the motion, and across it [m].
+
+        Parameters
+        ----------
+        load : float or array
+            w [N].
+        E : float or array
+            E' = 2E* [Pa].
+        """
+        b = self.hertz(load, E=E).area / (2 * self.length)
+        return b, np.full_like(b, 0.5 * self.length)
+
     def intensity(self, load: Any) -> Any:
         """The load that film formulas take, per length [N/m].
 

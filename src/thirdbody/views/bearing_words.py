@@ -9,6 +9,7 @@ import numpy as np
 
 from ..quantities.say import number, value_of
 from ..study.whole import Study
+from ..systems.machine_elements import RadialBearing
 
 __all__ = ["DROP", "HEADS", "MEANS", "rows", "shares_load", "sharing"]
 
@@ -25,7 +26,8 @@ DROP = ("ellipse outer", "ellipse inner")
 
 def shares_load(study: Study) -> bool:
     """Whether the body of a study is a bearing whose bodies share one radial load."""
-    return hasattr(study.body, "share_load") and study.forces is not None and len(study.forces) == 1
+    own = isinstance(study.body, RadialBearing)
+    return own and study.forces is not None and len(study.forces) == 1
 
 
 def sharing(study: Study) -> str:

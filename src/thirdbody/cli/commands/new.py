@@ -19,6 +19,9 @@ __all__ = ["KINDS", "command"]
 KINDS = (
     "ball-bearing",
     "ball-screw",
+    "roller-bearing",
+    "gear",
+    "linear-guide",
     "rolling-bearing",
     "additive",
     "electrical",
