@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from ..quantities.carried import takes_units
 from ..quantities.value import choice, quantity
 from .body_shapes import BallInGroove, Body
 from .conjunctions import Hertz, Line, Point
@@ -413,6 +414,7 @@ def _misfits(bearing: Any, size: float, what: str, count: float) -> list[str]:
     return out
 
 
+@takes_units
 def preloaded_load(force: float, preload: float) -> float:
     r"""Load on the one of two preloaded nuts, or sides, that a force presses more.
 
