@@ -28,6 +28,7 @@ AMOUNT = {
         "smallest": quantity("x_min", "m", "smallest diameter", gt=0),
         "largest": quantity("x_max", "m", "largest diameter", gt=0),
         "exposure": quantity("t", "s", "time for which dust settles", gt=0, hint="a day is '24 h'"),
+        "share": quantity("w", "1", "part of the counted particles of this kind", gt=0, le=1),
     }.items()
 }
 """The numbers that lead from a count or a concentration to an areal density."""

@@ -20,9 +20,9 @@ from .reader import Key, Reader, get, plain
 __all__ = ["COUNTED", "counted"]
 
 COUNTED = {
-    "iso4406": ("level", "smallest", "largest"),
-    "as4059": ("smallest", "largest"),
-    "nas1638": ("smallest", "largest"),
+    "iso4406": ("level", "smallest", "largest", "share"),
+    "as4059": ("smallest", "largest", "share"),
+    "nas1638": ("smallest", "largest", "share"),
     "test_dust": ("limit", "smallest"),
     "sizes": ("weighting", "fit", "smallest"),
     "iso14644": ("exposure", "particle_density", "smallest", "largest"),
@@ -74,6 +74,8 @@ def counted(
             if kind == "iso14644":
                 return _settled(reader, path, found, options, values)
             gap = values.pop("gap", values.pop("film", None))
+            if part := options.pop("share", None):
+                gap *= part
             if kind == "iso4406":
                 return Particles.from_iso4406(found, gap=gap, **options, **values)
             if kind == "test_dust":

@@ -29,6 +29,7 @@ from .film import on_body
 from .outputs import on_area
 from .overrides import override
 from .own_code import load_installed
+from .particles import gaps_of
 from .plate import AskedPlate, plate_of
 from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names
@@ -81,6 +82,9 @@ class Study:
         Forces on the body [N]; ``values`` are then the mean and the largest pressure of each.
     assumed : tuple of str
         Those of the ``notes`` that say what numbers were taken for what a drawing says.
+    gaps : tuple of float or None
+        Of each population the height of oil that brings it [m]; None where the file states how
+        many lie on an area.
     """
 
     title: str
@@ -100,6 +104,7 @@ class Study:
     body: Body | None = None
     forces: np.ndarray | None = None
     assumed: tuple[str, ...] = ()
+    gaps: tuple[float | None, ...] = ()
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -240,7 +245,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     given_forces = loaded[1] if loaded and loaded[0] == "force" else None
     contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
     reader.notes += notes
-    film = on_body(reader, film, bodies, given_forces)
+    film = on_body(reader, film, bodies, given_forces, contact.E_ss)
     connector = connector_of(reader, values) if "connector" in own else None
     plate = plate_of(reader, values) if "plate" in own else None
     load, loads = loaded or ("pressure", np.array([_own_pressure(film, connector, plate, contact)]))
@@ -261,6 +266,7 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         values=loads,
         notes=tuple(dict.fromkeys([*reader.assumed, *reader.notes])),
         assumed=tuple(dict.fromkeys(reader.assumed)),
+        gaps=gaps_of(reader.whole),
         sweep=states,
         uncertainty=own.get("uncertainty"),
         design=own.get("design"),
