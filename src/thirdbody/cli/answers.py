@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Any, TypeVar
 from ..quantities.tables import Table
 from ..version import __version__
 from .show import ALL, MOST_ROWS, some, terminal
-from .streams import TableFiles, remark, warn_of
+from .streams import STDOUT, TableFiles, remark, warn_of
 
 __all__ = ["give_answer", "read_question"]
 
@@ -41,7 +40,6 @@ def give_answer(
     found: Any,
     files: TableFiles,
     *,
-    as_json: bool,
     answer: Sequence[str],
     heads: Sequence[str],
     rows: Sequence[Sequence[str]],
@@ -49,12 +47,10 @@ def give_answer(
     last: Sequence[str],
 ) -> None:
     """The answer first, then the table, then what moves it most; warnings at the very end."""
-    files.write(*found.table())
+    files.write(*found.table(), data=found.to_dict)
     for path in files.paths:
         print(f"written: {path}", file=sys.stderr)
-    if as_json:
-        print(json.dumps(found.to_dict(), indent=1, allow_nan=False))
-    else:
+    if files.json != STDOUT:
         console = terminal()
         console.print(f"{found.title} (thirdbody {__version__})\n")
         for sentence in answer:

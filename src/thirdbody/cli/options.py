@@ -22,6 +22,7 @@ __all__ = [
     "AsJson",
     "FilterText",
     "Force",
+    "JsonFile",
     "OwnCode",
     "ParquetFile",
     "Settings",
@@ -36,6 +37,14 @@ __all__ = [
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
+JsonFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--json",
+        metavar="[FILE.json]",
+        help="Print one JSON object and nothing else; behind it a file, write it there.",
+    ),
+]
 XlsxFile = Annotated[
     Path | None,
     typer.Option("--xlsx", metavar="FILE", help="The same as a workbook (needs openpyxl)."),

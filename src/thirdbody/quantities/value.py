@@ -22,6 +22,7 @@ from .arguments import FAILURES, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
 from .plain_data import plain_data
+from .uncertain import HELD, is_uncertain
 
 if TYPE_CHECKING:
     import numpy as np
@@ -93,6 +94,8 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
     """Why ``value`` cannot stand for this quantity, or None when it can."""
     if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
         return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
+    if is_uncertain(value):
+        return HELD
     try:
         number = float(value)
     except OverflowError:

@@ -9,7 +9,7 @@ import typer
 
 from ...quantities.progress import heartbeat
 from ..answers import give_answer, read_question
-from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile
+from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile
 from ..streams import TableFiles, warn_of
 
 __all__ = ["command", "warn_of"]
@@ -24,7 +24,7 @@ def command(
             "`thirdbody new connector` writes one.",
         ),
     ],
-    as_json: AsJson = False,
+    json_file: JsonFile = None,
     csv_file: Annotated[
         Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per force.")
     ] = None,
@@ -37,14 +37,13 @@ def command(
     from ...study.run_connector import load_connector, run_connector
     from ...views.connector_words import HEADS, MEANS, answer, rows, uncertainty
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
+    files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
     asked = read_question(load_connector, study, settings, files, force=force)
     with heartbeat("probability"):
         found = run_connector(asked)
     give_answer(
         found,
         files,
-        as_json=as_json,
         answer=answer(found),
         heads=HEADS,
         rows=rows(found),

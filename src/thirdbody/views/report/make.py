@@ -113,7 +113,7 @@ def report(
     bare = study.contact.replace(outputs=())
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        curve = _curve(bare, result.transitions, F_star[loaded].tolist() or [USUAL])
+        curve = curve_over(bare, result.transitions, F_star[loaded].tolist() or [USUAL])
         pressed = None
         if study.explicit is not None and loaded:
             pressed = _press_surface(study, F_star[loaded].tolist())
@@ -144,7 +144,7 @@ def _press_surface(study: Study, loads: list[float]) -> OneSurface | str:
         return "; ".join(error.problems)
 
 
-def _curve(contact: Contact, critical: Transitions, loads: list[float]) -> Equilibrium:
+def curve_over(contact: Contact, critical: Transitions, loads: list[float]) -> Equilibrium:
     """States over the loads of the study, the critical ones, and somewhat beyond."""
     every = (loads[0], loads[-1], critical.F_cr1.value, critical.F_cr2.value)
     marked = [F for F in every if F]
