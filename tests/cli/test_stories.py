@@ -85,7 +85,9 @@ def test_a_ball_screw_nut_from_ra_newtons_and_cleanliness(run, solved):
     dirty = solved("ball-screw.toml", 'particles.iso4406="21/19/16"')["body"]["forces"][0]
     assert dirty["particle_load_share"] == pytest.approx(8 * force["particle_load_share"], rel=0.1)
     shown = run("solve", "ball-screw.toml")
-    assert "2000 N on the body ball-screw shared by 60, 47.29 N on the most loaded" in " ".join(shown.split())
+    assert "2000 N on the body ball-screw shared by 60, 47.29 N on the most loaded" in " ".join(
+        shown.split()
+    )
 
 
 def test_an_additive_by_size_and_weight_per_cent(run, solved):
