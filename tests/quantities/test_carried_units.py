@@ -218,6 +218,7 @@ REFUSED = {
     r"systems\.fractal\.MajumdarBhushan\.largest_spot\(load\)": EITHER,
     r"systems\.fractal\.Stack\.self_affine\(frequency\)": EITHER,
     r"systems\.rough_body\.curve\(loads\)": EITHER,
+    r"systems\.load_sharing\.share_radial_load\(stiffness\)": "its unit goes with the exponent",
     r"plot\.bands\(mark\)": "the unit is that of the load",
 }
 """Numbers of which a unit is refused, and why; counts, seeds and places have none."""

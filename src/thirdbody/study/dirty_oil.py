@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, RangeWarning
 from ..populations.distributions import Mixture
 from ..populations.measured.cleanliness import iso4406_of
 from ..populations.particles import Particles
@@ -155,7 +155,7 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
     Returns
     -------
     DirtyOil or None
-        None for a study without film or without particles.
+        None for a study without film or without particles, and where no state was found.
 
     Notes
     -----
@@ -187,7 +187,10 @@ def dirty_oil(study: Study, *, filter: Filter | None = None) -> DirtyOil | None:
         before = contact.populations
         if filter is not None:
             contact = _behind_filter(contact, filter)
-        state = film.at(contact, speed=speed)
+        try:
+            state = film.at(contact, speed=speed)
+        except (InvalidValue, NoEquilibrium):  # run_film says why
+            return None
         h = float(state.h_T)
         solids = 1 - float(state.film_share)
         shares = [float(each.load_share) for each in state.state.populations]

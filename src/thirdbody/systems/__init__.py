@@ -9,7 +9,6 @@ from . import film_conditions as film_conditions
 from . import fractal as fractal
 from . import interaction as interaction
 from . import load_sharing as load_sharing
-from . import machine_elements as machine_elements
 from . import mixed_film as mixed_film
 from . import oil_filter as oil_filter
 from . import oil_particles as oil_particles
@@ -27,7 +26,6 @@ __all__ = [
     "fractal",
     "interaction",
     "load_sharing",
-    "machine_elements",
     "mixed_film",
     "oil_filter",
     "oil_particles",

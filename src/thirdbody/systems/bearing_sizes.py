@@ -10,6 +10,7 @@ from importlib import resources
 from typing import Any, NamedTuple
 
 from ..errors import InvalidValue, Problem
+from ..quantities.arguments import names_arguments
 from ..quantities.nearest import guess
 from ..quantities.units import say
 from .machine_elements import BallBearing
@@ -73,6 +74,7 @@ class BearingSize(NamedTuple):
         return BallBearing(**(given | others))
 
 
+@names_arguments
 def bearing_size(which: str) -> BearingSize:
     """The bearing of a designation such as 6205 or 6305-2RS/C3, or of dimensions as 25x52x15.
 
@@ -97,6 +99,8 @@ def bearing_size(which: str) -> BearingSize:
     are typical values, from memory; of bare dimensions they are D_w = 0.3 (D − d), and as many as
     fill 0.6 of the circle. The file ``data/bearings.toml`` says what was confirmed where.
     """
+    if not isinstance(which, str):
+        raise InvalidValue(f"which = {which!r} must be a designation in quotes, e.g. '6205'")
     text = which.strip().upper().replace("×", "X")
     if sides := re.fullmatch(r"([\d.]+)\s*X\s*([\d.]+)\s*X\s*([\d.]+)\s*(?:MM)?(.*)", text):
         bore, outer, width = (float(each) for each in sides.groups()[:3])

@@ -123,19 +123,6 @@ class RadialShare(Record):
         """Σ Q cos ψ over F_r [1]: 1 but for the places of few bodies."""
         return float(self.loads @ np.cos(self.angles) / self.force)
 
-    def load_at(self, angle: float, *, exponent: float = BALLS) -> float:
-        """Load of a body at an angle from the direction of the load [N].
-
-        Parameters
-        ----------
-        angle : float
-            ψ [rad].
-        exponent : float, optional
-            n of load over approach [1].
-        """
-        level = 1 - (1 - math.cos(angle)) / (2 * self.eps)
-        return self.largest * max(level, 0.0) ** exponent
-
 
 @takes_units
 def share_radial_load(

@@ -74,7 +74,9 @@ def area(surface: FieldSurface, h: Array, *, remains: bool) -> tuple[Array, Arra
     columns = surface.columns(h)
     carried = surface.load(h)[:, 0]
     touched = ndtr(-(h + columns[:, EDGE]))
-    ratio = np.minimum(carried / (surface.chi * touched), 1.0)
+    some = touched > 0  # far away both are 0
+    ratio = np.where(some, carried / (surface.chi * np.where(some, touched, 1.0)), 1.0)
+    ratio = np.minimum(ratio, 1.0)
     whole = carried
     if remains:
         e = remainder(h, chi=surface.chi, alpha=surface.alpha)[:, 0]
