@@ -18,7 +18,7 @@ from ..contact.contact import Contact
 from ..equilibrium.critical_loads import CRITICAL, carrying, load_falls
 from ..equilibrium.engine.run import own_columns
 from ..equilibrium.solve import given_load, solve
-from ..equilibrium.states import FEWEST, varied
+from ..equilibrium.states import varied
 from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
 from ..quantities.carried import takes_units
 from ..quantities.progress import Stages, counted, solving
@@ -45,6 +45,7 @@ from .sensitivity import sensitivity
 from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
 from .uncertainty.propagation import Propagation, certain, propagate, swing
 from .uncertainty.samples import (
+    LEAST,
     MOST_CRITICAL,
     columns_at,
     costly,
@@ -183,7 +184,7 @@ def assess_each(
         bands = iter(certain(contact, load, held))
     elif held:
         at: Any = held if len(held) > 1 else held[0]
-        with work.part(count, count * len(held)):
+        with work.part(count, count * len(held) + EVALUATED * work.critical):
             found = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
         work.second(found)
         bands = (found.at_load(i) for i in range(len(held)))
@@ -219,6 +220,10 @@ class _Work:
         self.ways = 2 * len(vary) * (len(range(0, COARSE - 1, EACH_COSTLY)) + HALVED)
         self.within: Callable[[int, int], None] | None = None
         self.progress: Stages | None = None
+        self.critical = 0
+        """Samples in which critical loads are sought."""
+        if not contact.two_body and load_falls(contact):
+            self.critical = min(count, MOST_CRITICAL)
         self.tell: Callable[[str], None] = lambda sentence: None
         if isinstance(progress, Stages):
             self.progress, self.within = progress, progress.within
@@ -256,24 +261,21 @@ class _Work:
         if self.progress is None:
             return
         drawn = drawn_inputs(contact, vary, load, held[0])
-        contact, inputs = carrying(contact, drawn.points(points_of(FEWEST, len(vary), 0, 0)))
-        loads = inputs.pop(load, np.full(FEWEST, held[0]))
-        few = ALONE if (alone := costly(contact, vary)) else FEWEST
-        inputs, loads = {name: values[:few] for name, values in inputs.items()}, loads[:few]
-        seconds = 0.0
-        for _ in range(2):  # by the first the engine may be loaded
+        few = ALONE if (alone := costly(contact, vary)) else LEAST
+        contact, inputs = carrying(contact, drawn.points(points_of(few, len(vary), 0, 0)))
+        loads = inputs.pop(load, np.full(few, held[0]))
+        seconds = math.inf
+        for _ in range(2 if alone else 3):  # by the first the engine may be loaded
             start = time.monotonic()
             try:
-                if alone and np.any(own_columns(contact, inputs, load, loads)["doubt"] != ""):
+                if not alone:
+                    columns_at(contact, load, loads, inputs, few)
+                elif np.any(own_columns(contact, inputs, load, loads)["doubt"] != ""):
                     return
             except NotCompiled:
                 return
-            if not alone:
-                columns_at(contact, load, loads, inputs, few)
-            seconds = (time.monotonic() - start) / few
-        states = count * len(held)
-        if not contact.two_body and load_falls(contact):
-            states += CRITICAL_COST * min(count, MOST_CRITICAL)
+            seconds = min(seconds, (time.monotonic() - start) / few)
+        states = count * len(held) + CRITICAL_COST * self.critical
         self.progress.cost(states, seconds, "states")
 
     def first(self, load: str, held: Sequence[float], own: Sequence[Any]) -> None:
@@ -297,9 +299,9 @@ class _Work:
 
 SLOPES, HALVED = 8, 2
 """Contacts of the derivatives with one input, and of the mean search for a change of mode."""
-ALONE, CRITICAL_COST = 2, 6
-"""States of costly contacts by which those of all are priced, and what the critical loads of a
-sample take, in states."""
+ALONE, CRITICAL_COST, EVALUATED = 2, 6, 20
+"""States of costly contacts by which those of all are priced, what the critical loads of a sample
+take, in states, and at how many they are found, most of one contact side by side."""
 EACH_COSTLY = 10
 """As EACH, where each contact takes tables of its own."""
 
