@@ -227,7 +227,7 @@ def test_no_traceback_in_a_process_of_its_own(wrong, tmp_path):
         ("solve",),
         ("slove", DUSTY),
         ("solve", DUSTY, "--jsno"),
-        ("solve", DUSTY, "--json", "--csv", "x.csv"),
+        ("solve", DUSTY, "--json", "x.txt"),
         ("solve", DUSTY, "--set", "nonsense"),
         ("laws", "--json", "--markdown"),
         ("reproduce", "horng2023"),

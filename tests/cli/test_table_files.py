@@ -26,7 +26,12 @@ COMMANDS = [
 def read(path):
     import pandas
 
-    return pandas.read_excel(path) if path.suffix == ".xlsx" else pandas.read_parquet(path)
+    if path.suffix != ".xlsx":
+        return pandas.read_parquet(path)
+    from openpyxl import load_workbook
+
+    names = load_workbook(path, read_only=True).sheetnames
+    return pandas.read_excel(path, sheet_name="States" if "States" in names else "Table")
 
 
 @pytest.mark.parametrize("kind", LIBRARY)
@@ -103,10 +108,48 @@ def test_a_file_that_fails_leaves_the_older_one(tmp_path, monkeypatch):
     assert [path.name for path in tmp_path.iterdir()] == ["t.parquet"]
 
 
-def test_json_and_a_file_of_states_exclude_each_other(tmp_path):
-    done = run("solve", SWEEP, "--json", "--parquet", tmp_path / "t.parquet")
+def test_files_of_a_run_appear_together_or_not_at_all(tmp_path, monkeypatch):
+    """The last of four cannot be written: an older one stays, and no other appears."""
+    pandas = pytest.importorskip("pandas")
+    for library in LIBRARY.values():
+        pytest.importorskip(library)
+    names = [tmp_path / f"t.{end}" for end in ("csv", "json", "xlsx", "parquet")]
+    options = [word for name in names for word in (f"--{name.suffix[1:]}", name)]
+    assert run("solve", SWEEP, *options[:2]).exit_code == 0
+    older = names[0].read_bytes()
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(pandas.DataFrame, "to_parquet", full)
+    done = run("solve", SWEEP, "--set", "load.pressure=2e6", *options)
     assert done.exit_code == 2
-    assert "exclude each other" in done.stderr
+    assert "no space left" in done.stderr.lower()
+    assert [path.name for path in tmp_path.iterdir()] == ["t.csv"]
+    assert names[0].read_bytes() == older
+    monkeypatch.undo()
+    assert run("solve", SWEEP, "--set", "load.pressure=2e6", *options).exit_code == 0
+    assert sorted(tmp_path.iterdir()) == sorted(names)
+    assert names[0].read_bytes() != older
+    again = run("solve", SWEEP, *options)
+    assert again.exit_code == 0, again.output
+    names[1].write_text('{"mine": 1}')
+    refused = run("solve", SWEEP, *options)
+    assert refused.exit_code == 2
+    assert "it exists and is no JSON of thirdbody" in refused.stderr
+
+
+def test_json_goes_to_the_output_or_into_a_file(tmp_path):
+    """Beside any other file; and what follows --json is its file only where it says so."""
+    printed = run("solve", "--json", SWEEP, "--csv", tmp_path / "t.csv")
+    assert printed.exit_code == 0, printed.output
+    for name in (["--json", tmp_path / "t.json"], [f"--json={tmp_path / 'u.json'}"]):
+        kept = run("solve", SWEEP, *name, "--csv", tmp_path / "v.csv")
+        assert kept.exit_code == 0, kept.output
+        assert kept.stdout == ""
+    assert (tmp_path / "t.json").read_text("utf-8") == printed.stdout
+    assert (tmp_path / "u.json").read_text("utf-8") == printed.stdout
+    assert (tmp_path / "t.csv").read_bytes() == (tmp_path / "v.csv").read_bytes()
 
 
 @pytest.mark.usefixtures("short_search")
@@ -124,3 +167,33 @@ def test_points_of_a_design_have_units(tmp_path):
         "front",
         "reason",
     ]
+
+
+@pytest.mark.parametrize("design", ["sampled", "reduced"])
+def test_a_sweep_has_tables_beside_its_folder(tmp_path, design):
+    """The numbers of the folder, modes in words; a table that nobody reads is refused before."""
+    openpyxl = pytest.importorskip("openpyxl", reason="pip install 'thirdbody[xlsx]'")
+    zarr = pytest.importorskip("zarr", reason="pip install 'thirdbody[sweep]'")
+    study, text = tmp_path / "study.toml", SWEEP.read_text("utf-8")
+    study.write_text(text if design == "reduced" else text.partition("[sweep.reduce]")[0], "utf-8")
+    out, csv_file, book = tmp_path / "out", tmp_path / "t.csv", tmp_path / "t.xlsx"
+    done = run("sweep", study, "--out", out, "--csv", csv_file, "--xlsx", book)
+    assert done.exit_code == 0, done.output
+    held = zarr.open(out / "states.zarr", mode="r")
+    rows = list(csv.DictReader(csv_file.open(encoding="utf-8")))
+    name = "h [m]" if design == "sampled" else "h_quantile [m]"
+    assert [float(row[name]) for row in rows] == held[name[:-4]][:].ravel().tolist()
+    sheets = openpyxl.load_workbook(book)
+    assert sheets.sheetnames == ["States", "Notes"]
+    assert [cell.value for cell in sheets["States"][1]] == list(rows[0])
+    if design == "sampled":
+        assert {row["status"] for row in rows} == {"ok"}
+        assert {row["mode"] for row in rows} <= {"p-s", "hybrid", "s-s"}
+        big = run("sweep", study, "--out", tmp_path / "big", "--csv", tmp_path / "b.csv",
+                  "--set", "sweep.samples=65536")  # fmt: skip
+        assert big.exit_code == 2
+        assert "would have 196,608 rows" in big.stderr
+        assert not (tmp_path / "big").exists()
+    again = run("sweep", study, "--out", out, "--csv", csv_file, "--xlsx", tmp_path / "u.xlsx")
+    assert again.exit_code == 0, again.output
+    assert (tmp_path / "u.xlsx").read_bytes() == book.read_bytes()

@@ -273,7 +273,8 @@ def test_the_inputs_that_matter_come_first(dusty):
 def test_inputs_say_whether_they_are_defaults(dusty):
     found, page = dusty
     rows = {row.name: row for row in rows_of(found.contact)}
-    assert rows["roughness.alpha"] == Row("roughness.alpha", "α", "6", "Nayak bandwidth", False)
+    told = ("roughness.alpha", "α", "6", "Nayak bandwidth", False, 6.0, "1")
+    assert rows["roughness.alpha"] == Row(*told)
     assert rows["roughness.eta_R_sigma"].default
     assert rows["roughness.eta_R_sigma"].value == "0.0455"
     assert rows["particles.diameter.n"].default

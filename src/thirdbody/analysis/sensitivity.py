@@ -13,6 +13,7 @@ numbers cancel.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -30,6 +31,7 @@ from ..quantities.arguments import need_place
 from ..quantities.carried import takes_units
 from ..quantities.progress import watched
 from ..quantities.record import Record
+from ..quantities.uncertain import is_uncertain, shifted
 from .differences import FULL, QUICK, Entry, Places, Rule
 from .inputs import NUMBERS, Input, _room, input_of, inputs
 
@@ -134,6 +136,74 @@ class Sensitivity(Record):
             numbers = (f"{round(x, 4) + 0.0:{w}.4f}" for x, w in zip(rows[to], wide, strict=True))
             lines.append([to.ljust(width), *numbers])
         return "\n".join("  ".join(line) for line in lines)
+
+    @takes_units
+    def ufloats(self, vary: Mapping[str, Any]) -> dict[str, Any]:
+        r"""Every result as a number with the uncertainty that its inputs give it, to first order.
+
+        .. math:: c = c_0 + \sum_i \frac{\mathrm dc}{\mathrm dp_i}\,(p_i - p_{i,0})
+
+        Parameters
+        ----------
+        vary : mapping
+            Of inputs, by the names that they have in ``inputs``, numbers of the package
+            `uncertainties`, which may be correlated; quantities with a unit too.
+
+        Returns
+        -------
+        dict
+            Results by name, each correlated with its inputs and the other results: what is made of
+            them has the right uncertainty. Over several loads lists.
+
+        Raises
+        ------
+        InvalidValue
+            An input whose slope is not known, whose nominal value is not that of the contact, or
+            that has no uncertainty.
+
+        Examples
+        --------
+        >>> import thirdbody as tb
+        >>> from uncertainties import ufloat
+        >>> steel = tb.materials["S45C"]
+        >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+        ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+        >>> slopes = tb.sensitivity(contact, of="h", to="roughness.sigma", pressure=5e6)
+        >>> sigma = ufloat(100e-9, 5e-9)
+        >>> h = slopes.ufloats({"roughness.sigma": sigma})["h"]
+        >>> print(f"{h:.2uP}, {h / sigma:.2uP}")
+        (2.81±0.15)×10⁻⁷, 2.8066±0.0073
+        """
+        problems = []
+        for label, given in vary.items():
+            if label not in self.inputs:
+                known = ", ".join(self.inputs)
+                problems.append(f"vary[{label!r}] must be one of {known}")
+            elif not is_uncertain(given):
+                problems.append(f"vary[{label!r}] = {given!r:.60} must be a ufloat")
+            elif not np.allclose(given.nominal_value, self.inputs[label], rtol=1e-9, atol=0):
+                problems.append(
+                    f"vary[{label!r}] = {given} must be about {self.inputs[label]!r}, which the "
+                    "slopes are taken at"
+                )
+        if problems:
+            raise InvalidValue(*problems)
+
+        def one(of: str, i: int | None) -> Any:
+            def at(value: Any) -> float:
+                return float(value if i is None or np.ndim(value) == 0 else value[i])
+
+            slopes = [(at(self.derivative[of][label]), given) for label, given in vary.items()]
+            if unknown := [label for label, (slope, _) in zip(vary, slopes, strict=True)
+                           if not math.isfinite(slope)]:  # fmt: skip
+                told = self.status[of][unknown[0]]
+                raise InvalidValue(f"{of} has no slope to {unknown[0]}: {told}")
+            return shifted(at(self.value[of]), slopes)
+
+        return {
+            of: one(of, None) if np.ndim(value) == 0 else [one(of, i) for i in range(len(value))]
+            for of, value in self.value.items()
+        }
 
     def _repr_html_(self) -> str:
         """A table for notebooks: the elasticities, an input a row; of several loads the first."""

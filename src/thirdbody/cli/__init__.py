@@ -18,7 +18,7 @@ import typer
 
 from .commands import COMMANDS
 from .options import OwnCode, load_own_code, with_common_options
-from .streams import Commands, open_closed_streams, refuse_full_output, without_output
+from .streams import Command, Commands, open_closed_streams, refuse_full_output, without_output
 
 __all__ = ["app", "main"]
 
@@ -70,4 +70,5 @@ def options(
 
 for name in COMMANDS:
     module = import_module(f".commands.{name}", __name__)
-    app.command(name)(with_common_options(module.command, warns=hasattr(module, "warn_of")))
+    run = with_common_options(module.command, warns=hasattr(module, "warn_of"))
+    app.command(name, cls=Command)(run)

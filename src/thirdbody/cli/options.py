@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AsJson",
+    "FilterText",
     "Force",
+    "JsonFile",
     "OwnCode",
     "ParquetFile",
     "Settings",
@@ -35,6 +37,14 @@ __all__ = [
 
 StudyFile = Annotated[Path, typer.Argument(metavar="STUDY.toml", help="The study file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
+JsonFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--json",
+        metavar="[FILE.json]",
+        help="Print one JSON object and nothing else; behind it a file, write it there.",
+    ),
+]
 XlsxFile = Annotated[
     Path | None,
     typer.Option("--xlsx", metavar="FILE", help="The same as a workbook (needs openpyxl)."),
@@ -50,6 +60,15 @@ Settings = Annotated[
         "--set",
         metavar="KEY=VALUE",
         help='Change a key of the file, e.g. particles.mean="500 nm"; may be repeated.',
+    ),
+]
+FilterText = Annotated[
+    str | None,
+    typer.Option(
+        "--filter",
+        metavar="SIZE=BETA,...",
+        help="A filter by the beta ratios of its data sheet, sizes in um(c), e.g. "
+        '"5=75, 10=1000": the oil before and after it.',
     ),
 ]
 OwnCode = Annotated[

@@ -25,8 +25,15 @@ HEADS = (
     {"law", "F_star [1]", "A_t [1]", "mean_pressure [Pa]", "d_star_difference [1]", "note"},
     {"cutoff [m]", "m0 [m^2]", "m2 [1]", "m4 [1/m^2]", "eta_counted [1/m^2]", "R_counted [m]"},
     {"feasible", "front", "reason"},
+    {"row of the sweep"},
 )
-"""Columns by which a table is known: of solve, film, compare, surface, design."""
+"""Columns by which a table is known: of solve, film, compare, surface, design, sweep."""
+JSON_KEYS = (
+    {"curve", "units"},
+    {"title", "version", "inputs", "warnings", "citations"},
+    {"title", "objectives", "values", "tolerance"},
+)
+"""Keys by which JSON is known: of surface; of solve, film; of design."""
 FIRST = 65536
 """Bytes in which a file of text says what it is."""
 
@@ -38,7 +45,7 @@ def need_places(places: Iterable[tuple[Path | None, str]], *, force: bool) -> No
     ----------
     places : iterable of (path or None, str)
         Files to write, and their kinds: "table", "workbook", "Parquet file", "picture", "page",
-        "export".
+        "PDF", "JSON", "export".
     force : bool
         Replace what exists, whosever it is.
 
@@ -117,18 +124,22 @@ def _has_head(head: Iterable[object]) -> bool:
 
 
 def _is_workbook(path: Path) -> bool:
-    """Whether a workbook has our columns, and was saved by nobody since."""
+    """Whether a sheet of a workbook has our columns, and it was saved by nobody since."""
     from openpyxl import load_workbook
+
+    from ..views.workbook import MADE
 
     try:
         with zipfile.ZipFile(path) as book:
             saved = re.findall(rb"\d{4}-\d\d-\d\dT[\d:]+Z", book.read("docProps/core.xml"))
-        if set(saved) != {b"1980-01-01T00:00:00Z"}:
+        if set(saved) != {MADE.encode()}:
             return False
         made = load_workbook(path, read_only=True)
         try:
-            (sheet,) = made.worksheets
-            return _has_head(next(sheet.iter_rows(max_row=1, values_only=True)))
+            return any(
+                _has_head(next(sheet.iter_rows(max_row=1, values_only=True), ()))
+                for sheet in made.worksheets
+            )
         finally:
             made.close()
     except OSError:
@@ -165,11 +176,22 @@ def _is_export(path: Path) -> bool:
 
 def _is_json(path: Path) -> bool:
     """Whether JSON is that of a measured surface."""
+    return JSON_KEYS[0] <= _keys(path)
+
+
+def _is_answer(path: Path) -> bool:
+    """Whether JSON is what a command answers."""
+    keys = _keys(path)
+    return any(each <= keys for each in JSON_KEYS)
+
+
+def _keys(path: Path) -> set[str]:
+    """Keys of JSON that holds an object."""
     try:
         held = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError):
-        return False
-    return isinstance(held, dict) and {"curve", "units"} <= set(held)
+        return set()
+    return set(held) if isinstance(held, dict) else set()
 
 
 KINDS: dict[str, Callable[[Path], bool]] = {
@@ -177,7 +199,9 @@ KINDS: dict[str, Callable[[Path], bool]] = {
     "workbook": _is_workbook,
     "Parquet file": _is_parquet,
     "picture": _is_picture,
+    "PDF": _is_picture,
     "page": is_page,
+    "JSON": _is_answer,
     "export": _is_export,
 }
 """How a file of each kind is known."""

@@ -10,27 +10,33 @@ from __future__ import annotations
 import contextlib
 import errno
 import importlib.util
-import io
+import json
 import os
 import shutil
 import stat
 import sys
 import textwrap
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextvars import ContextVar
+from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 
 from ..errors import InvalidValue, NoEquilibrium, NoTransition, ranked
 from ..quantities.say import plural
 from ..quantities.study_words import in_study_words
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
+if TYPE_CHECKING:
+    from ..views.workbook import Sheet
+
 __all__ = [
+    "STDOUT",
+    "Command",
     "Commands",
     "TableFiles",
     "complain",
@@ -41,6 +47,7 @@ __all__ = [
     "warn_of",
     "without_output",
     "write_figure",
+    "write_together",
 ]
 
 BAD_INPUT, NO_ANSWER, BROKEN_PIPE = 2, 3, 141
@@ -50,6 +57,10 @@ SHOWS_ALL: ContextVar[bool] = ContextVar("shows_all", default=False)
 """Whether a command shows every note."""
 WARNINGS: ContextVar[int] = ContextVar("warnings", default=0)
 """How many warnings a command has shown."""
+MOST_IN_A_SHEET = 2**20 - 1
+"""Rows of a sheet below its head."""
+STDOUT = Path("-")
+"""What stands for standard output where a file may be named."""
 LEAST = 40
 """Width that messages are wrapped to at least."""
 
@@ -81,6 +92,38 @@ class Commands(TyperGroup):
                 raise typer.Exit(INTERRUPTED) from None
             except OSError as error:
                 raise typer.Exit(without_output(error)) from None
+
+
+class Command(TyperCommand):
+    """A command whose ``--json`` prints where no file is named behind it."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        named = any("--json" in each.opts and not getattr(each, "is_flag", True)
+                    for each in self.params)  # fmt: skip
+        return super().parse_args(ctx, with_json_file(args) if named else args)
+
+
+def with_json_file(args: Sequence[str]) -> list[str]:
+    """Words of a command in which every ``--json`` names its file, "-" for standard output.
+
+    What follows is its file where it ends in .json, as no study does.
+
+    >>> with_json_file(["--json", "study.toml", "--csv", "a.csv"])
+    ['--json=-', 'study.toml', '--csv', 'a.csv']
+    >>> with_json_file(["study.toml", "--json", "a.json"])
+    ['study.toml', '--json=a.json']
+    """
+    out: list[str] = []
+    left = list(args)
+    while left:
+        word = left.pop(0)
+        if word == "--":
+            return [*out, word, *left]
+        if word == "--json":
+            file = left.pop(0) if left and left[0].lower().endswith(".json") else str(STDOUT)
+            word = f"--json={file}"
+        out.append(word)
+    return out
 
 
 def open_closed_streams() -> None:
@@ -166,19 +209,20 @@ def _wrap_line(line: str) -> str:
 
 def remark(sentence: str) -> None:
     """What was done, in one line: nothing is doubted by it."""
-    print(f"note: {' '.join(sentence.split())}", file=sys.stderr)
+    print(_wrap_line(f"note: {' '.join(sentence.split())}"), file=sys.stderr)
 
 
 class TableFiles(NamedTuple):
-    """Files that a table is written to; None for those not asked for."""
+    """Files that an answer is written to; None for those not asked for."""
 
     csv: Path | None = None
     xlsx: Path | None = None
     parquet: Path | None = None
+    json: Path | None = None
 
     @property
     def paths(self) -> list[Path]:
-        return [path for path in self if path is not None]
+        return [path for path in self if path is not None and path != STDOUT]
 
     def need(self, figure: Path | None = None, *, force: bool = False) -> None:
         """Refuse what cannot or must not be written, of a figure too, before long work is done.
@@ -197,48 +241,81 @@ class TableFiles(NamedTuple):
                 )
         if problems:
             raise InvalidValue(*problems)
-        kinds = ("table", "workbook", "Parquet file", "picture")
-        need_places(zip((*self, figure), kinds, strict=True), force=force)
+        kinds = ("table", "workbook", "Parquet file", "JSON", "picture")
+        places = [(None if path == STDOUT else path, kind)
+                  for path, kind in zip((*self, figure), kinds, strict=True)]  # fmt: skip
+        need_places(places, force=force)
 
-    def write(self, columns: Mapping[str, list[Any]], units: Mapping[str, str]) -> None:
-        """A column each, its unit in its name, a row a state; the same bytes every time."""
-        from ..quantities.files import csv_of, whole, with_units, write_text
+    def write(
+        self,
+        columns: Mapping[str, list[Any]],
+        units: Mapping[str, str],
+        *,
+        sheets: Callable[[], Sequence[Sheet]] | None = None,
+        data: Callable[[], Any] | None = None,
+    ) -> None:
+        """A column each, its unit in its name, a row a state; the same bytes every time.
+
+        All files of a run appear together, or none of them.
+
+        Parameters
+        ----------
+        columns, units : mapping
+        sheets : callable, optional
+            Makes the sheets of the workbook; one that holds the columns alone by default.
+        data : callable, optional
+            Makes what goes into JSON, which is printed where its file is "-".
+        """
+        from ..quantities.files import csv_of, with_units
 
         named = with_units(columns, units)
+        made: dict[Path, Callable[[Path], Any]] = {}
         if self.csv is not None:
-            write_text(self.csv, csv_of(named))
+            made[self.csv] = partial(Path.write_bytes, data=csv_of(named).encode())
         if self.xlsx is not None:
-            _write_xlsx(self.xlsx, named)
+            rows = max(map(len, columns.values()), default=0)
+            if rows > MOST_IN_A_SHEET:
+                raise InvalidValue(
+                    f"cannot write {self.xlsx}: {rows:,} rows, and a sheet holds "
+                    f"{MOST_IN_A_SHEET:,}; take --csv or --parquet"
+                )
+            from ..views.workbook import sheet_of_table, workbook_bytes
+
+            held = [sheet_of_table("Table", columns, units)] if sheets is None else sheets()
+            made[self.xlsx] = partial(Path.write_bytes, data=workbook_bytes(held))
         if self.parquet is not None:
-            import pandas
+            made[self.parquet] = partial(_write_parquet, columns=named)
+        said = None
+        if self.json is not None and data is not None:
+            said = json.dumps(data(), indent=1, allow_nan=False)
+            if self.json != STDOUT:
+                made[self.json] = partial(Path.write_bytes, data=f"{said}\n".encode())
+        write_together(made)
+        if said is not None and self.json == STDOUT:
+            print(said)
 
-            with whole(self.parquet) as part:
-                pandas.DataFrame(named).to_parquet(part, engine="pyarrow", index=False)
+
+def write_together(files: Mapping[Path, Callable[[Path], Any]]) -> None:
+    """Write several files, each whole, and none where one cannot be written.
+
+    Parameters
+    ----------
+    files : mapping
+        What writes each of them, into a path that it is given.
+    """
+    from ..quantities.files import refused_by_disk, whole
+
+    with contextlib.ExitStack() as together:
+        drafts = [(path, together.enter_context(whole(path))) for path in files]
+        for path, draft in drafts:
+            with refused_by_disk(path, draft):
+                files[path](draft)
 
 
-def _write_xlsx(path: Path, columns: Mapping[str, Sequence[Any]]) -> None:
-    """A workbook of one sheet; when it was made stands nowhere in it."""
-    import re
-    import zipfile
-
+def _write_parquet(path: Path, columns: Mapping[str, Sequence[Any]]) -> None:
     import pandas
 
-    from ..quantities.files import whole
-
-    made = io.BytesIO()
-    pandas.DataFrame(columns).to_excel(made, engine="openpyxl", index=False, freeze_panes=(1, 1))
-    with (
-        whole(path) as part,
-        zipfile.ZipFile(made) as book,
-        zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as out,
-    ):
-        for name in book.namelist():
-            data = book.read(name)
-            if name == "docProps/core.xml":
-                data = re.sub(rb"\d{4}-\d\d-\d\dT[\d:]+Z", b"1980-01-01T00:00:00Z", data)
-            entry = zipfile.ZipInfo(name)  # dated 1980
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            out.writestr(entry, data)
+    pandas.DataFrame(columns).to_parquet(path, engine="pyarrow", index=False)
 
 
 def figure_format(figure: Path) -> str:

@@ -17,6 +17,7 @@ from ..errors import InvalidValue, tell_of_range
 from ..laws.base import REGIMES
 from ..quantities.carried import takes_units
 from ..quantities.say import number, percent, plural, value_of
+from .blocks import ERRORS, STEP, block_sums, errors_of, long_waves
 from .interface import Interface, interface_of, map_of
 from .press import HARDEST, Pressed, capacity, contact_share, press
 from .seats import seats_named
@@ -58,6 +59,7 @@ def solve(
     precision: Literal["double", "single"] = "double",
     maps: Literal["last", "all"] = "last",
     workers: int = 1,
+    blocks: int | None = None,
 ) -> ExplicitState:
     r"""Press a height map, with every particle at its place, against a flat.
 
@@ -104,6 +106,10 @@ def solve(
         Which maps to keep of several loads.
     workers : int, optional
         Threads of the FFTs.
+    blocks : int, optional
+        Blocks along each side of the map, 4 for 16 of them, over which the ``errors`` of the state
+        are taken: how much another place of the surface would differ. Each load is then pressed
+        twice. None by default.
 
     Returns
     -------
@@ -149,7 +155,7 @@ def solve(
         raise InvalidValue(f"contact = {contact!r:.80} must be a Contact")
     name, values, one = given_numbers(pressure=pressure, F_star=F_star, h=h)
     rule = seats_named(seats)
-    _options(tol, max_iterations, precision, maps, seed, workers)
+    _options(tol, max_iterations, precision, maps, seed, workers, blocks)
     surface_map = map_of(surface, spacing)
     rng = np.random.default_rng(seed)
     inside = interface_of(
@@ -157,12 +163,13 @@ def solve(
     )  # fmt: skip
     if name != "h":
         values = values * surface_map.area * (contact.E_ss if name == "F_star" else 1.0)
-    found, seconds = curve(
-        inside, "h" if name == "h" else "load", values, tol=tol, max_iterations=max_iterations,
-        single=precision == "single", workers=workers,
-    )  # fmt: skip
+    how: dict[str, Any] = dict(
+        tol=tol, max_iterations=max_iterations, single=precision == "single", workers=workers
+    )
+    found, seconds = curve(inside, "h" if name == "h" else "load", values, **how)
     columns = [numbers_of(inside, each) for each in found]
-    told = (*inside.warnings, *_doubts(columns, found, tol))
+    errors, rough = ({}, []) if blocks is None else _block_errors(inside, found, blocks, how)
+    told = (*inside.warnings, *_doubts(columns, found, tol), *rough)
     for sentence in told:
         tell_of_range(sentence)
 
@@ -185,7 +192,30 @@ def solve(
         maps=xarray.concat(shown, "state") if several else shown[0],
         particles=xarray.concat(bodies, "state") if several else bodies[0],
         warnings=told,
+        errors={name: float(each[0]) if one else each for name, each in errors.items()},
     )
+
+
+def _block_errors(
+    inside: Interface, found: list[Pressed], blocks: int, how: dict[str, Any]
+) -> tuple[dict[str, Array], list[str]]:
+    """Standard errors of every state, and why they are rough."""
+    out = np.full((len(found), len(ERRORS)), math.nan)
+    area, spacing = inside.map.area, inside.map.spacing
+    most = capacity(inside.c, inside.bodies, spacing)
+    for i, state in enumerate(found):
+        load = float(np.sum(state.p)) * spacing**2 + float(np.sum(state.f))
+        if not load > 0:
+            continue
+        other = load * STEP if load * STEP < most else load / STEP
+        (beside,), _ = curve(inside, "load", np.array([other]), start=state, **how)
+        sums, there = (
+            block_sums(inside, each, _squeeze_columns(inside, each)["areas"][0], blocks)
+            for each in (state, beside)
+        )
+        out[i] = errors_of(sums, there.sum(axis=1), area)
+    note = long_waves(inside.map.z, inside.map.sigma, blocks)
+    return dict(zip(ERRORS, out.T, strict=True)), [] if note is None else [note]
 
 
 def curve(
@@ -197,8 +227,12 @@ def curve(
     max_iterations: int = ITERATIONS,
     single: bool = False,
     workers: int = 1,
+    start: Pressed | None = None,
 ) -> tuple[list[Pressed], list[float]]:
-    """States under loads [N] or at separations h [m], each from its neighbour, far to near."""
+    """States under loads [N] or at separations h [m], each from its neighbour, far to near.
+
+    The first begins at ``start``, where one is given.
+    """
     z, spacing = inside.map.z, inside.map.spacing
     E_star = inside.contact.E_ss
     if given == "load":
@@ -224,16 +258,16 @@ def curve(
         order = order[::-1]
     found: dict[int, Pressed] = {}
     seconds: dict[int, float] = {}
-    start = None
+    near = start
     for i in order.tolist():
         begin = time.perf_counter()
-        state = press(
+        begun = None if near is None or not (np.any(near.p) or np.any(near.f)) else (near.p, near.f)
+        near = press(
             z, spacing, E_star, c=inside.c, bodies=inside.bodies, tol=tol,
-            max_iterations=max_iterations, start=start, single=single, workers=workers,
-            **{given: float(values[i])},
+            max_iterations=max_iterations, single=single, workers=workers,
+            start=begun, **{given: float(values[i])},
         )  # fmt: skip
-        found[i], seconds[i] = state, time.perf_counter() - begin
-        start = (state.p, state.f) if np.any(state.p) or np.any(state.f) else None
+        found[i], seconds[i] = near, time.perf_counter() - begin
     every = range(len(values))
     return [found[i] for i in every], [seconds[i] for i in every]
 
@@ -295,7 +329,13 @@ def _squeeze_columns(inside: Interface, state: Pressed) -> dict[str, Any]:
 
 # -------------------------------------------------------------------------- what is asked
 def _options(
-    tol: float, max_iterations: int, precision: str, maps: str, seed: int, workers: int
+    tol: float,
+    max_iterations: int,
+    precision: str,
+    maps: str,
+    seed: int,
+    workers: int,
+    blocks: int | None,
 ) -> None:
     """Refuse options that have no meaning."""
     out = []
@@ -310,6 +350,7 @@ def _options(
         if value not in words:
             out.append(f"{name} = {value!r} must be one of {', '.join(map(repr, words))}")
     whole = {"max_iterations": (max_iterations, 1), "seed": (seed, 0), "workers": (workers, 1)}
+    whole |= {} if blocks is None else {"blocks": (blocks, 2)}
     for name, (count, least) in whole.items():
         if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < least:
             out.append(f"{name} = {count!r} must be a whole number, at least {least}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -77,6 +78,8 @@ class ExplicitState(StateRecord):
     maps: xarray.Dataset = field(repr=False)
     particles: xarray.Dataset = field(repr=False)
     warnings: tuple[str, ...] = ()
+    errors: Mapping[str, Number] = field(default_factory=dict)
+    """Standard errors of h, A_t and the shares, over blocks of the map; empty unless asked for."""
 
     @names_arguments
     def to_netcdf(self, path: str | os.PathLike[str]) -> None:

@@ -27,6 +27,7 @@ import numpy as np
 from ..errors import InvalidValue, Problem
 from .arguments import FAILURES, refuse_misfits
 from .kinds import kind_needed, kind_of, registry, spelled
+from .uncertain import is_uncertain
 
 __all__ = ["carries_unit", "in_si", "takes_units"]
 
@@ -160,6 +161,11 @@ def in_si(value: Any, unit: str) -> Any:
 def _convert(value: Any, unit: str) -> Any:
     """A quantity of a library of units, by that library's own factor."""
     wanted = spelled(unit)
+    if is_uncertain(getattr(value, "magnitude", None)):
+        try:
+            return value.to(wanted or "dimensionless").magnitude
+        except Exception:
+            raise InvalidValue(_why_not(value, unit)) from None
     try:
         given, found = (_magnitude(each) for each in (value, value.to(wanted or "dimensionless")))
     except Exception:
@@ -414,9 +420,11 @@ def _is_number(parameter: inspect.Parameter) -> bool:
 
 def _unit_of_input(contact: Any, name: str) -> str | None:
     """The unit of an input of a contact by its dotted name."""
-    path, _, last = name.rpartition(".")
+    path, _, last = name.partition("+")[0].rpartition(".")
+    if not path:
+        return USUAL.get(last)
     try:
-        owner = contact.part(path)
+        owner = getattr(contact, "contact", contact).part(path)
     except (AttributeError, InvalidValue):
         return None
     item = getattr(type(owner), "__dataclass_fields__", {}).get(last)

@@ -22,6 +22,7 @@ from .arguments import FAILURES, names_arguments, refuse_misfits
 from .carried import carries_unit, huge_words, in_si, masked_words, takes_units
 from .nearest import guess
 from .plain_data import plain_data
+from .uncertain import HELD, is_uncertain
 
 if TYPE_CHECKING:
     import numpy as np
@@ -58,7 +59,8 @@ def quantity(
     hint : str, optional
         The likely cause of a mistake, appended to the message.
     usual : float, optional
-        Lengths up to it are no slip; `USUAL_LENGTH` by default.
+        Lengths up to it, and pressures from it on, are no slip; `USUAL_LENGTH` by default, and as
+        for a modulus.
     """
     about = dict(symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint)
     if usual is not None:
@@ -92,6 +94,8 @@ def problem_with(about: dict[str, Any], value: Any) -> str | None:
     """Why ``value`` cannot stand for this quantity, or None when it can."""
     if isinstance(value, (bool, str)) or not hasattr(value, "__float__"):
         return f"must be a number in SI units [{about['unit']}], not {type(value).__name__}"
+    if is_uncertain(value):
+        return HELD
     try:
         number = float(value)
     except OverflowError:
@@ -155,6 +159,8 @@ def unit_meant(about: Mapping[str, Any], number: float, *, load: bool = False) -
         return "mm" if usual >= 1 else "nm" if size >= 10 else "um"
     if unit == "Pa" and load:
         return "MPa" if 0 < number < USUAL_LOAD else None
+    if unit == "Pa" and "usual" in about:
+        return "kPa" if 0 < number < about["usual"] else None
     if unit == "Pa":
         return "GPa" if 0 < number < USUAL_STRESS else None
     least, most, meant = SLIPS.get(unit, (0.0, math.inf, ""))

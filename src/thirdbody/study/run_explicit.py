@@ -18,6 +18,7 @@ from ..contact.citations import cite
 from ..contact.contact import Contact
 from ..equilibrium.solve import solve as statistical
 from ..errors import InvalidValue, RangeWarning, tell_of_range
+from ..explicit.blocks import BLOCKS
 from ..explicit.ensemble import (
     COMPARED,
     Ensemble,
@@ -217,7 +218,8 @@ def _run_measured(
 ) -> ExplicitResult:
     """One map: the numbers are its own, and the model beside it has its seats."""
     (face,) = study.faces
-    state = solve(contact, face, F_star=loads, maps=maps, workers=workers, **asked)
+    how: dict[str, Any] = {"maps": maps, "workers": workers, "blocks": BLOCKS}
+    state = solve(contact, face, F_star=loads, **how, **asked)
     rule = {name: asked[name] for name in ("seats", "seed") if name in asked}
     seats = seats_on(contact, face, **rule)
     if not math.isfinite(seats.mean):  # places that are told
@@ -227,6 +229,7 @@ def _run_measured(
     table: dict[str, list[float | None]] = {"F_star": loads.tolist()}
     for name in COMPARED:
         table[f"{name}_raw"] = plain_data(np.atleast_1d(getattr(state, name)))
+        table[f"{name}_raw_error"] = plain_data(np.atleast_1d(state.errors[name]))
         table[f"{name}_statistical"] = plain_data(np.atleast_1d(getattr(beside, name)))
     columns = {name: values.tolist() for name, values in state.columns().items()}
     data = {

@@ -140,7 +140,13 @@ class ContactProbability(Value):
         return float(self._per_size(np.array([1.0]))[0]) * mean**2
 
     def probability(self, load: ArrayLike) -> Array:
-        """P that the solids touch under this load W [N]: as `bounds`, in the middle."""
+        """P that the solids touch under this load: as `bounds`, in the middle.
+
+        Parameters
+        ----------
+        load : array_like
+            Load W on the solids [N].
+        """
         low, high = self.bounds(load)
         return 0.5 * (low + high)
 
@@ -175,7 +181,13 @@ class ContactProbability(Value):
         return out[0].reshape(loads.shape), out[1].reshape(loads.shape)
 
     def of_one(self, load: ArrayLike) -> Array:
-        """G: share of the particles in the way that carry no more than this [N]."""
+        """G: share of the particles in the way that carry no more than this.
+
+        Parameters
+        ----------
+        load : array_like
+            Load of one particle [N].
+        """
         loads = np.asarray(load, dtype=float)
         most = loads.ravel() * (1 + SURE)
         sizes = self.particles.diameter
@@ -216,10 +228,10 @@ class ContactProbability(Value):
         up = np.diff(self.of_one(step * places), prepend=0.0)
         down = np.diff(self.of_one(step * (places + 1) * (1 - 2 * SURE)), prepend=0.0)
         place = np.floor(loads / step * (1 + SURE)).astype(int)
-        return np.array([_compound(self.in_the_way, each)[place] for each in (up, down)])
+        return np.array([compound(self.in_the_way, each)[place] for each in (up, down)])
 
 
-def _compound(N: float, mass: Array) -> Array:
+def compound(N: float, mass: Array) -> Array:
     """P(S ≤ j) of a Poisson sum S over places 0, 1, 2, … of these masses, at every place j."""
     weight = N * np.arange(len(mass)) * mass
     g = np.zeros(len(mass))  # probability of each place, over exp(log_scale)

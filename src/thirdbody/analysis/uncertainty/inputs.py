@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy as np
 from ...contact.contact import Contact
 from ...errors import InvalidValue, Problem
 from ...quantities.carried import takes_units
+from ...quantities.uncertain import are_correlated, is_uncertain
 from ...quantities.value import problem_with
 from ..inputs import Input as Moved
 from ..inputs import declared, input_of, inputs
@@ -124,6 +126,38 @@ class Uncertain:
         """A value known to a factor: two in three between median/gsd and median·gsd."""
         return cls(kind="lognormal", first=median, second=gsd)
 
+    @classmethod
+    @takes_units
+    def from_ufloat(cls, number: Any) -> Uncertain:
+        """A number of the package `uncertainties`: normal, about its nominal value.
+
+        Parameters
+        ----------
+        number : uncertainties.UFloat
+            What is known of the input, in SI.
+
+        Returns
+        -------
+        Uncertain
+
+        Raises
+        ------
+        InvalidValue
+            It is no such number, or its uncertainty is 0.
+
+        Examples
+        --------
+        >>> from uncertainties import ufloat
+        >>> Uncertain.from_ufloat(ufloat(100e-9, 5e-9))
+        Uncertain(kind='normal', first=1e-07, second=5e-09)
+        """
+        if not is_uncertain(number):
+            raise InvalidValue(
+                f"number = {number!r:.80} must have a nominal_value and a std_dev, as a ufloat; of "
+                "a quantity with a unit, give it in SI"
+            )
+        return cls.normal(mean=float(number.nominal_value), std=float(number.std_dev))
+
     @takes_units
     def at(self, u: ArrayLike) -> Any:
         """The value that is exceeded with probability 1 − u."""
@@ -216,8 +250,26 @@ def library_ranges(contact: Contact) -> dict[str, Uncertain]:
     return out
 
 
+def _known(given: Any) -> Uncertain:
+    """What is known of an input: as it is told, by two ends, or as a ufloat."""
+    if isinstance(given, Uncertain):
+        return given
+    return Uncertain.from_ufloat(given) if is_uncertain(given) else _between(*given)
+
+
 def _between(low: float, high: float) -> Uncertain:
     return Uncertain.uniform(low=low, high=high)
+
+
+def _correlated(inputs: Mapping[str, Any], where: str) -> list[str]:
+    """Ufloats that rest on the same measurement, which no two inputs here may."""
+    told = [(label, given) for label, given in inputs.items() if is_uncertain(given)]
+    return [
+        f"{where.format(one)} and {where.format(other)} are correlated, and inputs are "
+        "independent here; join what is one thing by +, or take sensitivity(...).ufloats(...)"
+        for (one, first), (other, second) in combinations(told, 2)
+        if are_correlated(first, second)
+    ]
 
 
 class Drawn(NamedTuple):
@@ -257,7 +309,7 @@ def drawn_inputs(
     moved: list[Moved | str] = []
     known: list[Uncertain] = []
     taken: dict[str, str] = {}
-    problems: list[str] = []
+    problems = _correlated(inputs, where)
     if not inputs:
         problems.append(
             'vary is empty; say what is uncertain, e.g. {"roughness.sigma": (80e-9, 120e-9)}'
@@ -274,7 +326,7 @@ def drawn_inputs(
             elif np.ndim(loads):
                 problems.append(f"{place}: give one load where the load is uncertain")
                 continue
-            one = given if isinstance(given, Uncertain) else _between(*given)
+            one = _known(given)
         except InvalidValue as error:
             said = [why if why.place and not why.owner else Problem(place, f": {why}")
                     for why in error.problems]  # fmt: skip
@@ -282,7 +334,7 @@ def drawn_inputs(
             continue
         except TypeError:
             problems.append(
-                f"{place} = {given!r} must be (low, high), or one of Uncertain.uniform, "
+                f"{place} = {given!r} must be (low, high), a ufloat, or one of Uncertain.uniform, "
                 "log_uniform, normal, lognormal"
             )
             continue

@@ -34,6 +34,7 @@ from ...quantities.carried import takes_units
 from ...quantities.progress import watched
 from ...quantities.record import Record
 from ...quantities.say import percent
+from ...quantities.uncertain import uncertain_number
 from .inputs import Drawn, Uncertain, drawn_inputs
 from .samples import (
     MARGINS,
@@ -157,6 +158,57 @@ class Propagation(Record):
             "citations": cite(self.contact),
         }
         return xarray.Dataset(data, coords=coordinates, attrs=attributes)
+
+    @takes_units
+    def ufloat(self, of: str) -> Any:
+        """The band of an output as a number with an uncertainty.
+
+        Parameters
+        ----------
+        of : str
+            Which output.
+
+        Returns
+        -------
+        uncertainties.UFloat, or a list of them over the loads
+            The median of the band (its middle where the median was not asked for), and the
+            standard deviation of the normal distribution that has its outermost quantiles.
+
+        Raises
+        ------
+        InvalidValue
+            No such output, a band that is not finite, or `uncertainties` is not installed.
+
+        Notes
+        -----
+        It says nothing of which input moved it; `Sensitivity.ufloats` does, to first order.
+
+        Examples
+        --------
+        >>> import thirdbody as tb
+        >>> steel = tb.materials["S45C"]
+        >>> contact = tb.Contact(surfaces=tb.MaterialPair(steel, steel),
+        ...                      roughness=tb.Roughness(sigma=100e-9, R=2.8e-6))
+        >>> found = tb.propagate(contact, vary={"roughness.sigma": (90e-9, 110e-9)},
+        ...                      pressure=5e6, samples=64, outputs=["h"])
+        >>> print(f"{found.ufloat('h'):.2uP}")
+        (2.80±0.16)×10⁻⁷
+        """
+        from scipy.special import ndtri
+
+        if of not in self.bands:
+            raise InvalidValue(f"of = {of!r} must be one of {', '.join(self.bands)}")
+        if len(self.probabilities) < 2:
+            raise InvalidValue("a band of one quantile has no width; ask for two quantiles or more")
+        band, low, high = np.asarray(self.bands[of]), self.probabilities[0], self.probabilities[-1]
+        std = (band[..., -1] - band[..., 0]) / float(ndtri(high) - ndtri(low))
+        place = self.probabilities.index(0.5) if 0.5 in self.probabilities else None
+        middle = band[..., [0, -1]].mean(axis=-1) if place is None else band[..., place]
+        if not np.all(np.isfinite(middle) & np.isfinite(std)):
+            raise InvalidValue(f"the band of {of} is not finite; see bands and critical_status")
+        if band.ndim == 1:
+            return uncertain_number(float(middle), float(std))
+        return [uncertain_number(*pair) for pair in zip(middle.tolist(), std.tolist(), strict=True)]
 
     def _repr_html_(self) -> str:
         """A table for notebooks: quantiles of every output; of several loads at the first."""
@@ -367,7 +419,7 @@ def propagate(
     pressure: ArrayLike | None = None,
     F_star: ArrayLike | None = None,
     d: ArrayLike | None = None,
-    vary: Mapping[str, Uncertain | tuple[float, float]],
+    vary: Mapping[str, Any],
     samples: int = 2**14,
     seed: int = 0,
     outputs: Sequence[str] | None = None,
@@ -386,7 +438,8 @@ def propagate(
     vary : mapping
         Dotted names of numbers of the contact, or several joined by "+", which move by one factor
         (``"surfaces.first.H+surfaces.second.H"``; values are those of the first), and for each an
-        `Uncertain`, or ``(low, high)`` for a uniform range. The given load may be one of them.
+        `Uncertain`, ``(low, high)`` for a uniform range, or a ufloat of the package
+        `uncertainties`, a quantity with a unit too. The given load may be one of them.
     pressure, F_star, d : float or array (L,)
         Loads, as in `solve`; exactly one.
     samples : int, optional

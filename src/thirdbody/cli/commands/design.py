@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from contextlib import nullcontext
 from pathlib import Path
@@ -13,9 +12,9 @@ import typer
 from ...quantities.progress import heartbeat
 from ...quantities.say import concentration_of, number, percent, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
+from ..options import Force, JsonFile, ParquetFile, Settings, XlsxFile, read_study
 from ..show import MOST_ROWS, some, terminal
-from ..streams import TableFiles, figure_format, warn_of, write_figure
+from ..streams import STDOUT, TableFiles, figure_format, warn_of, write_figure
 
 if TYPE_CHECKING:
     from ...analysis.design.design import Best
@@ -28,7 +27,7 @@ def command(
     study: Annotated[
         Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [design].")
     ],
-    as_json: AsJson = False,
+    json_file: JsonFile = None,
     csv_file: Annotated[
         Path | None, typer.Option("--csv", metavar="FILE", help="Write every point tried.")
     ] = None,
@@ -43,8 +42,8 @@ def command(
     """The best size, concentration or roughness over a range of loads, under limits."""
     from ...study.analyses import design_study
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
-    asked = read_study(study, settings, writes=[*files, figure])
+    files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
+    asked = read_study(study, settings, writes=[*files.paths, figure])
     files.need(figure, force=force)
     if figure is not None:
         figure_format(figure)  # refused before long work
@@ -53,19 +52,15 @@ def command(
         best = design_study(asked, progress=bar)
     warn_of(best.warnings)
     columns = {name: each.values.tolist() for name, each in best.of_points.items()}
-    files.write(
-        columns, {name: each.about.get("units", "") for name, each in best.of_points.items()}
-    )
+    units = {name: each.about.get("units", "") for name, each in best.of_points.items()}
+    files.write(columns, units, data=lambda: {"title": asked.title, **best.to_dict()})
     for path in files.paths:
         print(f"written: {path}", file=sys.stderr)
     if figure is not None:
         from ...views.plot.design import plot_trials
 
         write_figure(figure, plot_trials(best))
-    if as_json:
-        told = {"title": asked.title, **best.to_dict()}
-        print(json.dumps(told, indent=1, allow_nan=False))
-    else:
+    if json_file != STDOUT:
         _page(asked, best)
 
 

@@ -141,7 +141,7 @@ def _show(data: dict[str, Any]) -> None:
             cells = [number(load) if k == 0 else "", words]
             kinds = ("raw", "cv") if synthetic else ("raw",)
             for kind in kinds:
-                error = table[f"{name}_{kind}_error"][i] if synthetic else None
+                error = table[f"{name}_{kind}_error"][i]
                 least = table[f"{name}_{kind}_least"][i] if "share" in name and synthetic else None
                 if kind == "cv" and least is not None:
                     most = percent(table[f"{name}_{kind}_most"][i], digits=3)

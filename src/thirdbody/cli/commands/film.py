@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-import json
-import math
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ...quantities.progress import heartbeat
-from ...quantities.say import number, value_of
+from ...quantities.say import value_of
 from ...quantities.tables import Table
 from ...version import __version__
-from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
+from ..options import FilterText, Force, JsonFile, ParquetFile, Settings, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import TableFiles, figure_format, warn_of, write_figure
+from ..streams import STDOUT, TableFiles, figure_format, warn_of, write_figure
 
 if TYPE_CHECKING:
     from ...study import FilmResult
+    from ...study.dirty_oil import DirtyOil
+    from ...views.workbook import Sheet
 
 __all__ = ["command"]
 
@@ -39,7 +40,7 @@ def command(
     study: Annotated[
         Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [film].")
     ],
-    as_json: AsJson = False,
+    json_file: JsonFile = None,
     csv_file: Annotated[
         Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per speed.")
     ] = None,
@@ -49,41 +50,71 @@ def command(
     figure: Annotated[
         Path | None, typer.Option("--figure", metavar="FILE", help="Draw the curve over speed.")
     ] = None,
+    filter_text: FilterText = None,
     settings: Settings = None,
 ) -> None:
     """Film, load shares and friction of a lubricated contact, at one speed or over many."""
     from ...study import run_film
+    from ...study.dirty_oil import dirty_oil, need_particles, read_filter
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
-    asked = read_study(study, settings, writes=[*files, figure])
+    fine = None if filter_text is None else read_filter(filter_text)
+    files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
+    asked = read_study(study, settings, writes=[*files.paths, figure])
+    if fine is not None:
+        need_particles(asked)
     files.need(figure, force=force)
     if figure is not None:
         figure_format(figure)  # refused before long work
     with heartbeat("film"):
         result = run_film(asked)
+        oil = dirty_oil(asked)
+        filtered = None if fine is None else dirty_oil(asked, filter=fine)
     warn_of(result.run_warnings)
     drawn = None
     if figure is not None:
         from ...views.plot.film import stribeck
 
         drawn = stribeck(result.states, result.regime_speeds)
-    files.write(*result.table())
+    files.write(
+        *result.table(),
+        sheets=partial(_sheets, result, oil, filtered),
+        data=partial(_data, result, oil, filtered),
+    )
     for path in files.paths:
         print(f"written: {path}", file=sys.stderr)
     if figure is not None:
         write_figure(figure, drawn)
-    if as_json:
-        print(json.dumps(result.to_dict(), indent=1, allow_nan=False))
-    else:
-        _show(result)
+    if json_file != STDOUT:
+        _show(result, oil, filtered)
 
 
-def _show(result: FilmResult) -> None:
-    """The result for a reader: the point or the curve, then in words."""
+def _data(result: FilmResult, oil: DirtyOil | None, filtered: DirtyOil | None) -> dict[str, Any]:
+    found = {"oil": oil, "oil_filtered": filtered}
+    return result.to_dict() | {
+        name: each.to_dict() for name, each in found.items() if each is not None
+    }
+
+
+def _sheets(result: FilmResult, oil: DirtyOil | None, filtered: DirtyOil | None) -> list[Sheet]:
+    from ...views import oil_words
+    from ...views.film_words import bodies, summary
+    from ...views.study_sheets import film_sheets
+
+    answer = [] if oil is None else oil_words.answer(oil)
+    if oil is not None and filtered is not None:
+        answer = [oil_words.filter_answer(oil, filtered), *answer]
+    return film_sheets(result, [*answer, bodies(result), *summary(result)])
+
+
+def _show(result: FilmResult, oil: DirtyOil | None, filtered: DirtyOil | None) -> None:
+    """The result for a reader: the answer, the point or the curve, then in words."""
     from ...views.film_words import bodies, point, summary
 
     console = terminal()
     console.print(f"{result.title} (thirdbody {__version__})")
+    if oil is not None:
+        _show_oil(console, oil, filtered)
+    _show_bearing(console, result)
     states, sigma = result.states, result.study.contact.roughness.sigma
     console.print(f"{bodies(result)}, sigma = {value_of(sigma, 'm')}")
     total = len(states["speed"])
@@ -101,24 +132,49 @@ def _show(result: FilmResult) -> None:
         console.print(sentence)
 
 
+def _show_oil(console: Any, oil: DirtyOil, filtered: DirtyOil | None) -> None:
+    """What the particles of the oil do, before and after a filter where there is one."""
+    from ...views import oil_words as words
+
+    if filtered is not None:
+        console.print(words.filter_answer(oil, filtered))
+    for sentence in words.answer(oil):
+        console.print(sentence)
+    if filtered is None:
+        table = Table(
+            words.HEADS, right=True, words=words.HEADS[:1], drop=words.DROP, more=ALL,
+            legend=words.MEANS,
+        )  # fmt: skip
+        for row in words.rows(oil):
+            table.add_row(*row)
+    else:
+        table = Table(("", "before", "after the filter"))
+        for row in words.filter_rows(oil, filtered):
+            table.add_row(*row)
+    console.print(table)
+
+
+def _show_bearing(console: Any, result: FilmResult) -> None:
+    """How the bodies of a bearing share its load."""
+    from ...views import bearing_words as words
+
+    if not words.shares_load(result.study):
+        return
+    console.print(words.sharing(result.study))
+    table = Table(words.HEADS, right=True, drop=words.DROP, more=ALL, legend=words.MEANS)
+    for row in words.rows(result.study):
+        table.add_row(*row)
+    console.print(table)
+
+
 def _curve(result: FilmResult) -> Any:
     """A row a speed; of many speeds some, evenly spread."""
-    from ...views.film_words import share
+    from ...views.columns import film_columns
 
-    states = result.states
-    shares = {"film_share": "on film", "ss_share": "on asperities"}
-    if result.passing:
-        shares["sa_share"] = "on particles"
-    known = any(map(math.isfinite, states["mu"]))
-    heads = ["speed", "film h_T", "lambda", *shares.values(), *["friction"] * known, "regime"]
+    states, columns = result.states, film_columns(result)
+    heads = [*(each.head for each in columns), "regime"]
     table = Table(heads, right=True, drop=DROP, more=ALL, legend=MEANS)
     for i in some(len(states["speed"])):
-        table.add_row(
-            value_of(states["speed"][i], "m/s"),
-            value_of(states["h_T"][i], "m"),
-            number(states["lambda_ratio"][i]),
-            *(share(states[name][i]) for name in shares),
-            *[number(states["mu"][i])] * known,
-            states["regime"][i],
-        )
+        cells = (each.words(float(states[each.name][i])) for each in columns)
+        table.add_row(*cells, states["regime"][i])
     return table

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ..options import Force, Settings, StudyFile, read_study
-from ..streams import warn_of
+from ..options import FilterText, Force, Settings, StudyFile, read_study
+from ..streams import warn_of, write_together
 
 __all__ = ["command"]
 
@@ -23,25 +24,45 @@ def command(
         Path | None,
         typer.Option("--out", metavar="FILE", help="The page, one HTML file; report.html else."),
     ] = None,
+    pdf_file: Annotated[
+        Path | None,
+        typer.Option(
+            "--pdf", metavar="FILE", help="The page on paper (needs Chromium, Chrome or Edge)."
+        ),
+    ] = None,
     force: Force = False,
+    filter_text: FilterText = None,
     settings: Settings = None,
 ) -> None:
     """A report to hand on: answer, figures, tables, error bars and sources, in one file."""
-    from ...quantities.files import read_bytes, write_text
+    from ...quantities.files import read_bytes
     from ...quantities.progress import stages
+    from ...quantities.units import say
+    from ...study.dirty_oil import need_particles, read_filter
+    from ...views.pdf import need_browser, pdf_of
     from ...views.report import PARTS, report
     from ..own_files import need_places
 
-    target = out or USUAL
-    asked = read_study(study, settings, writes=[target])
-    need_places([(target, "page")], force=force)
+    fine = None if filter_text is None else read_filter(filter_text)
+    target = out if pdf_file is not None else out or USUAL
+    asked = read_study(study, settings, writes=[target, pdf_file])
+    if fine is not None:
+        need_particles(asked)
+    need_places([(target, "page"), (pdf_file, "PDF")], force=force)
+    if pdf_file is not None:
+        need_browser()  # refused before long work
     text = read_bytes(study, "a study file").decode("utf-8-sig")
     given = "".join(f"# --set {setting}\n" for setting in settings or ())
+    given += "" if filter_text is None else f"# --filter {say(filter_text)}\n"
     with stages("report", len(PARTS)) as progress:
         file = f"{text.rstrip()}\n\n{given}".rstrip() + "\n"
-        found = report(asked, file=file, progress=progress)
+        found = report(asked, file=file, progress=progress, filter=fine)
         progress(PARTS[-1])
         page = found.html()
+    written = {} if target is None else {target: page.encode()}
+    if pdf_file is not None:
+        written[pdf_file] = pdf_of(page)
     warn_of(found.result.run_warnings)
-    write_text(target, page)
-    print(f"written: {target}", file=sys.stderr)
+    write_together({path: partial(Path.write_bytes, data=held) for path, held in written.items()})
+    for path in written:
+        print(f"written: {path}", file=sys.stderr)

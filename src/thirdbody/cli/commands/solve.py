@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -29,14 +29,16 @@ from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, unit_of, value_of
 from ...quantities.tables import Table
 from ...version import __version__
-from ..options import AsJson, Force, ParquetFile, Settings, StudyFile, XlsxFile, read_study
+from ..options import Force, JsonFile, ParquetFile, Settings, StudyFile, XlsxFile, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import TableFiles, warn_of
+from ..streams import STDOUT, TableFiles, warn_of
 
 if TYPE_CHECKING:
     from ...equilibrium.columns import PopulationShare
     from ...equilibrium.transitions import Transitions
     from ...study import StudyResult
+    from ...views.columns import Shown
+    from ...views.workbook import Sheet
 
 __all__ = ["command", "summary"]
 
@@ -63,7 +65,7 @@ Columns = dict[str, Callable[[int], str]]
 
 def command(
     study: StudyFile,
-    as_json: AsJson = False,
+    json_file: JsonFile = None,
     csv_file: Annotated[
         Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per state.")
     ] = None,
@@ -75,22 +77,23 @@ def command(
     """Separation, real contact area, load shares and contact mode under the loads of a study."""
     from ...study import run_study
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
-    if as_json and files.paths:
-        raise typer.BadParameter(
-            "--json and --csv, --xlsx or --parquet exclude each other; run the command twice"
-        )
+    files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
     asked = read_study(study, settings, writes=files.paths)
     files.need(force=force)
     with heartbeat("solve"):
         result = run_study(asked)
     warn_of(result.run_warnings)
-    if as_json:
-        print(json.dumps(result.to_dict(), indent=1, allow_nan=False))
-    elif result.solved_states and files.paths:
-        files.write(*result.table())
-        for path in files.paths:
-            print(f"{len(result.states.status)} states written to {path}", file=sys.stderr)
+    if not result.solved_states:  # no file without a number
+        files = TableFiles(json=STDOUT if json_file == STDOUT else None)
+    files.write(
+        *result.table(),
+        sheets=partial(_sheets, result),
+        data=result.to_dict,
+    )
+    for path in files.paths:
+        print(f"{len(result.states.status)} states written to {path}", file=sys.stderr)
+    if any(files):
+        pass
     elif result.solved_states:
         _show(result)
     else:  # what the smooth bodies do is known
@@ -99,8 +102,16 @@ def command(
     result.need_state()
 
 
+def _sheets(result: StudyResult) -> list[Sheet]:
+    from ...views.study_sheets import state_sheets
+
+    return state_sheets(result, [summary(result)])
+
+
 def _show(result: StudyResult) -> None:
     """The result for a reader: states, populations, transitions, one sentence."""
+    from ...views.columns import modes_of, state_columns
+
     console = terminal()
     states, contact = result.states, result.study.contact
     console.print(f"{result.title} (thirdbody {__version__})")
@@ -110,24 +121,13 @@ def _show(result: StudyResult) -> None:
     for sentence in result.force_sentences:
         console.print(sentence)
 
-    loads: Columns = {
-        "F*": lambda i: number(states.F_star[i]),
-        "pressure": lambda i: value_of(states.pressure[i], "Pa"),
+    columns: Columns = {
+        each.head: partial(_cell, each, getattr(states, each.name))
+        for each in state_columns(contact)
     }
-    columns = loads | {
-        "h": lambda i: value_of(states.h[i], "m"),
-        "d": lambda i: value_of(states.d[i], "m"),
-        "d/sigma": lambda i: number(states.d_star[i]),
-        "A_t": lambda i: number(states.A_t[i]),
-        "A_ss": lambda i: number(states.A_ss[i]),
-    }
+    loads = {head: columns[head] for head in ("F*", "pressure")}
     if not contact.two_body:
-        columns |= {
-            "A_sa": lambda i: number(states.A_sa[i]),
-            "particles' load": lambda i: percent(states.particle_load_share[i]),
-            "particles' area": lambda i: percent(states.particle_area_share[i]),
-            "mode": lambda i: _mode(result, i),
-        }
+        columns["mode"] = lambda i: modes_of(result)[i]
     total = len(states.status)
     console.print(_some_states(columns, total))
     if states.populations:
@@ -144,10 +144,9 @@ def _show(result: StudyResult) -> None:
     console.print(summary(result))
 
 
-def _mode(result: StudyResult, i: int) -> str:
-    """The mode of a state, as far as the contact itself has one."""
-    mode = result.states.mode[i]
-    return RARE if is_rare(mode, result.particles_in(i)) else mode or "-"
+def _cell(column: Shown, values: Any, i: int) -> str:
+    """A number of a state as a reader gets it."""
+    return column.words(values[i])
 
 
 def _some_states(columns: Columns, total: int) -> Table:

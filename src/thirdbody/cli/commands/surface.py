@@ -13,9 +13,9 @@ from ...errors import InvalidValue
 from ...quantities.plain_data import plain_data
 from ...quantities.say import number, signed, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, Force, ParquetFile, XlsxFile, metres, not_a_folder
+from ..options import Force, JsonFile, ParquetFile, XlsxFile, metres, not_a_folder
 from ..show import ALL, terminal
-from ..streams import TableFiles, warn_of
+from ..streams import STDOUT, TableFiles, warn_of
 
 __all__ = ["command"]
 
@@ -59,7 +59,7 @@ def command(
             "--resolution", metavar="LENGTH", help="Shortest wave the instrument tells apart."
         ),
     ] = None,
-    as_json: AsJson = False,
+    json_file: JsonFile = None,
     csv_file: Annotated[
         Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per cut-off.")
     ] = None,
@@ -77,23 +77,21 @@ def command(
     from ..own_files import refuse_strangers
 
     problems: list[str] = []
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
+    files = TableFiles(csv_file, xlsx_file, parquet_file, json_file)
     lengths = _lengths(cutoff, resolution, spacing, problems)
     problems += not_a_folder(out)
     if problems:
         raise InvalidValue(*problems)
-    refuse_clashes([*files, *(_of_folder(out) if out else ())], [file])
+    refuse_clashes([*files.paths, *(_of_folder(out) if out else ())], [file])
     files.need(force=force)
     if not force:
         refuse_strangers(out, "surface.json", "surface.png", "surface.svg")
     found = from_topography(file, detrend=detrend, unit=unit, channel=channel, **lengths)
     result = found.to_dict()
     warn_of(found.warnings)
-    files.write(plain_data(result["curve"]), result["units"])
+    files.write(plain_data(result["curve"]), result["units"], data=lambda: plain_data(result))
     written = files.paths + ([] if out is None else _write_surface(out, found, result, force))
-    if as_json:
-        print(json.dumps(plain_data(result), indent=1, allow_nan=False))
-    else:
+    if json_file != STDOUT:
         _show_surface(found, result)
     for path in written:
         print(f"written: {path}", file=sys.stderr)

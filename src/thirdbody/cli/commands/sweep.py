@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
+import math
 import sys
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ...errors import InvalidValue, NoEquilibrium
 from ..interrupt import Interrupted
-from ..options import Settings, tell_notes
-from ..streams import warn_of
+from ..options import Force, ParquetFile, Settings, XlsxFile, tell_notes
+from ..streams import TableFiles, warn_of
 
 if TYPE_CHECKING:
+    import xarray
+
     from ...analysis.sweep.plan import Plan
     from ...analysis.sweep.streaming import Folder
+    from ...views.workbook import Sheet
 
 __all__ = ["command"]
+
+MOST_IN_A_TABLE = 100_000
+"""Rows of a table beside the folder."""
 
 
 def command(
@@ -51,19 +59,28 @@ def command(
             "--check", metavar="DIR", help="Say instead whether a folder is as it was written."
         ),
     ] = None,
+    csv_file: Annotated[
+        Path | None,
+        typer.Option("--csv", metavar="FILE", help="Write one row per state of DIR, too."),
+    ] = None,
+    xlsx_file: XlsxFile = None,
+    parquet_file: ParquetFile = None,
+    force: Force = False,
     settings: Settings = None,
 ) -> None:
     """Many states, in a folder: on a grid, in pairs or sampled; resumable."""
     from ...analysis.sweep.streaming import run
 
+    files = TableFiles(csv_file, xlsx_file, parquet_file)
     if check is not None:
-        _check(check, alone=study is None and out is None)
+        _check(check, alone=study is None and out is None and not files.paths)
         return
     if study is None or out is None:
         problems = [] if study is not None else ["STUDY.toml is missing: the study to sweep"]
         problems += [] if out is not None else ["--out DIR is missing: the folder for the states"]
         raise InvalidValue(*problems)
     plan = _read_plan(study, settings, format, workers)
+    _need_files(files, plan, study, settings, force)
     client = None
     if scheduler is not None:
         from ...quantities.sharing import connected
@@ -79,7 +96,62 @@ def command(
     finally:
         if client is not None:
             client.close()
+    if files.paths:
+        with folder.open() as data:
+            files.write(*_table(data), sheets=partial(_sheets, data))
+        for path in files.paths:
+            print(f"written: {path}", file=sys.stderr)
     _tell(folder)
+
+
+def _need_files(
+    files: TableFiles, plan: Plan, study: Path, settings: Settings, force: bool
+) -> None:
+    """Refuse tables that cannot be written, or that nobody reads."""
+    from ...quantities.files import refuse_clashes
+    from ...study.whole import files_of
+
+    rows = math.prod(plan.layout().sizes.values())
+    if files.paths and rows > MOST_IN_A_TABLE:
+        raise InvalidValue(
+            f"{files.paths[0]} would have {rows:,} rows, and {MOST_IN_A_TABLE:,} are the most of a "
+            "table; leave it out and read the folder with xarray, or give [sweep.reduce]"
+        )
+    refuse_clashes(files.paths, files_of(study, settings or ()))
+    files.need(force=force)
+
+
+def _table(data: xarray.Dataset) -> tuple[dict[str, Any], dict[str, str]]:
+    """Columns of a folder and their units, a row a state."""
+    from ...analysis.sweep.plan import CODES
+    from ...equilibrium.modes import MODES
+    from ...quantities.plain_data import plain_data
+
+    frame = data.to_dataframe().reset_index()
+    frame.insert(0, "row of the sweep", range(len(frame)))
+    columns = {str(name): plain_data(column.to_numpy()) for name, column in frame.items()}
+    for name, words in {"mode": (None, *MODES), "status": CODES["status"]}.items():
+        if name in columns:
+            columns[name] = [words[code] for code in columns[name]]
+    units = {str(name): each.attrs.get("units", "") for name, each in data.variables.items()}
+    return columns, units
+
+
+def _sheets(data: xarray.Dataset) -> list[Sheet]:
+    """The states, what their columns are, and what the sweep warns of."""
+    from ...quantities.say import unit_of
+    from ...views.workbook import Grid, Sheet, sheet_of_table
+
+    told = [
+        (str(name), unit_of(each.attrs.get("units", "")), each.attrs.get("long_name", ""))
+        for name, each in data.variables.items()
+    ]
+    notes = [(line, "", "") for name in ("warnings", "citations", "version")
+             for line in str(data.attrs[name]).splitlines()]  # fmt: skip
+    return [
+        sheet_of_table("States", *_table(data)),
+        Sheet("Notes", (Grid(("column", "unit", "meaning"), told), Grid(("note", "", ""), notes))),
+    ]
 
 
 def _check(folder: Path, *, alone: bool) -> None:

@@ -29,16 +29,9 @@ class Figures(Found):
 
         from .. import plot
 
-        out: list[tuple[Axes, str]] = []
+        out = [self.first_figure()]
         if not self.contact.two_body:
-            ax = plot.modes(
-                self.curve,
-                _place(left=0.60, above=0.74),
-                transitions=self.result.transitions,
-            )
-            out.append((self._mark_loads_of_study(ax), "Contact modes over the load."))
-        ax = self._mark_loads(plot.area(self.curve, _place(left=0.75)))
-        out.append((ax, "Real contact area over the load."))
+            out.append(self._area_figure())
         if not self.contact.two_body:
             ax = plot.shares(self.curve, _place(left=0.60))
             if self.curve.populations:
@@ -60,6 +53,22 @@ class Figures(Found):
         pictures = "\n".join(figure(svg_of(ax.figure), caption) for ax, caption in out)
         lead = f'<p class="soft lead-in">{words(legend)}</p>'
         return [lead, f"<div class=figures>{pictures}</div>"]
+
+    def first_figure(self) -> tuple[Axes, str]:
+        """The figure that tells most, and what it shows: modes, of two bodies the area."""
+        from .. import plot
+
+        if self.contact.two_body:
+            return self._area_figure()
+        place = _place(left=0.60, above=0.74)
+        ax = plot.modes(self.curve, place, transitions=self.result.transitions)
+        return self._mark_loads_of_study(ax), "Contact modes over the load."
+
+    def _area_figure(self) -> tuple[Axes, str]:
+        from .. import plot
+
+        ax = self._mark_loads(plot.area(self.curve, _place(left=0.75)))
+        return ax, "Real contact area over the load."
 
     def _mark_loads(self, ax: Axes) -> Axes:
         """Loads of the study and critical loads, and the pressure above."""

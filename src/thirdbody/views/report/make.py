@@ -23,7 +23,9 @@ from ...equilibrium.transitions import Transitions
 from ...errors import InvalidValue, RangeWarning, ThirdBodyError
 from ...quantities.progress import Stages, counted, nested
 from ...study import Study, run_film, run_study
+from ...study.dirty_oil import dirty_oil
 from ...study.one_surface import OneSurface, one_surface
+from ...systems.oil_filter import Filter
 from .found import some_of
 from .page import MOST_SAMPLES, Report, most_samples
 
@@ -41,7 +43,11 @@ PARTS = ("states", "error bars", "which inputs matter", "figures")
 
 
 def report(
-    study: Study, *, file: str = "", progress: Callable[[str], None] = lambda part: None
+    study: Study,
+    *,
+    file: str = "",
+    progress: Callable[[str], None] = lambda part: None,
+    filter: Filter | None = None,
 ) -> Report:
     """Everything that the page of a study tells.
 
@@ -53,6 +59,8 @@ def report(
         The study file, to be printed at the end.
     progress : callable, optional
         Gets the name of each part of the work, as it begins.
+    filter : Filter, optional
+        Of a lubricated contact with particles: the oil before and behind it, side by side.
 
     Returns
     -------
@@ -105,7 +113,7 @@ def report(
     bare = study.contact.replace(outputs=())
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RangeWarning)
-        curve = _curve(bare, result.transitions, F_star[loaded].tolist() or [USUAL])
+        curve = curve_over(bare, result.transitions, F_star[loaded].tolist() or [USUAL])
         pressed = None
         if study.explicit is not None and loaded:
             pressed = _press_surface(study, F_star[loaded].tolist())
@@ -122,6 +130,8 @@ def report(
             file=file,
             film=None if study.film is None else run_film(study),
             pressed=pressed,
+            oil=dirty_oil(study),
+            oil_filtered=None if filter is None else dirty_oil(study, filter=filter),
         )
 
 
@@ -134,7 +144,7 @@ def _press_surface(study: Study, loads: list[float]) -> OneSurface | str:
         return "; ".join(error.problems)
 
 
-def _curve(contact: Contact, critical: Transitions, loads: list[float]) -> Equilibrium:
+def curve_over(contact: Contact, critical: Transitions, loads: list[float]) -> Equilibrium:
     """States over the loads of the study, the critical ones, and somewhat beyond."""
     every = (loads[0], loads[-1], critical.F_cr1.value, critical.F_cr2.value)
     marked = [F for F in every if F]

@@ -36,6 +36,9 @@ class Row(NamedTuple):
     value: str
     meaning: str
     default: bool
+    amount: float | None = None
+    unit: str = ""
+    """The number itself in SI, where it is one."""
 
 
 class Sources(Found):
@@ -128,10 +131,16 @@ class Sources(Found):
 
 def source_of(body: Material) -> tuple[str, str]:
     """Where the numbers of a body come from, and how well that is known (HTML)."""
+    texts, standing = sources_of(body)
+    return "<br>".join(map(symbols, texts)), escape(standing)
+
+
+def sources_of(body: Material) -> tuple[list[str], str]:
+    """Where the numbers of a body come from, a text each, and how well that is known."""
     entry = materials.entries().get(body.name, {})
     own = {key: getattr(body, key) for key in NUMBERS if getattr(body, key) is not None}
     if not entry or any(value != entry.get(key) for key, value in own.items()):
-        return escape(body.source) or "not stated", "given by the study"
+        return [body.source or "not stated"], "given by the study"
     texts = [entry["source"] + (f", doi:{entry['doi']}" if entry.get("doi") else "")]
     texts += [
         f"{NUMBERS[key]['symbol']}: {text}"
@@ -139,7 +148,7 @@ def source_of(body: Material) -> tuple[str, str]:
         if key in own
     ]
     standing = entry.get("standing", "")
-    return "<br>".join(map(symbols, texts)), escape(STANDING.get(standing, standing))
+    return texts, STANDING.get(standing, standing)
 
 
 def alike(bodies: dict[str, Material]) -> list[tuple[str, Material]]:
@@ -163,26 +172,28 @@ def kind_of(part: Value) -> str:
 
 def rows_of(contact: Contact) -> list[Row]:
     """Every input but the materials: numbers, words, and which distribution or law."""
-    rows = list(_rows(contact, ""))
+    rows = list(value_rows(contact, ""))
     rough = contact.roughness
     if rough.eta is None and rough.eta_R_sigma is None:
         name = "roughness.eta_R_sigma"
         told = declared(contact, name)
-        value = number(numbers_of(contact)[name])
-        row = Row(name, told["symbol"], value, told["meaning"], True)
+        value = numbers_of(contact)[name]
+        row = Row(name, told["symbol"], number(value), told["meaning"], True, value, "1")
         place = next(i for i, each in enumerate(rows) if each.name == "roughness.alpha")
         rows.insert(place + 1, row)
     return rows
 
 
-def _rows(value: Value, path: str) -> Iterator[Row]:
+def value_rows(value: Value, path: str) -> Iterator[Row]:
+    """Every input that a value holds; ``path`` is what its names begin with."""
     for item in dataclasses.fields(value):  # type: ignore[arg-type]
         part, name = getattr(value, item.name), f"{path}{item.name}"
         default = _is_default(item, part)
         if about := item.metadata.get("quantity"):
             if part is not None:
                 text = value_of(part, about["unit"])
-                yield Row(name, about["symbol"], text, about["meaning"], default)
+                told = (name, about["symbol"], text, about["meaning"], default)
+                yield Row(*told, float(part), about["unit"])
         elif about := item.metadata.get("choice"):
             yield Row(name, "", str(part), about["meaning"], default)
         elif isinstance(part, Value) and not isinstance(part, Material):
@@ -190,14 +201,14 @@ def _rows(value: Value, path: str) -> Iterator[Row]:
                 continue
             if item.name not in ("surfaces", "roughness", "particles"):
                 yield Row(name, "", kind_of(part), item.name.replace("_", " "), default)
-                yield from _rows(part, f"{name}.")
+                yield from value_rows(part, f"{name}.")
             elif item.name != "surfaces":
-                yield from _rows(part, f"{name}.")
+                yield from value_rows(part, f"{name}.")
         elif isinstance(part, tuple) and part:
             for place, each in enumerate(part):
                 if isinstance(each, Value):
                     label = each.name if isinstance(each, AbstractOutput) else place
-                    yield from _rows(each, f"{name}.{label}.")
+                    yield from value_rows(each, f"{name}.{label}.")
             if about := item.metadata.get("several"):
                 text = f"{len(part)} values, {span(min(part), max(part), about['unit'])}"
                 if min(part) == max(part):

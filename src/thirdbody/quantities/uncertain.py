@@ -1,0 +1,58 @@
+"""Numbers with an uncertainty of the package `uncertainties`, which is never needed.
+
+They are known by what they say, ``nominal_value`` and ``std_dev``, as those of pint's measurements
+are.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..errors import InvalidValue
+
+__all__ = ["HELD", "are_correlated", "is_uncertain", "shifted", "uncertain_number"]
+
+HELD = (
+    "has an uncertainty, which is not held here; give its nominal_value, and the number itself in "
+    "vary of propagate or assess"
+)
+"""Why such a number cannot stand where one number is needed."""
+
+
+def is_uncertain(value: Any) -> bool:
+    """Whether a value is a number with an uncertainty.
+
+    >>> is_uncertain(1e-7)
+    False
+    """
+    return hasattr(value, "nominal_value") and hasattr(value, "std_dev")
+
+
+def are_correlated(one: Any, other: Any) -> bool:
+    """Whether two numbers with an uncertainty rest on the same measurement."""
+    return bool(set(getattr(one, "derivatives", ())) & set(getattr(other, "derivatives", ())))
+
+
+def uncertain_number(value: float, std: float) -> Any:
+    """A number of the package `uncertainties`.
+
+    Raises
+    ------
+    InvalidValue
+        It is not installed.
+    """
+    try:
+        from uncertainties import ufloat
+    except ImportError:
+        raise InvalidValue(
+            "numbers with an uncertainty need uncertainties; pip install 'thirdbody[uncertainty]'"
+        ) from None
+    return ufloat(value, std)
+
+
+def shifted(value: float, changes: list[tuple[float, Any]]) -> Any:
+    """A value that moves with others: slopes, and numbers with an uncertainty, to first order.
+
+    It stays correlated with them, and is a plain number without any.
+    """
+    return value + sum(slope * (each - each.nominal_value) for slope, each in changes)

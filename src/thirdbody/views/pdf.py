@@ -1,0 +1,122 @@
+"""A page as PDF, drawn by a browser of this machine; the same bytes every time of one browser."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from ..errors import InvalidValue
+from ..version import __version__
+
+__all__ = ["find_browser", "need_browser", "pdf_of"]
+
+BROWSER = "THIRDBODY_BROWSER"
+"""Environment variable that names the browser."""
+COMMANDS = (
+    *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"),
+    *("microsoft-edge", "microsoft-edge-stable", "msedge"),
+)
+PLACES = {
+    "darwin": (
+        "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+        "/Applications/Chromium.app/Contents/MacOS/Chromium",
+        "/Applications/Microsoft Edge.app/Contents/MacOS/Microsoft Edge",
+    ),
+    "win32": (
+        r"%ProgramFiles%\Google\Chrome\Application\chrome.exe",
+        r"%ProgramFiles(x86)%\Google\Chrome\Application\chrome.exe",
+        r"%LocalAppData%\Google\Chrome\Application\chrome.exe",
+        r"%ProgramFiles(x86)%\Microsoft\Edge\Application\msedge.exe",
+        r"%ProgramFiles%\Microsoft\Edge\Application\msedge.exe",
+    ),
+}
+"""Where browsers lie that are no commands."""
+PATIENCE = 120.0
+"""Seconds that a browser may take."""
+
+
+def find_browser() -> str | None:
+    """The program of a browser that prints pages: Chromium, Chrome or Edge; None without one."""
+    if asked := os.environ.get(BROWSER):
+        return shutil.which(asked)
+    places = map(os.path.expandvars, PLACES.get(sys.platform, ()))
+    return next(filter(None, map(shutil.which, (*COMMANDS, *places))), None)
+
+
+def need_browser() -> str:
+    """The program of a browser.
+
+    Raises
+    ------
+    InvalidValue
+        There is none.
+    """
+    found = find_browser()
+    if found is None:
+        asked = os.environ.get(BROWSER)
+        lacking = f"{BROWSER} = {asked} is no program" if asked else "none of them was found"
+        raise InvalidValue(
+            f"a PDF is drawn by Chromium, Chrome or Edge, and {lacking}; install one, name its "
+            f"program in {BROWSER}, or open the HTML page in any browser and print it"
+        )
+    return found
+
+
+def pdf_of(page: str) -> bytes:
+    """A page, as `thirdbody.views.html.document` makes it, on paper.
+
+    Raises
+    ------
+    InvalidValue
+        There is no browser, or it makes no PDF.
+    """
+    browser = need_browser()
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
+        folder = Path(name)
+        source, target = folder / "page.html", folder / "page.pdf"
+        source.write_text(page, encoding="utf-8", newline="")
+        words = [
+            *(browser, "--headless", "--disable-gpu", "--no-first-run", "--disable-extensions"),
+            *("--no-pdf-header-footer", "--print-to-pdf-no-header"),
+            *(f"--user-data-dir={folder / 'profile'}", f"--print-to-pdf={target}"),
+        ]
+        if hasattr(os, "geteuid") and os.geteuid() == 0:
+            words.append("--no-sandbox")  # which it refuses to start without
+        try:
+            done = subprocess.run(
+                [*words, source.as_uri()], capture_output=True, timeout=PATIENCE, check=False
+            )
+        except subprocess.TimeoutExpired:
+            raise InvalidValue(f"{browser} made no PDF within {PATIENCE:g} s") from None
+        except OSError as error:
+            raise InvalidValue(f"{browser} cannot be started: {error.strerror}") from None
+        held = target.read_bytes() if target.is_file() else b""
+    if not held.startswith(b"%PDF"):
+        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
+        why = said[-1][:200] if said else f"exit status {done.returncode}"
+        raise InvalidValue(f"{browser} made no PDF: {why}")
+    return _without_date(held)
+
+
+def _without_date(pdf: bytes) -> bytes:
+    """A PDF that says thirdbody made it, and no time; no byte moves, as places in it are counted.
+
+    >>> _without_date(b"/Creator (A browser and its version)/ModDate (D:20260102030405+01'00')")
+    b"/Creator (thirdbody 0.1.0)          /ModDate (D:19800101000000+00'00')"
+    """
+    held = re.sub(
+        rb"/(CreationDate|ModDate) \(D:\d{14}[+-]\d\d'\d\d'\)",
+        rb"/\1 (D:19800101000000+00'00')",
+        pdf,
+    )
+    ours = f"/Creator (thirdbody {__version__})".encode()
+
+    def named(found: re.Match[bytes]) -> bytes:
+        return ours.ljust(len(found[0])) if len(ours) <= len(found[0]) else found[0]
+
+    return re.sub(rb"/Creator \((?:[^()\\]|\\.)*\)", named, held, count=1)

@@ -1,0 +1,284 @@
+"""The sheets of a workbook of a study: the answer, every state, the inputs, what is to be known."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..contact.evaluation import bodies_of
+from ..equilibrium.modes import FAINT
+from ..equilibrium.words import (
+    critical_load,
+    critical_name,
+    happens,
+)
+from ..errors import Note, RangeWarning, ranked
+from ..populations.materials import NUMBERS
+from ..quantities.say import NOT_KNOWN, number, prefixed, unit_of, value_of
+from ..study.body import FORCE
+from ..study.vocabulary import LOADS
+from ..version import __version__
+from .columns import Cell, Shown, film_columns, in_unit, modes_of, state_columns
+from .film_words import point
+from .report.figures import Figures
+from .report.found import some_of
+from .report.make import USUAL, curve_over
+from .report.sources import Row, alike, laws_of, rows_of, sources_of, value_rows
+from .workbook import Grid, Sheet, cell_of, cell_of_words, sheet_of_table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from ..contact.contact import Contact
+    from ..study import FilmResult, StudyResult
+
+__all__ = ["film_sheets", "grid_of", "state_sheets"]
+
+CHART_DPI = 150
+MOST_ROWS = 100
+"""States on the sheet of the answer."""
+MOST_LOADS = 6
+"""Loads beside each other in the table of outputs."""
+
+
+# -------------------------------------------------------------------------- the answer
+def state_sheets(result: StudyResult, sentences: Sequence[str]) -> list[Sheet]:
+    """Sheets of what `run_study` found.
+
+    Parameters
+    ----------
+    result : StudyResult
+    sentences : sequence of str
+        The answer in words, as the command prints it.
+    """
+    states, contact = result.states, result.study.contact
+    columns = state_columns(contact)
+    table = grid_of(columns, {each.name: getattr(states, each.name) for each in columns})
+    if not contact.two_body:
+        table = _with_column(table, "mode", modes_of(result))
+    found: list[str | Grid | bytes] = [*result.force_sentences, *sentences, *_some_rows(table)]
+    if not contact.two_body:
+        found.append(_critical_grid(result))
+    if contact.outputs:
+        found.append(_output_grid(result))
+    found.append(_png(_figure_of_states(result)))
+    meanings = _meanings_of_states(result)
+    return _sheets(result, found, _rows_of_study(result), meanings)
+
+
+def film_sheets(result: FilmResult, sentences: Sequence[str]) -> list[Sheet]:
+    """Sheets of what `run_film` found; arguments as of `state_sheets`."""
+    from ..systems.mixed_film import COLUMNS
+    from .plot.film import stribeck
+
+    states = result.states
+    found: list[str | Grid | bytes] = [*sentences]
+    if len(states["speed"]) == 1:
+        at = {"speed": value_of(states["speed"][0], "m/s"), **point(result, 0)}
+        rows = [(name, *cell_of_words(text)) for name, text in at.items()]
+        found.append(Grid(("at this speed", "value", "unit"), rows))
+    else:
+        table = grid_of(film_columns(result), states)
+        found += _some_rows(_with_column(table, "regime", states["regime"].tolist()))
+        found.append(_png(stribeck(states, result.regime_speeds)))
+    meanings = {name: COLUMNS[name].meaning for name in states if name in COLUMNS}
+    meanings |= {"hersey": "Hersey number", "largest": "largest particle dragged in"}
+    for part in result.passing:
+        meanings[f"{part.name}: passing"] = "share of its particles narrower than the gap"
+        meanings[f"{part.name}: areal_density"] = "particles that enter, per area"
+    inputs = [*value_rows(result.conditions, "film."), *rows_of(result.study.contact)]
+    return _sheets(result, found, inputs, meanings)
+
+
+def _some_rows(grid: Grid) -> list[str | Grid]:
+    """A table, of many rows some, evenly spread, and a sentence that says so."""
+    total = len(grid.rows)
+    if total <= MOST_ROWS:
+        return [grid]
+    some = Grid(grid.heads, [grid.rows[i] for i in some_of(total, MOST_ROWS)])
+    return [some, f"{MOST_ROWS} of {total} states; the sheet States has all."]
+
+
+def grid_of(columns: Sequence[Shown], values: Mapping[str, Any]) -> Grid:
+    """A table for a reader: each column in the unit in which most of its values are read."""
+    drawn = [each.column(np.atleast_1d(values[each.name]).tolist()) for each in columns]
+    return Grid([head for head, _ in drawn], list(zip(*(cells for _, cells in drawn), strict=True)))
+
+
+def _with_column(grid: Grid, head: str, words: Sequence[Any]) -> Grid:
+    rows = [(*row, str(word)) for row, word in zip(grid.rows, words, strict=True)]
+    return Grid([*grid.heads, head], rows)
+
+
+def _critical_grid(result: StudyResult) -> Grid:
+    """Critical loads, or on which side they lie."""
+    E_ss = result.study.contact.E_ss
+    entries = result.transitions.entries()
+    load, pressure = Shown("F*", "F*", "1"), Shown("pressure", "pressure", "Pa")
+    values = [entry.value for entry in entries.values()]
+    head, first = load.column(values)
+    head_2, second = pressure.column([None if v is None else v * E_ss for v in values])
+    rows = []
+    for (name, entry), F, p in zip(entries.items(), first, second, strict=True):
+        if not isinstance(F, Cell):
+            F, p = (critical_load(entry.value, entry.status, E) for E in (None, E_ss))
+        rows.append((critical_name(name), F, p, entry.status, happens(name)))
+    return Grid(("critical load", head, head_2, "status", "what happens there"), rows)
+
+
+def _output_grid(result: StudyResult) -> Grid:
+    """What the outputs say, under each load; of many under some."""
+    states = result.states
+    some = some_of(len(states.status), MOST_LOADS)
+    rows = []
+    for name, values in states.outputs.items():
+        told = states.about(name)
+        numbers = [cell_of(float(values[i])) or NOT_KNOWN for i in some]
+        rows.append((name, *numbers, unit_of(told.unit), told.meaning))
+    loads = (f"at {value_of(states.pressure[i], 'Pa')}" for i in some)
+    return Grid(("output", *loads, "unit", "meaning"), rows)
+
+
+def _figure_of_states(result: StudyResult) -> Figure:
+    """Modes over the load, of two bodies the area, with the loads of the study marked."""
+    states, contact = result.states, result.study.contact.replace(outputs=())
+    loads = np.sort([float(states.F_star[i]) for i in result.solved_states])
+    loaded = loads[loads >= FAINT].tolist() or [USUAL]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RangeWarning)  # the answer has told of them
+        curve = curve_over(contact, result.transitions, loaded)
+    figures = Figures(
+        study=result.study,
+        result=result,
+        curve=curve,
+        assessment=None,
+        slopes=None,
+        at=result.solved_states[0],
+    )
+    axes, _ = figures.first_figure()
+    return axes.figure  # type: ignore[return-value]
+
+
+def _png(drawing: Figure) -> bytes:
+    out = io.BytesIO()
+    drawing.savefig(out, format="png", dpi=CHART_DPI, metadata={"Software": "thirdbody"})
+    return out.getvalue()
+
+
+# -------------------------------------------------------------------------- the others
+def _sheets(
+    result: StudyResult | FilmResult,
+    found: Sequence[str | Grid | bytes],
+    inputs: Sequence[Row],
+    meanings: Mapping[str, str],
+) -> list[Sheet]:
+    """The sheets, by what stands on the first."""
+    columns, units = result.table()
+    contact = result.study.contact
+    return [
+        Sheet("Answer", tuple(found), title=f"{result.title} (thirdbody {__version__})"),
+        sheet_of_table("States", columns, units),
+        Sheet("Inputs", (_input_grid(inputs, contact), _source_grid(contact))),
+        Sheet("Notes", _notes(result, columns, units, meanings)),
+    ]
+
+
+def _rows_of_study(result: StudyResult) -> list[Row]:
+    """Loads, bodies and the contact: what a study says, and what the library takes beside it."""
+    study = result.study
+    about, name = LOADS[study.load], study.load
+    values = study.values.tolist()
+    if result.forces:
+        about, name, values = FORCE, "force", [each.force for each in result.forces]
+    told = {about["meaning"]: values[0]}
+    if len(values) > 1:
+        which = (f"least of {len(values)}", "greatest")
+        told = {f"{about['meaning']}, {word}": value
+                for word, value in zip(which, (min(values), max(values)), strict=True)}  # fmt: skip
+    rows = [
+        Row(f"load.{name}", about["symbol"], "", meaning, False, float(value), about["unit"])
+        for meaning, value in told.items()
+    ]
+    rows += value_rows(study.body, "body.") if study.body is not None else []
+    return [*rows, *rows_of(study.contact)]
+
+
+def _input_grid(rows: Sequence[Row], contact: Contact) -> Grid:
+    """A row an input: its number in the unit in which it is read."""
+    lines = [
+        (row.meaning, row.symbol, *_amount(row), "default" if row.default else "study", row.name)
+        for row in rows
+    ]
+    for label, body in alike(bodies_of(contact)):
+        for key, about in NUMBERS.items():
+            if (value := getattr(body, key)) is not None:
+                row = Row(key, about["symbol"], "", about["meaning"], False, value, about["unit"])
+                said = (f"{label}: {row.meaning}", row.symbol, *_amount(row))
+                lines.append((*said, body.name, key))
+    return Grid(("input", "symbol", "value", "unit", "from", "name"), lines)
+
+
+def _source_grid(contact: Contact) -> Grid:
+    """Where laws and the numbers of materials come from."""
+    rows = [(f"material of {label}", body.name, "", "", "; ".join(filter(None, (*texts, standing))))
+            for label, body in alike(bodies_of(contact))
+            for texts, standing in [sources_of(body)]]  # fmt: skip
+    rows += [
+        (
+            f"{'' if what == 'output' else 'law of '}{what}, "
+            f"{'study' if chosen else 'default'}: {law.title}",
+            law.name,
+            "",
+            "",
+            law.citation + (f", doi:{law.doi}" if law.doi else ""),
+        )
+        for what, law, chosen in laws_of(contact)
+    ]
+    return Grid(("of", "name", "", "", "source"), rows)
+
+
+def _amount(row: Row) -> tuple[Cell | str, str]:
+    """A number in the unit in which it is read, and the unit; or words and none."""
+    if row.amount is None:
+        return row.value, ""
+    size, unit = prefixed(row.amount, row.unit)
+    return Cell(in_unit(row.amount, size), number(row.amount / size)), unit
+
+
+def _notes(
+    result: StudyResult | FilmResult,
+    columns: Mapping[str, Any],
+    units: Mapping[str, str],
+    meanings: Mapping[str, str],
+) -> tuple[Grid, ...]:
+    """Warnings with what to do, the columns of the states, and what is to be cited."""
+    notes = [_note_line(each) for each in ranked(result.warnings)] or [("none", None, "")]
+    told = [(name, unit_of(units.get(name, "")), meanings.get(name, "")) for name in columns]
+    cited = [(line, None, "") for line in (*result.citations, f"thirdbody {__version__}")]
+    return (
+        Grid(("note", "effect on the answer", "what to do"), notes),
+        Grid(("column of States", "unit", "meaning"), told),
+        Grid(("to be cited", "", ""), cited),
+    )
+
+
+def _note_line(note: str) -> tuple[str, Cell | None, str]:
+    if not isinstance(note, Note):
+        return note, None, ""
+    what = note.removesuffix(f"; {note.action}") if note.action else note
+    share = Shown("", "", "share")
+    known = np.isfinite(note.effect) and note.effect > 0
+    cell = share.column([note.effect])[1][0] if known else None
+    return str(what), cell if isinstance(cell, Cell) else None, note.action
+
+
+def _meanings_of_states(result: StudyResult) -> dict[str, str]:
+    states = result.states
+    out = {name: states.about(name).meaning for name in states.columns()}
+    for part in states.populations:
+        out |= {f"{part.name}: {name}": part.about(name).meaning for name in part.columns()}
+    return out
