@@ -99,6 +99,7 @@ docs: $(VENV)/installed-docs
 bench: $(VENV)/installed-test
 	$(RUN)/python benchmarks/run.py
 	$(RUN)/python benchmarks/sweep.py
+	$(RUN)/python benchmarks/waiting.py commands --page
 	$(RUN)/python benchmarks/engine_accuracy.py --page
 	$(RUN)/python benchmarks/engine_matrix.py --seconds 0.3 --page
 

@@ -1,7 +1,8 @@
 """What a user waits for at the command line and at the page, in seconds of one processor.
 
 python benchmarks/waiting.py             # seconds of single things
-python benchmarks/waiting.py commands    # every command on an example, over bare Python
+python benchmarks/waiting.py commands    # every command of daily use, over bare Python
+python benchmarks/waiting.py commands --page   # and its part of results.md
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -33,17 +35,32 @@ LOADING = ["-c", "import numpy, pydantic, scipy.optimize.elementwise, scipy.spec
 
 BARE = ["-c", "import numpy, scipy.special"]
 """What processor time is told as a multiple of: the same machine, the same minute."""
-COMMANDS = {
+TEMPLATES = ("ball-screw", "rolling-bearing", "additive", "electrical", "two-body")
+"""Files of `thirdbody new` that are assessed."""
+COMMANDS: dict[str, tuple[float, list[str]]] = {
     "--help": (0.6, ["--help"]),
+    "materials": (1, ["materials"]),
+    "new ball-screw": (1, ["new", "ball-screw"]),
     "solve": (2, ["solve", "dusty_ball_screw"]),
     "compare": (2.5, ["compare", "dusty_ball_screw"]),
+    "sweep": (3, ["sweep", "sweep", "--out", "states"]),
     "film": (3, ["film", "oil_film"]),
     "table": (2.5, ["table", "dusty_ball_screw", "--out", "table.csv"]),
-    "assess": (6, ["assess", "assess"]),
-    "design": (8, ["design", "additive"]),
+    **{f"assess {name}": (3, ["assess", f"{name}.toml"]) for name in TEMPLATES},
+    "assess, 16384 samples": (3, ["assess", "assess"]),
+    "design": (2, ["design", "additive"]),
     "report": (10, ["report", "dusty_ball_screw", "--out", "report.html"]),
 }
-"""What is aimed at, and the words of each command; a second word is an example."""
+"""Seconds that are aimed at over those of bare Python, and the words of each command; a second word
+without an end is an example."""
+MAKES = {"new": "ball-screw.toml", "sweep": "states", "table": "table.csv", "report": "report.html"}
+"""What commands write, which is removed before."""
+TITLE = "## Commands of daily use"
+ABOUT = (
+    "Processor seconds, user and system, of a process with everything compiled, over those of "
+    "`python -c 'import numpy, scipy.special'`, the least of {repeats}. Templates are those of "
+    "`thirdbody new`, assessed with 4096 samples."
+)
 
 
 def here(call: Callable[[], Any]) -> float:
@@ -57,12 +74,17 @@ def here(call: Callable[[], Any]) -> float:
     return min(spent)
 
 
-def process(*words: str, cwd: str | None = None) -> float:
-    """The least processor time, user and system, of a Python process that keeps bytecode."""
+def process(*words: str, cwd: str = ".", made: str = "", repeats: int = REPEATS) -> float:
+    """The least processor time, user and system, of a Python process that keeps bytecode.
+
+    What it makes is removed before each.
+    """
     kept = {name: word for name, word in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     kept["PYTHONPYCACHEPREFIX"] = BYTECODE.name
     spent = []
-    for _ in range(REPEATS):
+    for _ in range(repeats):
+        if made and (old := Path(cwd, made)).exists():
+            shutil.rmtree(old) if old.is_dir() else old.unlink()
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         subprocess.run([sys.executable, *words], capture_output=True, check=True, cwd=cwd, env=kept)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -70,23 +92,39 @@ def process(*words: str, cwd: str | None = None) -> float:
     return min(spent)
 
 
-def commands() -> int:
-    """Every command on a shipped example, as a multiple of what loading NumPy and SciPy takes."""
+def commands(*, write: bool) -> int:
+    """Every command of daily use, over what loading NumPy and SciPy takes."""
     with tempfile.TemporaryDirectory() as folder:
+        for name in TEMPLATES:
+            process("-m", "thirdbody", "new", name, cwd=folder, repeats=1)
+        process("-m", "thirdbody", "assess", "ball-screw.toml", cwd=folder, repeats=1)  # compiled
+        rows = ["| command | seconds | times bare | aim |", "|---|---|---|---|"]
+        print("\n".join(rows))
         bare = process(*BARE)
-        print(f"{'bare Python':12s} {bare:6.2f} s")
-        for name, (aim, (*words,)) in COMMANDS.items():
-            if len(words) > 1:
-                words[1] = str(EXAMPLES.resolve() / f"{words[1]}.toml")
-            spent = process("-m", "thirdbody", *words, cwd=folder)
-            print(f"{name:12s} {spent:6.2f} s  {spent / bare:5.1f} x bare  (aim {aim})", flush=True)
-        print(f"{'bare, again':12s} {process(*BARE):6.2f} s")
+        for name, (aim, words) in COMMANDS.items():
+            if len(words) > 1 and (example := EXAMPLES.resolve() / f"{words[1]}.toml").exists():
+                words = [words[0], str(example), *words[2:]]
+            bare = min(bare, process(*BARE))
+            spent = (
+                process("-m", "thirdbody", *words, cwd=folder, made=MAKES.get(words[0], "")) - bare
+            )
+            verdict = "met" if spent <= aim else "NOT MET"
+            rows.append(f"| {name} | {spent:.2f} | {spent / bare:.1f} | {verdict} (≤ {aim:g}) |")
+            print(rows[-1], flush=True)
+    if write:
+        page = Path(__file__).parent / "results.md"
+        before, _, rest = page.read_text("utf-8").partition(TITLE)
+        behind = rest.partition("\n## ")
+        about, table = ABOUT.format(repeats=REPEATS), "\n".join(rows)
+        after = f"\n{behind[1]}{behind[2]}" if behind[1] else ""
+        text = f"{before.rstrip()}\n\n{TITLE}\n\n{about}\n\n{table}\n{after}"
+        page.write_text(text, "utf-8")
     return 0
 
 
 def main() -> int:
-    if sys.argv[1:] == ["commands"]:
-        return commands()
+    if "commands" in sys.argv[1:]:
+        return commands(write="--page" in sys.argv[1:])
     warnings.simplefilter("ignore", tb.RangeWarning)
     dusty, additive = (str(EXAMPLES / f"{n}.toml") for n in ("dusty_ball_screw", "additive"))
     one = ["-m", "thirdbody", "solve", dusty, "--json", "--set", "load.pressure=5 MPa"]

@@ -24,6 +24,7 @@ from thirdbody.analysis.uncertainty import propagation, samples
 from thirdbody.analysis.uncertainty.samples import enough
 from thirdbody.equilibrium.compiled.batch import available
 from thirdbody.equilibrium.critical_loads import critical_loads
+from thirdbody.quantities import progress
 from thirdbody.quantities.say import number, percent, value_of
 from thirdbody.study import load_study
 from thirdbody.study.analyses import assess_study
@@ -595,3 +596,29 @@ def test_what_pieces_bear_is_not_known_where_a_model_refuses_them(monkeypatch):
     weak = DUSTY.replace(**{"particles.strength": tb.WeibullStrength(sigma_0=1e8, x_0=3e-7, m=3.0)})
     (said,) = about_fragments(weak, {"pressure": 5e6})
     assert "all of them, in one layer: not known (too many pieces)" in said
+
+
+@pytest.mark.skipif(not available(), reason="where numba is installed")
+def test_the_cost_of_the_samples_is_told_before_them_and_how_far_they_are(monkeypatch):
+    monkeypatch.setattr(progress, "LONG", 0.0)
+    monkeypatch.setattr(progress, "SURE", 0.0)
+    heard = []
+
+    class Told(progress.Stages):
+        def tell(self, sentence):
+            heard.append(sentence)
+
+        def show(self, part, more):
+            heard.append((part, more))
+
+    told = Told("assess")
+    assess(
+        DUSTY, vary={"roughness.sigma": (80e-9, 120e-9)}, F_star=1e-5, samples=256, progress=told
+    )
+    said = next(i for i, each in enumerate(heard) if "s each: some" in each)
+    assert heard[said].startswith(f"about {256 + 6 * 256:,} states, ")
+    shown = [each for each in heard if "states" in each[1]]
+    assert heard.index(shown[0]) > said
+    parts = [part for part, _ in shown]
+    assert parts == sorted(parts)
+    assert parts[0] < 0.2 < 0.9 < parts[-1]

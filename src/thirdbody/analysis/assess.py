@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import itertools
 import math
+import time
 import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, suppress
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -14,12 +15,13 @@ import numpy as np
 
 from ..contact.broken_averages import roughly
 from ..contact.contact import Contact
-from ..equilibrium.critical_loads import CRITICAL
+from ..equilibrium.critical_loads import CRITICAL, carrying, load_falls
+from ..equilibrium.engine.run import own_columns
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.states import varied
-from ..errors import InvalidValue, NoEquilibrium, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, NotCompiled, RangeWarning
 from ..quantities.carried import takes_units
-from ..quantities.progress import Stages, counted
+from ..quantities.progress import Stages, counted, solving
 from ..quantities.say import percent, value_of
 from ..quantities.value import problem_with
 from .assessment import (
@@ -42,7 +44,15 @@ from .inputs import inputs as all_inputs
 from .sensitivity import sensitivity
 from .uncertainty.inputs import Drawn, Uncertain, drawn_inputs, stated_ranges
 from .uncertainty.propagation import Propagation, certain, propagate, swing
-from .uncertainty.samples import columns_at, costly, enough, power_of_two
+from .uncertainty.samples import (
+    LEAST,
+    MOST_CRITICAL,
+    columns_at,
+    costly,
+    enough,
+    points_of,
+    power_of_two,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -167,12 +177,14 @@ def assess_each(
     count = 0 if none else power_of_two(enough(contact, samples, vary))
     work = _Work(progress, contact, vary or _usual(contact), count)
     work.first(load, held, own)
+    if held and not none:
+        work.price(contact, vary, load, held, count)
     bands: Iterator[Propagation] = iter(())
     if held and none:
         bands = iter(certain(contact, load, held))
     elif held:
         at: Any = held if len(held) > 1 else held[0]
-        with work.part(count):
+        with work.part(count, count * len(held) + EVALUATED * work.critical):
             found = propagate(contact, vary=vary, samples=count, seed=seed, **{load: at})
         work.second(found)
         bands = (found.at_load(i) for i in range(len(held)))
@@ -207,17 +219,64 @@ class _Work:
         self.ends = (2 + SLOPES) * len(vary) if count else 0
         self.ways = 2 * len(vary) * (len(range(0, COARSE - 1, EACH_COSTLY)) + HALVED)
         self.within: Callable[[int, int], None] | None = None
+        self.progress: Stages | None = None
+        self.critical = 0
+        """Samples in which critical loads are sought."""
+        if not contact.two_body and load_falls(contact):
+            self.critical = min(count, MOST_CRITICAL)
         self.tell: Callable[[str], None] = lambda sentence: None
         if isinstance(progress, Stages):
-            self.within = progress.within
+            self.progress, self.within = progress, progress.within
             alone = costly(contact, vary)
             progress.expect((count if alone else 0) + self.ends + self.ways)
             if alone:
                 self.tell = progress.tell
 
-    def part(self, expected: int) -> AbstractContextManager[None]:
-        """One part, of so many contacts."""
-        return counted(expected, self.within)
+    @contextmanager
+    def part(self, expected: int, states: int = 0) -> Iterator[None]:
+        """One part, of so many contacts or states."""
+        done = 0.0
+
+        def more(count: float, why: str) -> None:
+            nonlocal done
+            done += count
+            if self.progress is not None and states and not why:
+                self.progress.moved(int(done), states, "states")
+
+        with counted(expected, self.within), solving(more):
+            yield
+
+    def price(
+        self,
+        contact: Contact,
+        vary: Mapping[str, Uncertain | tuple[float, float]],
+        load: str,
+        held: Sequence[float],
+        count: int,
+    ) -> None:
+        """Tell what the samples will take, from what few of them do, where that is long.
+
+        Of contacts that are bound one by one the first few tell it.
+        """
+        if self.progress is None:
+            return
+        drawn = drawn_inputs(contact, vary, load, held[0])
+        few = ALONE if (alone := costly(contact, vary)) else LEAST
+        contact, inputs = carrying(contact, drawn.points(points_of(few, len(vary), 0, 0)))
+        loads = inputs.pop(load, np.full(few, held[0]))
+        seconds = math.inf
+        for _ in range(2 if alone else 3):  # by the first the engine may be loaded
+            start = time.monotonic()
+            try:
+                if not alone:
+                    columns_at(contact, load, loads, inputs, few)
+                elif np.any(own_columns(contact, inputs, load, loads)["doubt"] != ""):
+                    return
+            except NotCompiled:
+                return
+            seconds = min(seconds, (time.monotonic() - start) / few)
+        states = count * len(held) + CRITICAL_COST * self.critical
+        self.progress.cost(states, seconds, "states")
 
     def first(self, load: str, held: Sequence[float], own: Sequence[Any]) -> None:
         """The mode at each load, before anything is varied."""
@@ -240,6 +299,9 @@ class _Work:
 
 SLOPES, HALVED = 8, 2
 """Contacts of the derivatives with one input, and of the mean search for a change of mode."""
+ALONE, CRITICAL_COST, EVALUATED = 2, 6, 20
+"""States of costly contacts by which those of all are priced, what the critical loads of a sample
+take, in states, and at how many they are found, most of one contact side by side."""
 EACH_COSTLY = 10
 """As EACH, where each contact takes tables of its own."""
 

@@ -26,10 +26,11 @@ if TYPE_CHECKING:
 __all__ = ["CRITICAL", "carrying", "critical_loads", "load_falls"]
 
 CRITICAL = ("F_cr1", "F_cr2", "F_tpca.A", "F_tpca.B")
-NODES, AT_ONCE = 25, 8_192
+NODES, AT_ONCE = 13, 8_192
 """Separations at which shares are known before crossings are refined, and samples at a time."""
-EXACT = 1e-7
-"""Tolerance of a crossing, over the range of separations; 3e-6 of the load."""
+EXACT, PASSES, HALVINGS = 1e-6, 60, 30
+"""Last step to a crossing, over the range of separations, which leaves less than 1e-5 of the load;
+passes at most, and halvings of a cell to the root of its spline."""
 EXACT_PEAK = 1e-4
 
 
@@ -65,10 +66,10 @@ def critical_loads(
 
     Notes
     -----
-    Shares at 25 separations from F* = 1e-8 to 1e-2; crossings of a cubic spline through them,
-    corrected by Newton's method and, where that does not do, by Chandrupatla's, on all contacts
-    together. Relative error 1e-5 (F_tpca.A: 1e-3) against `transitions`. F_tpca.C, which
-    `transitions` takes from a grid of loads, has no distribution worth the name and is left out.
+    Shares at 13 separations from F* = 1e-8 to 1e-2; crossings of a cubic spline through them,
+    corrected by Chandrupatla's method on all contacts together. Relative error 1e-5 (F_tpca.A:
+    1e-3) against `transitions`. F_tpca.C, which `transitions` takes from a grid of loads, has no
+    distribution worth the name and is left out.
 
     References
     ----------
@@ -126,7 +127,9 @@ class Shares:
 
     def __init__(self, contact: Contact, vary: Arrays, count: int):
         self.contact, self.vary, self.count = contact, vary, count
-        first, last = (self._solve(F_star=np.full(count, F)) for F in WINDOW)
+        twice = {name: np.repeat(values, 2) for name, values in vary.items()}
+        ends = state_columns(contact, F_star=np.tile(WINDOW, count), vary=twice or None)
+        first, last = ({n: ends[n][i::2] for n in ("d", "h")} for i in range(2))
         own = {name: values for name, values in vary.items() if name.startswith("roughness.")}
         rough = contact.with_arrays(own).roughness if own else contact.roughness
         # a load that no contact carries is replaced by the deepest one that the model knows
@@ -146,26 +149,24 @@ class Shares:
             )
         return out
 
-    def _solve(self, **given: Any) -> Arrays:
-        return state_columns(self.contact, **given, vary=self.vary or None)
-
     def at(self, t: Array, which: NDArray[np.intp]) -> tuple[Array, Array, Array]:
-        """ln A_sa/A_ss, ln F_sa/F_ss and F* of contacts ``which`` (M,) at t (M,)."""
-        count = len(t)
-        if count < FEWEST:  # the compiled engine takes no fewer
-            others = np.setdiff1d(np.arange(self.count), which)[: FEWEST - count]
-            t, which = np.append(t, np.full(len(others), 0.5)), np.append(which, others)
+        """ln A_sa/A_ss, ln F_sa/F_ss and ln F* of contacts ``which`` (M,) at t (M,)."""
+        others = np.setdiff1d(np.arange(self.count), which)
+        others = others[: max(FEWEST - len(np.unique(which)), 0)]  # the engine takes no fewer
+        t, which = np.append(t, np.full(len(others), 0.5)), np.append(which, others)
+        order = np.argsort(which, kind="stable")  # states of one contact are solved side by side
+        t, which, back = t[order], which[order], np.argsort(order)[: len(t) - len(others)]
         d = self.top[which] + t * (self.bottom[which] - self.top[which])
         vary = {name: values[which] for name, values in self.vary.items()}
         states = state_columns(self.contact, d=d, vary=vary or None)
-        return (
-            _log_ratio(states["A_sa"], states["A_ss"])[:count],
-            _log_ratio(states["F_sa_star"], states["F_ss_star"])[:count],
-            states["F_star"][:count],
-        )
+        pairs = ("A_sa", "A_ss"), ("F_sa_star", "F_ss_star")
+        area, load = (_log_ratio(states[one], states[other])[back] for one, other in pairs)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return area, load, np.log(states["F_star"][back])
 
     def load(self, t: Array, which: NDArray[np.intp]) -> Array:
-        return self.at(t, which)[2]
+        """F* of contacts ``which`` at t."""
+        return np.exp(self.at(t, which)[2])
 
 
 def _log_ratio(one: Array, other: Array) -> Array:
@@ -177,20 +178,10 @@ def _critical_loads(
     contact: Contact, vary: Arrays, count: int
 ) -> dict[str, tuple[Array, NDArray[np.str_]]]:
     shares = Shares(contact, vary, count)
-    every = np.arange(count)
     t = np.linspace(0.0, 1.0, NODES)
-    grid = shares.at(np.tile(t, count), np.repeat(every, NODES))
-    area, load = (values.reshape(count, NODES) for values in grid[:2])
+    found = shares.at(np.tile(t, count), np.repeat(np.arange(count), NODES))
+    area, load, F = (values.reshape(count, NODES) for values in found)
     lost = np.isnan(shares.top)
-
-    def load_at(
-        rows: NDArray[np.bool_], cell: NDArray[np.intp], column: int, level: float
-    ) -> tuple[Array, NDArray[np.intp]]:
-        """F* at which a share has its level between nodes ``cell`` and the next."""
-        which = np.flatnonzero(rows & ~lost)
-        if not len(which):
-            return np.empty(0), which
-        return _crossing(shares, t, (area, load)[column], which, cell[which], column, level), which
 
     def entry(
         cases: Sequence[tuple[NDArray[np.bool_], CriticalStatus, float]], loads: tuple[Array, Any]
@@ -201,73 +192,107 @@ def _critical_loads(
             value[rows], status[rows] = number, word
         return value, status
 
-    out = {}
-    level = math.log((1 - EPS_1) / EPS_1)
-    below = area < level
+    level_1, level_2 = math.log((1 - EPS_1) / EPS_1), math.log(EPS_2 / (1 - EPS_2))
+    below, above = area < level_1, area >= level_2
     never, always = below[:, 0], np.all(~below, axis=1)
-    cell = np.maximum(np.argmax(below, 1) - 1, 0)
-    out["F_cr1"] = entry(
-        [(never, CriticalStatus.NEVER_P_S, 0.0), (always, CriticalStatus.ALWAYS_P_S, np.inf)],
-        load_at(~never & ~always, cell, 0, level),
-    )
-    level = math.log(EPS_2 / (1 - EPS_2))
-    above = area >= level
-    last = NODES - 1 - np.argmax(above[:, ::-1], 1)
     none, end = np.all(~above, axis=1), above[:, -1]
-    out["F_cr2"] = entry(
-        [(none, CriticalStatus.ALWAYS_S_S, 0.0), (end, CriticalStatus.NEVER_S_S, np.inf)],
-        load_at(~none & ~end, last, 0, level),
+    changes = (load[:, 1:] >= 0) != (load[:, :-1] >= 0)
+    unequal = np.all(~changes, axis=1)
+    rows = [~(never | always | lost), ~(none | end | lost), ~(unequal | lost)]
+    where = [np.flatnonzero(each) for each in rows]
+    cells = [
+        np.argmax(below, 1) - 1,
+        NODES - 1 - np.argmax(above[:, ::-1], 1),
+        NODES - 2 - np.argmax(changes[:, ::-1], 1),
+    ]
+    misses = [area - level_1, area - level_2, load]
+    loads = _crossings(
+        shares,
+        t,
+        np.concatenate([each[some] for each, some in zip(misses, where, strict=True)]),
+        np.concatenate([F[some] for some in where]),
+        np.concatenate(where),
+        np.concatenate([cell[some] for cell, some in zip(cells, where, strict=True)]),
+        np.repeat([0, 0, 1], [len(some) for some in where]),
+        np.repeat([level_1, level_2, 0.0], [len(some) for some in where]),
     )
-    out["F_tpca.A"] = _peak(shares, area, t, lost, entry)
-    above = load >= 0
-    changes = above[:, 1:] != above[:, :-1]
-    last = NODES - 2 - np.argmax(changes[:, ::-1], 1)
-    none = np.all(~changes, axis=1)
-    out["F_tpca.B"] = entry([(none, CriticalStatus.NONE, np.nan)], load_at(~none, last, 1, 0.0))
+    cases: list[Any] = [
+        [(never, CriticalStatus.NEVER_P_S, 0.0), (always, CriticalStatus.ALWAYS_P_S, np.inf)],
+        [(none, CriticalStatus.ALWAYS_S_S, 0.0), (end, CriticalStatus.NEVER_S_S, np.inf)],
+        [(unequal, CriticalStatus.NONE, np.nan)],
+    ]
+    parts = np.split(loads, np.cumsum([len(some) for some in where])[:-1])
+    names = ("F_cr1", "F_cr2", "F_tpca.B")
+    each = zip(names, cases, zip(parts, where, strict=True), strict=True)
+    out = {name: entry(case, part) for name, case, part in each}
+    return out | {"F_tpca.A": _peak(shares, area, t, lost, entry)}
+
+
+def _crossings(
+    shares: Shares,
+    t: Array,
+    miss: Array,
+    log_F: Array,
+    which: NDArray[np.intp],
+    cell: NDArray[np.intp],
+    column: NDArray[np.intp],
+    level: Array,
+) -> Array:
+    """F* of contacts ``which`` at which a share has its level between nodes ``cell`` and the next.
+
+    From the root of a cubic spline through what the share misses its level by at all nodes, by
+    Chandrupatla's method, all side by side; the load by a parabola through the last three points.
+    """
+    from scipy.interpolate import CubicSpline
+
+    every = np.arange(len(which))
+    # rows: the last point, the other end of the bracket, the one before; t, miss and ln F
+    one, two = (np.stack([t[k], miss[every, k], log_F[every, k]]) for k in (cell, cell + 1))
+    three, x = two.copy(), np.array(one[0])
+    out, left = np.full(len(which), np.nan), every
+    if len(which):
+        cubic = CubicSpline(t, miss, axis=1).c[:, cell, every]
+        low, high = np.zeros(len(which)), np.full(len(which), t[1])
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            same = (np.polyval(cubic, middle) >= 0) == (one[1] >= 0)
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        x = one[0] + low
+    for _ in range(PASSES):
+        if not len(left):
+            break
+        found = shares.at(x, which[left])
+        new = np.stack([x, np.where(column[left] == 0, *found[:2]) - level[left], found[2]])
+        same = (new[1] >= 0) == (one[1] >= 0)
+        three, two = np.where(same, one, two), np.where(same, two, one)
+        one = new
+        x = _next(one, two, three)
+        done = np.abs(x - one[0]) <= EXACT
+        out[left[done]] = np.exp(_parabola(x, one, two, three)[done])
+        left, x = left[~done], x[~done]
+        one, two, three = one[:, ~done], two[:, ~done], three[:, ~done]
     return out
 
 
-def _crossing(
-    shares: Shares,
-    t: Array,
-    grid: Array,
-    which: NDArray[np.intp],
-    cell: NDArray[np.intp],
-    column: int,
-    level: float,
-) -> Array:
-    """F* of contacts ``which`` at which a share, known on a grid, has its level in a cell."""
-    from scipy.interpolate import CubicSpline
-    from scipy.optimize import elementwise
-
-    low, high = t[cell], t[np.minimum(cell + 1, NODES - 1)]
-    spline = CubicSpline(t, grid[which], axis=1).c[:, cell, np.arange(len(which))]
-    coefficients = spline - np.array([0.0, 0.0, 0.0, level])[:, None]
-    start = elementwise.find_root(
-        lambda x, a, b, c, d: ((a * x + b) * x + c) * x + d,
-        (np.zeros(len(which)), high - low),
-        args=tuple(coefficients),
-    ).x
-    start = np.where(np.isfinite(start), start, 0.5 * (high - low))
-    a, b, c, _ = coefficients
-    slope = (3 * a * start + 2 * b) * start + c
-    miss = shares.at(low + start, which)[column] - level
+def _next(one: Array, two: Array, three: Array) -> Array:
+    """Where a root is sought next: by inverse quadratic interpolation, or between both ends."""
+    (a, f_a, _), (b, f_b, _), (c, f_c, _) = one, two, three
     with np.errstate(divide="ignore", invalid="ignore"):
-        x = np.clip(low + start - miss / slope, low, high)
-    x = np.where(np.isfinite(x), x, low + start)
-    at = shares.at(x, which)
-    F = at[2]
-    rest = np.flatnonzero(~(np.abs(at[column] - level) <= EXACT * np.abs(slope)))
-    if len(rest):
-        answer = elementwise.find_root(
-            lambda x, i: shares.at(x, i.astype(np.intp))[column] - level,
-            (low[rest], high[rest]),
-            args=(which[rest].astype(float),),
-            tolerances={"xatol": EXACT},
-        )
-        root = np.where(answer.success, answer.x, x[rest])
-        F[rest] = shares.load(root, which[rest])
-    return F
+        xi, phi = (a - b) / (c - b), (f_a - f_b) / (f_c - f_b)
+        part = f_a / (f_b - f_a) * f_c / (f_b - f_c)
+        part += (c - a) / (b - a) * f_a / (f_c - f_a) * f_b / (f_c - f_b)
+        good = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi) & (part > 0) & (part < 1)
+    return np.where(f_a == 0, a, a + np.where(good, part, 0.5) * (b - a))
+
+
+def _parabola(x: Array, one: Array, two: Array, three: Array) -> Array:
+    """ln F at x by the parabola through three points; by the nearest where two are one."""
+    (a, _, F_a), (b, _, F_b), (c, _, F_c) = one, two, three
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slope = (F_b - F_a) / (b - a)
+        bend = ((F_c - F_a) / (c - a) - slope) / (c - b)
+    bent = slope + np.where(np.isfinite(bend), bend, 0.0) * (x - b)
+    return F_a + np.where(np.isfinite(bent), bent, 0.0) * (x - a)
 
 
 def _peak(
@@ -283,6 +308,8 @@ def _peak(
     good = (top > 0) & (top < NODES - 1) & (ends <= 0.9 * size[rows, top])
     good &= (size[rows, top] >= 1e-6) & ~lost
     which = np.flatnonzero(good)
+    if not len(which):
+        return entry([(~good, CriticalStatus.NONE, np.nan)], (np.empty(0), which))
     answer = elementwise.find_minimum(
         lambda x, i: -shares.at(x, i.astype(np.intp))[0],
         tuple(t[top[which] + side] for side in (-1, 0, 1)),

@@ -451,9 +451,10 @@ def _by_nodes(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.flo
 
 def _by_own(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float64]) -> Columns:
     """Every column, each state by quadrature over its own laws; what is doubted, one by one."""
+    at_once = AT_ONCE // 16 if any(each.strength for each in contact.populations) else AT_ONCE
 
     def solve_from(start: int) -> tuple[Any, Columns]:
-        here = np.arange(start, min(start + AT_ONCE, len(loads)))
+        here = np.arange(start, min(start + at_once, len(loads)))
         columns = own_columns(
             contact, _take_states(arrays, here), load, loads[here], engine.threads()
         )
@@ -462,7 +463,7 @@ def _by_own(contact: Contact, arrays: Arrays, load: str, loads: NDArray[np.float
     def solve_again(which: Any, why: str) -> Columns:
         return _by_groups(contact, _take_states(arrays, which), load, loads[which], why)
 
-    out = _joined(len(loads), _with_progress(map(solve_from, range(0, len(loads), AT_ONCE))))
+    out = _joined(len(loads), _with_progress(map(solve_from, range(0, len(loads), at_once))))
     return _without_doubts(out, DOUBTS, solve_again)
 
 

@@ -141,15 +141,21 @@ class Stages:
         if done == 1:
             self.one_done = time.monotonic()
         if self.expected and not self.said and done >= MEASURED:
+            self.cost(self.expected, (time.monotonic() - self.one_done) / (done - 1), "contacts")
             self.said = True
-            each = (time.monotonic() - self.one_done) / (done - 1)
-            if each * self.expected > LONG:
-                self.tell(
-                    f"about {self.expected:,} contacts, {each:.2g} s each: some "
-                    f"{duration(each * self.expected)}"
-                )
+        self.moved(done, total)
+
+    def moved(self, done: int, total: int, what: str = "") -> None:
+        """So much of the present part is done, of about so much: shown from the first second on."""
         if time.monotonic() - self.start > SURE:
-            self.show(min(done / max(total, 1), 1.0), f"{done:,} of about {max(done, total):,}")
+            words = f"{done:,} of about {max(done, total):,} {what}".rstrip()
+            self.show(min(done / max(total, 1), 1.0), words)
+
+    def cost(self, count: int, each: float, what: str) -> None:
+        """Tell what so many cost that take so many seconds each, once, where that is long."""
+        if each * count > LONG and not self.said:
+            self.said = True
+            self.tell(f"about {count:,} {what}, {each:.2g} s each: some {duration(each * count)}")
 
     def tell(self, sentence: str) -> None:
         """A first result, or what the work costs, on standard error."""

@@ -454,7 +454,7 @@ def propagate(
     quantiles : sequence of float, optional
         Probabilities α of the bands.
     critical_samples : int, optional
-        Samples in which critical loads are sought, some fifty times the work of a state; by
+        Samples in which critical loads are sought, some six times the work of a state; by
         default as many as ``samples``, at most 2048.
     progress : bool or callable, optional
         Shows, or gets, how many contacts are done; a `SlowWarning` of more than 10 s without it.
