@@ -46,7 +46,8 @@ class Problem(str):
         Dotted place of the mistake in ``owner``; "" where it is not of one place.
     rule : str
         What is wrong, or what is allowed, as a clause that follows place and value. One that
-        begins with a colon is a sentence of its own, one that begins with "=" says the value.
+        begins with a colon is a sentence of its own, with a comma a list of which this is the
+        first; one that begins with "=" says the value.
     value : str, optional
         The value, as a reader sees it; None where the rule needs none.
     hint : str, optional
@@ -74,7 +75,7 @@ class Problem(str):
     ) -> Problem:
         place = ".".join(filter(None, (owner, path)))
         start = place if value is None else f"{place} = {value}"
-        blank = " " if start and rule[:1] != ":" else ""
+        blank = " " if start and rule[:1] not in (":", ",") else ""
         rule = rule if start else rule.removeprefix(": ")
         self = super().__new__(cls, f"{start}{blank}{rule}" + (f"; {hint}" if hint else ""))
         self.path, self.rule, self.value, self.hint, self.owner = path, rule, value, hint, owner

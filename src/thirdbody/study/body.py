@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ..contact.contact import Contact
 from ..errors import InvalidValue
 from ..quantities.value import quantity
 from ..systems.bodies import BODIES, Body, Pressed, press
-from .reader import Reader, Table
+from .reader import Table, variants
 
 __all__ = [
+    "BODY",
     "FORCE",
-    "TABLE",
     "force_sentences",
     "loads_of",
     "pressed",
@@ -26,15 +24,6 @@ FORCE = quantity(
 ).metadata["quantity"]
 MOST_INTEGRATED = 3
 """Forces that are integrated over the contact, which takes seconds each; of more, the ends."""
-
-
-def body(reader: Reader, path: str, data: Any) -> Any:
-    """The bodies, by their kind."""
-
-    def build(values: dict[str, Any]) -> Any:
-        return reader.make(BODIES[values.pop("kind")], path, values)
-
-    return reader.variant(path, data, "kind", BODIES, build, {})
 
 
 def loads_of(bodies: Body | None, forces: np.ndarray, contact: Contact) -> np.ndarray:
@@ -70,9 +59,10 @@ def force_sentences(found: list[Pressed]) -> list[str]:
     return [each.sentence() for each in some]
 
 
-TABLE = Table(
+BODY = Table(
     name="body",
-    read=body,
-    about='what the force presses, e.g. kind = "ball-on-flat", diameter = "6 mm"',
+    key=variants(
+        "kind", BODIES, 'what the force presses, e.g. kind = "ball-on-flat", diameter = "6 mm"'
+    ),
     role="study",
 )

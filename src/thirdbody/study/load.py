@@ -9,25 +9,20 @@ import numpy as np
 from ..errors import InvalidValue
 from .amounts import amounts
 from .body import FORCE
-from .fields import about_of
-from .reader import Key, Reader, Table, get
+from .reader import NOTHING, Key, Reader, Table, get
 from .vocabulary import LOADS
 
-__all__ = ["TABLE"]
+__all__ = ["LOAD"]
+
+KEYS = {name: amounts(name, about) for name, about in (LOADS | {"force": FORCE}).items()}
 
 
-def load(reader: Reader, path: str, data: Any) -> Any:
+def _load(reader: Reader, path: str, data: Any) -> Any:
     """Which load is given, and its values."""
-    keys = {
-        name: Key(
-            amounts(reader, f"{path}.{name}", about, get(data, name)), False, about_of(name, about)
-        )
-        for name, about in (LOADS | {"force": FORCE}).items()
-    }
     reader.only_one(path, data)
 
     def build(values: dict[str, Any]) -> tuple[str, np.ndarray]:
-        for name in (*LOADS, "force"):
+        for name in KEYS:
             if name in values:
                 return name, values[name]
         raise InvalidValue(
@@ -35,13 +30,16 @@ def load(reader: Reader, path: str, data: Any) -> Any:
             "or force on a [body]"
         )
 
-    return reader.table(path, keys, build)
+    return reader.table(path, data, KEYS, build)
 
 
-TABLE = Table(
+LOAD = Table(
     name="load",
-    read=load,
-    about='a table [load] with one of F_star, pressure, separation, e.g. pressure = "5 MPa"',
+    key=Key(
+        about='a table [load] with one of F_star, pressure, separation, e.g. pressure = "5 MPa"',
+        schema=NOTHING,
+        table=_load,
+    ),
     required=lambda whole: (
         "film" not in whole and all(get(whole.get("sweep"), name) is None for name in LOADS)
     ),

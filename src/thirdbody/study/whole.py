@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import TypeAdapter, ValidationError
 
 from ..analysis.sweep.plan import Plan
 from ..analysis.uncertainty.inputs import Uncertainty
@@ -28,9 +27,10 @@ from .film import on_body
 from .outputs import on_area
 from .overrides import override
 from .own_code import load_installed
-from .reader import Key, Reader, Table
+from .reader import Key, Reader
+from .schema import Describer
 from .sweep import ends, plan, with_nested_names
-from .tables import FIELDS, TABLES
+from .tables import TABLES
 from .toml import read
 
 __all__ = ["Study", "check", "load_study"]
@@ -161,37 +161,29 @@ def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
     load_installed()
     data = with_nested_names(data)
+    reader = Reader(folder, data)
     with slips_are_told():
         try:
-            return _checked_study(
-                data, folder, [t for t in TABLES if t.name in data or t.required(data)]
-            )
-        except InvalidValue:
+            return reader.table("", data, keys_of_file(data), lambda values: _study(reader, values))
+        except InvalidValue as error:
             # to say where a misplaced key belongs, every table must be known
-            return _checked_study(data, folder, TABLES)
+            known = Describer(folder, data).known_of(TABLES)
+            known.keys = reader.known.keys | known.keys
+            raise InvalidValue(*known.problems([*reader.mistakes, *error.problems])) from None
 
 
-def _checked_study(data: dict[str, Any], folder: Path, tables: Iterable[Table]) -> Study:
-    """The study, when these are all the tables that it may hold."""
-    reader = Reader(folder, data, FIELDS)
-    keys = {
-        table.name: Key(
-            table.read(reader, table.name, data.get(table.name)), table.required(data), table.about
-        )
-        for table in tables
+def keys_of_file(data: dict[str, Any]) -> dict[str, Key]:
+    """The tables of a file as keys, each required where the others leave no way without it."""
+    return {
+        table.name: table.key
+        if table.required is None
+        else table.key._replace(required=table.required(data))
+        for table in TABLES
     }
-    model = reader.table("", keys, lambda values: _study(reader, values))
-    try:
-        return TypeAdapter(model).validate_python(data)
-    except ValidationError as error:
-        problems = [*reader.known.problems(error), *reader.problems]
-    raise InvalidValue(*dict.fromkeys(problems))
 
 
 def _study(reader: Reader, values: dict[str, Any]) -> Study:
     """The study, from the objects that its tables stand for."""
-    if reader.problems:
-        raise InvalidValue(*reader.problems)
 
     def tables_of(role: str) -> dict[str, Any]:
         return {t.name: values[t.name] for t in TABLES if t.role == role and t.name in values}
