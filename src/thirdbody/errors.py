@@ -84,23 +84,6 @@ class Problem(str):
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]:
         return (), vars(self)
 
-    @classmethod
-    def from_sentence(cls, owner: str, sentence: str) -> Problem:
-        """A mistake in ``owner`` from a sentence that may begin with it, and a dot and a field.
-
-        >>> Problem.from_sentence("Roughness", "Roughness.R and sigma are no lengths").place
-        'Roughness.R'
-        """
-        rest = sentence.removeprefix(owner)
-        if isinstance(sentence, Problem) and sentence.place:
-            return sentence
-        if not owner or rest == sentence or rest[:1] not in ". :":
-            return Problem("", sentence)
-        path, _, rule = rest[1:].partition(" ") if rest[0] == "." else ("", "", rest)
-        if path[-1:] == ":":
-            path, rule = path[:-1], f": {rule}"
-        return Problem(path, rule.removeprefix(" "), owner=owner)
-
     @property
     def place(self) -> str:
         """The dotted place, from the outermost name that is known."""

@@ -265,7 +265,7 @@ class Value:
                 problems.append(Problem(name, why, shown, owner=owner))
         if not problems:
             try:
-                problems = [Problem.from_sentence(owner, each) for each in self._problems()]
+                problems = [_placed(owner, each) for each in self._problems()]
             except FAILURES as error:
                 kind = type(self)
                 held = {name: getattr(self, name) for name in kind.__dataclass_fields__}  # type: ignore[attr-defined]
@@ -277,8 +277,8 @@ class Value:
     def _problems(self) -> list[str]:
         """Mistakes that concern several fields at once; subclasses override.
 
-        A text begins with the name of the class, a dot and the field that it is about, or with
-        the name alone. The classes inside have said what is wrong with them.
+        A `Problem` whose path is a field is told with the name of the class. The classes inside
+        have said what is wrong with them.
         """
         return []
 
@@ -409,6 +409,13 @@ def _each_with_arrays(
             raise NotCompiled(f"{name} has no number {number}")
         own.setdefault(int(number), {})[rest] = values
     return tuple(part.with_arrays(own[i]) if i in own else part for i, part in enumerate(parts))
+
+
+def _placed(owner: str, problem: str) -> str:
+    """A mistake at a field of a class, with the name of the class."""
+    if isinstance(problem, Problem) and problem.path and not problem.owner:
+        return problem.changed(owner=owner)
+    return problem
 
 
 def _taker(member: Any) -> Any:

@@ -168,7 +168,7 @@ def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
         except InvalidValue as error:
             # to say where a misplaced key belongs, every table must be known
             known = Describer(folder, data).known_of(TABLES)
-            known.keys = reader.known.keys | known.keys
+            known.keys |= reader.known.keys
             raise InvalidValue(*known.problems([*reader.mistakes, *error.problems])) from None
 
 

@@ -24,7 +24,7 @@ from ..contact.contact import Contact
 from ..equilibrium.crowding import crowded_places
 from ..equilibrium.solve import solve
 from ..equilibrium.words import meets
-from ..errors import InvalidValue, NoEquilibrium, Note, RangeWarning
+from ..errors import InvalidValue, NoEquilibrium, Note, Problem, RangeWarning
 from ..laws.asperity import ZMC
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.carried import takes_units
@@ -152,8 +152,12 @@ class BallInGroove(Body):
     def _problems(self) -> list[str]:
         if self.pitch_diameter is not None and self.pitch_diameter <= self.diameter:
             return [
-                f"BallInGroove.pitch_diameter = {self.pitch_diameter:g} must be above the "
-                f"diameter of a ball, {self.diameter:g} [m]; check the units of both"
+                Problem(
+                    "pitch_diameter",
+                    f"must be above the "
+                    f"diameter of a ball, {self.diameter:g} [m]; check the units of both",
+                    f"{self.pitch_diameter:g}",
+                )
             ]
         return []
 
@@ -203,8 +207,12 @@ class Roller(Body):
         track = self.track_diameter
         if self.ring == "outer" and track is not None and track <= self.diameter:
             return [
-                f"Roller.track_diameter = {track:g} must be above the diameter of the roller, "
-                f'{self.diameter:g} [m], with ring = "outer"; check the units of both'
+                Problem(
+                    "track_diameter",
+                    f"must be above the diameter of the roller, "
+                    f'{self.diameter:g} [m], with ring = "outer"; check the units of both',
+                    f"{track:g}",
+                )
             ]
         return []
 

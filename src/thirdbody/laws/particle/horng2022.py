@@ -6,7 +6,7 @@ import dataclasses
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...quantities.value import choice, quantity
 from ..base import AbstractParticleLaw, OneParticle
 
@@ -132,7 +132,7 @@ class Horng2022(AbstractParticleLaw):
 
     def _problems(self) -> list[str]:
         return [
-            f"Horng2022.{key} = {getattr(self, key)!r} must be true or false"
+            Problem(key, "must be true or false", f"{getattr(self, key)!r}")
             for key in ("plastic", "normalise")
             if not isinstance(getattr(self, key), bool)
         ]
