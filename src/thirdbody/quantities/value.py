@@ -221,6 +221,10 @@ def _values_in(name: str, part: Any) -> Iterator[tuple[str, Value]]:
         yield from ((f"{name}.{i}", each) for i, each in enumerate(part) if isinstance(each, Value))
 
 
+BARE = (float, str, bool, type(None))
+"""Types of values that are neither masked nor huge, and carry no unit."""
+
+
 class Value:
     """Base class of the frozen, slotted, keyword-only dataclasses a user builds."""
 
@@ -242,11 +246,11 @@ class Value:
         owner = type(self).__name__
         for name, about, words in _declarations(type(self)):  # type: ignore[arg-type]
             value = getattr(self, name)
-            why = None
-            if type(value) is not float and (told := masked_words(value) or huge_words(value)):
+            why, bare = None, type(value) in BARE or isinstance(value, Value)
+            if not bare and (told := masked_words(value) or huge_words(value)):
                 problems.append(Problem(name, told, owner=owner))
                 continue
-            if type(value) is not float and carries_unit(value):
+            if not bare and carries_unit(value):
                 value, told = _without_unit(type(self), name, value)
                 if told:
                     problems.append(told)

@@ -45,6 +45,7 @@ AMOUNT = {
     }.items()
 }
 """The numbers that lead from a count or a concentration to an areal density."""
+KEYS_OF_AMOUNT = {name: quantity_key(name, about) for name, about in AMOUNT.items()}
 COUNTED = {
     "iso4406": ("level", "smallest", "largest"),
     "as4059": ("smallest", "largest"),
@@ -147,8 +148,7 @@ def _keys_of_population(given: Mapping[str, Any], kind: str, by_volume: bool) ->
     )
     if kind not in CODES:
         keys["concentration"] = Key(_concentration, False, 'e.g. "0.1 wt%"')
-    for name in _names_of_amount(kind):
-        keys[name] = quantity_key(name, AMOUNT[name])
+    keys |= {name: KEYS_OF_AMOUNT[name] for name in _names_of_amount(kind)}
     return keys | dict.fromkeys(COUNTED, Key(_unread, schema=NOTHING))
 
 
@@ -195,8 +195,7 @@ def _concentration(reader: Reader, path: str, value: Any) -> cleanliness.Concent
 def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
     """What was counted, and the options beside it."""
     keys = {
-        name: word(WORDS[name]) if name in WORDS else quantity_key(name, AMOUNT[name])
-        for name in COUNTED[kind]
+        name: word(WORDS[name]) if name in WORDS else KEYS_OF_AMOUNT[name] for name in COUNTED[kind]
     }
     weighting = given.get("weighting")
 

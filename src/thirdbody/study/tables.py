@@ -5,11 +5,10 @@ A new one is a file with a `Table` in it and one line here.
 
 from __future__ import annotations
 
-from .body import BODY
 from .design import DESIGN
 from .explicit import EXPLICIT
 from .film import FILM
-from .load import LOAD
+from .load import BODY, LOAD
 from .outputs import OUTPUTS
 from .particles import PARTICLES
 from .reader import Table, text

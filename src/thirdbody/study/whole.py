@@ -22,8 +22,8 @@ from ..quantities.arguments import names_arguments
 from ..quantities.value import slips_are_told
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
-from .body import loads_of
 from .film import on_body
+from .load import loads_of
 from .outputs import on_area
 from .overrides import override
 from .own_code import load_installed
