@@ -112,10 +112,8 @@ class Contact(Value):
             )
         for each in self.populations:
             if each.law is not None and not isinstance(each.law, AbstractParticleLaw):
-                out.append(
-                    f"Particles.law = {each.law!r} must be a particle law, e.g. "
-                    "particle.Series(seat='plane')"
-                )
+                rule = "must be a particle law, e.g. particle.Series(seat='plane')"
+                out.append(Problem("law", rule, repr(each.law), owner="Particles"))
                 continue
             try:
                 law = self.law_of(each)
@@ -123,10 +121,9 @@ class Contact(Value):
                 out += error.problems
                 continue
             if each.strength is not None and not law.breakable:
-                out.append(
-                    f"Particles.strength: particles of the law {law.name} do not "
-                    "break; use particle.Series, or remove strength"
-                )
+                rule = f": particles of the law {law.name} do not break"
+                hint = "use particle.Series, or remove strength"
+                out.append(Problem("strength", rule, hint=hint, owner="Particles"))
         if not out and len({self.law_of(each).centre for each in self.populations}) > 1:
             out.append(
                 Problem(

@@ -257,10 +257,11 @@ def _range_text(values: tuple[float, float, float], unit: str) -> str:
 def check_faces(faces: Any) -> list[str]:
     """Mistakes in what should be one face or two."""
     if not (isinstance(faces, tuple) and len(faces) <= 2):
-        return [f"Roughness.finish = {faces!r} must be a tuple of one or two Finish"]
+        rule = "must be a tuple of one or two Finish"
+        return [Problem("finish", rule, repr(faces), owner="Roughness")]
+    rule = 'must be a Finish, e.g. Finish(Ra=0.2e-6, process="ground")'
     return [
-        f"Roughness.finish[{i}] = {face!r} must be a Finish, e.g. Finish(Ra=0.2e-6, "
-        'process="ground")'
+        Problem(f"finish[{i}]", rule, repr(face), owner="Roughness")
         for i, face in enumerate(faces)
         if not isinstance(face, Finish)
     ]

@@ -292,9 +292,13 @@ class JohnsonHeights(Heights):
         if self._complete():
             return []
         return [
-            f"JohnsonHeights: no member of the family was found with skewness {self.skewness:g} "
-            f"and kurtosis {self.kurtosis:g}; they are too extreme (a Gaussian has 0 and 3; near "
-            "skewness² + 1 the heights take hardly more than two values)"
+            Problem(
+                "",
+                f": no member of the family was found with skewness {self.skewness:g} and "
+                f"kurtosis {self.kurtosis:g}; they are too extreme (a Gaussian has 0 and 3; near "
+                "skewness² + 1 the heights take hardly more than two values)",
+                owner=type(self).__name__,
+            )
         ]
 
     def _complete(self) -> bool:

@@ -40,6 +40,7 @@ __all__ = [
     "rivals",
     "switch",
     "table_of",
+    "tag_key",
     "text",
     "variants",
     "word",
@@ -234,7 +235,7 @@ class Reader:
         """
         asked = get(data, tag)
         chosen = asked if isinstance(asked, str) and asked in kinds else near(str(asked), kinds)
-        keys = {tag: word(kinds, f"one of {', '.join(map(say, kinds))}", required=True)}
+        keys = {tag: tag_key(tuple(kinds))}
         for name in kinds if chosen is None else (chosen,):
             for field, key in keys_of(kinds[name]).items():
                 required = key.required and chosen is not None
@@ -283,6 +284,12 @@ def keys_of(kind: type) -> dict[str, Key]:
             continue
         out[each.name] = key._replace(required=each.needed)
     return out
+
+
+@cache
+def tag_key(options: tuple[str, ...]) -> Key:
+    """The key of the word on which the other keys of a table depend."""
+    return word(options, f"one of {', '.join(map(say, options))}", required=True)
 
 
 def table_of(kind: type, about: str = "", *, required: bool = False) -> Key:

@@ -6,9 +6,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from ..quantities.units import say
 from .mistakes import Known
-from .reader import Key, Reader, ReadOne, get, keys_of, word
+from .reader import Key, Reader, ReadOne, get, keys_of, tag_key
 from .tables import TABLES
 
 __all__ = ["Describer", "study_schema"]
@@ -89,8 +88,10 @@ class Describer(Reader):
         """The schema of a table whose keys depend on a word: of all of them, for whatever data."""
         if not self.every_way:
             return super().variant(path, data, tag, kinds, build, common)
-        tags = {tag: word(kinds, f"one of {', '.join(map(say, kinds))}", required=True)}
-        ways = (tags | keys_of(kind) | dict(common or {}) for kind in kinds.values())
+        ways = (
+            {tag: tag_key(tuple(kinds))} | keys_of(kind) | dict(common or {})
+            for kind in kinds.values()
+        )
         return _any_of([self.table(path, data, keys) for keys in ways])
 
     def _ways(self, key: Key, path: str, data: Any) -> Iterator[dict[str, Any]]:

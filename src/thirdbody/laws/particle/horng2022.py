@@ -122,7 +122,10 @@ class Horng2022(AbstractParticleLaw):
         if unknown := [key for key in switches if key not in fields]:
             known = ", ".join(fields)
             raise InvalidValue(
-                *(f"Horng2022 has no switch {key!r}; it has {known}" for key in unknown)
+                *(
+                    Problem("", f"has no switch {key!r}", hint=f"it has {known}", owner="Horng2022")
+                    for key in unknown
+                )
             )
         values = {key: item.default for key, item in fields.items()}
         values |= {"preset": preset} | PRESETS.get(preset, {}) | switches
