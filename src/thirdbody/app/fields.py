@@ -115,7 +115,8 @@ def fields_of(kind: type) -> list[Field]:
 def known_keys(study: dict[str, Any], name: str) -> dict[str, dict[str, str]]:
     """What the reader of study files knows in one table and those inside: keys, what each is."""
     tables = [table for table in TABLES if table.name == name]
-    return Describer(Path(), study).known_of(tables).keys
+    found = Describer(Path(), study).known_of(tables).keys
+    return {path: keys for path, keys in found.items() if path}
 
 
 def number_field(
