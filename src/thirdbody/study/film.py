@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.value import quantity
 from ..systems.bodies import Body
 from ..systems.film_conditions import Entrainment, FilmConditions
@@ -19,8 +19,8 @@ from .surfaces import law_key
 __all__ = ["FILM", "SHAPES", "SPEED", "on_body"]
 
 SHAPES: dict[str, type[Point] | type[Line]] = {"point": Point, "line": Line}
-TAKEN = ("conjunction", "load")
-"""What one contact of [body] tells where the film does not."""
+TAKEN = ("conjunction", "load", "speed")
+"""Keys that may follow from [body]."""
 NO_PRESSURE = (
     'has no place here: film.hertz = "mean" or "maximum" says which Hertz pressure is nominal, and '
     "the pressure itself follows from film.load"
@@ -54,7 +54,8 @@ def _film(reader: Reader, path: str, data: Any) -> Any:
         keys = keys | {name: keys[name]._replace(required=False) for name in TAKEN}
 
     def build(values: dict[str, Any]) -> FilmConditions | dict[str, Any]:
-        values["speed"] = tuple(np.sort(values.pop("speed")).tolist())
+        if "speed" in values:
+            values["speed"] = tuple(np.sort(values.pop("speed")).tolist())
         if pressed and not values.keys() >= set(TAKEN):
             return values
         return reader.make(FilmConditions, path, values)
@@ -63,20 +64,35 @@ def _film(reader: Reader, path: str, data: Any) -> Any:
 
 
 def on_body(
-    reader: Reader, film: Any, bodies: Body | None, forces: np.ndarray | None
+    reader: Reader, film: Any, bodies: Body | None, forces: np.ndarray | None, E_star: float
 ) -> FilmConditions | None:
-    """The film, its conjunction and load those of one contact of [body] where it gives none."""
+    """The film; conjunction, load and speed are those of one contact of [body] where not given."""
     if not isinstance(film, dict):
         return film
+    own: dict[str, Any] = {}
     shape = None if bodies is None else bodies.conjunction
     if bodies is not None and forces is not None and len(forces) == 1 and shape is not None:
-        own = {"conjunction": shape, "load": float(forces[0]) / bodies.bodies}
+        own = {"conjunction": shape, "load": float(bodies.load_on_one(forces[0], E_star))}
+    if bodies is not None and bodies.rolling_speed is not None:
+        own["speed"] = (bodies.rolling_speed,)
+    missing = [name for name in TAKEN if name not in film | own]
+    if not missing:
         return reader.make(FilmConditions, "film", own | film)
-    missing = " and ".join(name for name in TAKEN if name not in film)
-    raise InvalidValue(
-        f"film has no {missing}, and takes them from [body] only where its faces are curved and "
-        "load.force is one force"
-    )
+    problems = []
+    if "speed" in missing:
+        missing.remove("speed")
+        turns = [name for name in ("shaft_speed", "speed") if hasattr(bodies, name)]
+        rule = "is missing" + "".join(f", or body.{name}" for name in turns)
+        problems.append(Problem("film.speed", f"{rule}: {_keys()['speed'].about}"))
+    if missing:
+        problems.append(
+            Problem(
+                "",
+                f"film has no {' and '.join(missing)}, and takes them from [body] only where its "
+                "faces are curved and load.force is one force",
+            )
+        )
+    raise InvalidValue(*problems)
 
 
 FILM = Table(

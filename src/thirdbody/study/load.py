@@ -47,7 +47,8 @@ LOAD = Table(
         table=_load,
     ),
     required=lambda whole: (
-        "film" not in whole and all(get(whole.get("sweep"), name) is None for name in LOADS)
+        not {"film", "connector", "plate"} & whole.keys()
+        and all(get(whole.get("sweep"), name) is None for name in LOADS)
     ),
     role="study",
 )

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Note, Problem
 from ..populations.distributions import Histogram
-from ..populations.measured import cleanliness
+from ..populations.measured import clean_room, cleanliness
 from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
 from ..populations.particles import Particles
-from ..quantities.units import say
+from ..quantities.units import say, to_si
 from ..quantities.value import quantity
 from .grains import SHAPE, STRENGTH, with_strength
 from .mistakes import clash
@@ -31,7 +31,7 @@ from .reader import (
 from .surfaces import PARTICLE_LAW
 from .vocabulary import DISTRIBUTIONS
 
-__all__ = ["AMOUNT", "COUNTED", "PARTICLES", "populations"]
+__all__ = ["AMOUNT", "COUNTED", "PARTICLES", "gaps_of", "populations"]
 
 AMOUNT = {
     name: declared.metadata["quantity"]
@@ -42,20 +42,25 @@ AMOUNT = {
         "oil_density": quantity("ρ_f", "kg/m^3", "density of the fluid", gt=0),
         "smallest": quantity("x_min", "m", "smallest diameter", gt=0),
         "largest": quantity("x_max", "m", "largest diameter", gt=0),
+        "exposure": quantity("t", "s", "time for which dust settles", gt=0, hint="a day is '24 h'"),
+        "share": quantity("w", "1", "part of the counted particles of this kind", gt=0, le=1),
     }.items()
 }
 """The numbers that lead from a count or a concentration to an areal density."""
 KEYS_OF_AMOUNT = {name: quantity_key(name, about) for name, about in AMOUNT.items()}
 COUNTED = {
-    "iso4406": ("level", "smallest", "largest"),
-    "as4059": ("smallest", "largest"),
-    "nas1638": ("smallest", "largest"),
+    "iso4406": ("level", "smallest", "largest", "share"),
+    "as4059": ("smallest", "largest", "share"),
+    "nas1638": ("smallest", "largest", "share"),
     "test_dust": ("limit", "smallest"),
     "sizes": ("weighting", "fit", "smallest"),
+    "iso14644": ("exposure", "particle_density", "smallest", "largest"),
 }
 """Keys of [particles] that stand in the place of a distribution, and their options."""
 CODES = ("iso4406", "as4059", "nas1638")
 """Those that count particles per volume, whose concentration they give."""
+SETTLED = "iso14644"
+"""Dust that settles from air: the class and the time say how many particles there are."""
 WORDS = {
     "level": cleanliness.LEVELS,
     "limit": cleanliness.LIMITS,
@@ -72,6 +77,12 @@ def populations(whole: dict[str, Any]) -> dict[str, Any]:
     if isinstance(given, list) and given:
         return {f"particles.{i}": table for i, table in enumerate(given)}
     return {"particles": given} if "particles" in whole else {}
+
+
+def gaps_of(whole: dict[str, Any]) -> tuple[float | None, ...]:
+    """Heights of the oil whose particles each population is [m]; None where a file has none."""
+    given = [get(table, "gap") or get(table, "film") for table in populations(whole).values()]
+    return tuple(None if gap is None else to_si(gap, "m") for gap in given)
 
 
 def _particles(reader: Reader, path: str, data: Any) -> Any:
@@ -132,7 +143,7 @@ def _keys_of_population(given: Mapping[str, Any], kind: str, by_volume: bool) ->
     density = keys["areal_density"]
     about = f'{density.about}, or concentration = "0.1 wt%" with gap = "1 um"'
     keys["areal_density"] = density._replace(
-        about=about, required=density.required and not by_volume
+        about=about, required=density.required and not by_volume and kind != SETTLED
     )
     keys["strength"] = STRENGTH
     sizes = DISTRIBUTIONS.get(str(given.get("distribution")))
@@ -146,7 +157,7 @@ def _keys_of_population(given: Mapping[str, Any], kind: str, by_volume: bool) ->
     keys["law"] = PARTICLE_LAW._replace(
         about="law of these particles, in the place of [particle_law]"
     )
-    if kind not in CODES:
+    if kind not in (*CODES, SETTLED):
         keys["concentration"] = Key(_concentration, False, 'e.g. "0.1 wt%"')
     keys |= {name: KEYS_OF_AMOUNT[name] for name in _names_of_amount(kind)}
     return keys | dict.fromkeys(COUNTED, Key(_unread, schema=NOTHING))
@@ -159,6 +170,8 @@ def _unread(reader: Reader, path: str, value: Any) -> Any:
 
 def _names_of_amount(kind: str) -> tuple[str, ...]:
     """The keys that lead from a concentration to an areal density."""
+    if kind == SETTLED:
+        return ()
     if kind in CODES:
         return "gap", "film"
     fluid = ("oil_density",) if kind == "test_dust" else ("oil_density", "particle_density")
@@ -169,6 +182,10 @@ def _problems_of_amount(
     path: str, given: Mapping[str, Any], kind: str, by_volume: bool
 ) -> list[Problem]:
     """What is wrong with the keys that say how many particles there are."""
+    if kind == SETTLED:
+        rule = "the class and the time say how many there are; remove areal_density"
+        twice = "areal_density" in given
+        return [clash(path, given, [kind, "areal_density"], rule)] if twice else []
     what = kind if kind in CODES else "concentration"
     out = [
         clash(path, given, pair, "only one of these can be given; remove the other")
@@ -197,6 +214,8 @@ def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
     keys = {
         name: word(WORDS[name]) if name in WORDS else KEYS_OF_AMOUNT[name] for name in COUNTED[kind]
     }
+    if kind == SETTLED:
+        keys["exposure"] = keys["exposure"]._replace(required=True)
     weighting = given.get("weighting")
 
     def read(reader: Reader, path: str, value: Any) -> Any:
@@ -216,6 +235,8 @@ def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
 
 def _checked_code(reader: Reader, path: str, kind: str, value: Any) -> Any:
     """A code or the word of a dust, of which the library knows the counts."""
+    if kind == SETTLED:
+        return clean_room.read_class(value)
     if kind == "iso4406":
         cleanliness.read_iso4406(value)
     elif kind == "test_dust":
@@ -266,7 +287,11 @@ def _counted(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Pa
                 found = MeasuredSizes(sizes=found, weighting=options.get("weighting", "number"))
             source = found.fit(options["fit"]) if "fit" in options else found
             return _laden(reader, path, values, source.by_number(options.get("smallest")))
+        if kind == SETTLED:
+            return _settled(reader, path, found, options, values)
         gap = values.pop("gap", values.pop("film", None))
+        if part := options.pop("share", None):
+            gap *= part
         if kind == "iso4406":
             return Particles.from_iso4406(found, gap=gap, **options, **values)
         if kind == "test_dust":
@@ -276,6 +301,36 @@ def _counted(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Pa
         return Particles.from_cleanliness_class(kind, found, gap=gap, **options, **values)
     except InvalidValue as error:
         raise error.under(path) from None
+
+
+def _settled(
+    reader: Reader,
+    path: str,
+    iso_class: float,
+    options: dict[str, float],
+    values: dict[str, Any],
+) -> Particles:
+    """Dust that settles out of the air of a clean room."""
+    if options.get("largest", 0.0) > clean_room.COUNTED_TO:
+        reader.notes.append(
+            Note(
+                f"{path}.iso14644: ISO 14644-1 states its classes up to 5 µm; beyond, its power "
+                "law is continued, and large particles settle most",
+                code="settled",
+                action=f"count them on a witness plate, and give {path}.areal_density and sizes",
+            )
+        )
+    reader.assumed.append(
+        f"{path}.iso14644: dust settles from still air, at the limit of its class, on surfaces "
+        "that face up; nothing is brought by hands or charges"
+    )
+    if (density := options.pop("particle_density", None)) is None:
+        density = values["material"].density
+    if density is None:
+        rule = 'is missing: dust falls by its density, e.g. particle_density = "2650 kg/m^3"'
+        raise InvalidValue(Problem("particle_density", rule))
+    number, sizes = clean_room.settled(iso_class, particle_density=density, **options)
+    return Particles(diameter=sizes, areal_density=number, **values)
 
 
 PARTICLES = Table(

@@ -134,6 +134,10 @@ class Table:
     required: Callable[[Mapping[str, Any]], bool] | None = None
     role: str = "contact"
 
+    def is_required(self, whole: Mapping[str, Any]) -> bool:
+        """Whether a file must hold it."""
+        return self.key.required if self.required is None else self.required(whole)
+
 
 def rivals(path: str, key: str) -> tuple[str, ...]:
     """The other keys of a table that cannot stand beside this one."""

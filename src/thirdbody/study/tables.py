@@ -5,12 +5,14 @@ A new one is a file with a `Table` in it and one line here.
 
 from __future__ import annotations
 
+from .connector import CONNECTOR
 from .design import DESIGN
 from .explicit import EXPLICIT
 from .film import FILM
 from .load import BODY, LOAD
 from .outputs import OUTPUTS
 from .particles import PARTICLES
+from .plate import PLATE
 from .reader import Table, text
 from .roughness import ROUGHNESS
 from .surfaces import ASPERITY_LAW, OWN_MATERIALS, PARTICLE_LAW, SURFACES
@@ -31,6 +33,8 @@ TABLES: tuple[Table, ...] = (
     BODY,
     LOAD,
     FILM,
+    CONNECTOR,
+    PLATE,
     SWEEP,
     UNCERTAINTY,
     DESIGN,

@@ -18,6 +18,7 @@ from ...quantities.say import join_words, signed, value_of
 from ...version import __version__
 from ..assess_page import pictures as pictures_of
 from ..html import document, figure, section, text_table, words
+from ..oil_words import answer, filter_answer
 from .figures import Figures
 from .sentences import Sentences
 from .sources import Sources, alike
@@ -73,6 +74,8 @@ class Report(Sentences, Figures, Tables, Sources):
     pressed : OneSurface, str or None
         One small surface pressed point by point, where the study has a table [explicit]; or why
         it could not be.
+    oil, oil_filtered : DirtyOil or None
+        What the particles of the oil do, before and after a filter.
     """
 
     def html(self) -> str:
@@ -85,6 +88,7 @@ class Report(Sentences, Figures, Tables, Sources):
                 "<section", "<section class=lead", 1
             ),
             *self._warnings(),
+            *self._oil(),
             *self._film(),
             section("Figures", self._figures(), name="figures"),
             section("States", self._states(), name="states"),
@@ -104,8 +108,13 @@ class Report(Sentences, Figures, Tables, Sources):
         return document(title, parts, style=STYLE + running(title))
 
     def _answer(self) -> list[str]:
-        body = self.result.force_sentences
-        return [f"<p>{words(sentence)}</p>" for sentence in (*body, *self.sentences())]
+        first: list[str] = []
+        if self.oil is not None:
+            if self.oil_filtered is not None:
+                first.append(filter_answer(self.oil, self.oil_filtered))
+            first += answer(self.oil)
+        told = (*first, *self.result.force_sentences, *self.sentences())
+        return [f"<p>{words(sentence)}</p>" for sentence in told]
 
     def _warnings(self) -> list[str]:
         texts = [*self.result.warnings, *(() if self.film is None else self.film.run_warnings)]
