@@ -31,7 +31,7 @@ EXAMPLES = Path(__file__).parent.parent / "examples"
 REPEATS = 3
 BYTECODE = tempfile.TemporaryDirectory()
 """Where processes find what the first of them compiled, as an installed package has it."""
-LOADING = ["-c", "import numpy, pydantic, scipy.optimize.elementwise, scipy.special, typer"]
+LOADING = ["-c", "import numpy, scipy.optimize.elementwise, scipy.special, typer"]
 
 BARE = ["-c", "import numpy, scipy.special"]
 """What processor time is told as a multiple of: the same machine, the same minute."""

@@ -46,7 +46,8 @@ class Problem(str):
         Dotted place of the mistake in ``owner``; "" where it is not of one place.
     rule : str
         What is wrong, or what is allowed, as a clause that follows place and value. One that
-        begins with a colon is a sentence of its own, one that begins with "=" says the value.
+        begins with a colon is a sentence of its own, with a comma a list of which this is the
+        first; one that begins with "=" says the value.
     value : str, optional
         The value, as a reader sees it; None where the rule needs none.
     hint : str, optional
@@ -74,7 +75,7 @@ class Problem(str):
     ) -> Problem:
         place = ".".join(filter(None, (owner, path)))
         start = place if value is None else f"{place} = {value}"
-        blank = " " if start and rule[:1] != ":" else ""
+        blank = " " if start and rule[:1] not in (":", ",") else ""
         rule = rule if start else rule.removeprefix(": ")
         self = super().__new__(cls, f"{start}{blank}{rule}" + (f"; {hint}" if hint else ""))
         self.path, self.rule, self.value, self.hint, self.owner = path, rule, value, hint, owner
@@ -82,23 +83,6 @@ class Problem(str):
 
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]:
         return (), vars(self)
-
-    @classmethod
-    def from_sentence(cls, owner: str, sentence: str) -> Problem:
-        """A mistake in ``owner`` from a sentence that may begin with it, and a dot and a field.
-
-        >>> Problem.from_sentence("Roughness", "Roughness.R and sigma are no lengths").place
-        'Roughness.R'
-        """
-        rest = sentence.removeprefix(owner)
-        if isinstance(sentence, Problem) and sentence.place:
-            return sentence
-        if not owner or rest == sentence or rest[:1] not in ". :":
-            return Problem("", sentence)
-        path, _, rule = rest[1:].partition(" ") if rest[0] == "." else ("", "", rest)
-        if path[-1:] == ":":
-            path, rule = path[:-1], f": {rule}"
-        return Problem(path, rule.removeprefix(" "), owner=owner)
 
     @property
     def place(self) -> str:

@@ -12,7 +12,7 @@ import pytest
 import thirdbody as tb
 from thirdbody.quantities.value import Value, choice, quantity
 from thirdbody.study import DISTRIBUTIONS, HEIGHTS, LOADS, check, load_study, run_study, whole
-from thirdbody.study.reader import Table
+from thirdbody.study.reader import Table, table_of
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 
@@ -780,7 +780,7 @@ class Sliding(Value):
 def test_a_table_is_one_entry_of_the_list(write, problems, monkeypatch):
     sliding = Table(
         name="sliding",
-        read=lambda reader, path, data: reader.value(path, data, Sliding),
+        key=table_of(Sliding),
         role="study",
     )
     monkeypatch.setattr(whole, "TABLES", (*whole.TABLES, sliding))

@@ -16,12 +16,12 @@ from ..populations.measured.sizes import FITS, WEIGHTINGS
 from ..quantities.units import comma_may_part_thousands, quantity_to_si
 from ..quantities.value import allowed_range
 from ..study import DISTRIBUTIONS, HEIGHTS, LOADS
-from ..study.concentration import AMOUNT
-from ..study.counted import COUNTED
 from ..study.fields import declarations
-from ..study.reader import Reader
-from ..study.shape import SHAPES
-from ..study.tables import FIELDS, TABLES
+from ..study.grains import SHAPES
+from ..study.particles import AMOUNT, COUNTED
+from ..study.reader import FIELDS
+from ..study.schema import Describer
+from ..study.tables import TABLES
 from ..study.toml import value_of
 from .bounds import refuse_long_names
 from .text import in_ascii, with_micro, written
@@ -114,10 +114,9 @@ def fields_of(kind: type) -> list[Field]:
 
 def known_keys(study: dict[str, Any], name: str) -> dict[str, dict[str, str]]:
     """What the reader of study files knows in one table and those inside: keys, what each is."""
-    reader = Reader(Path(), study, FIELDS)
-    table = next(table for table in TABLES if table.name == name)
-    table.read(reader, name, study.get(name))
-    return reader.known.keys
+    tables = [table for table in TABLES if table.name == name]
+    found = Describer(Path(), study).known_of(tables).keys
+    return {path: keys for path, keys in found.items() if path}
 
 
 def number_field(

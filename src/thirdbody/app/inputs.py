@@ -13,9 +13,9 @@ from ..errors import InvalidValue
 from ..populations.finish import STATED, processes
 from ..quantities.units import say
 from ..study import LOADS
-from ..study.body import FORCE
-from ..study.drawing import is_drawn
 from ..study.inputs import inputs_of
+from ..study.load import FORCE
+from ..study.roughness import is_drawn
 from ..systems.bodies import BODIES
 from .bounds import LARGEST_TABLE
 from .entries import Place, dotted

@@ -9,8 +9,7 @@ from nicegui import ui
 import thirdbody as tb
 
 from ..quantities.say import value_of
-from ..study.concentration import AMOUNT
-from ..study.counted import COUNTED
+from ..study.particles import AMOUNT, COUNTED
 from .entries import Entries, Place
 from .fields import COUNTED_FIELDS, VARIANTS, Field, fields_of, number_field, options_of, text_of
 from .state import State

@@ -11,7 +11,7 @@ import thirdbody as tb
 
 from ..quantities.value import Value
 from ..study import Study
-from ..study.body import told_forces
+from ..study.load import told_forces
 from ..systems.bodies import Body
 
 __all__ = ["to_python"]

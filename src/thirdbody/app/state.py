@@ -20,7 +20,7 @@ import thirdbody as tb
 
 from ..errors import InvalidValue, Problem, RangeWarning, ThirdBodyError, note_of
 from ..study import Study, check
-from ..study.body import pressed
+from ..study.load import pressed
 from ..systems.bodies import Pressed
 from .bounds import MOST_DRAWN, refuse_large, refuse_large_files
 from .folders import Shelf

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..laws.asperity import ZMC, AbstractAsperityLaw
 from ..laws.particle import AbstractParticleLaw, Series
 from ..populations.materials import MaterialPair
@@ -80,15 +80,15 @@ class Contact(Value):
             "asperity_law": AbstractAsperityLaw,
             "particle_law": AbstractParticleLaw,
         }
-        out = [
-            f"Contact.{name} = {getattr(self, name)!r} must be a {kind.__name__}"
+        out: list[str] = [
+            Problem(name, f"must be a {kind.__name__}", repr(getattr(self, name)))
             for name, kind in kinds.items()
             if not isinstance(getattr(self, name), kind)
         ]
         given = self.particles if isinstance(self.particles, tuple) else (self.particles,)
         if not all(isinstance(each, Particles) for each in given) and given != (None,):
             out.append(
-                f"Contact.particles = {self.particles!r} must be Particles, several, or None"
+                Problem("particles", "must be Particles, several, or None", repr(self.particles))
             )
         out = out or self._population_problems()
         if not out and self.roughness.ellipticity is not None:
@@ -100,19 +100,20 @@ class Contact(Value):
 
     def _population_problems(self) -> list[str]:
         """Mistakes that concern several populations."""
-        out = []
+        out: list[str] = []
         covered = sum(each.coverage for each in self.populations)
         if covered >= 1:
             out.append(
-                f"Contact.particles are jammed: together they would cover {covered:.3g} of the "
-                "nominal area and it must stay below 1"
+                Problem(
+                    "particles",
+                    f"are jammed: together they would cover {covered:.3g} of the "
+                    "nominal area and it must stay below 1",
+                )
             )
         for each in self.populations:
             if each.law is not None and not isinstance(each.law, AbstractParticleLaw):
-                out.append(
-                    f"Particles.law = {each.law!r} must be a particle law, e.g. "
-                    "particle.Series(seat='plane')"
-                )
+                rule = "must be a particle law, e.g. particle.Series(seat='plane')"
+                out.append(Problem("law", rule, repr(each.law), owner="Particles"))
                 continue
             try:
                 law = self.law_of(each)
@@ -120,14 +121,16 @@ class Contact(Value):
                 out += error.problems
                 continue
             if each.strength is not None and not law.breakable:
-                out.append(
-                    f"Particles.strength: particles of the law {law.name} do not "
-                    "break; use particle.Series, or remove strength"
-                )
+                rule = f": particles of the law {law.name} do not break"
+                hint = "use particle.Series, or remove strength"
+                out.append(Problem("strength", rule, hint=hint, owner="Particles"))
         if not out and len({self.law_of(each).centre for each in self.populations}) > 1:
             out.append(
-                "Contact.particles follow laws that count d from different planes (Horng2022 and "
-                "others); give all of them one kind of law"
+                Problem(
+                    "particles",
+                    "follow laws that count d from different planes (Horng2022 and "
+                    "others); give all of them one kind of law",
+                )
             )
         return out
 
@@ -161,12 +164,19 @@ def _shape_problems(law: AbstractAsperityLaw) -> list[str]:
     if not hasattr(law, "ratio"):
         able = [name for name, kind in law.registry.items() if hasattr(kind, "ratio")]
         return [
-            f"Contact.asperity_law is {law.name}, whose tips are round, but the roughness has an "
-            f"ellipticity; take {' or '.join(able)}, or remove the ellipticity"
+            Problem(
+                "asperity_law",
+                f"is {law.name}, whose tips are round, but the roughness has an ellipticity",
+                hint=f"take {' or '.join(able)}, or remove the ellipticity",
+            )
         ]
     if law.ratio != 1:
         return [
-            f"Contact.asperity_law.ratio = {law.ratio:g} and the ellipticity of the roughness both "
-            "say how slender the tips are; leave one of them out"
+            Problem(
+                "asperity_law.ratio",
+                "and the ellipticity of the roughness both say how slender the tips are",
+                f"{law.ratio:g}",
+                hint="leave one of them out",
+            )
         ]
     return []

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..laws.base import Law
 from ..quantities.record import Column
 
@@ -103,20 +103,24 @@ def problems_of(outputs: Sequence[Any], contact: Any) -> list[str]:
     wrong = [each for each in outputs if not isinstance(each, AbstractOutput)]
     if wrong:
         return [
-            f"Contact.outputs holds {each!r}; give outputs, e.g. outputs.Counts()" for each in wrong
+            Problem("outputs", f"holds {each!r}", hint="give outputs, e.g. outputs.Counts()")
+            for each in wrong
         ]
     if outputs:
         laws = {law.name: law for law in map(contact.law_of, contact.populations)}
         if unknown := [name for name, law in laws.items() if not law.knows_each]:
             return [
-                f"Contact.outputs: the particle law {name} knows loads and areas of all particles "
-                "together, not how deep one of them sits; take particle.Series or particle.Flakes, "
-                "or remove the outputs"
+                Problem(
+                    "outputs",
+                    f": the particle law {name} knows loads and areas of all particles together, "
+                    "not how deep one of them sits",
+                    hint="take particle.Series or particle.Flakes, or remove the outputs",
+                )
                 for name in unknown
             ]
     names = [each.name for each in outputs]
     if len(set(names)) < len(names):
-        return [f"Contact.outputs names {', '.join(names)}: each output once"]
+        return [Problem("outputs", f"names {', '.join(names)}: each output once")]
     out = []
     for each in outputs:
         out += [

@@ -152,8 +152,12 @@ class Dents(AbstractOutput):
         if (self.debris == "brittle") == (self.fragment is not None):
             return []
         return [
-            f"Dents.fragment = {self.fragment!r} with debris = {self.debris!r}: brittle particles, "
-            "and only those, need the size of their fragments [m]"
+            Problem(
+                "fragment",
+                f"with debris = {self.debris!r}: brittle particles, "
+                "and only those, need the size of their fragments [m]",
+                repr(self.fragment),
+            )
         ]
 
     def one_by_one(self, contact: Contact) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column
-from ..errors import Note
+from ..errors import Note, Problem
 from ..populations.shape import CUTS
 from ..quantities.say import value_of
 from ..quantities.value import choice, quantity
@@ -247,27 +247,38 @@ class Friction(AbstractOutput):
     }
 
     def _problems(self) -> list[str]:
-        out = []
+        out: list[str] = []
         if self.tau_ss is None and self.m_ss is None:
             out.append(
-                "Friction.tau_ss is missing: give the shear strength between the surfaces [Pa], "
-                "or m_ss; no value fits all surfaces"
+                Problem(
+                    "tau_ss",
+                    "is missing: give the shear strength between the surfaces [Pa], "
+                    "or m_ss; no value fits all surfaces",
+                )
             )
         for kind in ("ss", "sa"):
             tau, m, _ = self._strength(kind)
             if tau is not None and m is not None:
-                out.append(f"Friction.tau_{kind} = {tau:g} and m_{kind} = {m:g}: give one of them")
+                out.append(
+                    Problem(f"tau_{kind}", f"and m_{kind} = {m:g}: give one of them", f"{tau:g}")
+                )
         if self.rear not in ("recovery", "rigid"):
             number = isinstance(self.rear, int | float) and not isinstance(self.rear, bool)
             if not (number and 0 <= self.rear <= 1):  # type: ignore[operator]
                 out.append(
-                    f"Friction.rear = {self.rear!r} must be 'recovery', 'rigid', or a number from "
-                    "0 to 1"
+                    Problem(
+                        "rear",
+                        "must be 'recovery', 'rigid', or a number from 0 to 1",
+                        repr(self.rear),
+                    )
                 )
         if self.offset > 0 and self.rolling != "moment":
             out.append(
-                f"Friction.offset = {self.offset:g} needs rolling = 'moment', whose balance it "
-                f"enters, not {self.rolling!r}"
+                Problem(
+                    "offset",
+                    f"needs rolling = 'moment', whose balance it enters, not {self.rolling!r}",
+                    f"{self.offset:g}",
+                )
             )
         return out
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..contact.evaluation import bodies_of
 from ..contact.output import AbstractOutput, Column, missing
-from ..errors import Note
+from ..errors import Note, Problem
 from ..quantities.say import number
 from ..quantities.value import choice, quantity
 from .conductance import about_wide, wide_share
@@ -191,9 +191,9 @@ class FlashTemperature(AbstractOutput):
 
     def _problems(self) -> list[str]:
         if (self.h_1 is None) != (self.h_2 is None):
-            return ["FlashTemperature.h_1 and h_2 make one network: give both (0 insulates)"]
+            return [Problem("h_1", "and h_2 make one network: give both (0 insulates)")]
         if self.h_1 == 0 and self.h_2 == 0:
-            return ["FlashTemperature.h_1 = h_2 = 0 leave the heat no way out: one must be > 0"]
+            return [Problem("h_1", "= h_2 = 0 leave the heat no way out: one must be > 0")]
         return []
 
     def problems(self, contact: Contact) -> list[str]:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.value import Value, quantity
 
 if TYPE_CHECKING:
@@ -190,7 +190,7 @@ class GivenSeats(AbstractSeats):
         except (TypeError, ValueError):
             places = np.empty(0)
         if places.ndim != 2 or places.shape[1] != 2 or not np.all(np.isfinite(places)):
-            return ["GivenSeats.positions must be pairs (x, y) of finite lengths [m], one each"]
+            return [Problem("positions", "must be pairs (x, y) of finite lengths [m], one each")]
         object.__setattr__(self, "positions", tuple(map(tuple, places.tolist())))
         return []
 

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..numerics.quadrature import panel_rule
 from ..populations.shape import Sphere
 from ..quantities.arguments import need_one
@@ -541,15 +541,17 @@ class SeatedLaw(AbstractParticleLaw):
     )
 
     def _problems(self) -> list[str]:
-        out = []
-        name = type(self).__name__
+        out: list[str] = []
         if self.h_0 != 0 and self.seat != "offset":
             out.append(
-                f"{name}.h_0 = {self.h_0:g} has no meaning with seat = {self.seat!r}; "
-                "set seat = 'offset'"
+                Problem(
+                    "h_0",
+                    f"has no meaning with seat = {self.seat!r}; set seat = 'offset'",
+                    f"{self.h_0:g}",
+                )
             )
         if self.seat != "rough" and (self.zeta_mean, self.zeta_std) != (0.0, 1.0):
-            out.append(f"{name}.zeta_mean and zeta_std need seat = 'rough', not {self.seat!r}")
+            out.append(Problem("zeta_mean", f"and zeta_std need seat = 'rough', not {self.seat!r}"))
         return out
 
     def seat_offset(self, roughness: Roughness) -> float:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import special
 
+from ..errors import Problem
 from ..numerics.quadrature import gauss_legendre
 from ..quantities.say import value_of
 from ..quantities.value import quantity
@@ -91,8 +92,12 @@ class TruncatedGaussian(Distribution):
         if high > low or not math.isfinite(high):
             return []
         return [
-            f"TruncatedGaussian.std = {self.std:g} m must spread the diameters by more than "
-            f"rounding around {value_of(high, 'm')}; for one single size use Monodisperse"
+            Problem(
+                "std",
+                f"m must spread the diameters by more than "
+                f"rounding around {value_of(high, 'm')}; for one single size use Monodisperse",
+                f"{self.std:g}",
+            )
         ]
 
     @property
@@ -348,8 +353,11 @@ class Uniform(Distribution):
         if self.high > self.low:
             return []
         return [
-            f"Uniform.high = {self.high:g} must be above low = {self.low:g} [m]; "
-            "for one single size use Monodisperse"
+            Problem(
+                "high",
+                f"must be above low = {self.low:g} [m]; for one single size use Monodisperse",
+                f"{self.high:g}",
+            )
         ]
 
     @property

@@ -134,27 +134,31 @@ class Ellipticity(Value):
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:
-        out = []
+        out: list[str] = []
         if not self.ratios:
-            out.append("Ellipticity.ratios is empty; give at least one ratio of the radii")
+            out.append(Problem("ratios", "is empty; give at least one ratio of the radii"))
         for i, value in enumerate(self.ratios):
             if not (math.isfinite(value) and value >= 1):
                 turned = f"; it is the longer over the shorter: {1 / value:g}" if value > 0 else ""
                 turned = turned if value < 1 else ""
-                out.append(f"Ellipticity.ratios[{i}] = {value:g} must be >= 1{turned}")
+                out.append(Problem(f"ratios[{i}]", f"must be >= 1{turned}", f"{value:g}"))
         for name in ("weights", "radii"):
             values = getattr(self, name)
             if values is None:
                 continue
             if len(values) != len(self.ratios):
                 out.append(
-                    f"Ellipticity has {len(self.ratios)} ratios and {len(values)} {name}; "
-                    "give one for each ratio"
+                    Problem(
+                        "",
+                        f"has {len(self.ratios)} ratios and {len(values)} {name}; "
+                        "give one for each ratio",
+                        owner=type(self).__name__,
+                    )
                 )
             for i, value in enumerate(values):
                 if not (math.isfinite(value) and value > 0):
                     cause = "; leave the class out" if name == "weights" and value == 0 else ""
-                    out.append(f"Ellipticity.{name}[{i}] = {value:g} must be > 0{cause}")
+                    out.append(Problem(f"{name}[{i}]", f"must be > 0{cause}", f"{value:g}"))
         return out
 
     @property

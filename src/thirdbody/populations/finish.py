@@ -11,7 +11,7 @@ from importlib import resources
 from itertools import product
 from typing import Any, NamedTuple
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.say import join_words, number, value_of
 from ..quantities.value import Value, problem_with, quantity
 
@@ -98,24 +98,31 @@ class Finish(Value):
         given = [name for name in STATED if getattr(self, name) is not None]
         if len(given) != 1:
             shown = f", not {' and '.join(given)}" if given else ""
-            return [f"Finish needs exactly one of Ra, Rq and Rz{shown}"]
+            return [
+                Problem("", f"needs exactly one of Ra, Rq and Rz{shown}", owner=type(self).__name__)
+            ]
         name = given[0]
         if why := problem_with(STATED[name], getattr(self, name)):
-            return [f"Finish.{name} = {getattr(self, name)!r} {why}"]
+            return [Problem(name, f"{why}", repr(getattr(self, name)))]
         object.__setattr__(self, name, float(getattr(self, name)))
         if self.process is None:
             return []
         if self.process not in processes():
-            return [f"Finish.process = {self.process!r} must be one of {', '.join(processes())}"]
+            return [
+                Problem("process", f"must be one of {', '.join(processes())}", repr(self.process))
+            ]
         low, high = processes()[self.process]["Ra"]
         Ra = self.heights[1] / RQ_OVER_RA
         if low <= Ra <= high:
             return []
         told = f" (Ra about {value_of(Ra, 'm')})" if name != "Ra" else ""
         return [
-            f"Finish.{name} = {value_of(getattr(self, name), 'm')}{told} is not the height of a "
-            f"{self.process} face, Ra from {value_of(low, 'm')} to {value_of(high, 'm')}; "
-            "check its unit and the process"
+            Problem(
+                f"{name}",
+                f"= {value_of(getattr(self, name), 'm')}{told} is not the height of a "
+                f"{self.process} face, Ra from {value_of(low, 'm')} to {value_of(high, 'm')}; "
+                "check its unit and the process",
+            )
         ]
 
     @property
@@ -250,10 +257,11 @@ def _range_text(values: tuple[float, float, float], unit: str) -> str:
 def check_faces(faces: Any) -> list[str]:
     """Mistakes in what should be one face or two."""
     if not (isinstance(faces, tuple) and len(faces) <= 2):
-        return [f"Roughness.finish = {faces!r} must be a tuple of one or two Finish"]
+        rule = "must be a tuple of one or two Finish"
+        return [Problem("finish", rule, repr(faces), owner="Roughness")]
+    rule = 'must be a Finish, e.g. Finish(Ra=0.2e-6, process="ground")'
     return [
-        f"Roughness.finish[{i}] = {face!r} must be a Finish, e.g. Finish(Ra=0.2e-6, "
-        'process="ground")'
+        Problem(f"finish[{i}]", rule, repr(face), owner="Roughness")
         for i, face in enumerate(faces)
         if not isinstance(face, Finish)
     ]

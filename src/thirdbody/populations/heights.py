@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from scipy import special
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..numerics.quadrature import panel_rule
 from ..quantities.named import Named
 from ..quantities.value import quantity, sequences, several
@@ -282,15 +282,23 @@ class JohnsonHeights(Heights):
     def _problems(self) -> list[str]:
         if not self.kurtosis > self.skewness * self.skewness + 1:
             return [
-                f"JohnsonHeights.kurtosis = {self.kurtosis:g} with skewness = {self.skewness:g} is "
-                "impossible: kurtosis must exceed skewness² + 1 (a Gaussian has 3, not 0)"
+                Problem(
+                    "kurtosis",
+                    f"with skewness = {self.skewness:g} is "
+                    "impossible: kurtosis must exceed skewness² + 1 (a Gaussian has 3, not 0)",
+                    f"{self.kurtosis:g}",
+                )
             ]
         if self._complete():
             return []
         return [
-            f"JohnsonHeights: no member of the family was found with skewness {self.skewness:g} "
-            f"and kurtosis {self.kurtosis:g}; they are too extreme (a Gaussian has 0 and 3; near "
-            "skewness² + 1 the heights take hardly more than two values)"
+            Problem(
+                "",
+                f": no member of the family was found with skewness {self.skewness:g} and "
+                f"kurtosis {self.kurtosis:g}; they are too extreme (a Gaussian has 0 and 3; near "
+                "skewness² + 1 the heights take hardly more than two values)",
+                owner=type(self).__name__,
+            )
         ]
 
     def _complete(self) -> bool:
@@ -460,18 +468,30 @@ class HistogramHeights(Heights):
 
     def _problems(self) -> list[str]:
         e, c = np.array(self.edges), np.array(self.counts)
-        out = []
+        out: list[str] = []
         if len(e) != len(c) + 1 or not len(c):
-            out.append(f"HistogramHeights has {len(e)} edges and {len(c)} counts; n + 1 and n")
+            out.append(
+                Problem(
+                    "",
+                    f"has {len(e)} edges and {len(c)} counts; n + 1 and n",
+                    owner=type(self).__name__,
+                )
+            )
         elif not (np.all(np.isfinite(e)) and np.all(e[1:] > e[:-1])):
-            out.append("HistogramHeights.edges must be finite and increase")
+            out.append(Problem("edges", "must be finite and increase"))
         elif not (np.all(np.isfinite(c)) and np.all(c >= 0) and c[0] > 0 and c[-1] > 0):
-            out.append("HistogramHeights.counts must be >= 0, the first and last above 0")
+            out.append(Problem("counts", "must be >= 0, the first and last above 0"))
         else:
             with np.errstate(all="ignore"):
                 ends, density = self._bins
             if not (np.all(ends[1:] > ends[:-1]) and np.all(np.isfinite(density))):
-                out.append("HistogramHeights spans more than numbers hold; check edges and counts")
+                out.append(
+                    Problem(
+                        "",
+                        "spans more than numbers hold; check edges and counts",
+                        owner=type(self).__name__,
+                    )
+                )
         return out
 
     @property

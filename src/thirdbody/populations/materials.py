@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.arguments import names_arguments
 from ..quantities.files import read_bytes
 from ..quantities.nearest import guess, near
@@ -158,7 +158,7 @@ class MaterialPair(Value):
 
     def _problems(self) -> list[str]:
         return [
-            f"MaterialPair.{side} = {body!r} must be a Material, e.g. materials['S45C']"
+            Problem(side, "must be a Material, e.g. materials['S45C']", repr(body))
             for side, body in (("first", self.first), ("second", self.second))
             if not isinstance(body, Material)
         ]

@@ -67,24 +67,34 @@ class Particles(Value):
     def _problems(self) -> list[str]:
         out: list[str] = []
         if not isinstance(self.material, Material):
-            out.append(f"Particles.material = {self.material!r} must be a Material")
+            out.append(Problem("material", "must be a Material", repr(self.material)))
         if not isinstance(self.diameter, Distribution):
-            out.append(f"Particles.diameter = {self.diameter!r} must be a size distribution")
+            out.append(Problem("diameter", "must be a size distribution", repr(self.diameter)))
         if not isinstance(self.strength, WeibullStrength | None):
             out.append(
-                f"Particles.strength = {self.strength!r} must be a WeibullStrength, e.g. "
-                "WeibullStrength.of(material), or None"
+                Problem(
+                    "strength",
+                    "must be a WeibullStrength, e.g. WeibullStrength.of(material), or None",
+                    repr(self.strength),
+                )
             )
         if not isinstance(self.shape, Sphere | Angular):
             out.append(
-                f"Particles.shape = {self.shape!r} must be Sphere() or "
-                "Angular(roundness=..., angle=...)"
+                Problem(
+                    "shape",
+                    "must be Sphere() or Angular(roundness=..., angle=...)",
+                    repr(self.shape),
+                )
             )
         if not out and self.coverage >= 1:
             out.append(
-                f"Particles.areal_density = {self.areal_density:g} is jammed: the particles would "
-                f"cover {self.coverage:.3g} of the nominal area and it must stay below 1 "
-                "(check the unit of the diameter, or that the density is per area)"
+                Problem(
+                    "areal_density",
+                    f"is jammed: the particles would "
+                    f"cover {self.coverage:.3g} of the nominal area and it must stay below 1 "
+                    "(check the unit of the diameter, or that the density is per area)",
+                    f"{self.areal_density:g}",
+                )
             )
         return out
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.value import Value, quantity
 from .ellipticity import Ellipticity
 from .finish import Finish, check_faces, drawing, given_or_drawn
@@ -152,11 +152,13 @@ class Roughness(Value):
 
     def _problems(self) -> list[str]:
         if self.eta is not None and self.eta_R_sigma is not None:
-            return ["Roughness.eta and eta_R_sigma say the same thing; give one of them"]
+            return [Problem("eta", "and eta_R_sigma say the same thing; give one of them")]
         if not isinstance(self.heights, Heights):
-            return [f"Roughness.heights = {self.heights!r} must be a height distribution"]
+            return [Problem("heights", "must be a height distribution", repr(self.heights))]
         if not isinstance(self.ellipticity, Ellipticity | None):
-            return [f"Roughness.ellipticity = {self.ellipticity!r} must be an Ellipticity or None"]
+            return [
+                Problem("ellipticity", "must be an Ellipticity or None", repr(self.ellipticity))
+            ]
         return check_faces(self.finish)
 
     @property

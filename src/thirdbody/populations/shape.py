@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Self
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.units import to_si
 from ..quantities.value import Value, quantity
 
@@ -84,7 +84,7 @@ class Angular(Shape):
                 object.__setattr__(self, "angle", to_si(self.angle, "rad"))
             except InvalidValue as error:
                 raise InvalidValue(
-                    *(f"Angular.angle = {text}" for text in error.problems)
+                    *(Problem("angle", f"= {text}", owner="Angular") for text in error.problems)
                 ) from None
         Value.__post_init__(self)
 

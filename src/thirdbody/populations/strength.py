@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Self
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.value import Value, choice, quantity
 from .materials import Material
 
@@ -96,8 +96,11 @@ class WeibullStrength(Value):
         if low <= high:
             return []
         return [
-            f"WeibullStrength.x_from = {low:g} must not exceed x_to = {high:g} "
-            "(where one is not given, it is x_0)"
+            Problem(
+                "x_from",
+                f"must not exceed x_to = {high:g} (where one is not given, it is x_0)",
+                f"{low:g}",
+            )
         ]
 
     @classmethod

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy import special
 
+from ..errors import Problem
 from ..quantities.value import Value, items_of, sequences, several
 from .size_base import (
     ONE_SIZE,
@@ -54,15 +55,21 @@ class Histogram(Distribution):
 
     def _problems(self) -> list[str]:
         e, c = self.edges, self.counts
-        out = []
+        out: list[str] = []
         if not all(math.isfinite(v) for v in (*e, *c)):
-            return ["Histogram.edges and counts must be finite numbers"]
+            return [Problem("edges", "and counts must be finite numbers")]
         if len(e) != len(c) + 1 or not c:
-            out.append(f"Histogram has {len(e)} edges and {len(c)} counts; n bins have n + 1 edges")
+            out.append(
+                Problem(
+                    "",
+                    f"has {len(e)} edges and {len(c)} counts; n bins have n + 1 edges",
+                    owner=type(self).__name__,
+                )
+            )
         if any(b <= a for a, b in zip(e, e[1:], strict=False)) or (e and e[0] < 0):
-            out.append("Histogram.edges must increase and start at or above 0 [m]")
+            out.append(Problem("edges", "must increase and start at or above 0 [m]"))
         if any(v < 0 for v in c) or not any(v > 0 for v in c):
-            out.append("Histogram.counts must be >= 0 with at least one above 0")
+            out.append(Problem("counts", "must be >= 0 with at least one above 0"))
         return out
 
     @property
@@ -156,21 +163,25 @@ class PowerLaw(Distribution):
     def _problems(self) -> list[str]:
         e, c, s = self.edges, self.counts, self.slopes
         if not all(math.isfinite(v) for v in (*e, *c, *s)):
-            return ["PowerLaw.edges, counts and slopes must be finite numbers"]
-        out = []
+            return [Problem("edges,", "counts and slopes must be finite numbers")]
+        out: list[str] = []
         if not len(e) - 1 == len(c) == len(s) or not c:
             out.append(
-                f"PowerLaw has {len(e)} edges, {len(c)} counts and {len(s)} slopes; "
-                "n sections have n + 1 edges"
+                Problem(
+                    "",
+                    f"has {len(e)} edges, {len(c)} counts and {len(s)} slopes; "
+                    "n sections have n + 1 edges",
+                    owner=type(self).__name__,
+                )
             )
         if any(b <= a for a, b in zip(e, e[1:], strict=False)) or (e and e[0] <= 0):
-            out.append("PowerLaw.edges must increase and start above 0 [m]")
+            out.append(Problem("edges", "must increase and start above 0 [m]"))
         if any(v < 0 for v in c) or not any(v > 0 for v in c):
-            out.append("PowerLaw.counts must be >= 0 with at least one above 0")
+            out.append(Problem("counts", "must be >= 0 with at least one above 0"))
         if not out and any(
             abs(v) * math.log(b / a) > 500 for v, a, b in zip(s, e, e[1:], strict=False)
         ):
-            out.append("PowerLaw.slopes are too steep for the width of their sections")
+            out.append(Problem("slopes", "are too steep for the width of their sections"))
         return out
 
     @property
@@ -276,16 +287,20 @@ class Mixture(Distribution):
         Value.__post_init__(self)
 
     def _problems(self) -> list[str]:
-        out = []
+        out: list[str] = []
         if not self.parts or len(self.parts) != len(self.weights):
             out.append(
-                f"Mixture has {len(self.parts)} parts and {len(self.weights)} weights; "
-                "give one weight for each part"
+                Problem(
+                    "",
+                    f"has {len(self.parts)} parts and {len(self.weights)} weights; "
+                    "give one weight for each part",
+                    owner=type(self).__name__,
+                )
             )
         if any(not isinstance(part, Distribution) for part in self.parts):
-            out.append("Mixture.parts must all be size distributions")
+            out.append(Problem("parts", "must all be size distributions"))
         if any(not (w > 0 and math.isfinite(w)) for w in self.weights):
-            out.append("Mixture.weights must all be > 0")
+            out.append(Problem("weights", "must all be > 0"))
         return out
 
     @property

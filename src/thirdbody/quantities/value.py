@@ -227,6 +227,10 @@ def _values_in(name: str, part: Any) -> Iterator[tuple[str, Value]]:
         yield from ((f"{name}.{i}", each) for i, each in enumerate(part) if isinstance(each, Value))
 
 
+BARE = (float, str, bool, type(None))
+"""Types of values that are neither masked nor huge, and carry no unit."""
+
+
 class Value:
     """Base class of the frozen, slotted, keyword-only dataclasses a user builds."""
 
@@ -248,11 +252,11 @@ class Value:
         owner = type(self).__name__
         for name, about, words in _declarations(type(self)):  # type: ignore[arg-type]
             value = getattr(self, name)
-            why = None
-            if type(value) is not float and (told := masked_words(value) or huge_words(value)):
+            why, bare = None, type(value) in BARE or isinstance(value, Value)
+            if not bare and (told := masked_words(value) or huge_words(value)):
                 problems.append(Problem(name, told, owner=owner))
                 continue
-            if type(value) is not float and carries_unit(value):
+            if not bare and carries_unit(value):
                 value, told = _without_unit(type(self), name, value)
                 if told:
                     problems.append(told)
@@ -271,7 +275,7 @@ class Value:
                 problems.append(Problem(name, why, shown, owner=owner))
         if not problems:
             try:
-                problems = [Problem.from_sentence(owner, each) for each in self._problems()]
+                problems = [_placed(owner, each) for each in self._problems()]
             except FAILURES as error:
                 kind = type(self)
                 held = {name: getattr(self, name) for name in kind.__dataclass_fields__}  # type: ignore[attr-defined]
@@ -283,8 +287,8 @@ class Value:
     def _problems(self) -> list[str]:
         """Mistakes that concern several fields at once; subclasses override.
 
-        A text begins with the name of the class, a dot and the field that it is about, or with
-        the name alone. The classes inside have said what is wrong with them.
+        A `Problem` whose path is a field is told with the name of the class. The classes inside
+        have said what is wrong with them.
         """
         return []
 
@@ -415,6 +419,13 @@ def _each_with_arrays(
             raise NotCompiled(f"{name} has no number {number}")
         own.setdefault(int(number), {})[rest] = values
     return tuple(part.with_arrays(own[i]) if i in own else part for i, part in enumerate(parts))
+
+
+def _placed(owner: str, problem: str) -> str:
+    """A mistake at a field of a class, with the name of the class."""
+    if isinstance(problem, Problem) and problem.path and not problem.owner:
+        return problem.changed(owner=owner)
+    return problem
 
 
 def _taker(member: Any) -> Any:

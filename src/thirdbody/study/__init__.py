@@ -1,10 +1,9 @@
 """Study files: what a user writes in TOML, checked as a whole before anything is computed.
 
 The keys of a table, their units and their ranges are those of the class the table stands for
-(`quantity`, `choice`); law names and options come from the registries. For the file at hand a
-pydantic schema is put together from them, so that one validation finds every mistake.
-
-Each table is read in a file of its own; `tables` lists them.
+(`quantity`, `choice`); law names and options come from the registries. `reader.Reader` walks
+through the tables of a file and keeps every mistake; `schema.Describer` walks the same way to say
+what a file may hold. `tables` lists the tables.
 """
 
 from .fields import filled_in

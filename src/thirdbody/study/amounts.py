@@ -2,106 +2,79 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ..errors import InvalidValue, Problem
 from ..quantities.units import say
-from .one_value import One, count, number, word
-from .reader import Key, Reader, Ways, plain
+from .fields import about_of
+from .reader import Key, Reader, Unsaid, count, get, number, read_number, read_numbers, word
 
 __all__ = ["amounts", "is_span"]
 
 
-def amounts(
-    reader: Reader, path: str, about: dict[str, Any], data: Any, *, sampled: bool = False
-) -> Any:
-    """One value, a list of values, or a range; a range to sample has no ``points``."""
-    if reader.every_way:
-        every: tuple[Any, ...] = (None, [], {})
-        return Ways(tuple(_amounts(reader, path, about, way, sampled=True) for way in every))
-    return _amounts(reader, path, about, data, sampled=sampled)
+def amounts(name: str, about: dict[str, Any], *, sampled: bool = False) -> Key:
+    """The key of one value, a list of values, or a range; one to sample has no ``points``."""
+    one = number(about).schema
+    schema = {"anyOf": [one, {"type": "array", "items": one}]}
+    table = partial(_range, about, sampled)
+    return Key(partial(_read, about), False, about_of(name, about), schema, table)
 
 
-def _amounts(reader: Reader, path: str, about: dict[str, Any], data: Any, *, sampled: bool) -> Any:
-    one = number(reader, path, about)
-    if isinstance(data, dict):
-        return _range(reader, path, about, data, sampled=sampled)
-    if not isinstance(data, list):
-        return plain(One(lambda value: np.array([one(value)]), one.schema))
-
-    def read(value: list[Any]) -> np.ndarray:
-        if not value:
-            raise InvalidValue(f"{path} = [] is empty; give at least one value")
-        numbers: list[float] = []
-        problems: list[str] = []
-        for i, item in enumerate(value):
-            try:
-                numbers.append(number(reader, f"{path}[{i}]", about)(item))
-            except InvalidValue as error:
-                problems += error.problems
-        if problems:
-            raise InvalidValue(*problems)
-        return np.array(numbers)
-
-    return plain(One(read, {"type": "array", "items": one.schema}))
+def _read(about: dict[str, Any], reader: Reader, path: str, value: Any) -> np.ndarray:
+    if not isinstance(value, list):
+        return np.array([read_number(about, reader, path, value)])
+    if not value:
+        raise InvalidValue(Problem(path, "is empty; give at least one value", "[]"))
+    return np.array(read_numbers(about, reader, path, value))
 
 
-def _range(
-    reader: Reader, path: str, about: dict[str, Any], data: dict[str, Any], *, sampled: bool = False
-) -> Any:
+def _range(about: dict[str, Any], sampled: bool, reader: Reader, path: str, data: Any) -> Any:
     spacings = ("linear", "log") if about["gt"] is None else ("log", "linear")
-    ends = f'e.g. {{ from = 5e-7, to = 2.4e-4, points = 200, spacing = "{spacings[0]}" }}'
-    ends_of = {end: number(reader, f"{path}.{end}", about) for end in ("from", "to")}
+    example = f'e.g. {{ from = 5e-7, to = 2.4e-4, points = 200, spacing = "{spacings[0]}" }}'
+    end, points = number(about)._replace(required=True), count(f"how many values, {example}")
     keys = {
-        "from": Key(plain(ends_of["from"]), True, f"the lowest value, {ends}"),
-        "to": Key(plain(ends_of["to"]), True, f"the highest value, {ends}"),
-        "points": Key(plain(count(f"{path}.points")), not sampled, f"how many values, {ends}"),
-        "spacing": Key(plain(word(f"{path}.spacing", spacings)), False, ""),
+        "from": end._replace(about=f"the lowest value, {example}"),
+        "to": end._replace(about=f"the highest value, {example}"),
+        "points": points._replace(required=not (sampled or reader.every_way)),
+        "spacing": word(spacings),
     }
-    log = data.get("spacing", spacings[0]) == "log"
-    low, high = (_quietly(ends_of[end], data.get(end)) for end in ("from", "to"))
-    wrong = []
-    if low >= high:
-        wrong.append(
-            Problem(
-                path,
-                f"is an empty range: from = {say(data['from'])} must be below "
-                f"to = {say(data['to'])}",
-            )
-            + ("; exchange them" if low > high else "; for one value write it alone")
-        )
-    if log and low <= 0:
-        wrong.append(
-            Problem(
-                f"{path}.from",
-                f'= {say(data["from"])} must be > 0 with spacing = "log"; use spacing = "linear"',
-            )
-        )
-    reader.problems += wrong
+
+    log = get(data, "spacing") in ((None, "log") if spacings[0] == "log" else ("log",))
+    problems = _problems_of_ends(about, path, data, log)
+    reader.mistakes += problems
 
     def build(values: dict[str, Any]) -> Any:
-        if wrong:
-            return np.empty(0)
+        low, high = values["from"], values["to"]
+        if problems:
+            raise InvalidValue
         if "points" not in values:
-            scale = "log" if log else "linear"
-            return {"low": values["from"], "high": values["to"], "scale": scale}
+            return {"low": low, "high": high, "scale": "log" if log else "linear"}
         space = np.geomspace if log else np.linspace
-        return space(values["from"], values["to"], values["points"])
+        return space(low, high, values["points"])
 
-    return reader.table(path, keys, build)
+    return reader.table(path, data, keys, build)
+
+
+def _problems_of_ends(about: dict[str, Any], path: str, data: Any, log: bool) -> list[Problem]:
+    """What is wrong with the ends of a range together; of each alone, its key tells."""
+    try:
+        low, high = (read_number(about, Unsaid(), path, data[end]) for end in ("from", "to"))
+    except (InvalidValue, LookupError, TypeError):
+        return []
+    problems = []
+    if low >= high:
+        ends = f"from = {say(data['from'])} must be below to = {say(data['to'])}"
+        hint = "exchange them" if low > high else "for one value write it alone"
+        problems.append(Problem(path, f"is an empty range: {ends}", hint=hint))
+    if log and low <= 0:
+        rule, hint = 'must be > 0 with spacing = "log"', 'use spacing = "linear"'
+        problems.append(Problem(f"{path}.from", rule, say(data["from"]), hint=hint))
+    return problems
 
 
 def is_span(values: Any) -> bool:
     """Whether this is what a range to sample is read as."""
     return isinstance(values, dict) and set(values) == {"low", "high", "scale"}
-
-
-def _quietly(read: Callable[[Any], float], value: Any) -> float:
-    try:
-        return read(value)
-    except InvalidValue:
-        return math.nan

@@ -13,11 +13,9 @@ from ..quantities.value import quantity
 from ..systems.connector import Connector
 from ..systems.film_formulas import Point
 from .amounts import amounts
-from .fields import about_of
-from .one_value import words
-from .reader import Key, Reader, Table, get, plain
+from .reader import NOTHING, Key, Reader, Table, keys_of, words
 
-__all__ = ["TABLE", "AskedConnector", "connector_of", "populations_of"]
+__all__ = ["CONNECTOR", "AskedConnector", "connector_of", "populations_of"]
 
 FORCE = quantity(
     "W", "N", "contact force of each contact", gt=0, hint="gram-force are '30 gf', or 0.3 N"
@@ -59,20 +57,11 @@ class AskedConnector:
 
 def _connector(reader: Reader, path: str, data: Any) -> Any:
     """The contacts, as a table of what they are given."""
-    keys = {
-        **reader.keys_of(Connector, path, data),
-        "force": Key(
-            amounts(reader, f"{path}.force", FORCE, get(data, "force")),
-            True,
-            about_of("force", FORCE),
-        ),
-        "conducting": Key(
-            plain(words(f"{path}.conducting", None)),
-            False,
-            'names of particles that conduct, or "by material"',
-        ),
+    keys = keys_of(Connector) | {
+        "force": amounts("force", FORCE)._replace(required=True),
+        "conducting": words(None, 'names of particles that conduct, or "by material"'),
     }
-    return reader.table(path, keys, dict)
+    return reader.table(path, data, keys)
 
 
 def populations_of(values: dict[str, Any]) -> tuple[Any, ...]:
@@ -108,10 +97,13 @@ def connector_of(reader: Reader, values: dict[str, Any]) -> AskedConnector:
     )
 
 
-TABLE = Table(
+CONNECTOR = Table(
     name="connector",
-    read=_connector,
-    about='contacts that close on dust, e.g. radius = "2 mm", force = "0.5 N"; '
-    "thirdbody new connector writes a whole study",
+    key=Key(
+        about='contacts that close on dust, e.g. radius = "2 mm", force = "0.5 N"; '
+        "thirdbody new connector writes a whole study",
+        schema=NOTHING,
+        table=_connector,
+    ),
     role="study",
 )

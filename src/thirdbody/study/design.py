@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
-
-from pydantic import TypeAdapter, ValidationError
 
 from ..analysis.design.problem import Limit, Objective, Suspension
 from ..analysis.design.search import AMOUNT
@@ -15,16 +14,26 @@ from ..populations.measured import cleanliness
 from ..quantities.nearest import guess
 from ..quantities.units import say, to_si
 from .amounts import amounts
-from .concentration import AMOUNT as OF_FLUID
-from .fields import about_of
 from .inputs import inputs_of
-from .one_value import count, number, numbers, switch, word
-from .reader import Key, Reader, Table, get, plain
-from .surfaces import material
+from .particles import AMOUNT as OF_FLUID
+from .reader import (
+    NOTHING,
+    Key,
+    Reader,
+    Table,
+    count,
+    get,
+    numbers,
+    read_number,
+    read_word,
+    switch,
+    wrong,
+)
+from .surfaces import MATERIAL
 from .uncertainty import field_of_input
 from .vocabulary import LOADS
 
-__all__ = ["TABLE"]
+__all__ = ["DESIGN"]
 
 WORDS = {
     "aim": ("smallest", "largest", "window"),
@@ -34,109 +43,65 @@ WORDS = {
 EXAMPLE = '{ of = "mu", aim = "smallest" }'
 
 
-def design(reader: Reader, path: str, data: Any) -> Any:
+def _design(reader: Reader, path: str, data: Any) -> Any:
     """What may be chosen, what is good, and what must hold."""
-    keys = {
-        "vary": Key(plain(_vary(reader, f"{path}.vary")), True, "what may be chosen"),
-        "objective": Key(
-            plain(_several(f"{path}.objective", Objective)), True, f"e.g. objective = {EXAMPLE}"
-        ),
-        "limits": Key(plain(_several(f"{path}.limits", Limit)), False, ""),
-        "scatter": Key(plain(switch(f"{path}.scatter")), False, ""),
-        "weights": Key(plain(numbers(f"{path}.weights", "1")), False, "of the loads"),
-        "samples": Key(plain(count(f"{path}.samples", least=2, most=4096)), False, ""),
-        "points": Key(plain(count(f"{path}.points", least=3)), False, ""),
-        "seed": Key(plain(count(f"{path}.seed", least=0, most=2**63)), False, ""),
-    }
-    for name in ("F_star", "pressure"):
-        declared = LOADS[name]
-        read = amounts(reader, f"{path}.{name}", declared, get(data, name), sampled=True)
-        keys[name] = Key(read, False, about_of(name, declared))
     if all(get(data, name) is not None for name in ("F_star", "pressure")):
-        reader.problems.append(
-            Problem(f"{path}.F_star", f"and {path}.pressure: only one of these can be given")
-        )
+        rule = f"and {path}.pressure: only one of these can be given"
+        reader.mistakes.append(Problem(f"{path}.F_star", rule))
     if get(data, "scatter") is True and "uncertainty" not in reader.whole:
-        reader.problems.append(
-            Problem(f"{path}.scatter", "= true needs a table [uncertainty]: what scatters")
-        )
+        rule = "= true needs a table [uncertainty]: what scatters"
+        reader.mistakes.append(Problem(f"{path}.scatter", rule))
     fluid = _fluid(reader)
-
-    def build(values: dict[str, Any]) -> dict[str, Any]:
-        out = dict(values)
-        if fluid is not None:
-            out["suspension"] = fluid
-        return out
-
-    return reader.table(path, keys, build)
+    more = {} if fluid is None else {"suspension": fluid}
+    return reader.table(path, data, KEYS, lambda values: values | more)
 
 
 # -------------------------------------------------------------------------- what may be chosen
-def _vary(reader: Reader, where: str) -> Any:
+def _vary(reader: Reader, path: str, given: Any) -> dict[str, Any]:
     """Ranges and lists of materials by the names of the library."""
-
-    def read(given: Any) -> dict[str, Any]:
-        if not isinstance(given, dict) or not given:
-            raise InvalidValue(
-                f"{where} = {say(given)} must be a table, e.g. "
-                '{ "particles.mean+particles.std" = { low = "50 nm", high = "1 um" } }'
-            )
-        out: dict[str, Any] = {}
-        problems: list[str] = []
-        for label, entry in _flat(given).items():
-            try:
-                name, allowed = _variable(reader, f"{where}.{say(label)}", label, entry)
-                out[name] = allowed
-            except InvalidValue as error:
-                problems += error.problems
-        if problems:
-            raise InvalidValue(*problems)
-        return out
-
-    return read
-
-
-def _variable(reader: Reader, where: str, label: str, entry: Any) -> tuple[str, Any]:
-    """One variable: its name in the library, and its range or its materials."""
-    if isinstance(entry, list):
-        kinds = [
-            TypeAdapter(material(reader, f"{where}[{i}]", each)) for i, each in enumerate(entry)
-        ]
-        return label, [_check(kind, each) for kind, each in zip(kinds, entry, strict=True)]
-    if not (isinstance(entry, dict) and set(entry) == {"low", "high"}):
-        raise InvalidValue(
-            f"{where} = {say(entry)} must be {{ low = ..., high = ... }}, or a list of materials"
+    if not isinstance(given, dict) or not given:
+        rule = "must be a table, e.g. "
+        rule += '{ "particles.mean+particles.std" = { low = "50 nm", high = "1 um" } }'
+        raise wrong(path, rule, given)
+    flat = _flat(given).items()
+    return dict(
+        reader.read_each(
+            {f"{path}.{say(label)}": (label, entry) for label, entry in flat}, _variable
         )
+    )
+
+
+def _variable(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, Any]:
+    """One variable: its name in the library, and its range or its materials."""
+    label, entry = told
+    if isinstance(entry, list):
+        items = {f"{where}[{i}]": each for i, each in enumerate(entry)}
+        return label, list(reader.read_each(items, MATERIAL.read_any))
+    if not (isinstance(entry, dict) and set(entry) == {"low", "high"}):
+        raise wrong(where, "must be { low = ..., high = ... }, or a list of materials", entry)
     if label == AMOUNT:
         if get(reader.whole.get("particles"), "concentration") is None:
-            raise InvalidValue(
-                f"{where}: [particles] gives no concentration; write there concentration and gap"
-            )
+            rule = ": [particles] gives no concentration; write there concentration and gap"
+            raise InvalidValue(Problem(where, rule))
         ends = [_amount(f"{where}.{end}", entry[end]) for end in ("low", "high")]
         own = _amount("particles.concentration", reader.whole["particles"]["concentration"])
         if {each.by for each in ends} != {own.by}:
-            raise InvalidValue(f"{where} must be by {own.by}, like particles.concentration")
+            rule = f"must be by {own.by}, like particles.concentration"
+            raise InvalidValue(Problem(where, rule))
         return label, tuple(each.amount for each in ends)
     inputs = inputs_of(reader.whole)
     found = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
-    ends_of = {end: number(reader, f"{where}.{end}", found[0][1]) for end in ("low", "high")}
-    return "+".join(name for name, _ in found), tuple(read(entry[e]) for e, read in ends_of.items())
-
-
-def _check(kind: Any, value: Any) -> Any:
-    try:
-        return kind.validate_python(value)
-    except ValidationError as error:
-        raise InvalidValue(
-            *(str(each.get("ctx", {}).get("error", each["msg"])) for each in error.errors())
-        ) from None
+    lowest, highest = (
+        read_number(found[0][1], reader, f"{where}.{end}", entry[end]) for end in ("low", "high")
+    )
+    return "+".join(name for name, _ in found), (lowest, highest)
 
 
 def _amount(where: str, value: Any) -> cleanliness.Concentration:
     try:
         return cleanliness.concentration(value)
     except InvalidValue as error:
-        raise InvalidValue(f"{where} = {error}") from None
+        raise InvalidValue(Problem(where, f"= {error}")) from None
 
 
 def _flat(tree: Mapping[str, Any], path: str = "") -> dict[str, Any]:
@@ -164,55 +129,42 @@ def _fluid(reader: Reader) -> Suspension | None:
             ("oil_density", "oil_density"),
         ):
             if get(given, key) is not None:
-                values[name] = number(reader, f"particles.{key}", OF_FLUID[key])(given[key])  # type: ignore[index]
+                where, about = f"particles.{key}", OF_FLUID[key]
+                values[name] = read_number(about, reader, where, given[key])  # type: ignore[index]
         return Suspension(concentration=amount.amount, by=amount.by, **values)
     except (InvalidValue, TypeError):
         return None  # told where [particles] is read
 
 
 # -------------------------------------------------------------------------- what is good
-def _several(where: str, kind: type[Objective] | type[Limit]) -> Any:
+def _several(
+    kind: type[Objective] | type[Limit], reader: Reader, path: str, given: Any
+) -> list[Any]:
     """One objective or limit, or a list of them."""
-
-    def read(given: Any) -> list[Any]:
-        listed = isinstance(given, list)
-        out: list[Any] = []
-        problems: list[str] = []
-        for i, entry in enumerate(given if listed else [given]):
-            try:
-                out.append(_one(f"{where}[{i}]" if listed else where, entry, kind))
-            except InvalidValue as error:
-                problems += error.problems
-        if problems:
-            raise InvalidValue(*problems)
-        return out
-
-    return read
+    entries = {path: given}
+    if isinstance(given, list):
+        entries = {f"{path}[{i}]": entry for i, entry in enumerate(given)}
+    return list(reader.read_each(entries, partial(_one, kind)))
 
 
-def _one(where: str, entry: Any, kind: type[Objective] | type[Limit]) -> Any:
+def _one(kind: type[Objective] | type[Limit], reader: Reader, where: str, entry: Any) -> Any:
     example = EXAMPLE if kind is Objective else '{ of = "plastic_share", most = 0.3 }'
     if not isinstance(entry, dict) or not isinstance(entry.get("of"), str):
-        raise InvalidValue(f"{where} = {say(entry)} must be a table such as {example}")
+        raise wrong(where, f"must be a table such as {example}", entry)
     own = ("low", "high", "k", "tail", *WORDS) if kind is Objective else ("most", "least", "share")
-    problems: list[str] = []
-    values: dict[str, Any] = {"of": entry["of"]}
-    for key, value in entry.items():
-        try:
-            if key == "of":
-                continue
-            if key not in own:
-                hint = guess(key, ("of", *own))
-                raise InvalidValue(Problem(f"{where}.{key}", "is not a known key", hint=hint))
-            if key in WORDS:
-                values[key] = word(f"{where}.{key}", WORDS[key])(value)
-            else:
-                unit = "1" if key in ("k", "tail", "share") else _unit(entry["of"])
-                values[key] = _in_si(f"{where}.{key}", value, unit)
-        except InvalidValue as error:
-            problems += error.problems
-    if problems:
-        raise InvalidValue(*problems)
+
+    def one(reader: Reader, path: str, key: str) -> tuple[str, Any]:
+        if key == "of":
+            return key, entry["of"]
+        if key not in own:
+            hint = guess(key, ("of", *own))
+            raise InvalidValue(Problem(path, "is not a known key", hint=hint))
+        if key in WORDS:
+            return key, read_word(WORDS[key], reader, path, entry[key])
+        unit = "1" if key in ("k", "tail", "share") else _unit(entry["of"])
+        return key, _in_si(path, entry[key], unit)
+
+    values = dict(reader.read_each({f"{where}.{key}": key for key in entry}, one))
     try:
         return kind(**values)
     except InvalidValue as error:
@@ -231,7 +183,18 @@ def _in_si(where: str, value: Any, unit: str) -> float:
     try:
         return float(to_si(value, unit))
     except InvalidValue as error:
-        raise InvalidValue(f"{where} = {error}") from None
+        raise InvalidValue(Problem(where, f"= {error}")) from None
 
 
-TABLE = Table(name="design", read=design, role="study")
+KEYS = {
+    "vary": Key(_vary, True, "what may be chosen"),
+    "objective": Key(partial(_several, Objective), True, f"e.g. objective = {EXAMPLE}"),
+    "limits": Key(partial(_several, Limit)),
+    "scatter": switch,
+    "weights": numbers("1", "of the loads"),
+    "samples": count(least=2, most=4096),
+    "points": count(least=3),
+    "seed": count(least=0, most=2**63),
+    **{name: amounts(name, LOADS[name], sampled=True) for name in ("F_star", "pressure")},
+}
+DESIGN = Table(name="design", key=Key(schema=NOTHING, table=_design), role="study")

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
-from ..errors import InvalidValue
-from ..quantities.units import say
 from ..quantities.value import quantity
 from .fields import about_of
-from .one_value import One, count, number, word
-from .reader import Key, Reader, Table, get, plain, reads_also
+from .reader import (
+    NOTHING,
+    Key,
+    Reader,
+    Table,
+    count,
+    quantity_key,
+    read_number,
+    read_word,
+    wrong,
+)
 
-__all__ = ["TABLE"]
+__all__ = ["EXPLICIT"]
 
 SPACING = quantity("Δ", "m", "distance of the points of a map", gt=0).metadata["quantity"]
 TOL = quantity("ε", "1", "certificate at which to stop", ge=1e-13, le=1e-2).metadata["quantity"]
@@ -19,55 +27,54 @@ CAP = quantity("c", "Pa", "highest pressure of asperities", gt=0).metadata["quan
 CAPS = ("hardness", "none")
 
 
-def explicit(reader: Reader, path: str, data: Any) -> Any:
-    """How many surfaces, how large and how fine, where particles lie, how well to solve."""
-    keys = {
-        "surfaces": Key(plain(count(f"{path}.surfaces", most=10_000)), False, "how many maps"),
-        "size": Key(plain(count(f"{path}.size", least=16, most=4096)), False, "points a side"),
-        "spacing": Key(
-            plain(number(reader, f"{path}.spacing", SPACING)), False, about_of("spacing", SPACING)
-        ),
-        "seats": Key(_seats(reader, f"{path}.seats", get(data, "seats")), False, "where they lie"),
-        "seed": Key(plain(count(f"{path}.seed", least=0, most=2**31)), False, ""),
-        "cap": Key(plain(_cap(reader, f"{path}.cap")), False, about_of("cap", CAP)),
-        "tol": Key(plain(number(reader, f"{path}.tol", TOL)), False, about_of("tol", TOL)),
-        "max_iterations": Key(plain(count(f"{path}.max_iterations", most=100_000)), False, ""),
-    }
-    return reader.table(path, keys, dict)
-
-
-@reads_also({})
-def _seats(reader: Reader, path: str, data: Any) -> Any:
-    """A rule, by its word or as a table with its numbers."""
+def _seats() -> Mapping[str, type]:
     from ..explicit.seats import SEATS  # takes numba along, which other studies do without
 
-    if not isinstance(data, dict):
-        named = word(path, SEATS)
-        return plain(One(lambda value: SEATS[named(value)](), named.schema))
-    return reader.variant(
-        path, data, "rule", SEATS,
-        lambda values: reader.make(SEATS[values.pop("rule")], path, values), {},
-    )  # fmt: skip
+    return SEATS
 
 
-def _cap(reader: Reader, path: str) -> Any:
-    read = number(reader, path, CAP)
-
-    def cap(value: Any) -> str | float:
-        if isinstance(value, str) and value in CAPS:
-            return value
-        if isinstance(value, str) and not any(letter.isdigit() for letter in value):
-            raise InvalidValue(
-                f'{path} = {say(value)} must be "hardness", "none", or a pressure such as "5 GPa"'
-            )
-        return read(value)
-
-    return cap
+def _seat(reader: Reader, path: str, value: Any) -> Any:
+    """Where particles lie, by the word of a rule."""
+    return _seats()[read_word(_seats(), reader, path, value)]()
 
 
-TABLE = Table(
+def _seat_with_numbers(reader: Reader, path: str, data: Any) -> Any:
+    return reader.variant(path, data, "rule", _seats())
+
+
+def _cap(reader: Reader, path: str, value: Any) -> str | float:
+    """The highest pressure of asperities."""
+    if isinstance(value, str) and value in CAPS:
+        return value
+    if isinstance(value, str) and not any(letter.isdigit() for letter in value):
+        raise wrong(path, 'must be "hardness", "none", or a pressure such as "5 GPa"', value)
+    return read_number(CAP, reader, path, value)
+
+
+def _explicit(reader: Reader, path: str, data: Any) -> Any:
+    """How many surfaces, how large and how fine, where particles lie, how well to solve."""
+    keys = KEYS | {
+        "seats": Key(_seat, False, "where they lie", {"enum": _seats()}, _seat_with_numbers)
+    }
+    return reader.table(path, data, keys)
+
+
+KEYS = {
+    "surfaces": count("how many maps", most=10_000),
+    "size": count("points a side", least=16, most=4096),
+    "spacing": quantity_key("spacing", SPACING),
+    "seats": Key(),
+    "seed": count(least=0, most=2**31),
+    "cap": Key(_cap, False, about_of("cap", CAP)),
+    "tol": quantity_key("tol", TOL),
+    "max_iterations": count(most=100_000),
+}
+EXPLICIT = Table(
     name="explicit",
-    read=explicit,
-    about='a table [explicit], e.g. surfaces = 8, seats = "settled"',
+    key=Key(
+        about='a table [explicit], e.g. surfaces = 8, seats = "settled"',
+        schema=NOTHING,
+        table=_explicit,
+    ),
     role="study",
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -12,78 +13,54 @@ from ..systems.bodies import Body
 from ..systems.film_conditions import Entrainment, FilmConditions
 from ..systems.film_formulas import AbstractFilm, Line, Oil, Point
 from .amounts import amounts
-from .fields import about_of
-from .laws import named_law
-from .reader import Key, Reader, Table, get
+from .reader import NOTHING, Key, Reader, Table, get, keys_of, table_of, variants
+from .surfaces import law_key
 
-__all__ = ["SHAPES", "SPEED", "TABLE", "on_body"]
+__all__ = ["FILM", "SHAPES", "SPEED", "on_body"]
 
 SHAPES: dict[str, type[Point] | type[Line]] = {"point": Point, "line": Line}
+TAKEN = ("conjunction", "load", "speed")
+"""Keys that may follow from [body]."""
 NO_PRESSURE = (
     'has no place here: film.hertz = "mean" or "maximum" says which Hertz pressure is nominal, and '
     "the pressure itself follows from film.load"
 )
-OF_BODY = ("conjunction", "load", "speed")
-"""Keys that may follow from [body]."""
 SPEED = quantity("u", "m/s", "mean entrainment speed", gt=0).metadata["quantity"]
 
 
-def film(reader: Reader, path: str, data: Any) -> Any:
-    """The bodies, the oil, the load, and the speeds."""
-    reader.known.refused[path] = {"pressure": NO_PRESSURE}
-    speed = f"{path}.speed"
-    keys = {
-        "conjunction": Key(
-            reader.variant(
-                f"{path}.conjunction",
-                get(data, "conjunction"),
-                "shape",
-                SHAPES,
-                lambda values: reader.make(
-                    SHAPES[values.pop("shape")], f"{path}.conjunction", values
-                ),
-                {},
-            ),
-            True,
+@cache
+def _keys() -> dict[str, Key]:
+    return {
+        "conjunction": variants(
+            "shape",
+            SHAPES,
             'the bodies, e.g. conjunction = { shape = "point", R = "9.5 mm" }',
+            required=True,
         ),
-        "oil": Key(
-            reader.value(f"{path}.oil", get(data, "oil"), Oil),
-            True,
-            'e.g. oil = { eta = "20 mPa s", alpha = "20 / GPa" }',
-        ),
-        **reader.keys_of(FilmConditions, path, data),
-        "speed": Key(
-            amounts(reader, speed, SPEED, get(data, "speed")), True, about_of("speed", SPEED)
-        ),
-        "formula": Key(
-            named_law(reader, f"{path}.formula", get(data, "formula"), AbstractFilm.registry),
-            False,
-            "the film formula",
-        ),
-        "entrainment": Key(
-            reader.value(f"{path}.entrainment", get(data, "entrainment"), Entrainment),
-            False,
-            "what the oil carries",
-        ),
+        "oil": table_of(Oil, 'e.g. oil = { eta = "20 mPa s", alpha = "20 / GPa" }', required=True),
+        **keys_of(FilmConditions),
+        "speed": amounts("speed", SPEED)._replace(required=True),
+        "formula": law_key(AbstractFilm.registry, "the film formula"),
+        "entrainment": table_of(Entrainment, "what the oil carries"),
     }
 
+
+def _film(reader: Reader, path: str, data: Any) -> Any:
+    """The bodies, the oil, the load, and the speeds."""
+    reader.known.refused[path] = {"pressure": NO_PRESSURE}
+    keys = _keys()
     pressed = reader.every_way or get(reader.whole, "body") is not None
     if pressed:
-        for name in OF_BODY:
-            keys[name] = keys[name]._replace(required=False)
+        keys = keys | {name: keys[name]._replace(required=False) for name in TAKEN}
 
-    def build(values: dict[str, Any]) -> FilmConditions | dict[str, Any] | None:
+    def build(values: dict[str, Any]) -> FilmConditions | dict[str, Any]:
         if "speed" in values:
-            speeds = tuple(np.sort(values.pop("speed")).tolist())
-            if not speeds:
-                return None  # an empty range, which was told
-            values |= {"speed": speeds}
-        if pressed and not values.keys() >= {*OF_BODY}:
+            values["speed"] = tuple(np.sort(values.pop("speed")).tolist())
+        if pressed and not values.keys() >= set(TAKEN):
             return values
         return reader.make(FilmConditions, path, values)
 
-    return reader.table(path, keys, build)
+    return reader.table(path, data, keys, build)
 
 
 def on_body(
@@ -98,7 +75,7 @@ def on_body(
         own = {"conjunction": shape, "load": float(bodies.load_on_one(forces[0], E_star))}
     if bodies is not None and bodies.rolling_speed is not None:
         own["speed"] = (bodies.rolling_speed,)
-    missing = [name for name in OF_BODY if name not in film | own]
+    missing = [name for name in TAKEN if name not in film | own]
     if not missing:
         return reader.make(FilmConditions, "film", own | film)
     problems = []
@@ -106,7 +83,7 @@ def on_body(
         missing.remove("speed")
         turns = [name for name in ("shaft_speed", "speed") if hasattr(bodies, name)]
         rule = "is missing" + "".join(f", or body.{name}" for name in turns)
-        problems.append(Problem("film.speed", f"{rule}: {about_of('speed', SPEED)}"))
+        problems.append(Problem("film.speed", f"{rule}: {_keys()['speed'].about}"))
     if missing:
         problems.append(
             Problem(
@@ -118,9 +95,10 @@ def on_body(
     raise InvalidValue(*problems)
 
 
-TABLE = Table(
+FILM = Table(
     name="film",
-    read=film,
-    about="a table [film] with conjunction, oil, load and speed",
+    key=Key(
+        about="a table [film] with conjunction, oil, load and speed", schema=NOTHING, table=_film
+    ),
     role="study",
 )

@@ -14,10 +14,10 @@ from ..populations.particles import Particles
 from ..populations.roughness import Roughness
 from ..populations.strength import WeibullStrength
 from .fields import filled_in, idle
-from .laws import class_of
+from .grains import SHAPES
 from .particles import populations
 from .reader import get
-from .shape import SHAPES
+from .surfaces import class_of
 from .vocabulary import DISTRIBUTIONS
 
 __all__ = ["Input", "field_of", "inputs_of"]

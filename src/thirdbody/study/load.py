@@ -1,4 +1,4 @@
-"""The table [load]: one of F*, pressure, separation, and a force on the bodies of [body]."""
+"""The tables [load] and [body]: F*, pressure, separation, or a force and what it presses."""
 
 from __future__ import annotations
 
@@ -6,45 +6,90 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..contact.contact import Contact
+from ..errors import InvalidValue, Problem
+from ..quantities.value import quantity
+from ..systems.bodies import BODIES, Body, Pressed, press
 from .amounts import amounts
-from .body import FORCE
-from .fields import about_of
-from .reader import Key, Reader, Table, get
+from .reader import NOTHING, Key, Reader, Table, get, variants
 from .vocabulary import LOADS
 
-__all__ = ["TABLE"]
+__all__ = ["BODY", "FORCE", "LOAD", "force_sentences", "loads_of", "pressed", "told_forces"]
+
+FORCE = quantity(
+    "F", "N", "force on the bodies of [body]", gt=0, hint="kN are 5e3 or '5 kN'"
+).metadata["quantity"]
+MOST_INTEGRATED = 3
+"""Forces that are integrated over the contact, which takes seconds each; of more, the ends."""
+
+KEYS = {name: amounts(name, about) for name, about in (LOADS | {"force": FORCE}).items()}
 
 
-def load(reader: Reader, path: str, data: Any) -> Any:
+def _load(reader: Reader, path: str, data: Any) -> Any:
     """Which load is given, and its values."""
-    keys = {
-        name: Key(
-            amounts(reader, f"{path}.{name}", about, get(data, name)), False, about_of(name, about)
-        )
-        for name, about in (LOADS | {"force": FORCE}).items()
-    }
     reader.only_one(path, data)
 
     def build(values: dict[str, Any]) -> tuple[str, np.ndarray]:
-        for name in (*LOADS, "force"):
+        for name in KEYS:
             if name in values:
                 return name, values[name]
-        raise InvalidValue(
-            f'[{path}] is empty; give exactly one of {", ".join(LOADS)}, e.g. pressure = "5 MPa", '
-            "or force on a [body]"
-        )
+        ways = f'one of {", ".join(LOADS)}, e.g. pressure = "5 MPa", or force on a [body]'
+        raise InvalidValue(Problem(f"[{path}]", "is empty", hint=f"give exactly {ways}"))
 
-    return reader.table(path, keys, build)
+    return reader.table(path, data, KEYS, build)
 
 
-TABLE = Table(
+LOAD = Table(
     name="load",
-    read=load,
-    about='a table [load] with one of F_star, pressure, separation, e.g. pressure = "5 MPa"',
+    key=Key(
+        about='a table [load] with one of F_star, pressure, separation, e.g. pressure = "5 MPa"',
+        schema=NOTHING,
+        table=_load,
+    ),
     required=lambda whole: (
         not {"film", "connector", "plate"} & whole.keys()
         and all(get(whole.get("sweep"), name) is None for name in LOADS)
     ),
     role="study",
 )
+BODY = Table(
+    name="body",
+    key=variants(
+        "kind", BODIES, 'what the force presses, e.g. kind = "ball-on-flat", diameter = "6 mm"'
+    ),
+    role="study",
+)
+
+
+# -------------------------------------------------------------------------- forces
+def loads_of(bodies: Body | None, forces: np.ndarray, contact: Contact) -> np.ndarray:
+    """The pressures at which the study is solved: mean and largest of every force [Pa]."""
+    if bodies is None:
+        raise InvalidValue(
+            f"load.force = {forces[0]:g} N needs a table [body] that says on what it acts, e.g. "
+            '[body] kind = "ball-on-flat", diameter = "6 mm" (kinds: '
+            f"{', '.join(BODIES)}); or give load.pressure"
+        )
+    hertz = bodies.hertz(forces, contact.E_ss)
+    if bodies.conjunction is None:
+        return np.asarray(hertz.mean)
+    return np.stack([hertz.mean, hertz.maximum], axis=-1).ravel()
+
+
+def pressed(bodies: Body, forces: np.ndarray, contact: Contact) -> list[Pressed]:
+    """Every force; integrated over the contact where they are few, else the ends."""
+    some = range(len(forces)) if len(forces) <= MOST_INTEGRATED else (0, len(forces) - 1)
+    return [
+        press(contact, bodies, float(force), integrate=i in some) for i, force in enumerate(forces)
+    ]
+
+
+def told_forces(forces: np.ndarray) -> np.ndarray:
+    """The forces that are told of, integrated over the contact: of many, the ends."""
+    return forces if len(forces) <= MOST_INTEGRATED else forces[[0, -1]]
+
+
+def force_sentences(found: list[Pressed]) -> list[str]:
+    """Sentences of the forces; of many, those of the ends."""
+    some = found if len(found) <= MOST_INTEGRATED else [found[0], found[-1]]
+    return [each.sentence() for each in some]

@@ -3,17 +3,31 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from typing import Any
-
-from pydantic import ValidationError
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 from ..errors import InvalidValue, Problem
 from ..quantities.nearest import guess
 from ..quantities.units import say
+from .fields import declarations
 from .vocabulary import in_words, near
 
-__all__ = ["Known", "clash", "in_file", "wrong"]
+__all__ = ["Known", "Missing", "Unknown", "clash", "in_file"]
+
+
+class Missing(NamedTuple):
+    """A key that must stand in a table and does not."""
+
+    path: str
+    key: str
+
+
+class Unknown(NamedTuple):
+    """A key that no table, or another one, holds."""
+
+    path: str
+    key: str
+    value: Any
 
 
 class Known:
@@ -22,36 +36,24 @@ class Known:
     def __init__(self) -> None:
         self.keys: dict[str, dict[str, str]] = {}
         """Known keys of every table met, and what they are."""
-        self.variants: dict[str, tuple[str, dict[str, set[str]]]] = {}
-        """Tables whose keys depend on a word: that word's key, and the keys of each variant."""
+        self.variants: dict[str, tuple[str, Mapping[str, type]]] = {}
+        """Tables whose keys depend on a word: that word's key, and the class of each variant."""
         self.refused: dict[str, Mapping[str, str]] = {}
         """Keys of a table that are known elsewhere and have no sense there: why not."""
 
-    def problems(self, error: ValidationError) -> list[Problem]:
-        """Every mistake that pydantic found, at its place in the file."""
-        out: list[Problem | tuple[str, str]] = []
-        found = error.errors()
-        guessed: set[tuple[str, str | None]] = set()
-        for item in found:
-            path, key = _split(item["loc"])
-            if item["type"] == "extra_forbidden":
-                problem, meant = self.unknown(path, key, item["input"])
+    def problems(self, mistakes: Iterable[Problem | Missing | Unknown]) -> list[Problem]:
+        """The mistakes with their sentences; what a misspelt key means is not missing."""
+        out: list[Problem | Missing] = []
+        guessed = set()
+        for each in mistakes:
+            if isinstance(each, Unknown):
+                problem, meant = self.unknown(*each)
                 out.append(problem)
-                guessed.add((path, meant))
-            elif item["type"] == "value_error":
-                told = item.get("ctx", {})["error"].problems
-                out += [Problem.from_sentence(_join(path, key), each) for each in told]
-            elif item["type"] == "missing":
-                out.append((path, key))
+                guessed.add((each.path, meant))
             else:
-                where = _join(path, key)
-                written = f", written [{where}]" if "." not in where else " { ... }"
-                out.append(Problem(where, f"must be a table{written}", say(item["input"])))
-        return [
-            item if isinstance(item, Problem) else self.missing(*item)
-            for item in out
-            if isinstance(item, Problem) or item not in guessed
-        ]
+                out.append(each)
+        left = [each for each in out if each not in guessed]
+        return [each if isinstance(each, Problem) else self.missing(*each) for each in left]
 
     def missing(self, path: str, key: str) -> Problem:
         """A key that must stand and does not."""
@@ -73,7 +75,11 @@ class Known:
             return Problem(place, f"is not a known key{more}", shown, hint=hint)
 
         tag, variants = self.variants.get(path, ("", {}))
-        homes = [say(name) for name, keys in variants.items() if key in keys]
+        homes = [
+            say(name)
+            for name, kind in variants.items()
+            if key in (each.name for each in declarations(kind))
+        ]
         if homes:
             return not_known(f" here: it goes with {tag} = {' or '.join(homes)}"), None
         meant = near(key, known)
@@ -92,15 +98,10 @@ class Known:
         return not_known(hint=guess(key, known, meant=meant)), meant
 
 
-def wrong(path: str, rule: str, value: Any, *, hint: str = "") -> InvalidValue:
-    """The error of one value of a file."""
-    return InvalidValue(Problem(path, rule, say(value), hint=hint))
-
-
 def clash(path: str, data: Mapping[str, Any], keys: Sequence[str], rule: str) -> Problem:
     """Keys of a table that cannot stand side by side."""
-    shown = ", ".join(f"{path}.{key} = {say(data[key])}" for key in keys)
-    return Problem.from_sentence(f"{path}.{keys[0]}", f"{shown}: {rule}")
+    others = "".join(f", {path}.{key} = {say(data[key])}" for key in keys[1:])
+    return Problem(f"{path}.{keys[0]}", f"{others}: {rule}", say(data[keys[0]]))
 
 
 def in_file(error: InvalidValue, kind: type, path: str, values: Mapping[str, Any]) -> InvalidValue:
@@ -132,18 +133,3 @@ def _is_table(value: Any) -> bool:
 
 def _join(path: str, key: str) -> str:
     return f"{path}.{key}" if path and key else path or key
-
-
-def _split(loc: tuple[Any, ...]) -> tuple[str, str]:
-    """Path of the table and the key.
-
-    Tables headed ``[[name]]`` are numbered as for --set, ``name.0``; positions in a list stand in
-    brackets.
-    """
-    parts: list[str] = []
-    for item in loc:
-        if isinstance(item, int):
-            parts[-1] += f".{item}" if len(parts) == 1 else f"[{item}]"
-        else:
-            parts.append(str(item))
-    return ".".join(parts[:-1]), parts[-1] if parts else ""

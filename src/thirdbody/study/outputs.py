@@ -7,21 +7,18 @@ from typing import TYPE_CHECKING, Any
 from ..effects import REGISTRY
 from ..quantities.say import value_of
 from ..systems.bodies import Flat
-from .reader import Key, Reader, Table, get
+from .reader import NOTHING, Key, Reader, Table, get, table_of
 
 if TYPE_CHECKING:
     from ..contact.contact import Contact
 
-__all__ = ["TABLE", "on_area"]
+__all__ = ["OUTPUTS", "on_area"]
 
 
-def outputs(reader: Reader, path: str, data: Any) -> Any:
-    """Every output that the file names, in the order of the library."""
-    keys = {
-        name: Key(reader.value(f"{path}.{name}", get(data, name), kind), False, kind.title)
-        for name, kind in REGISTRY.items()
-    }
-    return reader.table(path, keys, lambda values: tuple(values.values()))
+def _outputs(reader: Reader, path: str, data: Any) -> Any:
+    """Every output that the file names."""
+    keys = {name: table_of(kind, kind.title) for name, kind in REGISTRY.items()}
+    return reader.table(path, data, keys, lambda values: tuple(values.values()))
 
 
 def on_area(contact: Contact, body: Any, forces: Any, data: Any) -> tuple[Contact, list[str]]:
@@ -64,4 +61,4 @@ def _closing_column(output: Any) -> str:
     return next((name for name in output.columns if name.endswith("_closed")), "")
 
 
-TABLE = Table(name="outputs", read=outputs)
+OUTPUTS = Table(name="outputs", key=Key(schema=NOTHING, table=_outputs))

@@ -2,25 +2,73 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
 
-from pydantic import AfterValidator
-
-from ..errors import InvalidValue, Problem
+from ..errors import InvalidValue, Note, Problem
+from ..populations.distributions import Histogram
+from ..populations.measured import clean_room, cleanliness
+from ..populations.measured.sizes import FITS, WEIGHTINGS, MeasuredSizes, read_sizes
 from ..populations.particles import Particles
 from ..quantities.units import say, to_si
-from .concentration import amount, laden
-from .counted import COUNTED, counted
-from .laws import particle_law
+from ..quantities.value import quantity
+from .grains import SHAPE, STRENGTH, with_strength
 from .mistakes import clash
-from .reader import Key, Reader, Table, get, reads_also
-from .shape import OF_SIZES, shape
-from .strength import strength
+from .reader import (
+    ANYTHING,
+    NOTHING,
+    Key,
+    Reader,
+    Table,
+    get,
+    keys_of,
+    number,
+    quantity_key,
+    table_of,
+    word,
+)
+from .surfaces import PARTICLE_LAW
 from .vocabulary import DISTRIBUTIONS
 
-__all__ = ["TABLE", "gaps_of", "populations"]
+__all__ = ["AMOUNT", "COUNTED", "PARTICLES", "gaps_of", "populations"]
 
-LAW = "law of these particles, in the place of [particle_law]"
+AMOUNT = {
+    name: declared.metadata["quantity"]
+    for name, declared in {
+        "gap": quantity("h_gap", "m", "height of the fluid whose particles are trapped", gt=0),
+        "film": quantity("h_gap", "m", "film thickness, another word for gap", gt=0),
+        "particle_density": quantity("ρ_p", "kg/m^3", "density of the particles", gt=0),
+        "oil_density": quantity("ρ_f", "kg/m^3", "density of the fluid", gt=0),
+        "smallest": quantity("x_min", "m", "smallest diameter", gt=0),
+        "largest": quantity("x_max", "m", "largest diameter", gt=0),
+        "exposure": quantity("t", "s", "time for which dust settles", gt=0, hint="a day is '24 h'"),
+        "share": quantity("w", "1", "part of the counted particles of this kind", gt=0, le=1),
+    }.items()
+}
+"""The numbers that lead from a count or a concentration to an areal density."""
+KEYS_OF_AMOUNT = {name: quantity_key(name, about) for name, about in AMOUNT.items()}
+COUNTED = {
+    "iso4406": ("level", "smallest", "largest", "share"),
+    "as4059": ("smallest", "largest", "share"),
+    "nas1638": ("smallest", "largest", "share"),
+    "test_dust": ("limit", "smallest"),
+    "sizes": ("weighting", "fit", "smallest"),
+    "iso14644": ("exposure", "particle_density", "smallest", "largest"),
+}
+"""Keys of [particles] that stand in the place of a distribution, and their options."""
+CODES = ("iso4406", "as4059", "nas1638")
+"""Those that count particles per volume, whose concentration they give."""
+SETTLED = "iso14644"
+"""Dust that settles from air: the class and the time say how many particles there are."""
+WORDS = {
+    "level": cleanliness.LEVELS,
+    "limit": cleanliness.LIMITS,
+    "weighting": tuple(WEIGHTINGS),
+    "fit": tuple(FITS),
+}
+OF_SIZES = "weibull_shape"
+"""The key for the shape of Weibull sizes, where that of particles has its name."""
 
 
 def populations(whole: dict[str, Any]) -> dict[str, Any]:
@@ -37,8 +85,7 @@ def gaps_of(whole: dict[str, Any]) -> tuple[float | None, ...]:
     return tuple(None if gap is None else to_si(gap, "m") for gap in given)
 
 
-@reads_also([{}])
-def particles(reader: Reader, path: str, data: Any) -> Any:
+def _particles(reader: Reader, path: str, data: Any) -> Any:
     """One population, or a list of them."""
     if not (isinstance(data, list) and data):
         return _population(reader, path, data)
@@ -46,63 +93,260 @@ def particles(reader: Reader, path: str, data: Any) -> Any:
     for i, table in enumerate(data):
         name = get(table, "name")
         if isinstance(name, str) and name and named.setdefault(name, i) != i:
-            reader.problems.append(
-                Problem(
-                    f"{path}.{i}.name",
-                    f"is the name of {path}.{named[name]} as well; "
-                    "results could not tell them apart",
-                    say(name),
-                )
-            )
-    several = tuple(_population(reader, f"{path}.{i}", table) for i, table in enumerate(data))
-    return Annotated[tuple[several], AfterValidator(tuple)]  # type: ignore[valid-type]
+            rule = f"is the name of {path}.{named[name]} as well; results could not tell them apart"
+            reader.mistakes.append(Problem(f"{path}.{i}.name", rule, say(name)))
+    return reader.read_each({f"{path}.{i}": table for i, table in enumerate(data)}, _population)
 
 
-@reads_also(
-    *({key: ""} for key in COUNTED),
-    {"sizes": {}},
-    {"distribution": "weibull"},
-    {"distribution": "weibull", "shape": {}},
-    {"concentration": ""},
-)
 def _population(reader: Reader, path: str, data: Any) -> Any:
     """One population, whose sizes are a distribution or were counted."""
-    own = reader.keys_of(Particles, path, data)
-    own["material"] = own["material"]._replace(
-        about='what the particles are made of, e.g. material = "SiO2"'
-    )
-    own["areal_density"] = own["areal_density"]._replace(
-        about=f'{own["areal_density"].about}, or concentration = "0.1 wt%" with gap = "1 um"'
-    )
-    complete = strength(reader, path, get(data, "strength"), own)
-    shape(reader, path, data, own)
-    own["law"] = Key(_law(reader, f"{path}.law", get(data, "law")), False, LAW)
-    given = [key for key in ("distribution", *COUNTED) if get(data, key) is not None]
-    kind = given[0] if given else "distribution"
-    wrong = amount(reader, path, data, kind, own)
-    if len(given) > 1:
-        wrong.append(clash(path, data, given, "each of these gives the sizes; keep one of them"))
-    reader.problems += wrong
-    own |= {key: Key(Any, False, "") for key in COUNTED}
-    if kind != "distribution":
-        return Annotated[counted(reader, path, data, kind, own, wrong), complete]
+    given = data if isinstance(data, dict) else {}
+    sources = [key for key in ("distribution", *COUNTED) if given.get(key) is not None]
+    kind = sources[0] if sources else "distribution"
+    by_volume = kind in CODES or given.get("concentration") is not None
+    keys = _keys_of_population(given, kind, by_volume)
+    before = len(reader.mistakes)
+    if len(sources) > 1:
+        rule = "each of these gives the sizes; keep one of them"
+        reader.mistakes.append(clash(path, given, sources, rule))
+    reader.mistakes += _problems_of_amount(path, given, kind, by_volume)
+    refused = len(reader.mistakes) > before
 
     def build(values: dict[str, Any]) -> Particles:
-        if wrong:
-            raise InvalidValue(*wrong)
-        mine = {key: values.pop(key) for key in own if key in values}
-        if OF_SIZES in mine:
-            values["shape"] = mine.pop(OF_SIZES)
-        diameter = reader.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
-        return laden(reader, path, mine, diameter)
+        if refused:
+            raise InvalidValue
+        strength = values.get("strength")
+        if isinstance(strength, dict):
+            del values["strength"]
+        if kind == "distribution":
+            own = {key: values.pop(key) for key in keys if key in values}
+            if OF_SIZES in own:
+                values["shape"] = own.pop(OF_SIZES)
+            diameter = reader.make(DISTRIBUTIONS[values.pop("distribution")], path, values)
+            found = _laden(reader, path, own, diameter)
+        else:
+            found = _counted(reader, path, kind, values)
+        return with_strength(found, f"{path}.strength", strength)
 
-    found = reader.variant(path, data, "distribution", DISTRIBUTIONS, build, own)
-    return Annotated[found, complete]
+    if kind == "distribution":
+        return reader.variant(path, data, "distribution", DISTRIBUTIONS, build, keys)
+    return reader.table(path, data, keys | _keys_of_count(given, kind), build)
 
 
-def _law(reader: Reader, path: str, data: Any) -> Any:
-    """The law of one population; its keys are known only where the file names one."""
-    return particle_law(reader, path, data) if data is not None or reader.every_way else Any
+# -------------------------------------------------------------------------- keys
+def _keys_of_population(given: Mapping[str, Any], kind: str, by_volume: bool) -> dict[str, Key]:
+    """Every key but those of the sizes."""
+    keys = dict(keys_of(Particles))
+    keys["material"] = keys["material"]._replace(
+        about='what the particles are made of, e.g. material = "SiO2"'
+    )
+    density = keys["areal_density"]
+    about = f'{density.about}, or concentration = "0.1 wt%" with gap = "1 um"'
+    keys["areal_density"] = density._replace(
+        about=about, required=density.required and not by_volume and kind != SETTLED
+    )
+    keys["strength"] = STRENGTH
+    sizes = DISTRIBUTIONS.get(str(given.get("distribution")))
+    of_sizes = getattr(sizes, "__dataclass_fields__", {}).get("shape")
+    if of_sizes is None or isinstance(given.get("shape"), dict):
+        keys["shape"] = SHAPE
+        if of_sizes is not None:
+            keys[OF_SIZES] = number(of_sizes.metadata["quantity"])._replace(
+                required=True, about="Weibull shape of the sizes, beside a table shape"
+            )
+    keys["law"] = PARTICLE_LAW._replace(
+        about="law of these particles, in the place of [particle_law]"
+    )
+    if kind not in (*CODES, SETTLED):
+        keys["concentration"] = Key(_concentration, False, 'e.g. "0.1 wt%"')
+    keys |= {name: KEYS_OF_AMOUNT[name] for name in _names_of_amount(kind)}
+    return keys | dict.fromkeys(COUNTED, Key(_unread, schema=NOTHING))
 
 
-TABLE = Table(name="particles", read=particles)
+def _unread(reader: Reader, path: str, value: Any) -> Any:
+    """Where one source of the sizes is read, the others only clash with it."""
+    return value
+
+
+def _names_of_amount(kind: str) -> tuple[str, ...]:
+    """The keys that lead from a concentration to an areal density."""
+    if kind == SETTLED:
+        return ()
+    if kind in CODES:
+        return "gap", "film"
+    fluid = ("oil_density",) if kind == "test_dust" else ("oil_density", "particle_density")
+    return ("gap", "film", *fluid)
+
+
+def _problems_of_amount(
+    path: str, given: Mapping[str, Any], kind: str, by_volume: bool
+) -> list[Problem]:
+    """What is wrong with the keys that say how many particles there are."""
+    if kind == SETTLED:
+        rule = "the class and the time say how many there are; remove areal_density"
+        twice = "areal_density" in given
+        return [clash(path, given, [kind, "areal_density"], rule)] if twice else []
+    what = kind if kind in CODES else "concentration"
+    out = [
+        clash(path, given, pair, "only one of these can be given; remove the other")
+        for pair in ((what, "areal_density"), ("gap", "film"))
+        if given.keys() >= set(pair)
+    ]
+    if by_volume and given.keys().isdisjoint(("gap", "film")):
+        rule = 'is missing: the height of the fluid whose particles are trapped, e.g. gap = "1 um"'
+        out.append(Problem(f"{path}.gap", rule, hint=f"{what} counts them per volume"))
+    idle = [] if by_volume else [name for name in _names_of_amount(kind) if name in given]
+    if idle:
+        rule = f"has no effect without {path}.concentration"
+        out.append(Problem(f"{path}.{idle[0]}", rule, say(given[idle[0]])))
+    return out
+
+
+def _concentration(reader: Reader, path: str, value: Any) -> cleanliness.Concentration:
+    try:
+        return cleanliness.concentration(value)
+    except InvalidValue as error:
+        raise InvalidValue(Problem(path, f"= {error}")) from None
+
+
+def _keys_of_count(given: Mapping[str, Any], kind: str) -> dict[str, Key]:
+    """What was counted, and the options beside it."""
+    keys = {
+        name: word(WORDS[name]) if name in WORDS else KEYS_OF_AMOUNT[name] for name in COUNTED[kind]
+    }
+    if kind == SETTLED:
+        keys["exposure"] = keys["exposure"]._replace(required=True)
+    weighting = given.get("weighting")
+
+    def read(reader: Reader, path: str, value: Any) -> Any:
+        try:
+            if kind != "sizes":
+                return _checked_code(reader, path, kind, value)
+            known = weighting if isinstance(weighting, str) and weighting in WEIGHTINGS else ""
+            return _sizes_of_file(reader, value, known or "number")
+        except InvalidValue as error:
+            raise InvalidValue(Problem(path, f": {error}")) from None
+
+    bins = table_of(Histogram).table if kind == "sizes" else None
+    return keys | {
+        kind: Key(read, True, schema={"type": "string"} if bins else ANYTHING, table=bins)
+    }
+
+
+def _checked_code(reader: Reader, path: str, kind: str, value: Any) -> Any:
+    """A code or the word of a dust, of which the library knows the counts."""
+    if kind == SETTLED:
+        return clean_room.read_class(value)
+    if kind == "iso4406":
+        cleanliness.read_iso4406(value)
+    elif kind == "test_dust":
+        dust = cleanliness.dust_table(value)
+        if not dust["verified"]:
+            reader.notes.append(
+                f"{path} = {say(value)}: its table is that of {dust['edition']} and was not "
+                "compared with a printed copy; compare it with the certificate of the dust"
+            )
+    else:
+        cleanliness.suspension_of_class(kind, value)
+    return value
+
+
+def _sizes_of_file(reader: Reader, value: Any, weighting: str) -> MeasuredSizes:
+    """A measured histogram."""
+    if not isinstance(value, str):
+        raise InvalidValue(
+            f'{say(value)} must be the name of a file, e.g. "sizes.csv", or '
+            'its bins, { edges = ["1 um", "2 um"], counts = [5] }'
+        )
+    beside = reader.folder / value
+    return read_sizes(beside if beside.exists() else Path(value), weighting=weighting)
+
+
+# -------------------------------------------------------------------------- particles
+def _laden(reader: Reader, path: str, values: dict[str, Any], diameter: Any) -> Particles:
+    """Particles with these sizes, and the density or the concentration of the file."""
+    if "concentration" not in values:
+        return reader.make(Particles, path, values | {"diameter": diameter})
+    found = values.pop("concentration")
+    gap = values.pop("gap", values.pop("film", None))
+    try:
+        return Particles.from_concentration(
+            found.amount, by=found.by, gap=gap, diameter=diameter, **values
+        )
+    except InvalidValue as error:
+        raise error.under(path) from None
+
+
+def _counted(reader: Reader, path: str, kind: str, values: dict[str, Any]) -> Particles:
+    """Particles from a code, a test dust or a measured histogram."""
+    found = values.pop(kind)
+    options = {name: values.pop(name) for name in COUNTED[kind] if name in values}
+    try:
+        if kind == "sizes":
+            if isinstance(found, Histogram):
+                found = MeasuredSizes(sizes=found, weighting=options.get("weighting", "number"))
+            source = found.fit(options["fit"]) if "fit" in options else found
+            return _laden(reader, path, values, source.by_number(options.get("smallest")))
+        if kind == SETTLED:
+            return _settled(reader, path, found, options, values)
+        gap = values.pop("gap", values.pop("film", None))
+        if part := options.pop("share", None):
+            gap *= part
+        if kind == "iso4406":
+            return Particles.from_iso4406(found, gap=gap, **options, **values)
+        if kind == "test_dust":
+            if given := values.pop("concentration", None):
+                values |= {"concentration": given.amount, "by": given.by, "gap": gap}
+            return Particles.test_dust(found, **options, **values)
+        return Particles.from_cleanliness_class(kind, found, gap=gap, **options, **values)
+    except InvalidValue as error:
+        raise error.under(path) from None
+
+
+def _settled(
+    reader: Reader,
+    path: str,
+    iso_class: float,
+    options: dict[str, float],
+    values: dict[str, Any],
+) -> Particles:
+    """Dust that settles out of the air of a clean room."""
+    if options.get("largest", 0.0) > clean_room.COUNTED_TO:
+        reader.notes.append(
+            Note(
+                f"{path}.iso14644: ISO 14644-1 states its classes up to 5 µm; beyond, its power "
+                "law is continued, and large particles settle most",
+                code="settled",
+                action=f"count them on a witness plate, and give {path}.areal_density and sizes",
+            )
+        )
+    reader.assumed.append(
+        f"{path}.iso14644: dust settles from still air, at the limit of its class, on surfaces "
+        "that face up; nothing is brought by hands or charges"
+    )
+    if (density := options.pop("particle_density", None)) is None:
+        density = values["material"].density
+    if density is None:
+        rule = 'is missing: dust falls by its density, e.g. particle_density = "2650 kg/m^3"'
+        raise InvalidValue(Problem("particle_density", rule))
+    number, sizes = clean_room.settled(iso_class, particle_density=density, **options)
+    return Particles(diameter=sizes, areal_density=number, **values)
+
+
+PARTICLES = Table(
+    name="particles",
+    key=Key(
+        _particles,
+        schema=NOTHING,
+        table=_population,
+        items=_population,
+        also=(
+            *({key: ""} for key in COUNTED),
+            {"sizes": {}},
+            {"distribution": "weibull"},
+            {"distribution": "weibull", "shape": {}},
+            {"concentration": ""},
+        ),
+    ),
+)
+"""A list of populations is no table, and read by the same."""

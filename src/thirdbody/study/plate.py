@@ -13,10 +13,9 @@ from ..quantities.value import quantity
 from ..systems.chuck import Chuck
 from .amounts import amounts
 from .connector import populations_of
-from .fields import about_of
-from .reader import Key, Reader, Table, get
+from .reader import NOTHING, Key, Reader, Table, keys_of
 
-__all__ = ["TABLE", "AskedPlate", "plate_of"]
+__all__ = ["PLATE", "AskedPlate", "plate_of"]
 
 GRAIN = quantity(
     "x", "m", "diameters of particles of which the height is told", gt=0, usual=0.1
@@ -50,15 +49,7 @@ class AskedPlate:
 
 def _plate(reader: Reader, path: str, data: Any) -> Any:
     """The plate, as a table of what it is given."""
-    keys = {
-        **reader.keys_of(Chuck, path, data),
-        "grain": Key(
-            amounts(reader, f"{path}.grain", GRAIN, get(data, "grain")),
-            False,
-            about_of("grain", GRAIN),
-        ),
-    }
-    return reader.table(path, keys, dict)
+    return reader.table(path, data, keys_of(Chuck) | {"grain": amounts("grain", GRAIN)})
 
 
 def plate_of(reader: Reader, values: dict[str, Any]) -> AskedPlate:
@@ -84,10 +75,13 @@ def plate_of(reader: Reader, values: dict[str, Any]) -> AskedPlate:
     )
 
 
-TABLE = Table(
+PLATE = Table(
     name="plate",
-    read=_plate,
-    about='a wafer, film or plate on a flat, e.g. thickness = "775 um", pressure = "80 kPa"; '
-    "thirdbody new wafer-chuck writes a whole study",
+    key=Key(
+        about='a wafer, film or plate on a flat, e.g. thickness = "775 um", pressure = "80 kPa"; '
+        "thirdbody new wafer-chuck writes a whole study",
+        schema=NOTHING,
+        table=_plate,
+    ),
     role="study",
 )

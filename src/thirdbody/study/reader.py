@@ -1,37 +1,51 @@
-"""The machinery under every table: a pydantic schema for one file, put together key by key."""
+"""The walk through a study file: each table declares its keys, and one reader follows them."""
 
 from __future__ import annotations
 
-import functools
 import math
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache, partial
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
-from pydantic import GetCoreSchemaHandler
-from pydantic_core import CoreSchema, core_schema
-
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..populations.materials import MaterialLibrary, materials
 from ..populations.measured.topography import Topography
-from ..quantities.units import say
+from ..quantities.nearest import guess
+from ..quantities.units import EXAMPLES, quantity_to_si, say
+from ..quantities.value import allowed_range, problem_with, unit_meant
 from .fields import about_of, declarations
-from .mistakes import Known, clash, in_file
-from .one_value import number, numbers, switch, text, word, word_or_number
-from .vocabulary import near
+from .mistakes import Known, Missing, Unknown, clash, in_file
+from .vocabulary import in_words, near
 
 __all__ = [
-    "Built",
+    "ANYTHING",
+    "FIELDS",
+    "NOTHING",
     "Key",
-    "Read",
     "Reader",
     "Table",
-    "Ways",
+    "count",
     "get",
-    "plain",
-    "reads_also",
+    "keys_of",
+    "number",
+    "numbers",
+    "quantity_key",
+    "read_number",
+    "read_numbers",
+    "read_word",
+    "refused",
     "rivals",
+    "switch",
+    "table_of",
+    "tag_key",
+    "text",
+    "variants",
+    "word",
+    "words",
+    "wrong",
 ]
 
 ONE_OF = {
@@ -42,22 +56,61 @@ ONE_OF = {
 }
 """Keys of a table of which only one can be given; after the dot a name where a table has several
 such groups."""
+MOST_POINTS = 1_000_000
+LIMITS = {
+    "gt": "exclusiveMinimum",
+    "ge": "minimum",
+    "lt": "exclusiveMaximum",
+    "le": "maximum",
+}
+"""Limits of a quantity as JSON Schema calls them; of a number, which is in SI, not of text."""
+ANYTHING: dict[str, Any] = {}
+NOTHING: dict[str, Any] = {"enum": []}
+"""What JSON Schema says of a key under which all, or nothing, can stand."""
 
-
-def rivals(path: str, key: str) -> tuple[str, ...]:
-    """The other keys of a table that cannot stand beside this one."""
-    for name, keys in ONE_OF.items():
-        if name.partition(".")[0] == path and key in keys:
-            return tuple(other for other in keys if other != key)
-    return ()
+ReadOne = Callable[["Reader", str, Any], Any]
+"""What reads the value at a path."""
 
 
 class Key(NamedTuple):
-    """One key of a table: the type pydantic checks, whether it must stand, what it is."""
+    """One key of a table.
 
-    type: Any
-    required: bool
-    about: str
+    Parameters
+    ----------
+    read : callable, optional
+        What reads a value that is no table; None where only a table can stand.
+    required : bool
+        Whether it must stand.
+    about : str
+        What it is, for whoever left it out.
+    schema : dict
+        What ``read`` takes, in the words of JSON Schema.
+    table : callable, optional
+        What reads a table.
+    also : tuple of dict
+        Tables that have other keys than an empty one.
+    items : callable, optional
+        What reads each table of a list, where ``read`` takes one.
+    """
+
+    read: ReadOne | None = None
+    required: bool = False
+    about: str = ""
+    schema: dict[str, Any] = ANYTHING
+    table: ReadOne | None = None
+    also: tuple[dict[str, Any], ...] = ()
+    items: ReadOne | None = None
+
+    def read_any(self, reader: Reader, path: str, value: Any) -> Any:
+        """A value, whether it is a table or none."""
+        if self.table is not None and (self.read is None or isinstance(value, dict)):
+            return self.table(reader, path, value)
+        return self.read(reader, path, value)  # type: ignore[misc]
+
+
+FIELDS: dict[str, Key] = {}
+"""Fields of value classes that are tables themselves, by their declared type; each is declared
+where its table is read."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,11 +121,8 @@ class Table:
     ----------
     name : str
         As in the file.
-    read : callable
-        From the reader, the path and the data under it (None where it is left out): the type that
-        pydantic checks, which gives the object.
-    about : str, optional
-        What a user is told when it is missing.
+    key : Key
+        How it is read.
     required : callable, optional
         Whether it must stand, from the whole file.
     role : {"contact", "study"}
@@ -80,51 +130,25 @@ class Table:
     """
 
     name: str
-    read: Callable[[Reader, str, Any], Any]
-    about: str = ""
-    required: Callable[[Mapping[str, Any]], bool] = lambda whole: False
+    key: Key
+    required: Callable[[Mapping[str, Any]], bool] | None = None
     role: str = "contact"
 
-
-FieldReader = Callable[["Reader", str, Any], Any]
-PLAIN: Mapping[str, Callable[[str], Any]] = {
-    "switch": switch,
-    "text": text,
-    "word or number": word_or_number,
-}
-"""What reads the values of which the path is all that one must know."""
+    def is_required(self, whole: Mapping[str, Any]) -> bool:
+        """Whether a file must hold it."""
+        return self.key.required if self.required is None else self.required(whole)
 
 
-class Ways(NamedTuple):
-    """Every type that a key may have, where its data decide which."""
-
-    types: tuple[Any, ...]
-
-
-DEEPEST = 5
-"""Names in the path of a table inside tables beyond which `Ways` are not followed."""
-
-
-def reads_also(*others: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Marks what reads a table or a key, with data that it reads in other ways than none."""
-
-    def mark(read: Callable[..., Any]) -> Callable[..., Any]:
-        @functools.wraps(read)
-        def reading(reader: Reader, path: str, data: Any, *more: Any, **options: Any) -> Any:
-            if not reader.every_way:
-                return read(reader, path, data, *more, **options)
-            if path.count(".") >= DEEPEST:
-                return Any
-            ways = (data, *(other for other in others if other != data))
-            return Ways(tuple(read(reader, path, way, *more, **options) for way in ways))
-
-        return reading
-
-    return mark
+def rivals(path: str, key: str) -> tuple[str, ...]:
+    """The other keys of a table that cannot stand beside this one."""
+    for name, keys in ONE_OF.items():
+        if name.partition(".")[0] == path and key in keys:
+            return tuple(other for other in keys if other != key)
+    return ()
 
 
 class Reader:
-    """What the readers of all tables of one file share.
+    """What reads the tables of one file, and keeps what is wrong with them.
 
     Parameters
     ----------
@@ -132,24 +156,17 @@ class Reader:
         Where the file lies: names of other files count from there.
     whole : dict
         The parsed file.
-    fields : mapping
-        For fields that are themselves tables: the type as declared in the value class, how it is
-        read and what it is.
     """
 
     every_way = False
-    """Whether keys are put together for whatever data may come, to say what a file may hold."""
+    """Whether keys are looked up for whatever data may come, to say what a file may hold."""
 
-    def __init__(
-        self, folder: Path, whole: dict[str, Any], fields: Mapping[str, tuple[FieldReader, str]]
-    ) -> None:
+    def __init__(self, folder: Path, whole: dict[str, Any]) -> None:
         self.folder = folder
         self.whole = whole
-        self.fields = fields
         self.library: MaterialLibrary | None = materials
         """The materials that the file can name; None when they cannot be read."""
-        self.problems: list[str] = []
-        """Mistakes that concern several keys at once."""
+        self.mistakes: list[Problem | Missing | Unknown] = []
         self.notes: list[str] = []
         """What is allowed but looks like a slip."""
         self.assumed: list[str] = []
@@ -158,39 +175,53 @@ class Reader:
         """The measured surfaces that stand in [roughness]."""
         self.known = Known()
 
-    # ------------------------------------------------------------------ tables
+    def table(
+        self,
+        path: str,
+        data: Any,
+        keys: Mapping[str, Key],
+        build: Callable[[dict[str, Any]], Any] = dict,
+    ) -> Any:
+        """What is built from the values of a table with these keys and no others.
+
+        Its mistakes are kept, and an empty `InvalidValue` says that there are some.
+        """
+        if not isinstance(data, dict):
+            written = f", written [{path}]" if "." not in path else " { ... }"
+            raise wrong(path, f"must be a table{written}", data)
+        before, values = len(self.mistakes), {}
+        for name, key in keys.items():
+            if name in data:
+                where = f"{path}.{name}" if path else name
+                try:
+                    values[name] = key.read_any(self, where, data[name])
+                except InvalidValue as error:
+                    self.mistakes += error.problems
+            elif key.required:
+                self.mistakes.append(Missing(path, name))
+        self.mistakes += [Unknown(path, name, data[name]) for name in data if name not in keys]
+        if len(self.mistakes) > before:
+            self.known.keys[path] = {name: key.about for name, key in keys.items()}
+            raise InvalidValue
+        # in the order of the file, which decides what each sampled input is given
+        return build({name: values[name] for name in data})
+
+    def read_each(self, items: Mapping[str, Any], read: ReadOne) -> tuple[Any, ...]:
+        """What several values are read as, by their paths; all of their mistakes."""
+        out: list[Any] = []
+        problems: list[Problem] = []
+        for path, item in items.items():
+            try:
+                out.append(read(self, path, item))
+            except InvalidValue as error:
+                problems += error.problems
+        if len(out) < len(items):
+            raise InvalidValue(*problems)
+        return tuple(out)
+
     def value(self, path: str, data: Any, kind: type) -> Any:
         """A table that stands for a value class: its fields are the keys."""
-        keys = self.keys_of(kind, path, data)
-        return self.table(path, keys, lambda values: self.make(kind, path, values))
-
-    def keys_of(self, kind: type, path: str, data: Any) -> dict[str, Key]:
-        """The keys of a table that stands for a value class.
-
-        A field of a kind that a file cannot express, or that a contact fills in, is left out,
-        and so is not a known key.
-        """
-        out = {}
-        for each in declarations(kind):
-            where, about = f"{path}.{each.name}", each.meaning
-            if each.quantity is not None:
-                read = plain(number(self, where, each.quantity))
-                about = about_of(each.name, each.quantity)
-            elif each.kind == "word":
-                read = plain(word(where, each.options))
-            elif each.kind == "list":
-                usual = math.inf if each.any_unit else None
-                read = plain(numbers(where, each.unit, usual=usual))
-                about = f"a list of numbers [{each.unit}]"
-            elif each.kind in PLAIN:
-                read = plain(PLAIN[each.kind](where))
-            elif each.declared in self.fields:
-                read_field, about = self.fields[each.declared]
-                read = read_field(self, where, get(data, each.name))
-            else:
-                continue
-            out[each.name] = Key(read, each.needed, about)
-        return out
+        return self.table(path, data, keys_of(kind), partial(self.make, kind, path))
 
     def variant(
         self,
@@ -198,8 +229,8 @@ class Reader:
         data: Any,
         tag: str,
         kinds: Mapping[str, type],
-        build: Callable[[dict[str, Any]], Any],
-        common: dict[str, Key],
+        build: Callable[[dict[str, Any]], Any] | None = None,
+        common: Mapping[str, Key] | None = None,
     ) -> Any:
         """A table whose other keys depend on the word under ``tag``.
 
@@ -208,39 +239,21 @@ class Reader:
         """
         asked = get(data, tag)
         chosen = asked if isinstance(asked, str) and asked in kinds else near(str(asked), kinds)
-        if self.every_way:
-            chosen = None
-        self.known.variants[path] = (
-            tag,
-            {name: {each.name for each in declarations(kind)} for name, kind in kinds.items()},
-        )
-        words = ", ".join(map(say, kinds))
-        keys = {tag: Key(plain(word(f"{path}.{tag}", kinds)), True, f"one of {words}")}
-        if chosen is not None:
-            keys |= self.keys_of(kinds[chosen], path, data) | common
-        else:
-            for kind in kinds.values():
-                any_kind = self.keys_of(kind, path, data)
-                for name, key in any_kind.items():
-                    if name not in keys:
-                        keys[name] = key._replace(required=False)
-                    elif self.every_way:
-                        keys[name] = Key(Ways((keys[name].type, key.type)), False, key.about)
-            keys |= common
-        return self.table(path, keys, build)
+        keys = {tag: tag_key(tuple(kinds))}
+        for name in kinds if chosen is None else (chosen,):
+            for field, key in keys_of(kinds[name]).items():
+                required = key.required and chosen is not None
+                keys.setdefault(field, key._replace(required=required))
+        self.known.variants[path] = tag, kinds
+        made = build or (lambda values: self.make(kinds[values.pop(tag)], path, values))
+        return self.table(path, data, keys | dict(common or {}), made)
 
-    def table(self, path: str, keys: dict[str, Key], build: Callable[[dict[str, Any]], Any]) -> Any:
-        """What pydantic checks of the table, followed by the object it stands for."""
-        self.known.keys[path] = {name: key.about for name, key in keys.items()}
-        return Annotated[Any, Built(keys, build)]
-
-    # ------------------------------------------------------------------ several keys at once
     def only_one(self, path: str, data: Any, group: str = "") -> list[str]:
         """Tell of keys that say the same thing twice; the ones to leave out."""
         given = [key for key in ONE_OF[group or path] if get(data, key) is not None]
         if len(given) > 1:
             rule = "only one of these can be given; remove the other"
-            self.problems.append(clash(path, data, given, rule))
+            self.mistakes.append(clash(path, data, given, rule))
         return given[1:]
 
     def make(self, kind: type, path: str, values: dict[str, Any]) -> Any:
@@ -251,42 +264,239 @@ class Reader:
             raise in_file(error, kind, path, values) from None
 
 
-@dataclass(frozen=True)
-class Built:
-    """A table with these keys and no others, as a schema: faster to put together than a model."""
+# -------------------------------------------------------------------------- keys that are tables
+@cache
+def keys_of(kind: type) -> dict[str, Key]:
+    """The keys of a table that stands for a value class.
 
-    keys: dict[str, Key]
-    build: Callable[[dict[str, Any]], Any]
-
-    def __get_pydantic_core_schema__(self, kind: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        fields = {
-            name: core_schema.typed_dict_field(
-                handler.generate_schema(key.type), required=key.required
-            )
-            for name, key in self.keys.items()
-        }
-        table = core_schema.typed_dict_schema(fields, extra_behavior="forbid")
-        return core_schema.no_info_wrap_validator_function(self._finish, table)
-
-    def _finish(self, given: Any, check: Callable[[Any], Any]) -> Any:
-        values = check(given)
-        # in the order of the file, which decides what each sampled input is given
-        return self.build({name: values[name] for name in given})
-
-
-def plain(read: Callable[[Any], Any]) -> Any:
-    """A type that reads one value."""
-    return Annotated[Any, Read(read)]
+    A field of a kind that a file cannot express, or that a contact fills in, is left out,
+    and so is not a known key.
+    """
+    out = {}
+    for each in declarations(kind):
+        if each.quantity is not None:
+            key = quantity_key(each.name, each.quantity)
+        elif each.kind == "word":
+            key = word(each.options, each.meaning)
+        elif each.kind == "list":
+            key = numbers(each.unit, usual=math.inf if each.any_unit else None)
+        elif each.kind in PLAIN:
+            key = PLAIN[each.kind]._replace(about=each.meaning)
+        elif each.declared in FIELDS:
+            key = FIELDS[each.declared]
+        else:
+            continue
+        out[each.name] = key._replace(required=each.needed)
+    return out
 
 
-@dataclass(frozen=True)
-class Read:
-    """What reads one value; `pydantic.PlainValidator` would look for ways to write it as well."""
+@cache
+def tag_key(options: tuple[str, ...]) -> Key:
+    """The key of the word on which the other keys of a table depend."""
+    return word(options, f"one of {', '.join(map(say, options))}", required=True)
 
-    read: Callable[[Any], Any]
 
-    def __get_pydantic_core_schema__(self, kind: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(self.read)
+def table_of(kind: type, about: str = "", *, required: bool = False) -> Key:
+    """The key of a table that stands for a value class."""
+
+    def read(reader: Reader, path: str, data: Any) -> Any:
+        return reader.value(path, data, kind)
+
+    return Key(None, required, about, NOTHING, read)
+
+
+def variants(
+    tag: str, kinds: Mapping[str, type], about: str = "", *, required: bool = False
+) -> Key:
+    """The key of a table that stands for one of several classes, which a word in it names."""
+
+    def read(reader: Reader, path: str, data: Any) -> Any:
+        return reader.variant(path, data, tag, kinds)
+
+    return Key(None, required, about, NOTHING, read)
+
+
+# -------------------------------------------------------------------------- keys of one value
+class Notes(Protocol):
+    """Who keeps what is to be said of a file."""
+
+    notes: list[str]
+
+
+class Unsaid:
+    """Notes that nobody reads."""
+
+    def __init__(self) -> None:
+        self.notes: list[str] = []
+
+
+def wrong(path: str, rule: str, value: Any, *, hint: str = "") -> InvalidValue:
+    """The error of one value of a file."""
+    return InvalidValue(Problem(path, rule, say(value), hint=hint))
+
+
+def quantity_key(name: str, about: dict[str, Any], *, required: bool = False) -> Key:
+    """The key of a number, told with its name."""
+    return number(about)._replace(about=about_of(name, about), required=required)
+
+
+def number(about: dict[str, Any]) -> Key:
+    """A number in SI inside the range of its quantity; text has a unit."""
+    limits = {word: about[key] for key, word in LIMITS.items() if about[key] is not None}
+    schema = {"type": ["number", "string"]} | limits
+    return Key(partial(read_number, about), schema=schema)
+
+
+def read_number(about: dict[str, Any], reader: Notes, path: str, value: Any) -> float:
+    """The number in SI that a value of a file stands for."""
+    try:
+        found = quantity_to_si(value, about)
+    except InvalidValue as error:
+        elsewhere = "; a load in Pa goes under the key pressure"
+        cause = elsewhere if path.startswith("load.F_star") and "Pa" in str(value) else ""
+        raise InvalidValue(Problem(path, f"= {error}{cause}")) from None
+    if not math.isfinite(found):
+        allowed = allowed_range(about).removeprefix("must be ")
+        allowed = "" if allowed.startswith("a finite") else f"; it must be {allowed}"
+        raise wrong(path, f"is not a finite number{allowed}", value)
+    if why := problem_with(about, found):
+        meant = "" if about["hint"] else f"; it is the {about['meaning']}"
+        raise wrong(path, in_words(why) + meant, value)
+    load = path.startswith(("load.pressure", "sweep.pressure", "design.pressure"))
+    if likely := unit_meant(about, found, load=load):
+        _refuse_slip(reader, path, value, f"{found:g} {about['unit']}", f"{found:g} {likely}")
+    return found
+
+
+def _refuse_slip(reader: Notes, path: str, value: Any, taken: str, meant: str) -> None:
+    """Refuse a number without a unit that no interface has; note one with a unit."""
+    if not isinstance(value, str):
+        has_unit = not isinstance(value, (int, float))  # a quantity of a library of units
+    else:
+        has_unit = re.fullmatch(r"[\d\s.+-]*([eE][+-]?\d+)?\s*", value) is None
+    if has_unit:
+        reader.notes.append(
+            f"{path} = {say(value)} is taken as {taken}: check its unit (upper and lower "
+            "case matter)"
+        )
+        return
+    rule = f"has no unit, so it would be {taken}, which is not plausible"
+    any_value = f'With its unit any value is taken: "{taken}"'
+    raise wrong(path, rule, value, hint=f'was "{meant}" meant? {any_value}')
+
+
+def numbers(unit: str, about: str = "", *, usual: float | None = None) -> Key:
+    """A list of numbers; the class of the table checks their range.
+
+    Lengths up to ``usual`` are no slip: infinity where numbers without a unit may be in any unit.
+    """
+    limits: dict[str, Any] = dict.fromkeys(LIMITS)
+    one = limits | {"symbol": "", "unit": unit, "meaning": "number", "hint": "", "usual": usual}
+
+    def read(reader: Reader, path: str, value: Any) -> tuple[float, ...]:
+        if not isinstance(value, list):
+            raise wrong(path, f"must be a list, e.g. [{EXAMPLES[unit]}, ...]", value)
+        return read_numbers(one, Unsaid(), path, value)
+
+    schema = {"type": "array", "items": {"type": ["number", "string"]}}
+    return Key(read, about=about or f"a list of numbers [{unit}]", schema=schema)
+
+
+def read_numbers(
+    about: dict[str, Any], reader: Notes, path: str, value: list[Any]
+) -> tuple[float, ...]:
+    """The numbers in SI of a list."""
+    out: list[float] = []
+    problems: list[Problem] = []
+    for i, item in enumerate(value):
+        try:
+            out.append(read_number(about, reader, f"{path}[{i}]", item))
+        except InvalidValue as error:
+            problems += error.problems
+    if problems:
+        raise InvalidValue(*problems)
+    return tuple(out)
+
+
+def count(about: str = "", *, least: int = 1, most: int = MOST_POINTS) -> Key:
+    """A whole number."""
+
+    def read(reader: Reader, path: str, value: Any) -> int:
+        whole = isinstance(value, (int, float)) and not isinstance(value, bool)
+        if not (whole and value == value // 1 and least <= value <= most):
+            raise wrong(path, f"must be a whole number from {least} to {most}", value)
+        return int(value)
+
+    return Key(read, about=about, schema={"type": "integer", "minimum": least, "maximum": most})
+
+
+def word(options: Iterable[str], about: str = "", *, required: bool = False) -> Key:
+    """One of a few words."""
+    return Key(partial(read_word, options), required, about, {"enum": options})
+
+
+def read_word(options: Iterable[str], reader: Any, path: str, value: Any) -> str:
+    """The word that a value of a file is."""
+    if isinstance(value, str) and value in options:
+        return value
+    meant = near(str(value), options)
+    hint = guess(str(value), options, meant=meant, show=say, otherwise=None)
+    raise wrong(path, f"must be one of {', '.join(map(say, options))}", value, hint=hint)
+
+
+def words(options: Iterable[str] | None, about: str = "") -> Key:
+    """One word or a list of words; any where there are no options."""
+
+    def read(reader: Reader, path: str, value: Any) -> list[str]:
+        values = value if isinstance(value, list) else [value]
+        if options is not None:
+            return [read_word(options, reader, path, item) for item in values]
+        if not all(isinstance(item, str) for item in values):
+            raise wrong(path, "must be a list of names in quotes", value)
+        return values
+
+    one = {"type": "string"} if options is None else {"enum": options}
+    return Key(read, about=about, schema={"anyOf": [one, {"type": "array", "items": one}]})
+
+
+def refused(why: str) -> Key:
+    """A key that is known and has no place here."""
+
+    def read(reader: Reader, path: str, value: Any) -> Any:
+        raise wrong(path, why, value)
+
+    return Key(read, schema=NOTHING)
+
+
+def _read_word_or_number(reader: Reader, path: str, value: Any) -> str | float:
+    """A word or a pure number; which ones, the object it is for knows."""
+    if isinstance(value, str) or (isinstance(value, (int, float)) and not isinstance(value, bool)):
+        return value
+    raise wrong(path, "must be a word in quotes or a number", value)
+
+
+def _read_text(reader: Reader, path: str, value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    raise wrong(path, f'must be text in quotes, e.g. "{value}"', value)
+
+
+def _read_switch(reader: Reader, path: str, value: Any) -> bool:
+    if isinstance(value, bool):
+        return value
+    raise wrong(path, "must be true or false, without quotes", value)
+
+
+text = Key(_read_text, schema={"type": "string"})
+"""Text in quotes."""
+switch = Key(_read_switch, schema={"type": "boolean"})
+"""True or false."""
+PLAIN: Mapping[str, Key] = {
+    "switch": switch,
+    "text": text,
+    "word or number": Key(_read_word_or_number, schema={"type": ["number", "string"]}),
+}
+"""Keys of which all is known but what they are."""
 
 
 def get(data: Any, key: str) -> Any:

@@ -24,7 +24,7 @@ from ..systems.film_formulas import full_range
 from ..systems.mixed_film import COLUMNS
 from ..systems.stribeck import RegimeSpeeds
 from ..version import __version__
-from .body import force_sentences
+from .load import force_sentences
 from .whole import Study
 
 SHARING = "Johnson, Greenwood, Poon 1972, Wear 19, 91, doi:10.1016/0043-1648(72)90445-0"

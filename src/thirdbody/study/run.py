@@ -11,7 +11,7 @@ from ..contact.contact import Contact
 from ..equilibrium.modes import CriticalStatus
 from ..equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
 from ..errors import InvalidValue, RangeWarning, ThirdBodyError, note_of
-from .body import pressed
+from .load import pressed
 from .results import Entrained, FilmResult, Passing, StudyResult
 from .whole import Study
 

@@ -1,21 +1,20 @@
-"""What a study file may hold, as JSON Schema: for editors, which complete keys and words by it."""
+"""What a study file may hold: its keys, and JSON Schema for editors, which complete words by it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Any, get_args, get_origin
+from typing import Any
 
-from pydantic import PlainValidator
+from .mistakes import Known
+from .reader import Key, Reader, ReadOne, get, keys_of, tag_key
+from .tables import TABLES
 
-from .reader import Built, Key, Read, Reader, Ways
-from .tables import FIELDS, TABLES
-
-__all__ = ["study_schema"]
+__all__ = ["Describer", "study_schema"]
 
 DRAFT = "http://json-schema.org/draft-07/schema#"
-BESIDES: dict[str, Any] = {"film": {}, "sweep": {"pressure": 1}}
-"""A file in which only what must always stand is missing."""
+DEEPEST = 5
+"""Names in the path of a table inside tables beyond which all may stand."""
 
 
 def study_schema() -> dict[str, Any]:
@@ -37,68 +36,125 @@ def study_schema() -> dict[str, Any]:
     >>> schema["properties"]["explicit"]["properties"]["size"]["maximum"]
     4096
     """
-    reader = Reader(Path(), {}, FIELDS)
-    reader.every_way = True
-    keys = {
-        table.name: Key(table.read(reader, table.name, None), table.required(BESIDES), table.about)
-        for table in TABLES
-    }
-    return {"$schema": DRAFT, "title": "A study file of thirdbody"} | _table([keys])
+    describer = Describer(Path(), {})
+    describer.every_way = True
+    keys = {table.name: table.key for table in TABLES}
+    schema = describer.table("", {}, keys)
+    return {"$schema": DRAFT, "title": "A study file of thirdbody"} | schema
 
 
-def _any_of(kinds: Iterable[Any]) -> dict[str, Any]:
-    """The schema of a value whose types are these; tables among them become one."""
-    tables: list[dict[str, Key]] = []
+class Describer(Reader):
+    """Walks through the tables of a file like a `Reader`, and says of each what it may hold.
+
+    ``table`` gives JSON Schema in the place of a value, and keeps the keys in ``known``.
+    """
+
+    def known_of(self, tables: Iterable[Any]) -> Known:
+        """The keys of these tables, for the data of the file."""
+        self.table("", self.whole, {table.name: table.key for table in tables})
+        return self.known
+
+    def table(
+        self,
+        path: str,
+        data: Any,
+        keys: Mapping[str, Key],
+        build: Callable[[dict[str, Any]], Any] = dict,
+    ) -> Any:
+        """The schema of a table with these keys and no others."""
+        if path.count(".") >= DEEPEST:
+            return {}
+        properties = {}
+        for name, key in keys.items():
+            described = {"description": key.about} if key.about else {}
+            where = f"{path}.{name}" if path else name
+            properties[name] = described | _any_of(self._ways(key, where, get(data, name)))
+        self.known.keys[path] = {name: key.about for name, key in keys.items()}
+        return _schema_of(properties, [name for name, key in keys.items() if key.required])
+
+    def read_each(self, items: Mapping[str, Any], read: ReadOne) -> Any:
+        """The schema of a list."""
+        return {"type": "array", "items": _any_of(read(self, *item) for item in items.items())}
+
+    def variant(
+        self,
+        path: str,
+        data: Any,
+        tag: str,
+        kinds: Mapping[str, type],
+        build: Callable[[dict[str, Any]], Any] | None = None,
+        common: Mapping[str, Key] | None = None,
+    ) -> Any:
+        """The schema of a table whose keys depend on a word: of all of them, for whatever data."""
+        if not self.every_way:
+            return super().variant(path, data, tag, kinds, build, common)
+        ways = (
+            {tag: tag_key(tuple(kinds))} | keys_of(kind) | dict(common or {})
+            for kind in kinds.values()
+        )
+        return _any_of([self.table(path, data, keys) for keys in ways])
+
+    def _ways(self, key: Key, path: str, data: Any) -> Iterator[dict[str, Any]]:
+        """Schemas of all that can stand under a key."""
+        yield key.schema
+        among = (data, *key.also) if self.every_way else (data,)
+        outermost = "." not in path and not isinstance(data, list)
+        alone = self.every_way or key.read is None or outermost
+        if key.table is not None and (alone or isinstance(data, dict)):
+            yield from (key.table(self, path, each) for each in among)
+        if key.items is not None and (self.every_way or isinstance(data, list)):
+            form = "{}.{}" if "." not in path else "{}[{}]"
+            items = among if self.every_way else data
+            yield self.read_each(
+                {form.format(path, i): each for i, each in enumerate(items)}, key.items
+            )
+
+
+def _any_of(ways: Iterable[dict[str, Any]]) -> dict[str, Any]:
+    """The schema of a value of which these are the ways to write it; tables become one."""
+    tables: list[dict[str, Any]] = []
     out: list[dict[str, Any]] = []
-    for schema in _schemas(kinds):
-        if isinstance(schema, Built):
-            tables.append(schema.keys)
+    for schema in _each_way(ways):
+        if "properties" in schema:
+            tables.append(schema)
         elif schema not in out:
             out.append(schema)
     if tables:
-        out.append(_table(tables))
+        out.append(_merged(tables))
     if {} in out or not out:
         return {}
     return out[0] if len(out) == 1 else {"anyOf": out}
 
 
-def _table(tables: list[dict[str, Key]]) -> dict[str, Any]:
-    """The schema of a table that is read in these ways: all their keys, and no others."""
-    ways: dict[str, list[Key]] = {}
-    for keys in tables:
-        for name, key in keys.items():
-            ways.setdefault(name, []).append(key)
+def _each_way(ways: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+    for schema in ways:
+        if "anyOf" in schema:
+            yield from _each_way(schema["anyOf"])
+        elif "enum" in schema:
+            if options := list(schema["enum"]):
+                yield {"enum": options}
+        else:
+            yield schema | ({"items": _any_of([schema["items"]])} if "items" in schema else {})
+
+
+def _merged(tables: list[dict[str, Any]]) -> dict[str, Any]:
+    """The schema of a table that is written in these ways: all their keys, and no others."""
+    ways: dict[str, list[dict[str, Any]]] = {}
+    for table in tables:
+        for name, schema in table["properties"].items():
+            ways.setdefault(name, []).append(schema)
     properties = {}
     for name, several in ways.items():
-        about = next((key.about for key in several if key.about), "")
-        described = {"description": about} if about else {}
-        properties[name] = described | _any_of(key.type for key in several)
-    needed = [name for name, each in ways.items() if len(each) == len(tables) and all(
-        key.required for key in each)]  # fmt: skip
+        about = next((each["description"] for each in several if "description" in each), None)
+        described = {} if about is None else {"description": about}
+        bare = ({k: v for k, v in each.items() if k != "description"} for each in several)
+        properties[name] = described | _any_of(bare)
+    first, *others = (table.get("required", []) for table in tables)
+    needed = [name for name in first if all(name in other for other in others)]
+    return _schema_of(properties, needed)
+
+
+def _schema_of(properties: dict[str, Any], needed: list[str]) -> dict[str, Any]:
+    """The schema of a table with these keys and no others."""
     needs = {"required": needed} if needed else {}
     return {"type": "object", "properties": properties} | needs | {"additionalProperties": False}
-
-
-def _schemas(kinds: Iterable[Any]) -> Iterator[dict[str, Any] | Built]:
-    """Each way in which a value may stand: its schema, or the table that it is.
-
-    Of what is known only once there are data nothing is yielded, nor of what is refused.
-    """
-    for kind in kinds:
-        if isinstance(kind, Ways):
-            yield from _schemas(kind.types)
-        elif get_origin(kind) is tuple:
-            yield {"type": "array", "items": _any_of(get_args(kind))}
-        elif get_origin(kind) is Annotated:
-            inner, *marks = get_args(kind)
-            yield from _schemas([inner])
-            yield from filter(None, map(_schema_of, marks))
-
-
-def _schema_of(mark: Any) -> dict[str, Any] | Built | None:
-    """What one annotation of a type says of the value; None where it only builds."""
-    if isinstance(mark, Built):
-        return mark
-    if isinstance(mark, Read | PlainValidator):
-        return getattr(mark.read if isinstance(mark, Read) else mark.func, "schema", {})
-    return None

@@ -1,81 +1,98 @@
-"""The table [surfaces], and materials wherever a file names one."""
+"""The tables [surfaces], [asperity_law] and [particle_law]: materials and laws, wherever one is."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
-from ..errors import InvalidValue
-from ..populations.materials import Material, MaterialLibrary, MaterialPair, materials
+from ..errors import InvalidValue, Problem
+from ..laws import asperity, particle
+from ..populations.materials import Material, MaterialPair, materials
 from ..quantities.units import say
-from .mistakes import wrong
-from .one_value import One, text
-from .reader import Key, Reader, Table, get, plain, reads_also
+from .reader import FIELDS, NOTHING, Key, Reader, Table, get, read_word, table_of, text, wrong
 
-__all__ = ["OWN_MATERIALS", "TABLE", "material"]
+__all__ = [
+    "ASPERITY_LAW",
+    "MATERIAL",
+    "OWN_MATERIALS",
+    "PARTICLE_LAW",
+    "SURFACES",
+    "class_of",
+    "law_key",
+]
 
 OTHER = 'another material is written { E = "205 GPa", nu = 0.29, H = "5 GPa" }'
+ONE = 'a material, e.g. "S45C" or { E = "205 GPa", nu = 0.29, H = "5 GPa" }'
+BOTH = 'a table [surfaces] with the two materials, e.g. first = "S45C", second = "S45C"'
 
 
-def surfaces(reader: Reader, path: str, data: Any) -> Any:
+# -------------------------------------------------------------------------- materials
+def _from_library(reader: Reader, path: str, value: Any) -> Material:
+    """The material of a name."""
+    known = reader.library
+    if known is None:
+        return materials["S45C"]  # no name can be judged, and the study is refused anyway
+    if isinstance(value, str) and value in known:
+        return known[value]
+    near = known.near(str(value))
+    some = ", ".join(list(known)[:3])
+    rule = (
+        f"is not a material of the library ({some} and {len(known) - 3} more: thirdbody "
+        "materials)" + (f"; did you mean {say(near)}?" if near else "")
+    )
+    raise wrong(path, rule, value, hint=OTHER)
+
+
+NAMES = {"anyOf": [{"enum": list(materials)}, {"type": "string"}]}  # and those of a file
+MATERIAL = table_of(Material)._replace(read=_from_library, schema=NAMES)
+FIELDS["Material"] = MATERIAL
+SIDES = {side: MATERIAL._replace(required=True, about=ONE) for side in ("first", "second")}
+
+
+def _surfaces(reader: Reader, path: str, data: Any) -> Any:
     """The two bodies."""
-    keys = {}
-    for side in ("first", "second"):
-        read = material(reader, f"{path}.{side}", get(data, side))
-        keys[side] = Key(
-            read, True, 'a material, e.g. "S45C" or { E = "205 GPa", nu = 0.29, H = "5 GPa" }'
-        )
-    return reader.table(path, keys, lambda values: reader.make(MaterialPair, path, values))
+    return reader.table(path, data, SIDES, partial(reader.make, MaterialPair, path))
 
 
-@reads_also({})
-def material(reader: Reader, path: str, data: Any) -> Any:
-    """A name of the library, or a table with the numbers."""
-    if isinstance(data, dict):
-        return reader.value(path, data, Material)
-
-    def from_library(value: Any) -> Material:
-        known = reader.library
-        if known is None:
-            return materials["S45C"]  # no name can be judged, and the study is refused anyway
-        if isinstance(value, str) and value in known:
-            return known[value]
-        near = known.near(str(value))
-        some = ", ".join(list(known)[:3])
-        rule = (
-            f"is not a material of the library ({some} and {len(known) - 3} more: thirdbody "
-            "materials)" + (f"; did you mean {say(near)}?" if near else "")
-        )
-        raise wrong(path, rule, value, hint=OTHER)
-
-    names = {"anyOf": [{"enum": list(materials)}, {"type": "string"}]}  # and those of a file
-    return plain(One(from_library, names))
-
-
-def own_materials(reader: Reader, path: str, given: Any) -> Any:
+def _own_materials(reader: Reader, path: str, given: Any) -> Any:
     """The name of a file, whose materials the tables read after this one can name."""
-    reader.library = _library(reader, given)
-    return plain(text(path))
-
-
-def _library(reader: Reader, given: Any) -> MaterialLibrary | None:
-    if not isinstance(given, str):
-        return materials
+    name = text.read(reader, path, given)  # type: ignore[misc]
     try:
-        return materials.load(reader.folder / given)
+        reader.library = materials.load(reader.folder / name)
     except InvalidValue as error:
-        reader.problems += [f"materials = {say(given)}: {problem}" for problem in error.problems]
-        return None
+        reader.library = None
+        raise InvalidValue(
+            *(Problem(path, f": {problem}", say(given)) for problem in error.problems)
+        ) from None
+    return name
 
 
-TABLE = Table(
-    name="surfaces",
-    read=surfaces,
-    about='a table [surfaces] with the two materials, e.g. first = "S45C", second = "S45C"',
-    required=lambda whole: True,
-)
+# -------------------------------------------------------------------------- laws
+def law_key(registry: Mapping[str, type], about: str = "") -> Key:
+    """The key of a law: its name, or a table with its name and options."""
+
+    def read(reader: Reader, path: str, data: Any) -> Any:
+        if not isinstance(data, str):
+            return table(reader, path, data)
+        return reader.make(registry[read_word(registry, reader, path, data)], path, {})
+
+    def table(reader: Reader, path: str, data: Any) -> Any:
+        return reader.variant(path, data, "name", registry)
+
+    return Key(read, False, about, {"enum": registry}, table)
+
+
+def class_of(data: Any, registry: Mapping[str, type]) -> type | None:
+    """The class of the law that a file names, by a word or in a table."""
+    return registry.get(str(get(data, "name") if isinstance(data, dict) else data))
+
+
+FIELDS["AbstractAsperityLaw"] = ASPERITY_LAW = law_key(asperity.REGISTRY)
+PARTICLE_LAW = law_key(particle.REGISTRY)
+
+OWN = 'a file of your own materials, "mine.toml"'
 OWN_MATERIALS = Table(
-    name="materials",
-    read=own_materials,
-    about='a file of your own materials, "mine.toml"',
-    role="study",
+    name="materials", key=text._replace(read=_own_materials, about=OWN), role="study"
 )
+SURFACES = Table(name="surfaces", key=Key(None, True, BOTH, NOTHING, _surfaces))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,95 +15,88 @@ from ..contact.output import every_column
 from ..equilibrium.columns import COLUMNS
 from ..errors import InvalidValue
 from ..numerics.sampling import DESIGNS
-from ..quantities.units import say
 from .amounts import amounts, is_span
-from .fields import about_of
 from .inputs import Input, field_of, inputs_of
-from .one_value import One, count, switch, word, words
-from .reader import Key, Reader, Table, get, plain
+from .reader import NOTHING, Key, Reader, Table, count, get, switch, word, words, wrong
 from .vocabulary import LOADS
 
-__all__ = ["TABLE", "ends", "plan", "with_nested_names"]
+__all__ = ["SWEEP", "ends", "plan", "with_nested_names"]
 
 
-def sweep(reader: Reader, path: str, data: Any) -> Any:
+def _sweep(reader: Reader, path: str, data: Any) -> Any:
     """What is varied, how, and what is kept of it."""
-    designs = ("grid", "zip", *DESIGNS)
     sampled = get(data, "design") not in (None, "grid", "zip")
-    known = [*COLUMNS, *every_column()]
     keys = {
-        "design": Key(plain(word(f"{path}.design", designs)), False, ""),
-        "samples": Key(plain(count(f"{path}.samples", most=2**48)), sampled, "a number"),
-        "seed": Key(plain(count(f"{path}.seed", least=0, most=2**63)), False, ""),
-        "chunk": Key(plain(count(f"{path}.chunk", most=10**9)), False, ""),
-        "columns": Key(plain(words(f"{path}.columns", known)), False, "columns to keep"),
-        "vary": Key(_variables(reader, f"{path}.vary", get(data, "vary"), sampled), False, ""),
-        "reduce": Key(_reductions(reader, f"{path}.reduce", get(data, "reduce")), False, ""),
+        "design": word(("grid", "zip", *DESIGNS)),
+        "samples": count("a number", most=2**48)._replace(required=sampled),
+        "seed": count(least=0, most=2**63),
+        "chunk": count(most=10**9),
+        "columns": words([*COLUMNS, *every_column()], "columns to keep"),
+        "vary": Key(schema=NOTHING, table=partial(_vary, sampled)),
+        "reduce": Key(schema=NOTHING, table=_reductions),
     }
-    for name, about in LOADS.items():
-        read = amounts(reader, f"{path}.{name}", about, get(data, name), sampled=sampled)
-        keys[name] = Key(read, False, about_of(name, about))
-    if isinstance(data, dict):
-        reader.only_one(path, data)
-    return reader.table(path, keys, lambda values: values)
+    keys |= {name: amounts(name, about, sampled=sampled) for name, about in LOADS.items()}
+    reader.only_one(path, data)
+    return reader.table(path, data, keys)
 
 
-def _variables(reader: Reader, path: str, data: Any, sampled: bool) -> Any:
+def _vary(sampled: bool, reader: Reader, path: str, data: Any) -> Any:
     """The inputs that may vary, in tables like those of the file."""
+    if reader.every_way:
+        return {"type": "object"}  # the inputs of whatever study it is
     tables: dict[str, list[Input]] = {}
     for each in inputs_of(reader.whole):
         tables.setdefault(each.table, []).append(each)
+    return _inputs_that_vary(sampled, tables, "", reader, path, data)
 
-    if reader.every_way:
-        return plain(One(dict, {"type": "object"}))  # the inputs of whatever study it is
 
-    def table(prefix: str, tree: Any) -> Any:
-        where = f"{path}.{prefix}" if prefix else path
-        keys: dict[str, Key] = {}
-        for each in tables.get(prefix, []):
-            name, value = f"{where}.{each.key}", get(tree, each.key)
-            if each.idle:
-                continue
-            if about := each.quantity:
-                read = amounts(reader, name, about, value, sampled=sampled)
-                keys[each.key] = Key(read, False, about_of(each.key, about))
-            elif about := each.choice:
-                read = plain(words(name, about["options"]))
-                keys[each.key] = Key(read, False, about["meaning"])
-        refused = {each.key: each.idle for each in tables.get(prefix, []) if each.idle}
-        reader.known.refused[where] = refused
-        start = f"{prefix}." if prefix else ""
-        below = [other.removeprefix(start) for other in tables if other.startswith(start)]
-        for name in dict.fromkeys(other.partition(".")[0] for other in below):
-            keys[name] = Key(table(f"{start}{name}", get(tree, name)), False, "")
-        return reader.table(where, keys, lambda values: values)
+def _inputs_that_vary(
+    sampled: bool, tables: dict[str, list[Input]], prefix: str, reader: Reader, path: str, data: Any
+) -> Any:
+    """Those of the table of this name, and of the tables in it."""
+    keys: dict[str, Key] = {}
+    refused: dict[str, str] = {}
+    for each in tables.get(prefix, []):
+        if each.idle:
+            refused[each.key] = each.idle
+        elif each.quantity:
+            keys[each.key] = amounts(each.key, each.quantity, sampled=sampled)
+        elif each.choice:
+            keys[each.key] = words(each.choice["options"], each.choice["meaning"])
+    reader.known.refused[path] = refused
+    start = f"{prefix}." if prefix else ""
+    below = [other.removeprefix(start) for other in tables if other.startswith(start)]
+    for name in dict.fromkeys(other.partition(".")[0] for other in below if other):
+        table = partial(_inputs_that_vary, sampled, tables, f"{start}{name}")
+        keys[name] = Key(schema=NOTHING, table=table)
+    return reader.table(path, data, keys)
 
-    return table("", data)
+
+def _quantiles(reader: Reader, path: str, value: Any) -> list[float]:
+    values = value if isinstance(value, list) else [value]
+    if any(isinstance(item, bool) or not isinstance(item, (int, float)) for item in values):
+        raise wrong(path, "must be a list of numbers", value)
+    return [float(item) for item in values]
+
+
+def _thresholds(reader: Reader, path: str, value: Any) -> dict[str, Any]:
+    if isinstance(value, dict):
+        return value
+    raise wrong(path, "must be a table, e.g. { A_t = 0.2 }", value)
+
+
+REDUCTIONS = {
+    "over": words(None, "inputs to reduce over"),
+    "quantiles": Key(_quantiles, about="e.g. [0.05, 0.5, 0.95]"),
+    "exceed": Key(_thresholds, about="e.g. { particle_load_share = 0.5 }"),
+    "extrema": switch,
+    "mean": switch,
+}
 
 
 def _reductions(reader: Reader, path: str, data: Any) -> Any:
     """What is kept of many states."""
-
-    def share(value: Any) -> list[float]:
-        values = value if isinstance(value, list) else [value]
-        for item in values:
-            if isinstance(item, bool) or not isinstance(item, (int, float)):
-                raise InvalidValue(f"{path}.quantiles = {say(value)} must be a list of numbers")
-        return [float(item) for item in values]
-
-    def thresholds(value: Any) -> dict[str, Any]:
-        if isinstance(value, dict):
-            return value
-        raise InvalidValue(f"{path}.exceed = {say(value)} must be a table, e.g. {{ A_t = 0.2 }}")
-
-    keys = {
-        "over": Key(plain(words(f"{path}.over", None)), False, "inputs to reduce over"),
-        "quantiles": Key(plain(share), False, "e.g. [0.05, 0.5, 0.95]"),
-        "exceed": Key(plain(thresholds), False, "e.g. { particle_load_share = 0.5 }"),
-        "extrema": Key(plain(switch(f"{path}.extrema")), False, ""),
-        "mean": Key(plain(switch(f"{path}.mean")), False, ""),
-    }
-    return reader.table(path, keys, lambda values: values)
+    return reader.table(path, data, REDUCTIONS)
 
 
 def plan(
@@ -178,4 +172,4 @@ def _dotted_names(tree: dict[str, Any], path: str = "") -> dict[str, tuple[str, 
     return out
 
 
-TABLE = Table(name="sweep", read=sweep, role="study")
+SWEEP = Table(name="sweep", key=Key(schema=NOTHING, table=_sweep), role="study")

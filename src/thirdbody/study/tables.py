@@ -5,45 +5,30 @@ A new one is a file with a `Table` in it and one line here.
 
 from __future__ import annotations
 
-from typing import Any
+from .connector import CONNECTOR
+from .design import DESIGN
+from .explicit import EXPLICIT
+from .film import FILM
+from .load import BODY, LOAD
+from .outputs import OUTPUTS
+from .particles import PARTICLES
+from .plate import PLATE
+from .reader import Table, text
+from .roughness import ROUGHNESS
+from .surfaces import ASPERITY_LAW, OWN_MATERIALS, PARTICLE_LAW, SURFACES
+from .sweep import SWEEP
+from .uncertainty import UNCERTAINTY
 
-from .body import TABLE as BODY
-from .connector import TABLE as CONNECTOR
-from .design import TABLE as DESIGN
-from .ellipticity import ellipticity
-from .explicit import TABLE as EXPLICIT
-from .film import TABLE as FILM
-from .heights import heights
-from .laws import ASPERITY_LAW, PARTICLE_LAW, asperity_law
-from .load import TABLE as LOAD
-from .one_value import text
-from .outputs import TABLE as OUTPUTS
-from .particles import TABLE as PARTICLES
-from .plate import TABLE as PLATE
-from .reader import FieldReader, Reader, Table, plain
-from .roughness import TABLE as ROUGHNESS
-from .sizes import parts
-from .spectrum import spectrum
-from .surfaces import OWN_MATERIALS, material
-from .surfaces import TABLE as SURFACES
-from .sweep import TABLE as SWEEP
-from .uncertainty import TABLE as UNCERTAINTY
-
-__all__ = ["FIELDS", "TABLES"]
-
-
-def _title(reader: Reader, path: str, data: Any) -> Any:
-    return plain(text(path))
-
+__all__ = ["TABLES"]
 
 TABLES: tuple[Table, ...] = (
-    Table(name="title", read=_title, about="a line of text", role="study"),
+    Table(name="title", key=text._replace(about="a line of text"), role="study"),
     OWN_MATERIALS,
     SURFACES,
     ROUGHNESS,
-    ASPERITY_LAW,
+    Table(name="asperity_law", key=ASPERITY_LAW),
     PARTICLES,
-    PARTICLE_LAW,
+    Table(name="particle_law", key=PARTICLE_LAW),
     OUTPUTS,
     BODY,
     LOAD,
@@ -55,13 +40,3 @@ TABLES: tuple[Table, ...] = (
     DESIGN,
     EXPLICIT,
 )
-
-FIELDS: dict[str, tuple[FieldReader, str]] = {
-    "Material": (material, ""),
-    "Heights": (heights, "distribution of asperity heights"),
-    "Ellipticity | None": (ellipticity, "shapes of elliptic asperities"),
-    "AbstractAsperityLaw": (asperity_law, ""),
-    "OwnSpectrum | RollOff | None": (spectrum, "waves of the roughness"),
-    "tuple[Distribution, ...]": (parts, "a list of size distributions"),
-}
-"""Fields of value classes that are tables themselves, by their declared type."""

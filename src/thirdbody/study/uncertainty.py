@@ -9,53 +9,45 @@ from ..errors import InvalidValue, Problem
 from ..quantities.nearest import guess, near_path
 from ..quantities.units import say
 from .inputs import Input, inputs_of
-from .one_value import count, number, word
-from .reader import Key, Reader, Table, get, plain
+from .reader import NOTHING, Key, Reader, Table, count, get, read_number, read_word, wrong
 from .vocabulary import LOADS
 
-__all__ = ["TABLE"]
+__all__ = ["UNCERTAINTY", "field_of_input"]
 
 
-def uncertainty(reader: Reader, path: str, data: Any) -> Any:
+def _inputs(reader: Reader, path: str, given: Any) -> dict[str, Uncertain]:
     """What is known of the inputs, by names like those of the file."""
+    if not isinstance(given, dict) or not given:
+        rule = "must be a table of inputs, e.g. "
+        raise wrong(
+            path, f'{rule}{{ "roughness.sigma" = {{ low = "80 nm", high = "120 nm" }} }}', given
+        )
     inputs = inputs_of(reader.whole)
 
-    def read(given: Any) -> dict[str, Uncertain]:
-        if not isinstance(given, dict) or not given:
-            raise InvalidValue(
-                f"{path}.inputs = {say(given)} must be a table of inputs, e.g. "
-                '{ "roughness.sigma" = { low = "80 nm", high = "120 nm" } }'
-            )
-        out: dict[str, Uncertain] = {}
-        problems: list[str] = []
-        for label, entry in _ranges(given).items():
-            where = f"{path}.inputs.{say(label)}"
-            try:
-                names, about = zip(
-                    *(
-                        field_of_input(where, name, inputs, reader.whole)
-                        for name in label.split("+")
-                    ),
-                    strict=True,
-                )
-                out["+".join(names)] = _uncertain(reader, where, about[0], entry)
-            except InvalidValue as error:
-                problems += error.problems
-        if problems:
-            raise InvalidValue(*problems)
-        return out
+    def one(reader: Reader, where: str, told: tuple[str, Any]) -> tuple[str, Uncertain]:
+        label, entry = told
+        found = [field_of_input(where, name, inputs, reader.whole) for name in label.split("+")]
+        return "+".join(name for name, _ in found), _uncertain(reader, where, found[0][1], entry)
 
-    keys = {
-        "samples": Key(plain(count(f"{path}.samples", least=64, most=2**24)), False, ""),
-        "seed": Key(plain(count(f"{path}.seed", least=0, most=2**63)), False, ""),
-        "inputs": Key(
-            plain(read),
-            True,
-            "what is known of each input, e.g. "
-            '"roughness.sigma" = { low = "80 nm", high = "120 nm" }',
-        ),
-    }
-    return reader.table(path, keys, lambda values: Uncertainty(**values))
+    ranges = _ranges(given).items()
+    return dict(
+        reader.read_each({f"{path}.{say(label)}": (label, entry) for label, entry in ranges}, one)
+    )
+
+
+KEYS = {
+    "samples": count(least=64, most=2**24),
+    "seed": count(least=0, most=2**63),
+    "inputs": Key(
+        _inputs,
+        True,
+        'what is known of each input, e.g. "roughness.sigma" = { low = "80 nm", high = "120 nm" }',
+    ),
+}
+
+
+def _uncertainty(reader: Reader, path: str, data: Any) -> Any:
+    return reader.table(path, data, KEYS, lambda values: Uncertainty(**values))
 
 
 def field_of_input(
@@ -66,7 +58,7 @@ def field_of_input(
     table, _, last = name.rpartition(".")
     if table == "load" and last in LOADS:
         if get(whole.get("load"), last) is None:
-            raise InvalidValue(f"{where}: {name} is not the load that [load] gives")
+            raise InvalidValue(Problem(where, f": {name} is not the load that [load] gives"))
         return {"separation": "d"}.get(last, last), LOADS[last]
     known = {
         each.name: (each.field, each.quantity) for each in inputs if each.quantity and not each.idle
@@ -76,9 +68,10 @@ def field_of_input(
     if name in known:
         return known[name]
     if why := next((each.idle for each in inputs if each.name == name), ""):
-        raise InvalidValue(f"{where}: {name} {why}")
+        raise InvalidValue(Problem(where, f": {name} {why}"))
     if table == "particles" and "particles" not in whole:
-        raise InvalidValue(f"{where}: there is no [particles] table, so {name} is no input")
+        rule = f": there is no [particles] table, so {name} is no input"
+        raise InvalidValue(Problem(where, rule))
     meant = near_path(name, known)
     hint = guess("", listed, meant=meant, otherwise="it has ")
     raise InvalidValue(Problem(where, f": {name} is not a number of this study", hint=hint))
@@ -86,37 +79,27 @@ def field_of_input(
 
 def _uncertain(reader: Reader, where: str, about: dict[str, Any], entry: Any) -> Uncertain:
     """One distribution: which it is follows from its keys."""
-    ways = (
-        '{ low, high }, with spacing = "log" for a range of decades, '
-        "{ mean, std } or { median, gsd }"
-    )
-    if not isinstance(entry, dict):
-        raise InvalidValue(f"{where} = {say(entry)} must be one of {ways}")
-    spacing = entry.get("spacing", "linear")
-    given = {key: value for key, value in entry.items() if key != "spacing"}
-    fits = [kind for kind, names in KINDS.items() if set(names) == set(given)]
-    if not fits or ("spacing" in entry and "low" not in given):
-        raise InvalidValue(f"{where} = {say(entry)} must be one of {ways}")
-    kind = fits[0]
-    if "spacing" in entry:
-        word(f"{where}.spacing", ("linear", "log"))(spacing)
+    given = dict(entry) if isinstance(entry, dict) else {}
+    spacing = given.pop("spacing", None)
+    kind = next((kind for kind, names in KINDS.items() if set(names) == set(given)), None)
+    if kind is None or (spacing is not None and "low" not in given):
+        ways = '{ low, high }, with spacing = "log" for a range of decades, '
+        raise wrong(where, f"must be one of {ways}{{ mean, std }} or {{ median, gsd }}", entry)
+    if spacing is not None:
+        spacing = read_word(("linear", "log"), reader, f"{where}.spacing", spacing)
         kind = "log-uniform" if spacing == "log" else kind
     # of a spread only the sign is known: the range is that of the input
     spread = about | {"gt": 0, "ge": None, "lt": None, "le": None, "hint": ""}
-    numbers: list[float] = []
-    problems: list[str] = []
-    for name in KINDS[kind]:
-        meant = {"std": spread, "gsd": spread | {"unit": "1"}}.get(name, about)
-        try:
-            numbers.append(number(reader, f"{where}.{name}", meant)(given[name]))
-        except InvalidValue as error:
-            problems += error.problems
-    if problems:
-        raise InvalidValue(*problems)
+    meant = {"std": spread, "gsd": spread | {"unit": "1"}}
+
+    def number(reader: Reader, path: str, name: str) -> float:
+        return read_number(meant.get(name, about), reader, path, given[name])
+
+    first, second = reader.read_each({f"{where}.{name}": name for name in KINDS[kind]}, number)
     try:
-        return Uncertain(kind=kind, first=numbers[0], second=numbers[1])
+        return Uncertain(kind=kind, first=first, second=second)
     except InvalidValue as error:
-        raise InvalidValue(*(f"{where}: {text}" for text in error.problems)) from None
+        raise InvalidValue(*(Problem(where, f": {text}") for text in error.problems)) from None
 
 
 def _ranges(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
@@ -129,4 +112,4 @@ def _ranges(tree: dict[str, Any], path: str = "") -> dict[str, Any]:
     return out
 
 
-TABLE = Table(name="uncertainty", read=uncertainty, role="study")
+UNCERTAINTY = Table(name="uncertainty", key=Key(schema=NOTHING, table=_uncertainty), role="study")

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
-from pydantic import TypeAdapter, ValidationError
 
 from ..analysis.sweep.plan import Plan
 from ..analysis.uncertainty.inputs import Uncertainty
@@ -23,17 +22,18 @@ from ..quantities.arguments import names_arguments
 from ..quantities.value import slips_are_told
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
-from .body import loads_of
 from .connector import AskedConnector, connector_of
 from .film import on_body
+from .load import loads_of
 from .outputs import on_area
 from .overrides import override
 from .own_code import load_installed
 from .particles import gaps_of
 from .plate import AskedPlate, plate_of
-from .reader import Key, Reader, Table
+from .reader import Reader, Table
+from .schema import Describer
 from .sweep import ends, plan, with_nested_names
-from .tables import FIELDS, TABLES
+from .tables import TABLES
 from .toml import read
 
 __all__ = ["Study", "check", "load_study", "read_tables"]
@@ -174,7 +174,7 @@ def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> lis
 
 def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
-    return read_tables(data, folder, _study, lambda table: table.required(data))
+    return read_tables(data, folder, _study, lambda table: table.is_required(data))
 
 
 def read_tables(
@@ -186,42 +186,16 @@ def read_tables(
     """What a parsed file in ``folder`` asks for, built of its tables, of which some it needs."""
     load_installed()
     data = with_nested_names(data)
+    reader = Reader(folder, data)
+    keys = {table.name: table.key._replace(required=needs(table)) for table in TABLES}
     with slips_are_told():
         try:
-            held = [t for t in TABLES if t.name in data or needs(t)]
-            return _checked(data, folder, build, needs, held)
-        except InvalidValue:
+            return reader.table("", data, keys, lambda values: build(reader, values))
+        except InvalidValue as error:
             # to say where a misplaced key belongs, every table must be known
-            return _checked(data, folder, build, needs, TABLES)
-
-
-def _checked(
-    data: dict[str, Any],
-    folder: Path,
-    build: Callable[[Reader, dict[str, Any]], Asked],
-    needs: Callable[[Table], bool],
-    tables: Iterable[Table],
-) -> Asked:
-    """What is asked for, when these are all the tables that the file may hold."""
-    reader = Reader(folder, data, FIELDS)
-    keys = {
-        table.name: Key(
-            table.read(reader, table.name, data.get(table.name)), needs(table), table.about
-        )
-        for table in tables
-    }
-
-    def built(values: dict[str, Any]) -> Asked:
-        if reader.problems:
-            raise InvalidValue(*reader.problems)
-        return build(reader, values)
-
-    model = reader.table("", keys, built)
-    try:
-        return TypeAdapter(model).validate_python(data)
-    except ValidationError as error:
-        problems = [*reader.known.problems(error), *reader.problems]
-    raise InvalidValue(*dict.fromkeys(problems))
+            known = Describer(folder, data).known_of(TABLES)
+            known.keys |= reader.known.keys
+            raise InvalidValue(*known.problems([*reader.mistakes, *error.problems])) from None
 
 
 def _study(reader: Reader, values: dict[str, Any]) -> Study:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import Problem
 from ..quantities.value import Value, choice, quantity
 from .conjunctions import Hertz, Line, Point
 
@@ -127,8 +128,12 @@ class BallInGroove(Body):
     def _problems(self) -> list[str]:
         if self.pitch_diameter is not None and self.pitch_diameter <= self.diameter:
             return [
-                f"BallInGroove.pitch_diameter = {self.pitch_diameter:g} must be above the "
-                f"diameter of a ball, {self.diameter:g} [m]; check the units of both"
+                Problem(
+                    "pitch_diameter",
+                    "must be above the "
+                    f"diameter of a ball, {self.diameter:g} [m]; check the units of both",
+                    f"{self.pitch_diameter:g}",
+                )
             ]
         return []
 
@@ -178,8 +183,12 @@ class Roller(Body):
         track = self.track_diameter
         if self.ring == "outer" and track is not None and track <= self.diameter:
             return [
-                f"Roller.track_diameter = {track:g} must be above the diameter of the roller, "
-                f'{self.diameter:g} [m], with ring = "outer"; check the units of both'
+                Problem(
+                    "track_diameter",
+                    f"must be above the diameter of the roller, "
+                    f'{self.diameter:g} [m], with ring = "outer"; check the units of both',
+                    f"{track:g}",
+                )
             ]
         return []
 

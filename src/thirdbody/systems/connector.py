@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..laws.particle.series import Series
 from ..laws.particle.tension import breaks
 from ..populations.distributions import Monodisperse
@@ -143,12 +143,12 @@ class Connector(Value):
         out: list[str] = []
         for name in ("contacts", "parallel"):
             if getattr(self, name) % 1:
-                out.append(f"Connector.{name} = {getattr(self, name):g} must be a whole number")
+                out.append(Problem(name, "must be a whole number", f"{getattr(self, name):g}"))
         names = [name_of(dust, i) for i, dust in enumerate(self.particles)]
         for name in self.conducting:
             if name not in (*names, BY_MATERIAL):
                 known = ", ".join(map(say, names))
-                out.append(f"Connector.conducting = {say(name)} must name particles, here {known}")
+                out.append(Problem("conducting", f"must name particles, here {known}", say(name)))
         for dust, name in zip(self.particles, names, strict=True):
             if dust.strength is not None:
                 out.append(
@@ -157,9 +157,12 @@ class Connector(Value):
             largest = dust.diameter.support[1]
             if self.radius <= largest:
                 out.append(
-                    f"Connector.radius = {value_of(self.radius, 'm')} must be above the largest "
-                    f"particle of {name}, {value_of(largest, 'm')}: contacts come down on dust, "
-                    "not on boulders"
+                    Problem(
+                        "radius",
+                        f"must be above the largest particle of {name}, "
+                        f"{value_of(largest, 'm')}: contacts come down on dust, not on boulders",
+                        value_of(self.radius, "m"),
+                    )
                 )
         return out
 

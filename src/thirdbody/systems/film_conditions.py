@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..contact.contact import Contact
+from ..errors import Problem
 from ..populations.distributions import Distribution
 from ..quantities.value import Value, choice, quantity
 from .film_formulas import AbstractFilm, Line, Oil, Point
@@ -178,24 +179,32 @@ class FilmConditions(Value):
     entrainment: Entrainment | None = None
 
     def _problems(self) -> list[str]:
-        out = []
+        out: list[str] = []
         if not isinstance(self.conjunction, Point | Line):
-            out.append(f"FilmConditions.conjunction = {self.conjunction!r} must be a Point or Line")
+            out.append(Problem("conjunction", "must be a Point or Line", repr(self.conjunction)))
         elif self.formula is not None and self.formula.shape != self.conjunction.shape:
             out.append(
-                f"FilmConditions.formula = {self.formula.name} is for {self.formula.shape} "
-                f"contacts, and the conjunction is a {self.conjunction.shape}"
+                Problem(
+                    "formula",
+                    f"is for {self.formula.shape} "
+                    f"contacts, and the conjunction is a {self.conjunction.shape}",
+                    f"{self.formula.name}",
+                )
             )
         if not isinstance(self.oil, Oil):
-            out.append(f"FilmConditions.oil = {self.oil!r} must be an Oil")
+            out.append(Problem("oil", "must be an Oil", repr(self.oil)))
         if self.few > self.most:
             out.append(
-                f"FilmConditions.few = {self.few:g} must be at most most = {self.most:g}: the film "
-                "is full below the first share of the solids and boundary above the second"
+                Problem(
+                    "few",
+                    f"must be at most most = {self.most:g}: the film "
+                    "is full below the first share of the solids and boundary above the second",
+                    f"{self.few:g}",
+                )
             )
         speeds = np.atleast_1d(np.asarray(self.speed, dtype=float))
         if not speeds.size or not np.all(np.isfinite(speeds) & (speeds > 0)):
-            out.append("FilmConditions.speed must be numbers > 0 [m/s], at least one")
+            out.append(Problem("speed", "must be numbers > 0 [m/s], at least one"))
         else:
             object.__setattr__(self, "speed", tuple(speeds.tolist()))
         return out

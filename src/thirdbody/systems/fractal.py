@@ -16,7 +16,7 @@ from scipy import special
 
 from ..contact.particle_averages import size_average
 from ..contact.particle_sums import Part
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..laws.asperity import JG, AbstractAsperityLaw, Hermite
 from ..laws.particle.one_particle import contact_sides, squeezed_particle
 from ..numerics.quadrature import panel_rule
@@ -456,8 +456,8 @@ class GhaedniaMultiscale(Value):
             "particles": Particles,
             "law": AbstractAsperityLaw,
         }
-        out = [
-            f"GhaedniaMultiscale.{name} = {getattr(self, name)!r} is not a {kind}"
+        out: list[str] = [
+            Problem(name, f"is not a {kind}", repr(getattr(self, name)))
             for name, kind in kinds.items()
             if not isinstance(getattr(self, name), kind)
         ]
@@ -465,31 +465,39 @@ class GhaedniaMultiscale(Value):
             return out
         if self.particles.strength is not None:
             out.append(
-                "GhaedniaMultiscale.particles have a strength, and this model does not break "
-                "particles; remove it"
+                Problem(
+                    "particles",
+                    "have a strength, and this model does not break particles; remove it",
+                )
             )
         if not isinstance(self.particles.shape, Sphere):
             out.append(
-                "GhaedniaMultiscale.particles are angular, and those of this model are spheres; "
-                "remove shape"
+                Problem(
+                    "particles", "are angular, and those of this model are spheres; remove shape"
+                )
             )
         for name in ("E_star", "H"):
             own, given = getattr(self.surface, name), getattr(self.surfaces, name)
             if own is not None and not math.isclose(own, given, rel_tol=1e-6):
                 out.append(
-                    f"GhaedniaMultiscale.surface.{name} = {own:g} Pa differs from that of the "
-                    f"surfaces, {value_of(given, 'Pa')}"
+                    Problem(
+                        f"surface.{name}",
+                        f"Pa differs from that of the surfaces, {value_of(given, 'Pa')}",
+                        f"{own:g}",
+                    )
                 )
         if not self.law.scale_free:
             out.append(
-                f"GhaedniaMultiscale.law = {type(self.law).__name__} has a length of its own; "
-                "particles of all sizes need a law that only knows indentation over radius, "
-                "e.g. Hermite()"
+                Problem(
+                    "law",
+                    "has a length of its own; "
+                    "particles of all sizes need a law that only knows indentation over radius, "
+                    "e.g. Hermite()",
+                    f"{type(self.law).__name__}",
+                )
             )
         if isinstance(self.law, JG) and self.size_effect is not None:
-            out.append(
-                "GhaedniaMultiscale.law = JG has its own hardness; use another with a size_effect"
-            )
+            out.append(Problem("law", "= JG has its own hardness; use another with a size_effect"))
         return out
 
     def solve(self, pressure: ArrayLike) -> MultiscaleState:

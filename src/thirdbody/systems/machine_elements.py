@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from ..errors import Problem
 from ..quantities.carried import takes_units
 from ..quantities.value import choice, quantity
 from .body_shapes import BallInGroove, Body
@@ -532,13 +533,21 @@ class BallScrew(Body):
     def _problems(self) -> list[str]:
         if self.pitch_diameter <= self.diameter:
             return [
-                f"BallScrew.pitch_diameter = {self.pitch_diameter:g} must be above the diameter of "
-                f"a ball, {self.diameter:g} [m]; check the units of both"
+                Problem(
+                    "pitch_diameter",
+                    f"must be above the diameter of "
+                    f"a ball, {self.diameter:g} [m]; check the units of both",
+                    f"{self.pitch_diameter:g}",
+                )
             ]
         if self.lead < self.diameter:
             return [
-                f"BallScrew.lead = {self.lead:g} must be at least the diameter of a ball, "
-                f"{self.diameter:g} [m], which lies between two turns"
+                Problem(
+                    "lead",
+                    f"must be at least the diameter of a ball, "
+                    f"{self.diameter:g} [m], which lies between two turns",
+                    f"{self.lead:g}",
+                )
             ]
         return []
 

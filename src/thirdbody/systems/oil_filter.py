@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..populations.distributions import Distribution, PowerLaw
 from ..quantities.units import say, to_si
 from ..quantities.value import Value, several
@@ -71,17 +71,23 @@ class Filter(Value):
     def _problems(self) -> list[str]:
         x, beta = self.sizes, self.betas
         if not x or len(x) != len(beta):
-            return [f"Filter has {len(x)} sizes and {len(beta)} betas; give one for each size"]
-        out = []
+            return [
+                Problem(
+                    "",
+                    f"has {len(x)} sizes and {len(beta)} betas; give one for each size",
+                    owner="Filter",
+                )
+            ]
+        out: list[str] = []
         if any(not (math.isfinite(v) and v > 0) for v in x) or any(
             b <= a for a, b in zip(x, x[1:], strict=False)
         ):
-            out.append("Filter.sizes must increase and start above 0 [m]")
+            out.append(Problem("sizes", "must increase and start above 0 [m]"))
         if any(not (math.isfinite(v) and v >= 1) for v in beta):
-            out.append("Filter.betas must be at least 1: a filter adds no particles")
+            out.append(Problem("betas", "must be at least 1: a filter adds no particles"))
         elif any(b < a for a, b in zip(beta, beta[1:], strict=False)):
             out.append(
-                "Filter.betas must not fall: a filter that holds small ones holds large ones"
+                Problem("betas", "must not fall: a filter that holds small ones holds large ones")
             )
         return out
 

@@ -23,7 +23,7 @@ from ..contact.broken_averages import broken_average
 from ..effects.single.dent import Dent, dent_of, dents_after, flattened_diameter, sink, sunk
 from ..effects.single.ploughing import groove_of
 from ..effects.single.severity import severity, threshold
-from ..errors import InvalidValue, tell_of_range
+from ..errors import InvalidValue, Problem, tell_of_range
 from ..laws.asperity.hermite import Hermite
 from ..laws.base import AbstractAsperityLaw
 from ..laws.particle.breakage import Breakage, about_strength
@@ -208,8 +208,8 @@ class FilmParticles(Value):
             tell_of_range(text)
 
     def _problems(self) -> list[str]:
-        out = [
-            f"FilmParticles.{name} = {getattr(self, name)!r} must be a {kind.__name__}"
+        out: list[str] = [
+            Problem(name, f"must be a {kind.__name__}", repr(getattr(self, name)))
             for name, kind in (
                 ("surfaces", MaterialPair),
                 ("material", Material),
@@ -220,23 +220,35 @@ class FilmParticles(Value):
         ]
         if (self.debris == "brittle") != (self.fragment is not None):
             out.append(
-                f"FilmParticles.fragment = {self.fragment!r} with debris = {self.debris!r}: "
-                "brittle particles, and only those, need the size of their fragments [m]"
+                Problem(
+                    "fragment",
+                    f"with debris = {self.debris!r}: "
+                    "brittle particles, and only those, need the size of their fragments [m]",
+                    repr(self.fragment),
+                )
             )
         if not isinstance(self.strength, WeibullStrength | None):
             out.append(
-                f"FilmParticles.strength = {self.strength!r} must be a WeibullStrength, e.g. "
-                "WeibullStrength.of(material), or None"
+                Problem(
+                    "strength",
+                    "must be a WeibullStrength, e.g. WeibullStrength.of(material), or None",
+                    repr(self.strength),
+                )
             )
         elif self.strength is not None and self.fragment is not None:
             out.append(
-                f"FilmParticles.strength and fragment = {self.fragment:g} would break the "
-                "particles twice; remove one"
+                Problem(
+                    "strength",
+                    f"and fragment = {self.fragment:g} would break the particles twice; remove one",
+                )
             )
         if self.slip > 0 and self.f_ab is None:
             out.append(
-                "FilmParticles.f_ab is missing: with slip, particles groove, and the removed part "
-                "of a groove (0 to 1) must be given"
+                Problem(
+                    "f_ab",
+                    "is missing: with slip, particles groove, and the removed part "
+                    "of a groove (0 to 1) must be given",
+                )
             )
         return out
 

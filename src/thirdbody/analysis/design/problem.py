@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...populations.measured import cleanliness
 from ...populations.particles import Particles
 from ...quantities.value import Value, choice, quantity
@@ -60,7 +60,7 @@ class Objective(Value):
     def _problems(self) -> list[str]:
         if self.low < self.high:
             return []
-        return [f"Objective.low = {self.low:g} must be below high = {self.high:g}"]
+        return [Problem("low", f"must be below high = {self.high:g}", f"{self.low:g}")]
 
     @property
     def sign(self) -> float:
@@ -120,7 +120,9 @@ class Limit(Value):
 
     def _problems(self) -> list[str]:
         if self.most is None and self.least is None:
-            return [f"Limit of {self.of} gives neither most nor least"]
+            return [
+                Problem("", f"of {self.of} gives neither most nor least", owner=type(self).__name__)
+            ]
         return []
 
     def excess(self, metric: Array) -> Array:

@@ -24,7 +24,7 @@ from ...equilibrium.words import (
 )
 from ...errors import InvalidValue
 from ...quantities.say import number, percent, value_of
-from ...study.body import force_sentences, told_forces
+from ...study.load import force_sentences, told_forces
 from ...systems.bodies import Pressed, press
 from ..cross_section import section, to_svg
 from ..state import Answer, State

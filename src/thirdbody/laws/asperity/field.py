@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from ...errors import Problem
 from ...populations.heights import GaussianHeights
 from ..base import AbstractAsperityLaw, AbstractParticleLaw, Branch, Jump, SeatedLaw
 from ..field.own import OwnSpectrum, RollOff
@@ -99,38 +100,55 @@ class Field(AbstractAsperityLaw):
     def _problems(self) -> list[str]:
         if not isinstance(self.spectrum, OwnSpectrum | RollOff | None):
             return [
-                f"Field.spectrum = {self.spectrum!r} must be an OwnSpectrum, a RollOff or None: "
-                "OwnSpectrum.of(from_topography(...))"
+                Problem(
+                    "spectrum",
+                    "must be an OwnSpectrum, a RollOff or None: "
+                    "OwnSpectrum.of(from_topography(...))",
+                    repr(self.spectrum),
+                )
             ]
         if not isinstance(self.remainder, bool):
-            return [f"Field.remainder = {self.remainder!r} must be True or False"]
+            return [Problem("remainder", "must be True or False", repr(self.remainder))]
         return []
 
     def problems(
         self, roughness: Roughness, particle_laws: Sequence[AbstractParticleLaw]
     ) -> list[str]:
-        out = []
+        out: list[str] = []
         if not isinstance(roughness.heights, GaussianHeights):
             out.append(
-                "Contact.asperity_law field takes Gaussian heights: the distribution of summits "
-                f"{type(roughness.heights).__name__} says nothing of the field between them; use "
-                "GaussianHeights, or another law"
+                Problem(
+                    "asperity_law",
+                    "field takes Gaussian heights: the distribution of summits "
+                    f"{type(roughness.heights).__name__} says nothing of the field between them",
+                    hint="use GaussianHeights, or another law",
+                )
             )
         if roughness.ellipticity is not None:
             out.append(
-                "Contact.asperity_law field has no summits of several shapes; remove the "
-                "ellipticity, or take elliptic-zmc"
+                Problem(
+                    "asperity_law",
+                    "field has no summits of several shapes",
+                    hint="remove the ellipticity, or take elliptic-zmc",
+                )
             )
         low, high = ALPHAS
         if not low <= roughness.alpha <= high:
             out.append(
-                f"Contact.asperity_law field knows bandwidths alpha from {low:g} to {high:g}, not "
-                f"{roughness.alpha:.4g}; use another law"
+                Problem(
+                    "asperity_law",
+                    f"field knows bandwidths alpha from {low:g} to {high:g}, not "
+                    f"{roughness.alpha:.4g}",
+                    hint="use another law",
+                )
             )
         out += [
-            f"Contact.asperity_law field needs particles that rest on the rough surface: take "
-            f'Series(seat="rough") in the place of {law.name}'
-            + (f' with seat = "{law.seat}"' if isinstance(law, SeatedLaw) else "")
+            Problem(
+                "asperity_law",
+                "field needs particles that rest on the rough surface: take "
+                f'Series(seat="rough") in the place of {law.name}'
+                + (f' with seat = "{law.seat}"' if isinstance(law, SeatedLaw) else ""),
+            )
             for law in particle_laws
             if not (isinstance(law, SeatedLaw) and law.seat == "rough")
         ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ...errors import Problem
 from ..base import Jump
 from .zmc import ZMC
 
@@ -53,8 +54,12 @@ class Hermite(ZMC):
         if self._slope < 3 * (1 - self.k):
             return []
         return [
-            f"Hermite.k = {self.k:g} with rho = {self.rho:g} makes the pressure overshoot H: "
-            "(k/2) ln rho must stay below 3 (1 - k)"
+            Problem(
+                "k",
+                f"with rho = {self.rho:g} makes the pressure overshoot H: "
+                "(k/2) ln rho must stay below 3 (1 - k)",
+                f"{self.k:g}",
+            )
         ]
 
     @property

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import ndtr, ndtri
 
-from ...errors import InvalidValue, NoEquilibrium
+from ...errors import InvalidValue, NoEquilibrium, Problem
 from ...populations.measured.spectra import filled
 from ...quantities.say import percent
 from ...quantities.value import Value, choice, quantity
@@ -92,15 +92,15 @@ class OwnSpectrum(Value):
 
     def _problems(self) -> list[str]:
         if len(self.q) != len(self.weight) or len(self.q) < 8:
-            return ["OwnSpectrum.q and weight must be as many numbers, 8 at least"]
+            return [Problem("q", "and weight must be as many numbers, 8 at least")]
         if not (all(a < b for a, b in zip(self.q, self.q[1:], strict=False)) and self.q[0] > 0):
-            return ["OwnSpectrum.q must be increasing numbers above 0 [1/m]"]
+            return [Problem("q", "must be increasing numbers above 0 [1/m]")]
         if not (min(self.weight) >= 0 and sum(self.weight) > 0):
-            return ["OwnSpectrum.weight must be numbers from 0, not all 0"]
+            return [Problem("weight", "must be numbers from 0, not all 0")]
         if not self.heights or abs(sum(G * G for G in self.heights) - 1) > 1e-6:
-            return ["OwnSpectrum.heights must be numbers G_n whose squares sum to 1"]
+            return [Problem("heights", "must be numbers G_n whose squares sum to 1")]
         if not 0 <= self.box < math.inf:
-            return [f"OwnSpectrum.box = {self.box!r} must be a length from 0 [m]"]
+            return [Problem("box", "must be a length from 0 [m]", repr(self.box))]
         return []
 
     @classmethod

@@ -6,7 +6,7 @@ import dataclasses
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ...errors import InvalidValue
+from ...errors import InvalidValue, Problem
 from ...quantities.value import choice, quantity
 from ..base import AbstractParticleLaw, OneParticle
 
@@ -122,7 +122,10 @@ class Horng2022(AbstractParticleLaw):
         if unknown := [key for key in switches if key not in fields]:
             known = ", ".join(fields)
             raise InvalidValue(
-                *(f"Horng2022 has no switch {key!r}; it has {known}" for key in unknown)
+                *(
+                    Problem("", f"has no switch {key!r}", hint=f"it has {known}", owner="Horng2022")
+                    for key in unknown
+                )
             )
         values = {key: item.default for key, item in fields.items()}
         values |= {"preset": preset} | PRESETS.get(preset, {}) | switches
@@ -132,7 +135,7 @@ class Horng2022(AbstractParticleLaw):
 
     def _problems(self) -> list[str]:
         return [
-            f"Horng2022.{key} = {getattr(self, key)!r} must be true or false"
+            Problem(key, "must be true or false", f"{getattr(self, key)!r}")
             for key in ("plastic", "normalise")
             if not isinstance(getattr(self, key), bool)
         ]

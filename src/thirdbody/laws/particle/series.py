@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING
 
-from ...errors import Note
+from ...errors import Note, Problem
 from ...populations.shape import Angular
 from ...quantities.value import choice, quantity
 from ..asperity.hermite import Hermite
@@ -163,27 +163,40 @@ class Series(SeatedLaw, _OfTips):
 
     def _problems(self) -> list[str]:
         out = []
-        name = type(self).__name__
         if not isinstance(self.law, AbstractAsperityLaw):
-            out.append(f"{name}.law = {self.law!r} must be a law of one contact, e.g. Hermite()")
+            out.append(
+                Problem("law", "must be a law of one contact, e.g. Hermite()", repr(self.law))
+            )
         elif self.law.of_surface:
             out.append(
-                f"{name}.law = {type(self.law).__name__} is a law of a whole surface; particles "
-                "need a law of one contact, e.g. Hermite()"
+                Problem(
+                    "law",
+                    "is a law of a whole surface; particles "
+                    "need a law of one contact, e.g. Hermite()",
+                    f"{type(self.law).__name__}",
+                )
             )
         elif not self.law.scale_free:
             out.append(
-                f"{name}.law = {type(self.law).__name__} has a length of its own; particles of "
-                "all sizes need a law that only knows indentation over radius, e.g. Hermite()"
+                Problem(
+                    "law",
+                    "has a length of its own; particles of "
+                    "all sizes need a law that only knows indentation over radius, e.g. Hermite()",
+                    f"{type(self.law).__name__}",
+                )
             )
         if self.soft != "squashed" and (self.friction_factor, self.onset) != (0.2, "hermite"):
             out.append(
-                f"{name}.friction_factor and onset need soft = 'squashed', not {self.soft!r}"
+                Problem("friction_factor", f"and onset need soft = 'squashed', not {self.soft!r}")
             )
         if not self.friction_factor > 0:
             out.append(
-                f"{name}.friction_factor = {self.friction_factor:g} must be > 0: without friction "
-                "on its faces a squashed particle spreads without bound"
+                Problem(
+                    "friction_factor",
+                    "must be > 0: without friction "
+                    "on its faces a squashed particle spreads without bound",
+                    f"{self.friction_factor:g}",
+                )
             )
         return out + SeatedLaw._problems(self)
 

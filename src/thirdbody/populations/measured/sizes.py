@@ -193,7 +193,7 @@ class MeasuredSizes(Value):
     def _problems(self) -> list[str]:
         if isinstance(self.sizes, Histogram):
             return []
-        return [f"MeasuredSizes.sizes = {self.sizes!r} must be a Histogram"]
+        return [Problem("sizes", "must be a Histogram", repr(self.sizes))]
 
     def by_number(self, smallest: float | None = None) -> Distribution:
         """The number distribution φ_a; see `by_number`."""
