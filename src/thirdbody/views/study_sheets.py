@@ -19,7 +19,7 @@ from ..equilibrium.words import (
 from ..errors import Note, RangeWarning, ranked
 from ..populations.materials import NUMBERS
 from ..quantities.say import NOT_KNOWN, number, prefixed, unit_of, value_of
-from ..study.body import FORCE
+from ..study.load import FORCE
 from ..study.vocabulary import LOADS
 from ..version import __version__
 from .columns import Cell, Shown, film_columns, in_unit, modes_of, state_columns
