@@ -196,7 +196,7 @@ class Entries:
         self.again()
 
     # ------------------------------------------------------------------ tables
-    def table(self, *place: str | int) -> dict[str, Any]:
+    def table(self, *place: str | int) -> dict[str, object]:
         """A table of the study; an empty one where something else stands."""
         given = self.state.get(*place)
         return given if isinstance(given, dict) else {}

@@ -21,7 +21,7 @@ SIZES = (*VARIANTS["distribution"], *COUNTED)
 AMOUNTS = ("gap", "particle_density", "oil_density")
 
 
-def bins_in_words(given: dict[str, Any]) -> str:
+def bins_in_words(given: dict[str, object]) -> str:
     """What a counter found, in a few words.
 
     >>> bins_in_words({"edges": [1e-6, 2e-6, 4e-6], "counts": [5, 1]})
@@ -118,7 +118,7 @@ class ParticleInputs(Entries):
         if isinstance(shape := table.get("shape"), dict) and word != "weibull":
             kept["shape"] = shape
         amounts = {key: table[key] for key in ("areal_density", *AMOUNTS) if key in table}
-        starts: dict[str, dict[str, Any]] = {
+        starts: dict[str, dict[str, object]] = {
             "iso4406": {"iso4406": "18/16/13", "gap": table.get("gap", "1 um")},
             "as4059": {"as4059": "6", "gap": table.get("gap", "1 um")},
             "nas1638": {"nas1638": "6", "gap": table.get("gap", "1 um")},
