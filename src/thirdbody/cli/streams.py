@@ -11,6 +11,7 @@ import contextlib
 import errno
 import importlib.util
 import io
+import json
 import os
 import shutil
 import stat
@@ -20,7 +21,7 @@ import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from contextvars import ContextVar
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import typer
 from typer.core import TyperGroup
@@ -30,13 +31,18 @@ from ..quantities.say import plural
 from ..quantities.study_words import in_study_words
 from .interrupt import INTERRUPTED, interruptible, interruption, leave
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 __all__ = [
     "Commands",
     "TableFiles",
     "complain",
     "figure_format",
     "open_closed_streams",
+    "print_json",
     "refuse_full_output",
+    "tell_written",
     "warn",
     "warn_of",
     "without_output",
@@ -127,7 +133,7 @@ def complain(sentences: Iterable[str]) -> None:
                 print(_wrap_line(f"error: {line}"), file=sys.stderr)
 
 
-def warn(message: Warning | str, *_: Any, **__: Any) -> None:
+def warn(message: Warning | str, *_: object, **__: object) -> None:
     """A warning: one line of a pipe or file, as many lines of a terminal as it takes."""
     WARNINGS.set(WARNINGS.get() + 1)
     sentence = in_study_words(" ".join(str(message).split()))
@@ -169,6 +175,17 @@ def remark(sentence: str) -> None:
     print(f"note: {' '.join(sentence.split())}", file=sys.stderr)
 
 
+def print_json(data: object) -> None:
+    """An answer as JSON, on standard output."""
+    print(json.dumps(data, indent=1, allow_nan=False))
+
+
+def tell_written(*files: Path) -> None:
+    """Say which files there are now."""
+    for file in files:
+        print(f"written: {file}", file=sys.stderr)
+
+
 class TableFiles(NamedTuple):
     """Files that a table is written to; None for those not asked for."""
 
@@ -200,7 +217,7 @@ class TableFiles(NamedTuple):
         kinds = ("table", "workbook", "Parquet file", "picture")
         need_places(zip((*self, figure), kinds, strict=True), force=force)
 
-    def write(self, columns: Mapping[str, list[Any]], units: Mapping[str, str]) -> None:
+    def write(self, columns: Mapping[str, Sequence[object]], units: Mapping[str, str]) -> None:
         """A column each, its unit in its name, a row a state; the same bytes every time."""
         from ..quantities.files import csv_of, whole, with_units, write_text
 
@@ -216,7 +233,7 @@ class TableFiles(NamedTuple):
                 pandas.DataFrame(named).to_parquet(part, engine="pyarrow", index=False)
 
 
-def _write_xlsx(path: Path, columns: Mapping[str, Sequence[Any]]) -> None:
+def _write_xlsx(path: Path, columns: Mapping[str, Sequence[object]]) -> None:
     """A workbook of one sheet; when it was made stands nowhere in it."""
     import re
     import zipfile
@@ -249,7 +266,7 @@ def figure_format(figure: Path) -> str:
     return kind
 
 
-def write_figure(figure: Path, drawing: Any) -> None:
+def write_figure(figure: Path, drawing: Figure) -> None:
     """A matplotlib figure as a file, the same bytes every time."""
     from matplotlib import rc_context
 
@@ -262,4 +279,4 @@ def write_figure(figure: Path, drawing: Any) -> None:
     made |= {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})  # type: ignore[arg-type]
     with whole(figure) as part, rc_context({"svg.hashsalt": "thirdbody"}):
         drawing.savefig(part, format=kind, metadata=made)
-    print(f"written: {figure}", file=sys.stderr)
+    tell_written(figure)

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from contextlib import nullcontext
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from ...quantities.progress import heartbeat
 from ...quantities.say import concentration_of, number, percent, value_of
 from ...quantities.tables import Table
-from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
+from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, argument, option, read_study
 from ..show import MOST_ROWS, some, terminal
-from ..streams import TableFiles, figure_format, warn_of, write_figure
+from ..streams import TableFiles, figure_format, print_json, tell_written, warn_of, write_figure
 
 if TYPE_CHECKING:
     from ...analysis.design.design import Best
@@ -24,30 +22,29 @@ if TYPE_CHECKING:
 __all__ = ["command"]
 
 
-def command(
-    study: Annotated[
-        Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [design].")
-    ],
-    as_json: AsJson = False,
-    csv_file: Annotated[
-        Path | None, typer.Option("--csv", metavar="FILE", help="Write every point tried.")
-    ] = None,
-    xlsx_file: XlsxFile = None,
-    parquet_file: ParquetFile = None,
-    force: Force = False,
-    figure: Annotated[
-        Path | None, typer.Option("--figure", metavar="FILE", help="Draw the points tried.")
-    ] = None,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: Path = argument("A study file with a table [design].", "STUDY.toml")
+    as_json: AsJson = False
+    csv: Path | None = option("--csv", "Write every point tried.", "FILE")
+    xlsx: XlsxFile = None
+    parquet: ParquetFile = None
+    force: Force = False
+    figure: Path | None = option("--figure", "Draw the points tried.", "FILE")
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """The best size, concentration or roughness over a range of loads, under limits."""
     from ...study.analyses import design_study
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
-    asked = read_study(study, settings, writes=[*files, figure])
-    files.need(figure, force=force)
-    if figure is not None:
-        figure_format(figure)  # refused before long work
+    files = TableFiles(options.csv, options.xlsx, options.parquet)
+    asked = read_study(options.study, options.settings, writes=[*files, options.figure])
+    files.need(options.figure, force=options.force)
+    if options.figure is not None:
+        figure_format(options.figure)  # refused before long work
     bar = sys.stderr.isatty()
     with nullcontext() if bar else heartbeat("design"):
         best = design_study(asked, progress=bar)
@@ -56,15 +53,14 @@ def command(
     files.write(
         columns, {name: each.about.get("units", "") for name, each in best.of_points.items()}
     )
-    for path in files.paths:
-        print(f"written: {path}", file=sys.stderr)
-    if figure is not None:
+    tell_written(*files.paths)
+    if options.figure is not None:
         from ...views.plot.design import plot_trials
 
-        write_figure(figure, plot_trials(best))
-    if as_json:
+        write_figure(options.figure, plot_trials(best))
+    if options.as_json:
         told = {"title": asked.title, **best.to_dict()}
-        print(json.dumps(told, indent=1, allow_nan=False))
+        print_json(told)
     else:
         _page(asked, best)
 

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import math
-import sys
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from ...quantities.progress import heartbeat
 from ...quantities.say import number, value_of
 from ...quantities.tables import Table
 from ...version import __version__
-from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, read_study
+from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, argument, option, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import TableFiles, figure_format, warn_of, write_figure
+from ..streams import TableFiles, figure_format, print_json, tell_written, warn_of, write_figure
 
 if TYPE_CHECKING:
     from ...study import FilmResult
@@ -35,45 +32,40 @@ DROP = ("lambda", "on film")
 """Columns in the order in which they go where the width is small."""
 
 
-def command(
-    study: Annotated[
-        Path, typer.Argument(metavar="STUDY.toml", help="A study file with a table [film].")
-    ],
-    as_json: AsJson = False,
-    csv_file: Annotated[
-        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per speed.")
-    ] = None,
-    xlsx_file: XlsxFile = None,
-    parquet_file: ParquetFile = None,
-    force: Force = False,
-    figure: Annotated[
-        Path | None, typer.Option("--figure", metavar="FILE", help="Draw the curve over speed.")
-    ] = None,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: Path = argument("A study file with a table [film].", "STUDY.toml")
+    as_json: AsJson = False
+    csv: Path | None = option("--csv", "Write one row per speed.", "FILE")
+    xlsx: XlsxFile = None
+    parquet: ParquetFile = None
+    force: Force = False
+    figure: Path | None = option("--figure", "Draw the curve over speed.", "FILE")
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """Film, load shares and friction of a lubricated contact, at one speed or over many."""
     from ...study import run_film
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
-    asked = read_study(study, settings, writes=[*files, figure])
-    files.need(figure, force=force)
-    if figure is not None:
-        figure_format(figure)  # refused before long work
+    files = TableFiles(options.csv, options.xlsx, options.parquet)
+    asked = read_study(options.study, options.settings, writes=[*files, options.figure])
+    files.need(options.figure, force=options.force)
+    if options.figure is not None:
+        figure_format(options.figure)  # refused before long work
     with heartbeat("film"):
         result = run_film(asked)
     warn_of(result.run_warnings)
-    drawn = None
-    if figure is not None:
+    files.write(*result.table())
+    tell_written(*files.paths)
+    if options.figure is not None:
         from ...views.plot.film import stribeck
 
-        drawn = stribeck(result.states, result.regime_speeds)
-    files.write(*result.table())
-    for path in files.paths:
-        print(f"written: {path}", file=sys.stderr)
-    if figure is not None:
-        write_figure(figure, drawn)
-    if as_json:
-        print(json.dumps(result.to_dict(), indent=1, allow_nan=False))
+        write_figure(options.figure, stribeck(result.states, result.regime_speeds))
+    if options.as_json:
+        print_json(result.to_dict())
     else:
         _show(result)
 

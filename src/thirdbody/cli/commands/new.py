@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from importlib import resources
 from pathlib import Path
 from typing import Annotated
@@ -11,6 +10,7 @@ from typing import Annotated
 import typer
 
 from ...errors import InvalidValue, Problem
+from ..streams import tell_written
 from .schema import schema_text
 
 __all__ = ["KINDS", "command"]
@@ -90,5 +90,5 @@ def command(
             written[beside] = schema_text()
     for file, content in written.items():
         write_text(file, content)
-        print(f"written: {file}", file=sys.stderr)
+        tell_written(file)
     print(f"thirdbody solve {target}")

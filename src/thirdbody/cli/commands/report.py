@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..options import Force, Settings, StudyFile, read_study
-from ..streams import warn_of
+from ..streams import tell_written, warn_of
 
 __all__ = ["command"]
 
@@ -44,4 +43,4 @@ def command(
         page = found.html()
     warn_of(found.result.run_warnings)
     write_text(target, page)
-    print(f"written: {target}", file=sys.stderr)
+    tell_written(target)

@@ -4,45 +4,44 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
-
-import typer
+from typing import Any
 
 from ...errors import InvalidValue
 from ...papers import PAPERS
-from ..options import not_a_folder
+from ..options import argument, not_a_folder, option
 
 __all__ = ["command"]
 
 
-def command(
-    paper: Annotated[str, typer.Argument(help=f"One of: {', '.join(PAPERS)}.")],
-    out: Annotated[
-        Path | None, typer.Option("--out", metavar="DIR", help="Folder for figures and ledger.")
-    ] = None,
-    preset: Annotated[
-        str | None,
-        typer.Option(
-            "--preset",
-            metavar="NAME",
-            help="Reading that draws the figures of horng2022; quick: a minute of explicit.",
-        ),
-    ] = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    paper: str = argument(f"One of: {', '.join(PAPERS)}.")
+    out: Path | None = option("--out", "Folder for figures and ledger.", "DIR")
+    preset: str | None = option(
+        "--preset",
+        "Reading that draws the figures of horng2022; quick: a minute of explicit.",
+        "NAME",
+    )
+
+
+def command(options: Options) -> None:
     """Every figure and the ledger of claims of a paper."""
     from importlib import import_module
 
     problems = []
-    if paper not in PAPERS:
-        problems.append(f"paper = {paper!r} must be one of {', '.join(PAPERS)}")
-    folder = out or Path(paper)
+    if options.paper not in PAPERS:
+        problems.append(f"paper = {options.paper!r} must be one of {', '.join(PAPERS)}")
+    folder = options.out or Path(options.paper)
     problems += not_a_folder(folder)
     if problems:
         raise InvalidValue(*problems)
-    study = import_module(f"thirdbody.papers.{paper}")
+    study = import_module(f"thirdbody.papers.{options.paper}")
     with _Progress() as progress:
-        chosen = {} if preset is None else {"preset": preset}
+        chosen = {} if options.preset is None else {"preset": options.preset}
         done = study.reproduce(folder, progress=progress, **chosen)
     for line in done.lines():
         print(line)

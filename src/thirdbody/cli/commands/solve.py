@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -29,9 +29,9 @@ from ...quantities.progress import heartbeat
 from ...quantities.say import number, percent, unit_of, value_of
 from ...quantities.tables import Table
 from ...version import __version__
-from ..options import AsJson, Force, ParquetFile, Settings, StudyFile, XlsxFile, read_study
+from ..options import AsJson, Force, ParquetFile, Settings, StudyFile, XlsxFile, option, read_study
 from ..show import ALL, MOST_ROWS, some, terminal
-from ..streams import TableFiles, warn_of
+from ..streams import TableFiles, print_json, warn_of
 
 if TYPE_CHECKING:
     from ...equilibrium.columns import PopulationShare
@@ -61,32 +61,35 @@ Columns = dict[str, Callable[[int], str]]
 """Heads of columns, and the cell of a state."""
 
 
-def command(
-    study: StudyFile,
-    as_json: AsJson = False,
-    csv_file: Annotated[
-        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per state.")
-    ] = None,
-    xlsx_file: XlsxFile = None,
-    parquet_file: ParquetFile = None,
-    force: Force = False,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: StudyFile
+    as_json: AsJson = False
+    csv: Path | None = option("--csv", "Write one row per state.", "FILE")
+    xlsx: XlsxFile = None
+    parquet: ParquetFile = None
+    force: Force = False
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """Separation, real contact area, load shares and contact mode under the loads of a study."""
     from ...study import run_study
 
-    files = TableFiles(csv_file, xlsx_file, parquet_file)
-    if as_json and files.paths:
+    files = TableFiles(options.csv, options.xlsx, options.parquet)
+    if options.as_json and files.paths:
         raise typer.BadParameter(
             "--json and --csv, --xlsx or --parquet exclude each other; run the command twice"
         )
-    asked = read_study(study, settings, writes=files.paths)
-    files.need(force=force)
+    asked = read_study(options.study, options.settings, writes=files.paths)
+    files.need(force=options.force)
     with heartbeat("solve"):
         result = run_study(asked)
     warn_of(result.run_warnings)
-    if as_json:
-        print(json.dumps(result.to_dict(), indent=1, allow_nan=False))
+    if options.as_json:
+        print_json(result.to_dict())
     elif result.solved_states and files.paths:
         files.write(*result.table())
         for path in files.paths:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from ...errors import InvalidValue, NoEquilibrium
 from ..interrupt import Interrupted
-from ..options import Settings, tell_notes
+from ..options import Settings, argument, option, tell_notes
 from ..streams import warn_of
 
 if TYPE_CHECKING:
@@ -20,59 +19,57 @@ if TYPE_CHECKING:
 __all__ = ["command"]
 
 
-def command(
-    study: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="STUDY.toml", help="A study file with a table [sweep].", show_default=False
-        ),
-    ] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(
-            "--out", metavar="DIR", help="Folder for the states; the same command resumes."
-        ),
-    ] = None,
-    format: Annotated[
-        str, typer.Option("--format", metavar="zarr|netcdf", help="Of the data in DIR.")
-    ] = "zarr",
-    workers: Annotated[
-        int, typer.Option("--workers", metavar="N", help="Threads that solve blocks of states.")
-    ] = 1,
-    scheduler: Annotated[
-        str | None,
-        typer.Option(
-            "--scheduler", metavar="ADDRESS", help="A Dask cluster that solves them instead."
-        ),
-    ] = None,
-    check: Annotated[
-        Path | None,
-        typer.Option(
-            "--check", metavar="DIR", help="Say instead whether a folder is as it was written."
-        ),
-    ] = None,
-    settings: Settings = None,
-) -> None:
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """What the command is told."""
+
+    study: Path | None = argument(
+        "A study file with a table [sweep].", "STUDY.toml", default=None, show_default=False
+    )
+    out: Path | None = option("--out", "Folder for the states; the same command resumes.", "DIR")
+    format: str = option("--format", "Of the data in DIR.", "zarr|netcdf", default="zarr")
+    workers: int = option("--workers", "Threads that solve blocks of states.", "N", default=1)
+    scheduler: str | None = option(
+        "--scheduler", "A Dask cluster that solves them instead.", "ADDRESS"
+    )
+    check: Path | None = option(
+        "--check", "Say instead whether a folder is as it was written.", "DIR"
+    )
+    settings: Settings = None
+
+
+def command(options: Options) -> None:
     """Many states, in a folder: on a grid, in pairs or sampled; resumable."""
     from ...analysis.sweep.streaming import run
 
-    if check is not None:
-        _check(check, alone=study is None and out is None)
+    if options.check is not None:
+        _check(options.check, alone=options.study is None and options.out is None)
         return
-    if study is None or out is None:
-        problems = [] if study is not None else ["STUDY.toml is missing: the study to sweep"]
-        problems += [] if out is not None else ["--out DIR is missing: the folder for the states"]
+    if options.study is None or options.out is None:
+        problems = (
+            [] if options.study is not None else ["STUDY.toml is missing: the study to sweep"]
+        )
+        problems += (
+            [] if options.out is not None else ["--out DIR is missing: the folder for the states"]
+        )
         raise InvalidValue(*problems)
-    plan = _read_plan(study, settings, format, workers)
+    plan = _read_plan(options.study, options.settings, options.format, options.workers)
     client = None
-    if scheduler is not None:
+    if options.scheduler is not None:
         from ...quantities.sharing import connected
 
-        client = connected(scheduler)
+        client = connected(options.scheduler)
     try:
-        folder = run(plan, out, format=format, workers=workers, client=client, progress=True)
+        folder = run(
+            plan,
+            options.out,
+            format=options.format,
+            workers=options.workers,
+            client=client,
+            progress=True,
+        )
     except KeyboardInterrupt:
-        done = len(list((out / "done").glob("[0-9]*.json")))
+        done = len(list((options.out / "done").glob("[0-9]*.json")))
         raise Interrupted(
             f"interrupted after {done} of {plan.count} blocks; the same command goes on"
         ) from None
