@@ -21,6 +21,7 @@ import numpy as np
 
 from ..contact.contact import Contact
 from ..equilibrium.columns import Equilibrium, quantity_of
+from ..equilibrium.load import as_loads
 from ..equilibrium.modes import EPS_1, EPS_2, CriticalStatus
 from ..equilibrium.solve import given_load, solve
 from ..equilibrium.transitions import transitions
@@ -338,7 +339,7 @@ def _results(of: str | Sequence[str], contact: Contact) -> list[str]:
 def _derived(
     contact: Contact,
     results: Sequence[str],
-    given: Mapping[str, Any],
+    given: Mapping[str, ArrayLike],
     moved: Sequence[Input],
     load: str,
     rule: Rule,
@@ -347,7 +348,7 @@ def _derived(
     value: dict[str, Array] = {}
     entries: dict[str, dict[str, Entry]] = {}
     if plain := [name for name in results if name not in CRITICAL]:
-        state = solve(contact, **given)
+        state = solve(contact, **as_loads(given))
         columns = state.columns()
         value = {name: columns[name] for name in plain}
         entries = _of_columns(contact, state, moved, load, plain, rule)

@@ -281,10 +281,10 @@ def compared(contact: Contact, load: str, loads: list[float]) -> Laws:
     """Every asperity law under these loads."""
     import thirdbody as tb
 
+    from ..equilibrium.load import as_force_load
+
     contact = _bare(contact)
-    values = np.array(loads)
-    given = {"pressure": None, "F_star": None} | {load: values}
-    table = tb.compare(contact, **given)
+    table = tb.compare(contact, **as_force_load(load, np.array(loads)))
     laws = [str(law) for law in table.law.values]
     found = {
         "laws": laws,

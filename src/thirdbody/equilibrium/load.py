@@ -2,25 +2,45 @@
 
 from __future__ import annotations
 
-from typing import TypedDict, cast
+from collections.abc import Mapping
+from typing import Generic, TypedDict, TypeVar, cast
 
-from numpy.typing import ArrayLike
+__all__ = ["ForceLoad", "Load", "as_force_load", "as_load", "as_loads"]
 
-__all__ = ["Load", "as_load"]
+Values = TypeVar("Values")
 
 
-class Load(TypedDict, total=False):
+class ForceLoad(TypedDict, Generic[Values], total=False):
+    """A pressure or a load F*, for what takes no separation."""
+
+    pressure: Values
+    F_star: Values
+
+
+class Load(ForceLoad[Values], Generic[Values], total=False):
     """A load by its name: ``solve(contact, **load)``."""
 
-    pressure: ArrayLike | None
-    F_star: ArrayLike | None
-    d: ArrayLike | None
+    d: Values
 
 
-def as_load(name: str, values: ArrayLike) -> Load:
+def as_load(name: str, values: Values) -> Load[Values]:
     """The load of this name.
 
-    >>> as_load("pressure", 5e6)
+    >>> as_load("d", 2e-7)
+    {'d': 2e-07}
+    """
+    return cast(Load[Values], {name: values})
+
+
+def as_loads(given: Mapping[str, Values]) -> Load[Values]:
+    """Loads by their names, of which there may be none."""
+    return cast(Load[Values], given)
+
+
+def as_force_load(name: str, values: Values) -> ForceLoad[Values]:
+    """The load of this name, which is no separation.
+
+    >>> as_force_load("pressure", 5e6)
     {'pressure': 5000000.0}
     """
-    return cast(Load, {name: values})
+    return cast(ForceLoad[Values], {name: values})

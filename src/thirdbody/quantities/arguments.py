@@ -150,7 +150,7 @@ def refuse_misfits(
     error: Exception,
     function: Callable[..., Any],
     args: tuple[Any, ...],
-    named: Mapping[str, Any],
+    named: Mapping[str, object],
     *,
     numbers: Container[str] = (),
     where: str = "",
@@ -184,7 +184,7 @@ def refuse_misfits(
 def misfits(
     function: Callable[..., Any],
     args: tuple[Any, ...],
-    named: Mapping[str, Any],
+    named: Mapping[str, object],
     *,
     numbers: Container[str] = (),
 ) -> list[Problem]:
@@ -344,11 +344,11 @@ def _inside(node: ast.expr) -> list[ast.expr]:
     return list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
 
 
-def _fits(node: ast.expr, value: Any, space: Mapping[str, Any]) -> bool:
+def _fits(node: ast.expr, value: Any, space: Mapping[str, object]) -> bool:
     return any(_fits_one(each, value, space) for each in _alternatives(node))
 
 
-def _fits_one(node: ast.expr, value: Any, space: Mapping[str, Any]) -> bool:
+def _fits_one(node: ast.expr, value: Any, space: Mapping[str, object]) -> bool:
     name, inside = _name(node), _inside(node)
     if name in LEAVES:
         return LEAVES[name][0](value)
@@ -376,7 +376,7 @@ def _fits_one(node: ast.expr, value: Any, space: Mapping[str, Any]) -> bool:
     return kind is None or isinstance(value, kind)
 
 
-def _kind(name: str, space: Mapping[str, Any]) -> type | None:
+def _kind(name: str, space: Mapping[str, object]) -> type | None:
     """The class that an annotation names; None where it names another thing, or is not known."""
     found = space.get(name)
     if found is None:  # imported for types alone
@@ -388,7 +388,7 @@ def _kind(name: str, space: Mapping[str, Any]) -> type | None:
     return found
 
 
-def _words(node: ast.expr, space: Mapping[str, Any]) -> Iterator[str]:
+def _words(node: ast.expr, space: Mapping[str, object]) -> Iterator[str]:
     """What an annotation takes, in words."""
     names = [_name(each) for each in _alternatives(node)]
     for each, name in zip(_alternatives(node), names, strict=True):
@@ -415,6 +415,6 @@ def _words(node: ast.expr, space: Mapping[str, Any]) -> Iterator[str]:
 PLURALS = {"text": "texts", "a number": "numbers", "a whole number": "whole numbers"}
 
 
-def _many(inner: Sequence[ast.expr], space: Mapping[str, Any]) -> str:
+def _many(inner: Sequence[ast.expr], space: Mapping[str, object]) -> str:
     each = " or ".join(dict.fromkeys(_words(inner[0], space)))
     return PLURALS.get(each, f"which each is {each}")

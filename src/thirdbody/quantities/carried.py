@@ -320,7 +320,7 @@ def masked_words(value: Any) -> str:
 
 
 def _refuse_no_numbers(
-    function: Callable[..., Any], args: tuple[Any, ...], named: dict[str, Any]
+    function: Callable[..., Any], args: tuple[Any, ...], named: dict[str, object]
 ) -> None:
     """Refuse masked and huge values, and truth values where a number with a unit is needed."""
     given = inspect.signature(function).bind_partial(*args, **named).arguments
@@ -358,8 +358,8 @@ def _need_contact(given: Any) -> None:
 
 
 def _all_in_si(
-    function: Callable[..., Any], args: tuple[Any, ...], named: dict[str, Any]
-) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    function: Callable[..., Any], args: tuple[Any, ...], named: dict[str, object]
+) -> tuple[tuple[Any, ...], dict[str, object]]:
     """Arguments in SI."""
     given = inspect.signature(function).bind_partial(*args, **named)
     owner = args[0] if args else None

@@ -376,7 +376,7 @@ def _why(error: OSError, target: Path) -> str:
 
 
 def with_units(
-    columns: Mapping[str, Sequence[Any]], units: Mapping[str, str]
+    columns: Mapping[str, Sequence[object]], units: Mapping[str, str]
 ) -> dict[str, Sequence[Any]]:
     """The same columns with their unit in their names, where they have one.
 
@@ -391,7 +391,7 @@ def with_units(
     }
 
 
-def csv_of(columns: Mapping[str, Sequence[Any]]) -> str:
+def csv_of(columns: Mapping[str, Sequence[object]]) -> str:
     """Columns as comma-separated values; None is an empty cell.
 
     Examples

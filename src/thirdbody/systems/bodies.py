@@ -70,7 +70,7 @@ class Body(Value, ABC):
     def conjunction(self) -> Point | Line | None:
         """The shape between the bodies; None for flat ones."""
 
-    def hertz(self, force: Any, E_star: float) -> Hertz:
+    def hertz(self, force: float | NDArray[np.float64], E_star: float) -> Hertz:
         """Area and pressures of one smooth dry contact under the force on all [N]."""
         shape = self.conjunction
         assert shape is not None
@@ -271,7 +271,7 @@ class Flat(Body):
         """No curvature."""
         return None
 
-    def hertz(self, force: Any, E_star: float) -> Hertz:
+    def hertz(self, force: float | NDArray[np.float64], E_star: float) -> Hertz:
         """The even pressure."""
         even = np.asarray(force, float) / self.bodies / self.area
         return Hertz(np.full_like(even, self.area), even, even)

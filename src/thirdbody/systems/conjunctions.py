@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -44,9 +44,9 @@ class Hertz(NamedTuple):
     (20.0, 1.5)
     """
 
-    area: Any
-    mean: Any
-    maximum: Any
+    area: Number
+    mean: Number
+    maximum: Number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,7 +79,7 @@ class Point(Value):
         """R_x/R_y [1]."""
         return 1.0 if self.R_y is None else self.R / self.R_y
 
-    def hertz(self, load: Any, *, E: Any) -> Hertz:
+    def hertz(self, load: Number, *, E: Number) -> Hertz:
         """Area and pressures of the dry contact under a load [N], E = E' [Pa].
 
         Parameters
@@ -97,7 +97,7 @@ class Point(Value):
         area = math.pi * shape.R_A * R_g * depth
         return Hertz(area, load / area, 1.5 * load / area)
 
-    def intensity(self, load: Any) -> Any:
+    def intensity(self, load: Number) -> Number:
         """The load that film formulas take [N].
 
         Parameters
@@ -136,7 +136,7 @@ class Line(Value):
         """R_x/R_y [1]."""
         return 0.0
 
-    def hertz(self, load: Any, *, E: Any) -> Hertz:
+    def hertz(self, load: Number, *, E: Number) -> Hertz:
         """Area and pressures of the dry contact under a load [N], E = E' [Pa].
 
         Parameters
@@ -150,7 +150,7 @@ class Line(Value):
         area = 2 * b * self.length
         return Hertz(area, load / area, 4 / math.pi * load / area)
 
-    def intensity(self, load: Any) -> Any:
+    def intensity(self, load: Number) -> Number:
         """The load that film formulas take, per length [N/m].
 
         Parameters
@@ -209,7 +209,7 @@ class Oil(Value):
     limiting_stress: float | None = quantity("τ_L", "Pa", "limiting stress", default=None, gt=0)
     viscosity: str = choice("viscosity under pressure", "roelands", "barus", default="roelands")
 
-    def at(self, pressure: Any) -> Any:
+    def at(self, pressure: Number) -> Number:
         """Viscosity under a pressure [Pa s].
 
         Parameters
@@ -226,7 +226,7 @@ class Oil(Value):
             log_ratio = span * ((1 + p / 1.96e8) ** z - 1)
         return self.eta * np.exp(np.minimum(log_ratio, math.log(GLASS / self.eta)))
 
-    def shear_stress(self, rate: Any, *, pressure: Any) -> Any:
+    def shear_stress(self, rate: Number, *, pressure: Number) -> Number:
         """Shear stress of the film [Pa]; NaN without an Eyring stress.
 
         Parameters

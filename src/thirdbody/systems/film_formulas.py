@@ -15,7 +15,7 @@ import math
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple, TypedDict
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from ..quantities.value import choice
 from .conjunctions import Hertz, Line, Oil, Point
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     Array = NDArray[np.float64]
     Number = float | Array
@@ -52,6 +52,18 @@ REGIMES = (
 )
 EP = REGIMES[3]
 """Elastic-piezoviscous: where bearings and gears of steel run."""
+
+
+class Operation(TypedDict):
+    """What a film formula asks for."""
+
+    load: Number
+    speed: Number
+    eta: float
+    alpha: float
+    R: float
+    E: Number
+    ratio: float
 
 
 class AbstractFilm(Law):
@@ -90,8 +102,16 @@ class AbstractFilm(Law):
 
     @abstractmethod
     def central(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
         """Central film thickness [m].
 
         Parameters
@@ -110,7 +130,7 @@ class AbstractFilm(Law):
             R_x/R_y [1].
         """
 
-    def warnings(self, regimes: Any, ratio: float) -> list[str]:
+    def warnings(self, regimes: ArrayLike, ratio: float) -> list[str]:
         """Where films of these regimes leave the range of the formula, one sentence each."""
         out: list[str] = []
         for name, (low, high) in self.limits.items():
@@ -128,7 +148,9 @@ class AbstractFilm(Law):
         return out
 
 
-def groups(load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, power: int) -> Any:
+def groups(
+    load: Number, speed: Number, eta: float, alpha: float, R: float, E: Number, power: int
+) -> tuple[Number, Number, Number]:
     """U, G and W of the formulas [1]: W = load/(E'R^power), power 2 for points and 1 for lines."""
     return eta * speed / (E * R), alpha * E, load / (E * R**power)
 
@@ -158,14 +180,30 @@ class DowsonLine(AbstractFilm):
     regimes = (EP,)
 
     def central(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
         U, G, W = groups(load, speed, eta, alpha, R, E, 1)
         return 3.06 * R * U**0.69 * G**0.56 * W**-0.10
 
     def minimum(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
         """Smallest film thickness [m]; arguments as in `central`."""
         U, G, W = groups(load, speed, eta, alpha, R, E, 1)
         return 2.65 * R * U**0.7 * G**0.54 * W**-0.13
@@ -208,14 +246,30 @@ class HamrockDowson(AbstractFilm):
     limits = {"ratio": (0.0, 1.0)}
 
     def central(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
         U, G, W = groups(load, speed, eta, alpha, R, E, 2)
         return 2.69 * R * U**0.67 * G**0.53 * W**-0.067 * (1 - 0.61 * np.exp(-0.73 * kappa(ratio)))
 
     def minimum(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
         """Smallest film thickness [m]; arguments as in `central`."""
         U, G, W = groups(load, speed, eta, alpha, R, E, 2)
         return 3.63 * R * U**0.68 * G**0.49 * W**-0.073 * (1 - np.exp(-0.68 * kappa(ratio)))
@@ -247,13 +301,13 @@ class Asymptotes(NamedTuple):
     'elastic-piezoviscous'
     """
 
-    RI: Any
-    EI: Any
-    RP: Any
-    EP: Any
+    RI: Number
+    EI: Number
+    RP: Number
+    EP: Number
 
     @property
-    def regime(self) -> Any:
+    def regime(self) -> Number:
         """Which limit the film is nearest to: max(max(RI, EI), min(RP, EP))."""
         iso = np.where(self.RI >= self.EI, 0, 1)
         piezo = np.where(self.RP <= self.EP, 2, 3)
@@ -319,7 +373,7 @@ class NijenbanningVennerMoes(AbstractFilm):
     blend: str = choice("ratio in the exponent s", "EI/RI", "EI/EP", default="EI/RI")
 
     @staticmethod
-    def limits_of(*, M: Any, L: Any, D: float) -> Asymptotes:
+    def limits_of(*, M: Number, L: Number, D: float) -> Asymptotes:
         """The four limits for Moes' load M and lubricant number L [1]."""
         g = 1 + 0.006 * math.log(D) + 0.63 * D ** (4 / 7)
         return Asymptotes(
@@ -329,7 +383,7 @@ class NijenbanningVennerMoes(AbstractFilm):
             1.48 * g ** (-7 / 20) * D ** (-1 / 24) * M ** (-1 / 12) * L ** (3 / 4),
         )
 
-    def joined(self, at: Asymptotes, *, H_00: float) -> Any:
+    def joined(self, at: Asymptotes, *, H_00: float) -> Number:
         """H between the limits [1]."""
         ratio = at.EI / (at.RI if self.blend == "EI/RI" else at.EP)
         s = 1.5 * (1 + np.exp(-1.2 * ratio))
@@ -339,15 +393,31 @@ class NijenbanningVennerMoes(AbstractFilm):
         return (iso**s + piezo**s) ** (1 / s)
 
     def asymptotes(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
     ) -> Asymptotes:
         """The four limits; arguments as in `central`."""
         U, G, W = groups(load, speed, eta, alpha, R, E, 2)
         return self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
 
     def central(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
         U, G, W = groups(load, speed, eta, alpha, R, E, 2)
         at = self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
         return self.joined(at, H_00=1.8 / ratio) * R * (2 * U) ** 0.5
@@ -391,11 +461,11 @@ class MoesLine(AbstractFilm):
     shape = "line"
 
     @staticmethod
-    def limits_of(*, M: Any, L: Any) -> Asymptotes:
+    def limits_of(*, M: Number, L: Number) -> Asymptotes:
         """The four limits for Moes' load M and lubricant number L [1]."""
         return Asymptotes(3 / M, 2.621 * M**-0.2, 1.287 * L ** (2 / 3), 1.311 * M**-0.125 * L**0.75)
 
-    def joined(self, at: Asymptotes) -> Any:
+    def joined(self, at: Asymptotes) -> Number:
         """H between the limits [1]."""
         s = (7 + 8 * np.exp(-2 * at.EI / at.RI)) / 5
         iso = (at.RI ** (7 / 3) + at.EI ** (7 / 3)) ** (3 / 7)
@@ -404,15 +474,31 @@ class MoesLine(AbstractFilm):
         return (iso**s + piezo**s) ** (1 / s)
 
     def asymptotes(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 0
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 0,
     ) -> Asymptotes:
         """The four limits; arguments as in `central`."""
         U, G, W = groups(load, speed, eta, alpha, R, E, 1)
         return self.limits_of(M=W * (2 * U) ** -0.5, L=G * (2 * U) ** 0.25)
 
     def central(
-        self, *, load: Any, speed: Any, eta: float, alpha: float, R: float, E: Any, ratio: float = 1
-    ) -> Any:
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
         U, G, W = groups(load, speed, eta, alpha, R, E, 1)
         at = self.limits_of(M=W * (2 * U) ** -0.5, L=G * (2 * U) ** 0.25)
         return self.joined(at) * R * (2 * U) ** 0.5

@@ -92,7 +92,7 @@ def figure(table: xarray.Dataset, *, at: int | None = None) -> Figure:
     return fig
 
 
-def _styles(table: xarray.Dataset) -> dict[str, dict[str, Any]]:
+def _styles(table: xarray.Dataset) -> dict[str, dict[str, object]]:
     """Look of every law's curve: the own one black, the others told apart by dashes too."""
     from .plot.style import OKABE_ITO
 
@@ -101,7 +101,7 @@ def _styles(table: xarray.Dataset) -> dict[str, dict[str, Any]]:
     ]
     dashes: list[Any] = ["--", "-.", (0, (6, 1, 1, 1, 1, 1)), (0, (9, 2)), (0, (2, 1)), ":"]
     marker = "o" if table.sizes[table.A_t.dims[1]] == 1 else None
-    out: dict[str, dict[str, Any]] = {}
+    out: dict[str, dict[str, object]] = {}
     for i, law in enumerate(table.law.values):
         if i == 0:
             out[law] = dict(color="black", linewidth=2.0, zorder=2.5, marker=marker)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...contact.contact import Contact
 from ...contact.pressed import buried, most_buried
+from ...equilibrium.load import as_load
 from ...equilibrium.states import state_columns
 from ...errors import InvalidValue
 from ...numerics.sampling import Span, sobol
@@ -242,8 +243,7 @@ class Task:
 
         def solve(which: NDArray[np.intp]) -> dict[str, NDArray[Any]]:
             some = {name: values[which] for name, values in vary.items()}
-            given: dict[str, Any] = {self.load: loads[which]}
-            return state_columns(contact, vary=some or None, **given)
+            return state_columns(contact, vary=some or None, **as_load(self.load, loads[which]))
 
         try:
             return columns_tried(solve, count)

@@ -25,7 +25,12 @@ from ..show import terminal
 from ..streams import TableFiles, tell_written, warn, warn_of
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ...analysis.compare import Comparison
+    from ...equilibrium.load import ForceLoad
+    from ...study import Study
 
 __all__ = ["command"]
 
@@ -115,12 +120,14 @@ def _words(names: str | None) -> list[str] | None:
     return list(asperity.REGISTRY) if words == ["all"] else words
 
 
-def _equal_loads(asked: Any) -> dict[str, Any]:
+def _equal_loads(asked: Study) -> ForceLoad[NDArray[np.float64]]:
     """The loads of a study; F* under its own law where it gives separations."""
     import numpy as np
 
+    from ...equilibrium.load import as_force_load
+
     if asked.load != "separation":
-        return {asked.load: asked.values}
+        return as_force_load(asked.load, asked.values)
     loads = np.asarray(asked.solve().F_star)
     loads = loads[np.isfinite(loads) & (loads > 0)]
     if not len(loads):

@@ -6,11 +6,14 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...errors import InvalidValue
 from ...papers import PAPERS
 from ..options import argument, not_a_folder, option
+
+if TYPE_CHECKING:
+    from rich.progress import TaskID
 
 __all__ = ["command"]
 
@@ -52,7 +55,7 @@ class _Progress:
 
     def __enter__(self) -> Callable[[str, int, int], None]:
         self.bar = None
-        self.tasks: dict[str, Any] = {}
+        self.tasks: dict[str, TaskID | None] = {}
         if sys.stderr.isatty():
             from rich.console import Console
             from rich.progress import Progress
@@ -65,7 +68,9 @@ class _Progress:
         if self.bar is not None:
             if stage not in self.tasks:
                 self.tasks[stage] = self.bar.add_task(stage, total=total)
-            self.bar.update(self.tasks[stage], completed=done, total=total)
+            task = self.tasks[stage]
+            assert task is not None
+            self.bar.update(task, completed=done, total=total)
         elif stage not in self.tasks:
             self.tasks[stage] = None
             print(f"{stage} ...", file=sys.stderr, flush=True)

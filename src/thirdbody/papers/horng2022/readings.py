@@ -108,7 +108,7 @@ class Reading:
             particle_law=self.law(sigma, x_a),
         )
 
-    def parameters(self) -> dict[str, Any]:
+    def parameters(self) -> dict[str, object]:
         """What the tables show."""
         return {
             "particle law": self.law_words,

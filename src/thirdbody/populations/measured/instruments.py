@@ -196,9 +196,9 @@ def _channel(reader: Any, path: Path, channel: int | str | None) -> Any:
 
 def _lacking(
     channel: Any, scale: float | None, steps: tuple[float, ...] | None, path: Path
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """What has to be told to the reader because the file does not hold it."""
-    out: dict[str, Any] = {}
+    out: dict[str, object] = {}
     sizes, unit = channel.physical_sizes, channel.unit
     points = channel.nb_grid_pts
     _told_already(str(path), unit, scale, None if sizes is None else steps)
