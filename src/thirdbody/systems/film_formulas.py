@@ -15,7 +15,7 @@ import math
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, TypedDict
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypedDict
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from ..quantities.value import choice
 from .conjunctions import Hertz, Line, Oil, Point
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
     Number = float | Array
@@ -130,7 +130,7 @@ class AbstractFilm(Law):
             R_x/R_y [1].
         """
 
-    def warnings(self, regimes: ArrayLike, ratio: float) -> list[str]:
+    def warnings(self, regimes: Any, ratio: float) -> list[str]:
         """Where films of these regimes leave the range of the formula, one sentence each."""
         out: list[str] = []
         for name, (low, high) in self.limits.items():
