@@ -64,6 +64,16 @@ def test_every_name_of_the_library_holds_something():
             assert all(hasattr(found, each) for each in held), name
 
 
+def test_every_name_that_was_at_the_top_stands_in_a_named_module():
+    """`dir` lists what users write most; a name that it leaves out goes on working."""
+    modules = [n for n in thirdbody.__all__ if isinstance(getattr(thirdbody, n), ModuleType)]
+    inside = {each for n in modules for each in getattr(thirdbody, n).__all__}
+    unlisted = set(thirdbody._HOMES) - set(thirdbody.__all__)
+    assert unlisted
+    assert unlisted <= inside
+    assert {n for n in dir(thirdbody) if not n.startswith("_")} == set(thirdbody.__all__)
+
+
 BARE = (
     *("told", "given", "found", "made", "asked", "known", "own", "each", "part", "kept", "held"),
     *("taken", "said", "shown", "seen", "heard", "drawn", "put", "met", "lost", "left", "needed"),

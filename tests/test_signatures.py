@@ -14,8 +14,6 @@ import thirdbody as tb
 
 MODULES = (
     *(f"effects.single.{name}" for name in ("dent", "heat", "ploughing", "severity")),
-    *(f"systems.{name}" for name in ("bearing_life", "film_conditions", "mixed_film")),
-    "systems.oil_particles",
     "quantities.hardness",
     "equilibrium.table.writers",
 )
@@ -60,16 +58,17 @@ def public():
                     if isinstance(member, FunctionType):
                         out.append((f"{name}.{key}", member))
 
-    for name in (name for name in dir(tb) if not name.startswith("_")):
-        thing = getattr(tb, name)
-        if isinstance(thing, ModuleType):
-            for key in getattr(thing, "__all__", ()):
-                add(f"{name}.{key}", getattr(thing, key))
-        else:
-            add(name, thing)
+    def add_all(module, prefix=""):
+        for name in (name for name in module.__all__ if not name.startswith("_")):
+            thing = getattr(module, name)
+            if isinstance(thing, ModuleType):
+                add_all(thing, f"{prefix}{name}.")
+            else:
+                add(f"{prefix}{name}", thing)
+
+    add_all(tb)
     for module in MODULES:
-        for key in (found := import_module(f"thirdbody.{module}")).__all__:
-            add(f"{module}.{key}", getattr(found, key))
+        add_all(import_module(f"thirdbody.{module}"), f"{module}.")
     return out
 
 
@@ -114,7 +113,12 @@ def test_every_exception_is_needed(one):
 
 def test_the_search_sees_functions_methods_and_constructors():
     names = {name for name, _ in PUBLIC}
-    assert {"solve", "Uncertain.normal", "Critical.__init__", "reference.hertz_point"} <= names
+    assert {
+        "solve",
+        "Uncertain.normal",
+        "results.Critical.__init__",
+        "reference.hertz_point",
+    } <= names
 
     def slip(contact, pressure: float, *, d: float):
         """Takes a pressure by place."""

@@ -1,4 +1,4 @@
-"""What the book needs beyond Sphinx: figures of the gallery, and the units of every input."""
+"""What the book needs beyond Sphinx: figures of the gallery, units of every input and column."""
 
 import dataclasses
 import inspect
@@ -46,20 +46,29 @@ def inputs(value):
     return rows
 
 
-def table(rows):
-    """A list-table in reStructuredText."""
-    lines = [".. list-table:: Numbers it takes", "   :header-rows: 1", "   :widths: auto", ""]
-    for row in [["name", "symbol", "unit", "meaning", "allowed"], *rows]:
+def columns(result):
+    """Rows (name, symbol, unit, meaning) of the columns that an answer has."""
+    from thirdbody.quantities.record import declared_columns
+
+    declared = declared_columns(result)
+    return [[f"``{name}``", *(cell.replace("|", r"\|") for cell in about)]
+            for name, about in declared.items()]  # fmt: skip
+
+
+def table(title, head, rows):
+    """A list-table in reStructuredText; none without rows."""
+    lines = [f".. list-table:: {title}", "   :header-rows: 1", "   :widths: auto", ""]
+    for row in [head, *rows]:
         lines += [f"   {'*' if i == 0 else ' '} - {cell}".rstrip() for i, cell in enumerate(row)]
-    return [*lines, ""]
+    return ["", *lines, ""] if rows else []
 
 
 def add_units(app, what, name, obj, options, lines):
-    """Append the declared units of a value object to its docstring."""
+    """Append the declared units of a value, or the columns of an answer, to its docstring."""
     if inspect.isclass(obj) and dataclasses.is_dataclass(obj):
-        rows = inputs(obj)
-        if rows:
-            lines += ["", *table(rows)]
+        head = ["name", "symbol", "unit", "meaning"]
+        lines += table("Numbers it takes", [*head, "allowed"], inputs(obj))
+        lines += table("Columns of the answer", head, columns(obj))
 
 
 def plain_bars(app, what, name, obj, options, lines):

@@ -8,41 +8,52 @@ from typing import TYPE_CHECKING, Any
 
 from .version import __version__ as __version__
 
+# names "as" themselves: reached at the top too, and listed in a module of their own
+# isort: off
 if TYPE_CHECKING:
-    from . import effects as outputs
-    from . import explicit as explicit
-    from . import reference
-    from . import systems as systems
+    from . import (
+        effects as outputs,
+        errors as errors,
+        explicit as explicit,
+        reference,
+        results as results,
+        systems as systems,
+    )
     from .analysis.assess import assess
-    from .analysis.assessment import Assessment
+    from .analysis.assessment import Assessment as Assessment
     from .analysis.compare import compare
     from .analysis.design.design import design
     from .analysis.design.equal_share import equal_share_size
     from .analysis.design.problem import Limit, Objective, Suspension
-    from .analysis.sensitivity import Sensitivity, sensitivity
+    from .analysis.sensitivity import Sensitivity as Sensitivity, sensitivity
     from .analysis.sweep.sweep import sweep
     from .analysis.uncertainty.inputs import Uncertain
-    from .analysis.uncertainty.propagation import Propagation, propagate
+    from .analysis.uncertainty.propagation import Propagation as Propagation, propagate
     from .contact.citations import cite
     from .contact.contact import Contact
-    from .equilibrium.columns import Equilibrium
+    from .equilibrium.columns import Equilibrium as Equilibrium
     from .equilibrium.critical_loads import critical_loads
     from .equilibrium.solve import pull_off, roots, solve
     from .equilibrium.states import solve_states
     from .equilibrium.table.make import table
-    from .equilibrium.transitions import Critical, Transitions, TurningPoint, transitions
+    from .equilibrium.transitions import (
+        Critical as Critical,
+        Transitions as Transitions,
+        TurningPoint as TurningPoint,
+        transitions,
+    )
     from .errors import (
-        InvalidValue,
-        NoEquilibrium,
-        NoTransition,
-        RangeWarning,
-        SlowWarning,
-        ThirdBodyError,
+        InvalidValue as InvalidValue,
+        NoEquilibrium as NoEquilibrium,
+        NoTransition as NoTransition,
+        RangeWarning as RangeWarning,
+        SlowWarning as SlowWarning,
+        ThirdBodyError as ThirdBodyError,
     )
     from .laws import asperity, particle
-    from .populations import heights as heights
+    from .populations import distributions as distributions, heights as heights
     from .populations.distributions import (
-        Distribution,
+        Distribution as Distribution,
         Histogram,
         LogNormal,
         Mixture,
@@ -55,74 +66,56 @@ if TYPE_CHECKING:
     from .populations.ellipticity import Ellipticity
     from .populations.finish import Finish
     from .populations.heights import (
-        ExponentialHeights,
-        GaussianHeights,
-        Heights,
-        HistogramHeights,
-        JohnsonHeights,
-        WeibullHeights,
+        ExponentialHeights as ExponentialHeights,
+        GaussianHeights as GaussianHeights,
+        Heights as Heights,
+        HistogramHeights as HistogramHeights,
+        JohnsonHeights as JohnsonHeights,
+        WeibullHeights as WeibullHeights,
     )
     from .populations.materials import Material, MaterialPair, materials
-    from .populations.measured import cleanliness as dust
-    from .populations.measured import sizes, synthetic
-    from .populations.measured import topography as surfaces
-    from .populations.measured.spectra import SpectralMoments
-    from .populations.measured.topography import Topography
+    from .populations.measured import cleanliness as dust, sizes, synthetic, topography as surfaces
+    from .populations.measured.spectra import SpectralMoments as SpectralMoments
+    from .populations.measured.topography import Topography as Topography
     from .populations.particles import Particles
     from .populations.roughness import Roughness
     from .populations.shape import Angular, Sphere
     from .populations.strength import WeibullStrength
     from .study.whole import load_study
-    from .systems import film_formulas as films
-    from .systems import fractal, interaction, rough_body, waviness
+    from .systems import (
+        film_formulas as films,
+        fractal as fractal,
+        interaction as interaction,
+        rough_body as rough_body,
+        waviness as waviness,
+    )
     from .systems.mixed_film import mixed_film
     from .systems.stribeck import stribeck
     from .views import plot
+# isort: on
 
 __all__ = [
     "Angular",
-    "Assessment",
     "Contact",
-    "Critical",
-    "Distribution",
     "Ellipticity",
-    "Equilibrium",
-    "ExponentialHeights",
     "Finish",
-    "GaussianHeights",
-    "Heights",
     "Histogram",
-    "HistogramHeights",
-    "InvalidValue",
-    "JohnsonHeights",
     "Limit",
     "LogNormal",
     "Material",
     "MaterialPair",
     "Mixture",
     "Monodisperse",
-    "NoEquilibrium",
-    "NoTransition",
     "Objective",
     "Particles",
     "PowerLaw",
-    "Propagation",
-    "RangeWarning",
     "Roughness",
-    "Sensitivity",
-    "SlowWarning",
-    "SpectralMoments",
     "Sphere",
     "Suspension",
-    "ThirdBodyError",
-    "Topography",
-    "Transitions",
     "TruncatedGaussian",
-    "TurningPoint",
     "Uncertain",
     "Uniform",
     "Weibull",
-    "WeibullHeights",
     "WeibullStrength",
     "asperity",
     "assess",
@@ -130,12 +123,13 @@ __all__ = [
     "compare",
     "critical_loads",
     "design",
+    "distributions",
     "dust",
     "equal_share_size",
+    "errors",
     "explicit",
     "films",
-    "fractal",
-    "interaction",
+    "heights",
     "load_study",
     "materials",
     "mixed_film",
@@ -145,8 +139,8 @@ __all__ = [
     "propagate",
     "pull_off",
     "reference",
+    "results",
     "roots",
-    "rough_body",
     "sensitivity",
     "sizes",
     "solve",
@@ -155,15 +149,17 @@ __all__ = [
     "surfaces",
     "sweep",
     "synthetic",
+    "systems",
     "table",
     "transitions",
-    "waviness",
 ]
 
 # imported when first used, to keep the start quick
 _MODULES = {
     "asperity": "laws.asperity",
+    "distributions": "populations.distributions",
     "dust": "populations.measured.cleanliness",
+    "errors": "errors",
     "explicit": "explicit",
     "films": "systems.film_formulas",
     "fractal": "systems.fractal",
@@ -173,6 +169,7 @@ _MODULES = {
     "particle": "laws.particle",
     "plot": "views.plot",
     "reference": "reference",
+    "results": "results",
     "rough_body": "systems.rough_body",
     "sizes": "populations.measured.sizes",
     "surfaces": "populations.measured.topography",
@@ -246,7 +243,7 @@ _HOMES = {
     "table": "equilibrium.table.make",
     "transitions": "equilibrium.transitions",
 }
-"""The module of every other name."""
+"""The module of every other name; those that `__all__` leaves out stand in a named module too."""
 
 
 def __getattr__(name: str) -> Any:
@@ -264,4 +261,4 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     own = (name for name in globals() if name.startswith("__"))
-    return sorted({*own, *__all__, *_MODULES, *_HOMES})
+    return sorted({*own, *__all__})

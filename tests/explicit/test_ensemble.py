@@ -131,6 +131,19 @@ def test_settled_particles_bring_the_model_to_their_seat():
     assert float(away[-1]) < 0.2
 
 
+def test_particles_on_summits_bring_the_model_to_summits():
+    """A map has fewer summits than places are drawn to know a seat: then all of them count."""
+    one_each = CONTACT.replace(particles=CONTACT.particles.replace(areal_density=2e10))
+    done = many(contact=one_each, seats="summits", size=192)
+    assert done.seats.mean == pytest.approx(1.0, abs=0.1)
+    assert done.model.particle_law.zeta_mean == done.seats.mean
+    share, model = (done.table[f"particle_load_share_{name}"] for name in ("cv", "statistical"))
+    error = done.table.particle_load_share_cv_error
+    assert np.all(np.abs(share - model) < 0.1 * model + 3 * error)
+    anywhere = many(contact=one_each, size=192).table.particle_load_share_cv
+    assert np.all(share > 2 * anywhere)
+
+
 def test_two_bodies():
     clean = many(2, CONTACT.replace(particles=None))
     assert np.all(clean.table.particle_load_share_raw == 0)

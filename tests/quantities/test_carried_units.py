@@ -215,9 +215,9 @@ REFUSED = {
     r"surfaces\.from_topography\(source\)": "a file as well",
     r"effects\.single\.heat\.\w+\((k|m|T_1|T_2|film)\)": EITHER,
     r"effects\.single\.ploughing\.coefficient_of_faces\(.*": "lengths in any one unit",
-    r"fractal\.MajumdarBhushan\.largest_spot\(load\)": EITHER,
-    r"fractal\.Stack\.self_affine\(frequency\)": EITHER,
-    r"rough_body\.curve\(loads\)": EITHER,
+    r"systems\.fractal\.MajumdarBhushan\.largest_spot\(load\)": EITHER,
+    r"systems\.fractal\.Stack\.self_affine\(frequency\)": EITHER,
+    r"systems\.rough_body\.curve\(loads\)": EITHER,
     r"plot\.bands\(mark\)": "the unit is that of the load",
 }
 """Numbers of which a unit is refused, and why; counts, seeds and places have none."""

@@ -143,13 +143,10 @@ def test_every_distribution(write, keys, expected):
 
 
 def test_every_distribution_of_the_library_has_a_word():
-    words = {kind.__name__: word for word, kind in DISTRIBUTIONS.items()}
-    public = {
-        name
-        for name in tb.__all__
-        if isinstance(getattr(tb, name), type) and issubclass(getattr(tb, name), tb.Distribution)
+    words = {
+        kind.__name__ for kind in DISTRIBUTIONS.values() if kind.__module__.startswith("thirdbody.")
     }
-    assert public - {"Distribution"} == set(words)
+    assert {*tb.distributions.__all__} - {"Distribution"} == words
 
 
 @pytest.mark.parametrize("kind", [tb.asperity, tb.particle], ids=["asperity", "particle"])
@@ -192,8 +189,9 @@ def test_every_distribution_of_heights(write, keys, expected):
 
 
 def test_every_kind_of_heights_of_the_library_has_a_word():
-    public = {getattr(tb, name) for name in tb.__all__ if name.endswith("Heights")}
-    assert public - {tb.Heights} == set(HEIGHTS.values())
+    public = {getattr(tb.heights, name) for name in tb.heights.__all__}
+    kinds = {kind for kind in HEIGHTS.values() if kind.__module__.startswith("thirdbody.")}
+    assert public - {tb.Heights} == kinds
 
 
 @pytest.mark.parametrize(

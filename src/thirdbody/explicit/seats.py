@@ -76,6 +76,10 @@ class AbstractSeats(Value):
     def draw(self, z: Array, spacing: float, size: Array, rng: np.random.Generator) -> Seated:
         """Places of particles of these sizes on a periodic map."""
 
+    def room(self, z: Array) -> float:
+        """How many particles a map has places for."""
+        return math.inf
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RandomSeats(AbstractSeats):
@@ -154,6 +158,9 @@ class SummitSeats(AbstractSeats):
         here = rng.permutation(tops)[: len(size)]
         m = z.shape[1]
         return Seated(here // m * spacing, here % m * spacing, np.zeros(len(size)))
+
+    def room(self, z: Array) -> float:
+        return int(np.count_nonzero(_is_summit(z)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,10 +9,9 @@ import numpy as np
 from scipy.special import ndtr
 
 from ..contact.contact import Contact
-from ..errors import InvalidValue
 from .interface import Interface, Map, interface_of, law_tables
 from .press import Pressed
-from .seats import AbstractSeats, GivenSeats, RandomSeats, height_at, placed_apart
+from .seats import AbstractSeats, GivenSeats, RandomSeats, height_at
 from .solve import curve, numbers_of
 
 if TYPE_CHECKING:
@@ -98,12 +97,9 @@ def places(surface: Map, rule: AbstractSeats, contact: Contact, rng: np.random.G
     """ζ/σ of many places of the rule."""
     if not contact.populations or isinstance(rule, GivenSeats):
         return np.empty(0)
-    size = contact.populations[0].diameter.sample(rng, PLACES)
-    try:
-        seated = rule.draw(surface.z, surface.spacing, size, rng)
-    except InvalidValue:  # fewer summits than that
-        few = size[: max(1, round(0.01 * surface.z.size))]
-        seated = placed_apart(RandomSeats(), surface.z, surface.spacing, few, rng)[0]
+    count = int(min(PLACES, rule.room(surface.z)))
+    size = contact.populations[0].diameter.sample(rng, PLACES)[:count]
+    seated = rule.draw(surface.z, surface.spacing, size, rng)
     heights = height_at(surface.z, surface.spacing, seated.x, seated.y) + seated.lift
     return heights / (surface.sigma or 1.0)
 

@@ -14,6 +14,7 @@ from ..contact.citations import cite
 from ..equilibrium.columns import about
 from ..equilibrium.transitions import Transitions
 from ..errors import NoEquilibrium
+from ..quantities.carried import takes_units
 from ..quantities.plain_data import plain_data
 from ..quantities.record import Record
 from ..quantities.say import percent, value_of
@@ -137,6 +138,7 @@ class StudyResult(_Result):
         """What forces do to their bodies, in words."""
         return force_sentences(list(self.forces))
 
+    @takes_units
     def particles_in(self, i: int) -> float:
         """Particles that the contact of a state holds on average; infinite where nobody knows."""
         held = self.particles_held  # of a film that has bodies of its own

@@ -2,7 +2,24 @@
 
 from . import bearing_life as bearing_life
 from . import contact_probability as contact_probability
+from . import film_conditions as film_conditions
+from . import fractal as fractal
+from . import interaction as interaction
+from . import mixed_film as mixed_film
 from . import oil_particles as oil_particles
 from . import plate_over_particle as plate_over_particle
+from . import rough_body as rough_body
+from . import waviness as waviness
 
-__all__ = ["bearing_life", "contact_probability", "oil_particles", "plate_over_particle"]
+__all__ = [
+    "bearing_life",
+    "contact_probability",
+    "film_conditions",
+    "fractal",
+    "interaction",
+    "mixed_film",
+    "oil_particles",
+    "plate_over_particle",
+    "rough_body",
+    "waviness",
+]

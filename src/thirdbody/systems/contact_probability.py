@@ -140,7 +140,13 @@ class ContactProbability(Value):
         return float(self._per_size(np.array([1.0]))[0]) * mean**2
 
     def probability(self, load: ArrayLike) -> Array:
-        """P that the solids touch under this load W [N]: as `bounds`, in the middle."""
+        """P that the solids touch under this load: as `bounds`, in the middle.
+
+        Parameters
+        ----------
+        load : array_like
+            Load W on the solids [N].
+        """
         low, high = self.bounds(load)
         return 0.5 * (low + high)
 
@@ -175,7 +181,13 @@ class ContactProbability(Value):
         return out[0].reshape(loads.shape), out[1].reshape(loads.shape)
 
     def of_one(self, load: ArrayLike) -> Array:
-        """G: share of the particles in the way that carry no more than this [N]."""
+        """G: share of the particles in the way that carry no more than this.
+
+        Parameters
+        ----------
+        load : array_like
+            Load of one particle [N].
+        """
         loads = np.asarray(load, dtype=float)
         most = loads.ravel() * (1 + SURE)
         sizes = self.particles.diameter

@@ -104,7 +104,13 @@ class PlateOverParticle(Value):
         return self.plate.E * self.thickness**3 / (12 * (1 - self.plate.nu**2))
 
     def bump(self, height: float) -> Bump:
-        """The plate lifted by a point of this height [m], rigid."""
+        """The plate lifted by a rigid point.
+
+        Parameters
+        ----------
+        height : float
+            Height h of the point [m].
+        """
         radius = (64 * self.rigidity * height / self.pressure) ** 0.25
         return Bump(
             height=height,
@@ -115,10 +121,17 @@ class PlateOverParticle(Value):
         )
 
     def over(self, diameter: float, material: Material) -> Bump:
-        """The bump over a particle of this diameter [m] and material, which yields.
+        """The bump over a particle, which yields.
 
         The height is found to 1e-12 of itself: force of the plate, which rises with h, against
         that of the particle, which falls.
+
+        Parameters
+        ----------
+        diameter : float
+            Diameter D of the particle [m].
+        material : Material
+            Its material.
         """
         from scipy.optimize import brentq
 

@@ -42,14 +42,22 @@ class Summary(engine.Summary):
         words = [word_of(dict(self.ledger[row.name])) for row in self.rows]
         return {word: words.count(word) for word in WORDS}
 
+    def score(self) -> str:
+        """How many measurements, and how many computations beside, were lost, undecided, met."""
+        parts = []
+        for kind, computed in (("measurements", False), ("computations", True)):
+            words = [
+                word_of(dict(self.ledger[row.name]))
+                for row in self.rows
+                if row.computed == computed
+            ]
+            found = ", ".join(f"{words.count(word)} {word}" for word in WORDS)
+            parts.append(f"{len(words)} {kind}: {found}")
+        return "; ".join(parts)
+
     def findings(self) -> list[str]:
         """Counts, and every verdict."""
-        count = self.counts()
-        out = [
-            f"{len(self.rows)} measurements: {count['lost']} lost, {count['undecided']} undecided, "
-            f"{count['met']} met; nothing fitted",
-            "",
-        ]
+        out = [f"{self.score()}. Nothing is fitted", ""]
         for row in self.rows:
             verdicts = self.ledger[row.name]
             out.append(f"  {word_of(dict(verdicts)):<11}{row.title}")
@@ -160,17 +168,16 @@ def _as_json(summary: Summary) -> dict[str, object]:
 
 
 def _page(summary: Summary, figures: str) -> str:
-    count = summary.counts()
     title = "The model against measurements"
     return document(
         title,
         [
             f"<h1>{title}</h1>",
-            f"<p>{len(summary.rows)} measurements: <b>{count['lost']} lost</b>, "
-            f"{count['undecided']} undecided, {count['met']} met. Nothing is fitted: what a source "
-            "does not give is a range, chosen here, and a prediction is the band over such ranges. "
-            "A statement is met where the whole band lies within the limits, lost where none of it "
-            "does. How well each number is known stands beside it: "
+            f"<p>{summary.score()}. Nothing is fitted: what a source does not give is a range, "
+            "chosen here, and a prediction is the band over such ranges. A statement is met where "
+            "the whole band lies within the limits, lost where none of it does. A row is undecided "
+            "where any of its statements is and none is lost. How well each number is known stands "
+            "beside it: "
             f"{', '.join(STANDINGS)}.</p>",
             "<nav><a href='#ledger'>Ledger</a><a href='#figures'>Figures</a></nav>",
             "<h2 id=ledger>Ledger</h2>",

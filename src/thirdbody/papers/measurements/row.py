@@ -139,6 +139,8 @@ class Row:
     means: str
     """What follows for who uses the model."""
     panels: tuple[Callable[[], Panel], ...] = ()
+    computed: bool = False
+    """Whether a computation was held against, and no measurement."""
 
     def judge(self) -> dict[str, Verdict]:
         """Every statement's verdict, by its id."""
@@ -170,6 +172,7 @@ def row_of(
         (*stated, *statements),
         data["means"],
         panels,
+        data.get("computed", False),
     )
 
 
