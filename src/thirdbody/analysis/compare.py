@@ -184,7 +184,7 @@ class Comparison:
         import xarray as xr
 
         load = self.load
-        coords: dict[str, Any] = {
+        coords: dict[str, object] = {
             "law": ("law", list(self.laws), {"long_name": "asperity law"}),
             load: (load, self.loads[load], _about(load)),
             "title": ("law", list(self.laws.values())),

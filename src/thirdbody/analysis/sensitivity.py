@@ -155,7 +155,7 @@ def _default_inputs(contact: Contact) -> list[str]:
     known = inputs(contact)
     pair = contact.surfaces
     alike = pair.alike
-    groups: dict[Any, list[str]] = {}
+    groups: dict[object, list[str]] = {}
     for name, value in known.items():
         side, _, last = name.rpartition(".")
         body = side in ("surfaces.first", "surfaces.second") or side.endswith(".material")

@@ -121,7 +121,7 @@ def known_keys(study: dict[str, object], name: str) -> dict[str, dict[str, str]]
 
 
 def number_field(
-    name: str, about: dict[str, object], default: Any = None, needed: bool = True
+    name: str, about: dict[str, object], default: object = None, needed: bool = True
 ) -> Field:
     """The field of a quantity."""
     symbol = f" {about['symbol']}" if about["symbol"] != name else ""
@@ -192,7 +192,7 @@ def options_of(kind: Any) -> dict[str, str]:
 
 
 # ---------------------------------------------------------------------- text and values
-def text_of(value: Any) -> str:
+def text_of(value: object) -> str:
     """A value of a study as a field shows it: strings without quotes, the rest as in TOML."""
     if value is None:
         return ""
@@ -227,7 +227,7 @@ def value_from(text: str, *, one: bool = False) -> Any:
     return value_of(text)
 
 
-def number_of(value: Any, about: dict[str, object]) -> float:
+def number_of(value: object, about: dict[str, object]) -> float:
     """The number in SI that an entry stands for; NaN where it stands for none."""
     try:
         return quantity_to_si(value, about)

@@ -72,7 +72,7 @@ BODIES_BEGUN: dict[str, dict[str, object]] = {
 """How a table begins that is chosen in a menu."""
 
 
-def in_words(entry: Any) -> str:
+def in_words(entry: object) -> str:
     """What is known of an input.
 
     >>> in_words({"low": "95 nm", "high": "105 nm"})

@@ -106,7 +106,7 @@ class Start:
             return example(), None, tab, f"{told}; here is the example instead"
 
 
-def _plain_names(study: Any) -> Any:
+def _plain_names(study: object) -> Any:
     """The study with files by their last names, as they lie in the folder of the page."""
     if isinstance(study, dict):
         out = {}

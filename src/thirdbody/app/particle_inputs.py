@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from nicegui import ui
 
 import thirdbody as tb
@@ -82,7 +80,7 @@ class ParticleInputs(Entries):
             (*place, "law"), VARIANTS["particle"], "", "law of these particles", blank="as below"
         )
 
-    def _counted(self, place: Place, kind: str, given: Any) -> None:
+    def _counted(self, place: Place, kind: str, given: object) -> None:
         """A code, or what a counter found, and their options."""
         if isinstance(given, dict):  # dropped on the page
             ui.label(f"{kind}: {bins_in_words(given)}").classes("hint")
@@ -95,7 +93,7 @@ class ParticleInputs(Entries):
         for each in COUNTED_FIELDS[kind]:
             self.field(place, each)
 
-    def amount(self, place: Place, kind: Any) -> None:
+    def amount(self, place: Place, kind: object) -> None:
         """Per area, or a concentration and the gap."""
         coded = kind in ("iso4406", "as4059", "nas1638")
         if not coded:

@@ -16,7 +16,6 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
 
 from ..errors import InvalidValue
 
@@ -377,7 +376,7 @@ def _why(error: OSError, target: Path) -> str:
 
 def with_units(
     columns: Mapping[str, Sequence[object]], units: Mapping[str, str]
-) -> dict[str, Sequence[Any]]:
+) -> dict[str, Sequence[object]]:
     """The same columns with their unit in their names, where they have one.
 
     Examples

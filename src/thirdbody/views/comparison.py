@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -99,7 +99,7 @@ def _styles(table: xarray.Dataset) -> dict[str, dict[str, object]]:
     colours = [
         OKABE_ITO[name] for name in ("blue", "vermilion", "green", "purple", "orange", "sky")
     ]
-    dashes: list[Any] = ["--", "-.", (0, (6, 1, 1, 1, 1, 1)), (0, (9, 2)), (0, (2, 1)), ":"]
+    dashes: list[object] = ["--", "-.", (0, (6, 1, 1, 1, 1, 1)), (0, (9, 2)), (0, (2, 1)), ":"]
     marker = "o" if table.sizes[table.A_t.dims[1]] == 1 else None
     out: dict[str, dict[str, object]] = {}
     for i, law in enumerate(table.law.values):

@@ -152,7 +152,7 @@ class Task:
     # ------------------------------------------------------------------ contacts
     def contact_at(self, numbers: Numbers, materials: Materials) -> Contact:
         """The contact of a point."""
-        changes: dict[str, Any] = {}
+        changes: dict[str, object] = {}
         for name, value in numbers.items():
             changes |= self.variables[name].changes(value)
         return self._filled(self.contact.replace(**materials), changes)

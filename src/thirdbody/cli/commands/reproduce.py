@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ...errors import InvalidValue
 from ...papers import PAPERS
@@ -75,6 +75,6 @@ class _Progress:
             self.tasks[stage] = None
             print(f"{stage} ...", file=sys.stderr, flush=True)
 
-    def __exit__(self, *_: Any) -> None:
+    def __exit__(self, *_: object) -> None:
         if self.bar is not None:
             self.bar.stop()
