@@ -148,15 +148,103 @@ class AbstractFilm(Law):
         return out
 
 
-def groups(
-    load: Number, speed: Number, eta: float, alpha: float, R: float, E: Number, power: int
-) -> tuple[Number, Number, Number]:
-    """U, G and W of the formulas [1]: W = load/(E'R^power), power 2 for points and 1 for lines."""
-    return eta * speed / (E * R), alpha * E, load / (E * R**power)
+class Groups(NamedTuple):
+    """U, G and W of the formulas [1], beside the radii."""
+
+    U: Number
+    G: Number
+    W: Number
+    R: float
+    ratio: float
+
+
+class _InGroups(AbstractFilm):
+    """A film whose formulas hold between U, G and W."""
+
+    __slots__ = ()
+
+    def _groups(
+        self,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float,
+    ) -> Groups:
+        """W = load/(E'R^power), power 2 for points and 1 for lines."""
+        W = load / (E * R ** (2 if self.shape == "point" else 1))
+        return Groups(eta * speed / (E * R), alpha * E, W, R, ratio)
+
+    def central(
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
+        return self._central(self._groups(load, speed, eta, alpha, R, E, ratio))
+
+    @abstractmethod
+    def _central(self, to: Groups) -> Number:
+        """Central film thickness [m]."""
+
+
+class _Fitted(_InGroups):
+    """A power law, and another of the smallest thickness."""
+
+    __slots__ = ()
+
+    def minimum(
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Number:
+        """Smallest film thickness [m]; arguments as in `central`."""
+        return self._smallest(self._groups(load, speed, eta, alpha, R, E, ratio))
+
+    @abstractmethod
+    def _smallest(self, to: Groups) -> Number:
+        """Smallest film thickness [m]."""
+
+
+class _Joined(_InGroups):
+    """Four limits that are joined."""
+
+    __slots__ = ()
+
+    def asymptotes(
+        self,
+        *,
+        load: Number,
+        speed: Number,
+        eta: float,
+        alpha: float,
+        R: float,
+        E: Number,
+        ratio: float = 1,
+    ) -> Asymptotes:
+        """The four limits; arguments as in `central`."""
+        return self._limits(self._groups(load, speed, eta, alpha, R, E, ratio))
+
+    @abstractmethod
+    def _limits(self, to: Groups) -> Asymptotes:
+        """The four limits."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DowsonLine(AbstractFilm):
+class DowsonLine(_Fitted):
     r"""Line contact, elastic-piezoviscous.
 
     .. math:: h_{min} = 2.65\,R\,U^{0.7}G^{0.54}W'^{-0.13}, \qquad
@@ -179,38 +267,17 @@ class DowsonLine(AbstractFilm):
     shape = "line"
     regimes = (EP,)
 
-    def central(
-        self,
-        *,
-        load: Number,
-        speed: Number,
-        eta: float,
-        alpha: float,
-        R: float,
-        E: Number,
-        ratio: float = 1,
-    ) -> Number:
-        U, G, W = groups(load, speed, eta, alpha, R, E, 1)
+    def _central(self, to: Groups) -> Number:
+        U, G, W, R, _ = to
         return 3.06 * R * U**0.69 * G**0.56 * W**-0.10
 
-    def minimum(
-        self,
-        *,
-        load: Number,
-        speed: Number,
-        eta: float,
-        alpha: float,
-        R: float,
-        E: Number,
-        ratio: float = 1,
-    ) -> Number:
-        """Smallest film thickness [m]; arguments as in `central`."""
-        U, G, W = groups(load, speed, eta, alpha, R, E, 1)
+    def _smallest(self, to: Groups) -> Number:
+        U, G, W, R, _ = to
         return 2.65 * R * U**0.7 * G**0.54 * W**-0.13
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HamrockDowson(AbstractFilm):
+class HamrockDowson(_Fitted):
     r"""Point contact, elastic-piezoviscous.
 
     .. math::
@@ -245,33 +312,12 @@ class HamrockDowson(AbstractFilm):
     regimes = (EP,)
     limits = {"ratio": (0.0, 1.0)}
 
-    def central(
-        self,
-        *,
-        load: Number,
-        speed: Number,
-        eta: float,
-        alpha: float,
-        R: float,
-        E: Number,
-        ratio: float = 1,
-    ) -> Number:
-        U, G, W = groups(load, speed, eta, alpha, R, E, 2)
+    def _central(self, to: Groups) -> Number:
+        U, G, W, R, ratio = to
         return 2.69 * R * U**0.67 * G**0.53 * W**-0.067 * (1 - 0.61 * np.exp(-0.73 * kappa(ratio)))
 
-    def minimum(
-        self,
-        *,
-        load: Number,
-        speed: Number,
-        eta: float,
-        alpha: float,
-        R: float,
-        E: Number,
-        ratio: float = 1,
-    ) -> Number:
-        """Smallest film thickness [m]; arguments as in `central`."""
-        U, G, W = groups(load, speed, eta, alpha, R, E, 2)
+    def _smallest(self, to: Groups) -> Number:
+        U, G, W, R, ratio = to
         return 3.63 * R * U**0.68 * G**0.49 * W**-0.073 * (1 - np.exp(-0.68 * kappa(ratio)))
 
 
@@ -316,7 +362,7 @@ class Asymptotes(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class NijenbanningVennerMoes(AbstractFilm):
+class NijenbanningVennerMoes(_Joined):
     r"""Point contact, every regime, any ratio of radii.
 
     With :math:`M = W(2U)^{-3/4}`, :math:`L = G(2U)^{1/4}`, :math:`D = R_x/R_y`,
@@ -392,39 +438,16 @@ class NijenbanningVennerMoes(AbstractFilm):
             piezo = (at.RP**-8 + at.EP**-8) ** (-1 / 8)
         return (iso**s + piezo**s) ** (1 / s)
 
-    def asymptotes(
-        self,
-        *,
-        load: Number,
-        speed: Number,
-        eta: float,
-        alpha: float,
-        R: float,
-        E: Number,
-        ratio: float = 1,
-    ) -> Asymptotes:
-        """The four limits; arguments as in `central`."""
-        U, G, W = groups(load, speed, eta, alpha, R, E, 2)
+    def _limits(self, to: Groups) -> Asymptotes:
+        U, G, W, _, ratio = to
         return self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
 
-    def central(
-        self,
-        *,
-        load: Number,
-        speed: Number,
-        eta: float,
-        alpha: float,
-        R: float,
-        E: Number,
-        ratio: float = 1,
-    ) -> Number:
-        U, G, W = groups(load, speed, eta, alpha, R, E, 2)
-        at = self.limits_of(M=W * (2 * U) ** -0.75, L=G * (2 * U) ** 0.25, D=ratio)
-        return self.joined(at, H_00=1.8 / ratio) * R * (2 * U) ** 0.5
+    def _central(self, to: Groups) -> Number:
+        return self.joined(self._limits(to), H_00=1.8 / to.ratio) * to.R * (2 * to.U) ** 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MoesLine(AbstractFilm):
+class MoesLine(_Joined):
     r"""Line contact, every regime.
 
     With :math:`M = W'(2U)^{-1/2}`, :math:`L = G(2U)^{1/4}`:
@@ -473,35 +496,11 @@ class MoesLine(AbstractFilm):
             piezo = (at.RP**-3.5 + at.EP**-3.5) ** (-2 / 7)
         return (iso**s + piezo**s) ** (1 / s)
 
-    def asymptotes(
-        self,
-        *,
-        load: Number,
-        speed: Number,
-        eta: float,
-        alpha: float,
-        R: float,
-        E: Number,
-        ratio: float = 0,
-    ) -> Asymptotes:
-        """The four limits; arguments as in `central`."""
-        U, G, W = groups(load, speed, eta, alpha, R, E, 1)
-        return self.limits_of(M=W * (2 * U) ** -0.5, L=G * (2 * U) ** 0.25)
+    def _limits(self, to: Groups) -> Asymptotes:
+        return self.limits_of(M=to.W * (2 * to.U) ** -0.5, L=to.G * (2 * to.U) ** 0.25)
 
-    def central(
-        self,
-        *,
-        load: Number,
-        speed: Number,
-        eta: float,
-        alpha: float,
-        R: float,
-        E: Number,
-        ratio: float = 1,
-    ) -> Number:
-        U, G, W = groups(load, speed, eta, alpha, R, E, 1)
-        at = self.limits_of(M=W * (2 * U) ** -0.5, L=G * (2 * U) ** 0.25)
-        return self.joined(at) * R * (2 * U) ** 0.5
+    def _central(self, to: Groups) -> Number:
+        return self.joined(self._limits(to)) * to.R * (2 * to.U) ** 0.5
 
 
 FORMULAS = AbstractFilm.registry
