@@ -85,7 +85,9 @@ def test_a_ball_screw_nut_from_ra_newtons_and_cleanliness(run, solved):
     dirty = solved("ball-screw.toml", 'particles.iso4406="21/19/16"')["body"]["forces"][0]
     assert dirty["particle_load_share"] == pytest.approx(8 * force["particle_load_share"], rel=0.1)
     shown = run("solve", "ball-screw.toml")
-    assert "2000 N on the body ball-in-groove shared by 60" in " ".join(shown.split())
+    assert "2000 N on the body ball-screw shared by 60, 47.29 N on the most loaded" in " ".join(
+        shown.split()
+    )
 
 
 def test_an_additive_by_size_and_weight_per_cent(run, solved):
@@ -140,3 +142,22 @@ def test_the_text_of_the_package_index():
     assert "<img" not in text
     (example,) = re.findall(r"^```python\n(.*?)^```$", text, re.S | re.M)
     assert example in (ROOT / "README.md").read_text("utf-8")
+
+
+def test_how_often_does_this_connector_fail_to_close(run):
+    assert run("new", "connector").strip() == "thirdbody probability connector.toml"
+    told = " ".join(run("probability", "connector.toml").split())
+    assert "Under 0.5 N the connector fails to close once in 210 closings (0.477 %)" in told
+    harder = run("probability", "connector.toml", "--set", "connector.force=2 N", "--json")
+    often = json.loads(harder)["states"]
+    assert often["force"][2] == 2.0
+    assert often["failure_of_all"][2] < 1e-4
+
+
+def test_how_high_does_a_wafer_stand_over_a_grain(run):
+    assert run("new", "wafer-chuck").strip() == "thirdbody plate wafer-chuck.toml"
+    told = " ".join(run("plate", "wafer-chuck.toml").split())
+    assert "The plate stands 410 nm high over a particle of 10 µm (quartz)" in told
+    assert "1.78 bumps on a plate, and 16.8 % of the plates have none" in told
+    pins = json.loads(run("plate", "wafer-chuck.toml", "--json", "--set", "plate.touching=0.02"))
+    assert pins["bumps"] == pytest.approx(0.02 * 1.78, rel=0.01)

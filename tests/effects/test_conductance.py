@@ -220,3 +220,47 @@ def test_conduction_of_the_2014_paper(law):
     ratio = ghaednia2014.conductance_ratio(law, pressures)
     np.testing.assert_allclose(with_particles / without, ratio, rtol=1e-7)
     assert np.all(with_particles < without)
+
+
+def mixed(*outputs, silica=SILICA):
+    """Silica and steel particles of one size side by side."""
+    size = tb.TruncatedGaussian(mean=300e-9, std=60e-9)
+    kinds = tuple(
+        tb.Particles(material=each, areal_density=5e9, diameter=size, name=name)
+        for name, each in (("sand", silica), ("debris", STEEL))
+    )
+    return contact(*outputs, density=0).replace(particles=kinds)
+
+
+def test_by_material_what_has_no_resistivity_is_no_way_for_a_current():
+    """As sand of a resistivity beyond measure does, where all conduct."""
+    rubber = SILICA.replace(resistivity=1e25)
+    all_conduct = ElectricalConductance(particles="conduct")
+    expected = tb.solve(mixed(all_conduct, silica=rubber), pressure=LOADS).outputs
+    none = SILICA.replace(resistivity=None)
+    by_material = ElectricalConductance(particles="by material")
+    found = tb.solve(mixed(by_material, silica=none), pressure=LOADS).outputs
+    assert found["gc_sa"] == pytest.approx(expected["gc_sa"], rel=1e-9)
+    assert found["rho_c"] == pytest.approx(expected["rho_c"], rel=1e-9)
+    assert np.all(found["gc_sa"] > 0)
+
+
+def test_by_material_one_kind_conducts_or_insulates():
+    none = SILICA.replace(resistivity=None)
+    for dust, as_word in ((SILICA, "conduct"), (none, "insulate")):
+        for A_n in (None, 1e-10):
+            found, expected = (
+                tb.solve(
+                    contact(ElectricalConductance(particles=word, A_n=A_n), dust=dust),
+                    pressure=LOADS,
+                ).outputs
+                for word in ("by material", as_word)
+            )
+            for name, values in expected.items():
+                assert np.array_equal(found[name], values, equal_nan=True), name
+
+
+def test_of_few_particles_that_differ_nothing_is_told():
+    none = SILICA.replace(resistivity=None)
+    with pytest.raises(tb.InvalidValue, match="A_n must be left out where some particles conduct"):
+        mixed(ElectricalConductance(particles="by material", A_n=1e-10), silica=none)

@@ -12,7 +12,19 @@ KINDS = {
     "ball-in-groove": {"diameter": "6 mm", "bodies": 3},
     "roller": {"diameter": "6 mm", "length": "5 mm"},
     "cylinders": {"first_diameter": "6 mm", "second_diameter": "9 mm", "length": "5 mm"},
-}
+    "ball-bearing": {
+        "bore": "25 mm", "outer_diameter": "52 mm", "ball_diameter": "7.938 mm", "balls": 9,
+    },
+    "roller-bearing": {
+        "bore": "25 mm", "outer_diameter": "52 mm", "roller_diameter": "7.5 mm",
+        "length": "7.5 mm", "rollers": 12,
+    },
+    "ball-screw": {
+        "diameter": "6.35 mm", "pitch_diameter": "40 mm", "lead": "10 mm", "balls": 6,
+    },
+    "linear-guide": {"diameter": "4 mm", "rows": 2, "balls": 12},
+    "gear": {"pinion_teeth": 20, "wheel_teeth": 60, "module": "2 mm", "face_width": "20 mm"},
+}  # fmt: skip
 
 
 def study(kind, **changes):

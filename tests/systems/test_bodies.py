@@ -206,7 +206,12 @@ def test_a_force_needs_a_body():
 
 
 def test_every_kind_survives_the_round_trip():
-    sizes = dict(diameter=1e-2, length=1e-2, first_diameter=1e-2, second_diameter=1e-2, area=1e-4)
+    sizes = dict(
+        diameter=1e-2, length=1e-2, first_diameter=1e-2, second_diameter=1e-2, area=1e-4,
+        bore=2e-2, outer_diameter=6e-2, ball_diameter=1e-2, roller_diameter=1e-2, balls=8,
+        rollers=8, pitch_diameter=4e-2, lead=1e-2, rows=2, pinion_teeth=20, wheel_teeth=60,
+        module=2e-3, face_width=2e-2,
+    )  # fmt: skip
     for kind in BODIES.values():
         body = kind(**{name: size for name, size in sizes.items() if name in kind.__slots__})
         assert kind.from_dict(body.to_dict()) == body

@@ -68,6 +68,36 @@ BODIES_BEGUN: dict[str, dict[str, object]] = {
         "length": "10 mm",
     },
     "flat": {"kind": "flat", "area": "1 cm^2"},
+    "ball-bearing": {
+        "kind": "ball-bearing",
+        "bore": "25 mm",
+        "outer_diameter": "52 mm",
+        "ball_diameter": "7.938 mm",
+        "balls": 9,
+    },
+    "roller-bearing": {
+        "kind": "roller-bearing",
+        "bore": "25 mm",
+        "outer_diameter": "52 mm",
+        "roller_diameter": "7.5 mm",
+        "length": "7.5 mm",
+        "rollers": 12,
+    },
+    "ball-screw": {
+        "kind": "ball-screw",
+        "diameter": "6.35 mm",
+        "pitch_diameter": "40 mm",
+        "lead": "10 mm",
+        "balls": 60,
+    },
+    "linear-guide": {"kind": "linear-guide", "diameter": "4 mm", "rows": 2, "balls": 12},
+    "gear": {
+        "kind": "gear",
+        "pinion_teeth": 20,
+        "wheel_teeth": 60,
+        "module": "2 mm",
+        "face_width": "20 mm",
+    },
 }
 """How a table begins that is chosen in a menu."""
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from nicegui import ui
 
 import thirdbody as tb
@@ -19,7 +21,7 @@ SIZES = (*VARIANTS["distribution"], *COUNTED)
 AMOUNTS = ("gap", "particle_density", "oil_density")
 
 
-def bins_in_words(given: dict[str, object]) -> str:
+def bins_in_words(given: dict[str, Any]) -> str:
     """What a counter found, in a few words.
 
     >>> bins_in_words({"edges": [1e-6, 2e-6, 4e-6], "counts": [5, 1]})
@@ -59,6 +61,7 @@ class ParticleInputs(Entries):
             "nas1638": "nas1638: cleanliness class",
             "test_dust": "test_dust: ISO 12103-1 A1 to A4",
             "sizes": "sizes: a file of the particle counter",
+            "iso14644": "iso14644: class of a clean room",
         }
         self.select(
             (*place, "distribution"), labels, kind or "", "sizes", lambda w: self._sized(place, w)
@@ -80,21 +83,22 @@ class ParticleInputs(Entries):
             (*place, "law"), VARIANTS["particle"], "", "law of these particles", blank="as below"
         )
 
-    def _counted(self, place: Place, kind: str, given: object) -> None:
+    def _counted(self, place: Place, kind: str, given: Any) -> None:
         """A code, or what a counter found, and their options."""
         if isinstance(given, dict):  # dropped on the page
             ui.label(f"{kind}: {bins_in_words(given)}").classes("hint")
         else:
-            example = {"iso4406": "18/16/13", "test_dust": "A2", "sizes": "sizes.csv"}.get(
-                kind, "6"
-            )
+            examples = {"iso4406": "18/16/13", "test_dust": "A2", "sizes": "sizes.csv"}
+            example = (examples | {"iso14644": "7"}).get(kind, "6")
             about = f"as written, e.g. {example}"
             self.field(place, Field(name=kind, kind="string", label=kind, about=about))
         for each in COUNTED_FIELDS[kind]:
             self.field(place, each)
 
     def amount(self, place: Place, kind: object) -> None:
-        """Per area, or a concentration and the gap."""
+        """Per area, or a concentration and the gap; what settles is counted by its class."""
+        if kind == "iso14644":
+            return
         coded = kind in ("iso4406", "as4059", "nas1638")
         if not coded:
             about = next(f for f in fields_of(tb.Particles) if f.name == "areal_density")
@@ -116,12 +120,17 @@ class ParticleInputs(Entries):
         if isinstance(shape := table.get("shape"), dict) and word != "weibull":
             kept["shape"] = shape
         amounts = {key: table[key] for key in ("areal_density", *AMOUNTS) if key in table}
-        starts: dict[str, dict[str, object]] = {
+        starts: dict[str, dict[str, Any]] = {
             "iso4406": {"iso4406": "18/16/13", "gap": table.get("gap", "1 um")},
             "as4059": {"as4059": "6", "gap": table.get("gap", "1 um")},
             "nas1638": {"nas1638": "6", "gap": table.get("gap", "1 um")},
             "test_dust": {"test_dust": "A2"} | {"areal_density": "1e9 / m^2"} | amounts,
             "sizes": {"sizes": table.get("sizes", "sizes.csv")} | amounts,
+            "iso14644": {
+                "iso14644": 7,
+                "exposure": "24 h",
+                "particle_density": table.get("particle_density", "2650 kg/m^3"),
+            },
             "truncated-gaussian": {"mean": "300 nm", "std": "24 nm"},
             "log-normal": {"median": "300 nm", "gsd": 1.3},
             "monodisperse": {"mean": "300 nm"},

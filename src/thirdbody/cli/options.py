@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AsJson",
+    "FilterText",
     "Force",
     "OwnCode",
     "ParquetFile",
@@ -54,6 +55,15 @@ Settings = Annotated[
         "--set",
         metavar="KEY=VALUE",
         help='Change a key of the file, e.g. particles.mean="500 nm"; may be repeated.',
+    ),
+]
+FilterText = Annotated[
+    str | None,
+    typer.Option(
+        "--filter",
+        metavar="SIZE=BETA,...",
+        help="A filter by the beta ratios of its data sheet, sizes in um(c), e.g. "
+        '"5=75, 10=1000": the oil before and after it.',
     ),
 ]
 OwnCode = Annotated[

@@ -172,7 +172,7 @@ def _wrap_line(line: str) -> str:
 
 def remark(sentence: str) -> None:
     """What was done, in one line: nothing is doubted by it."""
-    print(f"note: {' '.join(sentence.split())}", file=sys.stderr)
+    print(_wrap_line(f"note: {' '.join(sentence.split())}"), file=sys.stderr)
 
 
 def print_json(data: object) -> None:

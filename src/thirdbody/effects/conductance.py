@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from ..contact.evaluation import Solved
     from ..contact.spots import AsperitySpots
     from ..laws.spots import ParticleSpots
+    from ..populations.particles import Particles
     from .single_contacts import SingleContacts
 
     Array = NDArray[np.float64]
@@ -44,6 +45,7 @@ __all__ = ["ElectricalConductance", "ThermalConductance"]
 
 ONE, SMALL = 1.0, 1e-6
 """Contacts of an area below which it is mostly open, and the area [m²] if none is given."""
+BY_MATERIAL = "by material"
 WIDE = 0.5
 """Contact radius over particle radius above which the particle's resistance is far off."""
 
@@ -78,12 +80,19 @@ def _through_asperities(
 
 
 def _through_particles(
-    state: Solved, rho: Resistivity, *, film: float = 0.0, mean_free_path: float = 0.0
+    state: Solved,
+    rho: Resistivity,
+    particles: str,
+    *,
+    film: float = 0.0,
+    mean_free_path: float = 0.0,
 ) -> Array:
-    """Σ n/R of the particles per nominal area: (N,)."""
+    """Σ n/R of the particles that conduct per nominal area: (N,)."""
     pair = state.contact.surfaces
 
-    def conductance(spots: ParticleSpots) -> Array:
+    def conductance(spots: ParticleSpots) -> Any:
+        if not _conducts(particles, spots.population):
+            return 0.0
         assert spots.population is not None
         own = rho(spots.population.material)
         touches = (spots.areas[0] > 0) & (spots.areas[1] > 0)
@@ -104,9 +113,20 @@ def _through_particles(
 def _conducting(state: Solved, particles: str) -> Array:
     """Contacts through which something flows, per nominal area (N,) [1/m²]."""
     n = state.total(lambda spots: spots.area > 0)
-    if particles == "conduct":
-        n = n + state.total_of_particles(lambda spots: (spots.areas[0] > 0) & (spots.areas[1] > 0))
+    if particles != "insulate":
+        n = n + state.total_of_particles(
+            lambda spots: (
+                _conducts(particles, spots.population) & (spots.areas[0] > 0) & (spots.areas[1] > 0)
+            )
+        )
     return n
+
+
+def _conducts(particles: str, dust: Particles | None) -> bool:
+    """Whether these particles conduct; by material do those whose resistivity is known."""
+    if particles == BY_MATERIAL and dust is not None:
+        return dust.material.resistivity is not None
+    return particles == "conduct"
 
 
 def _closing(
@@ -118,9 +138,8 @@ def _closing(
     count = output.A_n * _conducting(state, output.particles)
     out = means | {closed: -np.expm1(-count)}
     is_open = count < ONE
-    found = single_contacts(
-        output, state, tuple(means), closed, conduct=output.particles == "conduct"
-    )
+    conduct = any(_conducts(output.particles, dust) for dust in state.contact.populations)
+    found = single_contacts(output, state, tuple(means), closed, conduct=conduct)
     if found is not None:
         out = {
             name: np.where(found.concerned, found.values[name], value)
@@ -226,7 +245,7 @@ def _warnings(
     else:
         out = _about_open(output, state, numbers, ~found.concerned)
         out += _about_single(output, found, closed)
-    if particles == "conduct" and (share := wide_share(state)) > 0.01:
+    if particles != "insulate" and (share := wide_share(state)) > 0.01:
         out.append(about_wide(output.name, share))
     return out
 
@@ -337,7 +356,7 @@ class ThermalConductance(AbstractOutput):
         asperities = _through_asperities(state, _thermal, self.form, film=self.film)
         particles = np.zeros_like(state.d)
         if self.particles == "conduct":
-            particles = _through_particles(state, _thermal, film=self.film)
+            particles = _through_particles(state, _thermal, self.particles, film=self.film)
         gap = np.zeros_like(state.d)
         if self.k_gap:
             with np.errstate(divide="ignore"):
@@ -374,8 +393,9 @@ class ElectricalConductance(AbstractOutput):
 
     Parameters
     ----------
-    particles : {"insulate", "conduct"}, optional
-        Insulating particles still hold the surfaces apart. "conduct" needs their resistivity.
+    particles : {"insulate", "conduct", "by material"}, optional
+        Insulating particles still hold the surfaces apart. "conduct" needs their resistivity; by
+        material those conduct that have one, and the others insulate.
     film : float, optional
         Resistance of a surface film times its area at every spot, σ_f [Ω m²]; two on a particle.
     mean_free_path : float, optional
@@ -421,7 +441,9 @@ class ElectricalConductance(AbstractOutput):
     '21.8 µΩ on 1 mm²'
     """
 
-    particles: str = choice("what particles do", "insulate", "conduct", default="insulate")
+    particles: str = choice(
+        "what particles do", "insulate", "conduct", BY_MATERIAL, default="insulate"
+    )
     film: float = quantity("σ_f", "ohm*m^2", "resistance of a film", default=0.0, ge=0)
     mean_free_path: float = quantity("l", "m", "mean free path", default=0.0, ge=0)
     form: str = choice("spreading factor", "power", "series", "none", default="power")
@@ -449,7 +471,14 @@ class ElectricalConductance(AbstractOutput):
     }
 
     def problems(self, contact: Contact) -> list[str]:
-        return missing(self, _conducting_bodies(contact, self.particles), "resistivity")
+        out = missing(self, _conducting_bodies(contact, self.particles), "resistivity")
+        kinds = {dust.material.resistivity is None for dust in contact.populations}
+        if self.particles == BY_MATERIAL and self.A_n is not None and len(kinds) > 1:
+            out.append(
+                f"outputs.{self.name}.A_n must be left out where some particles conduct and some "
+                "insulate: which of them close a contact that holds few is not known"
+            )
+        return out
 
     def one_by_one(self, contact: Contact) -> bool:
         return bool(self.film or self.mean_free_path or self.A_n)
@@ -458,8 +487,8 @@ class ElectricalConductance(AbstractOutput):
         small: dict[str, float] = dict(film=self.film, mean_free_path=self.mean_free_path)
         asperities = _through_asperities(state, _electrical, self.form, **small)
         particles = np.zeros_like(state.d)
-        if self.particles == "conduct":
-            particles = _through_particles(state, _electrical, **small)
+        if self.particles != "insulate":
+            particles = _through_particles(state, _electrical, self.particles, **small)
         out = _closing(self, state, {"gc_ss": asperities, "gc_sa": particles}, "gc_closed")
         total = out["gc_ss"] + out["gc_sa"]
         with np.errstate(divide="ignore"):

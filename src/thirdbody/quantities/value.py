@@ -58,7 +58,8 @@ def quantity(
     hint : str, optional
         The likely cause of a mistake, appended to the message.
     usual : float, optional
-        Lengths up to it are no slip; `USUAL_LENGTH` by default.
+        Lengths up to it, and pressures from it on, are no slip; `USUAL_LENGTH` by default, and as
+        for a modulus.
     """
     about = dict(symbol=symbol, unit=unit, meaning=meaning, gt=gt, ge=ge, lt=lt, le=le, hint=hint)
     if usual is not None:
@@ -155,6 +156,8 @@ def unit_meant(about: Mapping[str, Any], number: float, *, load: bool = False) -
         return "mm" if usual >= 1 else "nm" if size >= 10 else "um"
     if unit == "Pa" and load:
         return "MPa" if 0 < number < USUAL_LOAD else None
+    if unit == "Pa" and "usual" in about:
+        return "kPa" if 0 < number < about["usual"] else None
     if unit == "Pa":
         return "GPa" if 0 < number < USUAL_STRESS else None
     least, most, meant = SLIPS.get(unit, (0.0, math.inf, ""))

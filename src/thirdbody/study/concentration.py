@@ -27,6 +27,8 @@ AMOUNT = {
         "oil_density": quantity("ρ_f", "kg/m^3", "density of the fluid", gt=0),
         "smallest": quantity("x_min", "m", "smallest diameter", gt=0),
         "largest": quantity("x_max", "m", "largest diameter", gt=0),
+        "exposure": quantity("t", "s", "time for which dust settles", gt=0, hint="a day is '24 h'"),
+        "share": quantity("w", "1", "part of the counted particles of this kind", gt=0, le=1),
     }.items()
 }
 """The numbers that lead from a count or a concentration to an areal density."""
@@ -34,6 +36,8 @@ AMOUNT = {
 
 def amount(reader: Reader, path: str, data: Any, kind: str, own: dict[str, Key]) -> list[str]:
     """Adds the keys that lead to an areal density; what is wrong with those of the file."""
+    if kind == "iso14644":
+        return _settles(path, data, own)
     coded = kind in ("iso4406", "as4059", "nas1638")
     names = ["gap", "film"]
     if not coded:
@@ -64,6 +68,15 @@ def amount(reader: Reader, path: str, data: Any, kind: str, own: dict[str, Key])
         rule = f"has no effect without {path}.concentration"
         wrong.append(Problem(f"{path}.{idle[0]}", rule, say(given[idle[0]])))
     return wrong
+
+
+def _settles(path: str, data: Any, own: dict[str, Key]) -> list[str]:
+    """The same where dust settles from air: the class and the time say how many."""
+    own["areal_density"] = own["areal_density"]._replace(required=False)
+    if "areal_density" not in data:
+        return []
+    rule = "the class and the time say how many there are; remove areal_density"
+    return [clash(path, data, ["iso14644", "areal_density"], rule)]
 
 
 def laden(reader: Reader, path: str, values: dict[str, Any], diameter: Any) -> Particles:

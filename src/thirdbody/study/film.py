@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InvalidValue
+from ..errors import InvalidValue, Problem
 from ..quantities.value import quantity
 from ..systems.bodies import Body
 from ..systems.film_conditions import Entrainment, FilmConditions
@@ -23,6 +23,8 @@ NO_PRESSURE = (
     'has no place here: film.hertz = "mean" or "maximum" says which Hertz pressure is nominal, and '
     "the pressure itself follows from film.load"
 )
+OF_BODY = ("conjunction", "load", "speed")
+"""Keys that may follow from [body]."""
 SPEED = quantity("u", "m/s", "mean entrainment speed", gt=0).metadata["quantity"]
 
 
@@ -68,15 +70,16 @@ def film(reader: Reader, path: str, data: Any) -> Any:
 
     pressed = reader.every_way or get(reader.whole, "body") is not None
     if pressed:
-        for name in ("conjunction", "load"):
+        for name in OF_BODY:
             keys[name] = keys[name]._replace(required=False)
 
     def build(values: dict[str, Any]) -> FilmConditions | dict[str, Any] | None:
-        speeds = tuple(np.sort(values.pop("speed")).tolist())
-        if not speeds:
-            return None  # an empty range, which was told
-        values |= {"speed": speeds}
-        if pressed and not {"conjunction", "load"} <= values.keys():
+        if "speed" in values:
+            speeds = tuple(np.sort(values.pop("speed")).tolist())
+            if not speeds:
+                return None  # an empty range, which was told
+            values |= {"speed": speeds}
+        if pressed and not values.keys() >= {*OF_BODY}:
             return values
         return reader.make(FilmConditions, path, values)
 
@@ -84,20 +87,35 @@ def film(reader: Reader, path: str, data: Any) -> Any:
 
 
 def on_body(
-    reader: Reader, film: Any, bodies: Body | None, forces: np.ndarray | None
+    reader: Reader, film: Any, bodies: Body | None, forces: np.ndarray | None, E_star: float
 ) -> FilmConditions | None:
-    """The film, its conjunction and load those of one contact of [body] where it gives none."""
+    """The film; conjunction, load and speed are those of one contact of [body] where not given."""
     if not isinstance(film, dict):
         return film
+    own: dict[str, Any] = {}
     shape = None if bodies is None else bodies.conjunction
     if bodies is not None and forces is not None and len(forces) == 1 and shape is not None:
-        own = {"conjunction": shape, "load": float(forces[0]) / bodies.bodies}
+        own = {"conjunction": shape, "load": float(bodies.load_on_one(forces[0], E_star))}
+    if bodies is not None and bodies.rolling_speed is not None:
+        own["speed"] = (bodies.rolling_speed,)
+    missing = [name for name in OF_BODY if name not in film | own]
+    if not missing:
         return reader.make(FilmConditions, "film", own | film)
-    missing = " and ".join(name for name in ("conjunction", "load") if name not in film)
-    raise InvalidValue(
-        f"film has no {missing}, and takes them from [body] only where its faces are curved and "
-        "load.force is one force"
-    )
+    problems = []
+    if "speed" in missing:
+        missing.remove("speed")
+        turns = [name for name in ("shaft_speed", "speed") if hasattr(bodies, name)]
+        rule = "is missing" + "".join(f", or body.{name}" for name in turns)
+        problems.append(Problem("film.speed", f"{rule}: {about_of('speed', SPEED)}"))
+    if missing:
+        problems.append(
+            Problem(
+                "",
+                f"film has no {' and '.join(missing)}, and takes them from [body] only where its "
+                "faces are curved and load.force is one force",
+            )
+        )
+    raise InvalidValue(*problems)
 
 
 TABLE = Table(

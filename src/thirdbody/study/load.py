@@ -43,7 +43,8 @@ TABLE = Table(
     read=load,
     about='a table [load] with one of F_star, pressure, separation, e.g. pressure = "5 MPa"',
     required=lambda whole: (
-        "film" not in whole and all(get(whole.get("sweep"), name) is None for name in LOADS)
+        not {"film", "connector", "plate"} & whole.keys()
+        and all(get(whole.get("sweep"), name) is None for name in LOADS)
     ),
     role="study",
 )

@@ -8,7 +8,7 @@ from pydantic import AfterValidator
 
 from ..errors import InvalidValue, Problem
 from ..populations.particles import Particles
-from ..quantities.units import say
+from ..quantities.units import say, to_si
 from .concentration import amount, laden
 from .counted import COUNTED, counted
 from .laws import particle_law
@@ -18,7 +18,7 @@ from .shape import OF_SIZES, shape
 from .strength import strength
 from .vocabulary import DISTRIBUTIONS
 
-__all__ = ["TABLE", "populations"]
+__all__ = ["TABLE", "gaps_of", "populations"]
 
 LAW = "law of these particles, in the place of [particle_law]"
 
@@ -29,6 +29,12 @@ def populations(whole: dict[str, Any]) -> dict[str, Any]:
     if isinstance(given, list) and given:
         return {f"particles.{i}": table for i, table in enumerate(given)}
     return {"particles": given} if "particles" in whole else {}
+
+
+def gaps_of(whole: dict[str, Any]) -> tuple[float | None, ...]:
+    """Heights of the oil whose particles each population is [m]; None where a file has none."""
+    given = [get(table, "gap") or get(table, "film") for table in populations(whole).values()]
+    return tuple(None if gap is None else to_si(gap, "m") for gap in given)
 
 
 @reads_also([{}])

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from .body import TABLE as BODY
+from .connector import TABLE as CONNECTOR
 from .design import TABLE as DESIGN
 from .ellipticity import ellipticity
 from .explicit import TABLE as EXPLICIT
@@ -18,6 +19,7 @@ from .load import TABLE as LOAD
 from .one_value import text
 from .outputs import TABLE as OUTPUTS
 from .particles import TABLE as PARTICLES
+from .plate import TABLE as PLATE
 from .reader import FieldReader, Reader, Table, plain
 from .roughness import TABLE as ROUGHNESS
 from .sizes import parts
@@ -46,6 +48,8 @@ TABLES: tuple[Table, ...] = (
     BODY,
     LOAD,
     FILM,
+    CONNECTOR,
+    PLATE,
     SWEEP,
     UNCERTAINTY,
     DESIGN,

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from pydantic import TypeAdapter, ValidationError
@@ -24,16 +24,21 @@ from ..quantities.value import slips_are_told
 from ..systems.bodies import Body
 from ..systems.film_conditions import FilmConditions
 from .body import loads_of
+from .connector import AskedConnector, connector_of
 from .film import on_body
 from .outputs import on_area
 from .overrides import override
 from .own_code import load_installed
+from .particles import gaps_of
+from .plate import AskedPlate, plate_of
 from .reader import Key, Reader, Table
 from .sweep import ends, plan, with_nested_names
 from .tables import FIELDS, TABLES
 from .toml import read
 
-__all__ = ["Study", "check", "load_study"]
+__all__ = ["Study", "check", "load_study", "read_tables"]
+
+Asked = TypeVar("Asked")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -61,6 +66,10 @@ class Study:
         What the table [design] asks: arguments of `thirdbody.design`.
     film : FilmConditions, optional
         What the table [film] says of bodies, oil and speeds.
+    connector : AskedConnector, optional
+        What the table [connector] says of contacts that close on dust.
+    plate : AskedPlate, optional
+        What the table [plate] says of a plate held on a chuck.
     explicit : dict, optional
         What the table [explicit] says of the surfaces with every particle at its place.
     faces : tuple of Topography, optional
@@ -73,6 +82,9 @@ class Study:
         Forces on the body [N]; ``values`` are then the mean and the largest pressure of each.
     assumed : tuple of str
         Those of the ``notes`` that say what numbers were taken for what a drawing says.
+    gaps : tuple of float or None
+        Of each population the height of oil that brings it [m]; None where the file states how
+        many lie on an area.
     """
 
     title: str
@@ -84,12 +96,15 @@ class Study:
     uncertainty: Uncertainty | None = None
     design: dict[str, Any] | None = None
     film: FilmConditions | None = None
+    connector: AskedConnector | None = None
+    plate: AskedPlate | None = None
     explicit: dict[str, Any] | None = None
     faces: tuple[Topography, ...] = ()
     own_load: bool = True
     body: Body | None = None
     forces: np.ndarray | None = None
     assumed: tuple[str, ...] = ()
+    gaps: tuple[float | None, ...] = ()
 
     def solve(self) -> Equilibrium:
         """Every state, as arrays; see `thirdbody.solve`."""
@@ -159,28 +174,49 @@ def files_of(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> lis
 
 def check(data: dict[str, Any], *, folder: Path = Path()) -> Study:
     """The study that a parsed file in ``folder`` describes; raises as `load_study`."""
+    return read_tables(data, folder, _study, lambda table: table.required(data))
+
+
+def read_tables(
+    data: dict[str, Any],
+    folder: Path,
+    build: Callable[[Reader, dict[str, Any]], Asked],
+    needs: Callable[[Table], bool],
+) -> Asked:
+    """What a parsed file in ``folder`` asks for, built of its tables, of which some it needs."""
     load_installed()
     data = with_nested_names(data)
     with slips_are_told():
         try:
-            return _checked_study(
-                data, folder, [t for t in TABLES if t.name in data or t.required(data)]
-            )
+            held = [t for t in TABLES if t.name in data or needs(t)]
+            return _checked(data, folder, build, needs, held)
         except InvalidValue:
             # to say where a misplaced key belongs, every table must be known
-            return _checked_study(data, folder, TABLES)
+            return _checked(data, folder, build, needs, TABLES)
 
 
-def _checked_study(data: dict[str, Any], folder: Path, tables: Iterable[Table]) -> Study:
-    """The study, when these are all the tables that it may hold."""
+def _checked(
+    data: dict[str, Any],
+    folder: Path,
+    build: Callable[[Reader, dict[str, Any]], Asked],
+    needs: Callable[[Table], bool],
+    tables: Iterable[Table],
+) -> Asked:
+    """What is asked for, when these are all the tables that the file may hold."""
     reader = Reader(folder, data, FIELDS)
     keys = {
         table.name: Key(
-            table.read(reader, table.name, data.get(table.name)), table.required(data), table.about
+            table.read(reader, table.name, data.get(table.name)), needs(table), table.about
         )
         for table in tables
     }
-    model = reader.table("", keys, lambda values: _study(reader, values))
+
+    def built(values: dict[str, Any]) -> Asked:
+        if reader.problems:
+            raise InvalidValue(*reader.problems)
+        return build(reader, values)
+
+    model = reader.table("", keys, built)
     try:
         return TypeAdapter(model).validate_python(data)
     except ValidationError as error:
@@ -190,8 +226,6 @@ def _checked_study(data: dict[str, Any], folder: Path, tables: Iterable[Table]) 
 
 def _study(reader: Reader, values: dict[str, Any]) -> Study:
     """The study, from the objects that its tables stand for."""
-    if reader.problems:
-        raise InvalidValue(*reader.problems)
 
     def tables_of(role: str) -> dict[str, Any]:
         return {t.name: values[t.name] for t in TABLES if t.role == role and t.name in values}
@@ -211,8 +245,10 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     given_forces = loaded[1] if loaded and loaded[0] == "force" else None
     contact, notes = on_area(contact, bodies, given_forces, reader.whole.get("outputs"))
     reader.notes += notes
-    film = on_body(reader, film, bodies, given_forces)
-    load, loads = loaded or _film_load(film, contact)
+    film = on_body(reader, film, bodies, given_forces, contact.E_ss)
+    connector = connector_of(reader, values) if "connector" in own else None
+    plate = plate_of(reader, values) if "plate" in own else None
+    load, loads = loaded or ("pressure", np.array([_own_pressure(film, connector, plate, contact)]))
     forces = None
     if load == "force":
         load, forces, loads = "pressure", loads, loads_of(bodies, loads, contact)
@@ -230,10 +266,13 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
         values=loads,
         notes=tuple(dict.fromkeys([*reader.assumed, *reader.notes])),
         assumed=tuple(dict.fromkeys(reader.assumed)),
+        gaps=gaps_of(reader.whole),
         sweep=states,
         uncertainty=own.get("uncertainty"),
         design=own.get("design"),
         film=film,
+        connector=connector,
+        plate=plate,
         explicit=own.get("explicit"),
         faces=tuple(reader.faces),
         own_load=loaded is not None,
@@ -242,6 +281,16 @@ def _study(reader: Reader, values: dict[str, Any]) -> Study:
     )
 
 
-def _film_load(film: FilmConditions, contact: Contact) -> tuple[str, np.ndarray]:
-    """The load of a study that gives none but that of its film: without oil, all is on solids."""
-    return "pressure", np.array([film.nominal_pressure(contact)])
+def _own_pressure(
+    film: FilmConditions | None,
+    connector: AskedConnector | None,
+    plate: AskedPlate | None,
+    contact: Contact,
+) -> float:
+    """Nominal pressure of a study without [load]: that of its film, contacts or plate [Pa]."""
+    if film is not None:  # without oil, all is on solids
+        return film.nominal_pressure(contact)
+    if connector is not None:
+        return connector.pressure(contact.E_ss)
+    assert plate is not None  # else [load] is required
+    return plate.chuck.pressure

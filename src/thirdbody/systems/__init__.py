@@ -1,11 +1,17 @@
 """Systems around a contact: films, oil, bodies, waves, bearings."""
 
 from . import bearing_life as bearing_life
+from . import bearing_sizes as bearing_sizes
+from . import chuck as chuck
+from . import connector as connector
 from . import contact_probability as contact_probability
 from . import film_conditions as film_conditions
 from . import fractal as fractal
 from . import interaction as interaction
+from . import load_sharing as load_sharing
+from . import machine_elements as machine_elements
 from . import mixed_film as mixed_film
+from . import oil_filter as oil_filter
 from . import oil_particles as oil_particles
 from . import plate_over_particle as plate_over_particle
 from . import rough_body as rough_body
@@ -13,11 +19,17 @@ from . import waviness as waviness
 
 __all__ = [
     "bearing_life",
+    "bearing_sizes",
+    "chuck",
+    "connector",
     "contact_probability",
     "film_conditions",
     "fractal",
     "interaction",
+    "load_sharing",
+    "machine_elements",
     "mixed_film",
+    "oil_filter",
     "oil_particles",
     "plate_over_particle",
     "rough_body",

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import math
 import warnings
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -30,8 +29,9 @@ from ..numerics.quadrature import gauss_legendre
 from ..quantities.carried import takes_units
 from ..quantities.record import Record
 from ..quantities.say import number, percent, value_of
-from ..quantities.value import Value, choice, quantity
-from .film_formulas import Hertz, Line, Point
+from .body_shapes import BallInGroove, BallOnFlat, Body, Cylinders, Flat, Roller
+from .conjunctions import Hertz, Line, Point
+from .machine_elements import BallBearing, BallScrew, Gear, LinearGuide, RollerBearing
 from .rough_body import rough_cylinder, rough_sphere
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BODIES",
+    "BallBearing",
     "BallInGroove",
     "BallOnFlat",
     "Body",
@@ -54,235 +55,17 @@ YIELD = 1.5 * ZMC().k
 NODES = 24
 
 
-def _diameter(meaning: str, **options: Any) -> Any:
-    return quantity("D", "m", meaning, gt=0, usual=1.0, **options)
-
-
-class Body(Value, ABC):
-    """One of the pairs of bodies that a study can name under [body]; `BODIES` lists them."""
-
-    __slots__ = ()
-    bodies: float
-    """Contacts among which the force is divided equally [1]."""
-
-    @property
-    @abstractmethod
-    def conjunction(self) -> Point | Line | None:
-        """The shape between the bodies; None for flat ones."""
-
-    def hertz(self, force: float | NDArray[np.float64], E_star: float) -> Hertz:
-        """Area and pressures of one smooth dry contact under the force on all [N]."""
-        shape = self.conjunction
-        assert shape is not None
-        return shape.hertz(np.asarray(force, float) / self.bodies, E=2 * E_star)
-
-
-def _bodies() -> Any:
-    return quantity("Z", "1", "contacts that share the force equally", default=1.0, ge=1)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BallOnFlat(Body):
-    """A ball on a flat.
-
-    Parameters
-    ----------
-    diameter : float
-        Of the ball D [m].
-    bodies : float, optional
-        Balls that share the force Z [1].
-
-    Examples
-    --------
-    >>> round(float(BallOnFlat(diameter=10e-3).hertz(50.0, 115e9).mean) / 1e6)
-    1149
-    """
-
-    diameter: float = _diameter("diameter of the ball")
-    bodies: float = _bodies()
-
-    @property
-    def conjunction(self) -> Point:
-        """A circle: R = D/2."""
-        return Point(R=self.diameter / 2)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BallInGroove(Body):
-    r"""A ball in the groove of a ball bearing or a ball screw.
-
-    .. math:: \frac1{R_x} = \frac2D\,\frac{1}{1 \mp \gamma}, \quad
-              \gamma = \frac{D\cos\beta}{d_m}, \qquad \frac1{R_y} = \frac2D - \frac1{fD}
-
-    Parameters
-    ----------
-    diameter : float
-        Of the ball D [m].
-    conformity : float, optional
-        Radius of the groove over the diameter of the ball f [1], above 0.5.
-    pitch_diameter : float, optional
-        Of the circle on which the balls run d_m [m]; without it the groove is straight.
-    contact_angle : float, optional
-        β [rad].
-    ring : {"inner", "outer"}, optional
-        Where the groove is: on the inner ring or screw (−), or the outer ring or nut (+).
-    bodies : float, optional
-        Balls that share the force Z [1].
-
-    Examples
-    --------
-    >>> ball = BallInGroove(diameter=6e-3, conformity=0.52)
-    >>> round(float(ball.hertz(300.0, 115e9).maximum) / 1e6)
-    1882
-    """
-
-    diameter: float = _diameter("diameter of the ball")
-    conformity: float = quantity(
-        "f", "1", "groove radius over ball diameter", default=0.52, gt=0.5, le=10
-    )
-    pitch_diameter: float | None = quantity(
-        "d_m", "m", "diameter of the circle of balls", default=None, gt=0, usual=10.0
-    )
-    contact_angle: float = quantity(
-        "β", "rad", "contact angle", default=0.0, ge=0, lt=math.pi / 2, hint="write '45 deg'"
-    )
-    ring: str = choice("where the groove is", "inner", "outer", default="inner")
-    bodies: float = _bodies()
-
-    def _problems(self) -> list[str]:
-        if self.pitch_diameter is not None and self.pitch_diameter <= self.diameter:
-            return [
-                f"BallInGroove.pitch_diameter = {self.pitch_diameter:g} must be above the "
-                f"diameter of a ball, {self.diameter:g} [m]; check the units of both"
-            ]
-        return []
-
-    @property
-    def conjunction(self) -> Point:
-        """An ellipse, long across the motion."""
-        gamma = 0.0
-        if self.pitch_diameter is not None:
-            gamma = self.diameter * math.cos(self.contact_angle) / self.pitch_diameter
-        sign = -1 if self.ring == "inner" else 1
-        along = 0.5 * self.diameter * (1 + sign * gamma)
-        return Point(R=along, R_y=1 / (2 / self.diameter - 1 / (self.conformity * self.diameter)))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Roller(Body):
-    r"""A cylindrical roller on a flat or on a ring.
-
-    .. math:: \frac1R = \frac2D \pm \frac2{d_r}
-
-    Parameters
-    ----------
-    diameter, length : float
-        Of the roller D [m]; length of the contact l [m].
-    track_diameter : float, optional
-        Of the track d_r [m]; without it the track is flat.
-    ring : {"inner", "outer"}, optional
-        Whether the roller runs outside (+) or inside (−) of the track.
-    bodies : float, optional
-        Rollers that share the force Z [1].
-
-    Examples
-    --------
-    >>> round(float(Roller(diameter=0.01, length=0.01).hertz(1000.0, 115e9).maximum) / 1e6)
-    856
-    """
-
-    diameter: float = _diameter("diameter of the roller")
-    length: float = quantity("l", "m", "length of the contact", gt=0, usual=1.0)
-    track_diameter: float | None = quantity(
-        "d_r", "m", "diameter of the track", default=None, gt=0, usual=10.0
-    )
-    ring: str = choice("where the track is", "inner", "outer", default="inner")
-    bodies: float = _bodies()
-
-    def _problems(self) -> list[str]:
-        track = self.track_diameter
-        if self.ring == "outer" and track is not None and track <= self.diameter:
-            return [
-                f"Roller.track_diameter = {track:g} must be above the diameter of the roller, "
-                f'{self.diameter:g} [m], with ring = "outer"; check the units of both'
-            ]
-        return []
-
-    @property
-    def conjunction(self) -> Line:
-        """A line."""
-        track = 0.0 if self.track_diameter is None else 2 / self.track_diameter
-        sign = 1 if self.ring == "inner" else -1
-        return Line(R=1 / (2 / self.diameter + sign * track), length=self.length)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Cylinders(Body):
-    """Two parallel cylinders side by side: rollers, gear teeth.
-
-    Parameters
-    ----------
-    first_diameter, second_diameter, length : float
-        Diameters [m]; length of the contact l [m].
-    bodies : float, optional
-        Pairs that share the force Z [1].
-
-    Examples
-    --------
-    >>> pair = Cylinders(first_diameter=0.02, second_diameter=0.02, length=0.01)
-    >>> pair.conjunction.R
-    0.005
-    """
-
-    first_diameter: float = _diameter("diameter of the first cylinder")
-    second_diameter: float = _diameter("diameter of the second cylinder")
-    length: float = quantity("l", "m", "length of the contact", gt=0, usual=1.0)
-    bodies: float = _bodies()
-
-    @property
-    def conjunction(self) -> Line:
-        """A line."""
-        R = 0.5 / (1 / self.first_diameter + 1 / self.second_diameter)
-        return Line(R=R, length=self.length)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Flat(Body):
-    """Two flat faces under an even pressure.
-
-    Parameters
-    ----------
-    area : float
-        Nominal area of one contact [m²].
-    bodies : float, optional
-        Contacts that share the force Z [1].
-
-    Examples
-    --------
-    >>> float(Flat(area=1e-4).hertz(500.0, 115e9).mean)
-    5000000.0
-    """
-
-    area: float = quantity("A_n", "m^2", "nominal area of one contact", gt=0)
-    bodies: float = _bodies()
-
-    @property
-    def conjunction(self) -> None:
-        """No curvature."""
-        return None
-
-    def hertz(self, force: float | NDArray[np.float64], E_star: float) -> Hertz:
-        """The even pressure."""
-        even = np.asarray(force, float) / self.bodies / self.area
-        return Hertz(np.full_like(even, self.area), even, even)
-
-
 BODIES: dict[str, type[Body]] = {
     "ball-on-flat": BallOnFlat,
     "ball-in-groove": BallInGroove,
     "roller": Roller,
     "cylinders": Cylinders,
     "flat": Flat,
+    "ball-bearing": BallBearing,
+    "roller-bearing": RollerBearing,
+    "ball-screw": BallScrew,
+    "linear-guide": LinearGuide,
+    "gear": Gear,
 }
 """Every pair of bodies by the word that study files use."""
 
@@ -319,6 +102,8 @@ class Pressed(Record):
         ``real_area``, ``particle_load_share`` and ``peak_pressure`` of those that hold some, and of
         those that hold none. Real area and load share above are means over both, and the largest
         pressure is that of the greater part.
+    heaviest : float or None
+        Load of the contact that was solved, where not all carry alike [N].
     crowded_share : float
         Part of the load at places that are crowded [1]; ``note`` says what that means.
     """
@@ -339,6 +124,7 @@ class Pressed(Record):
     particles_held: float | None = None
     with_particles: dict[str, float | None] | None = None
     without_particles: dict[str, float | None] | None = None
+    heaviest: float | None = None
     crowded_share: float = 0.0
 
     @property
@@ -362,6 +148,8 @@ class Pressed(Record):
     def sentence(self) -> str:
         """Force, pressures and what the integral gives, in words."""
         shared = "" if self.bodies == 1 else f" shared by {number(self.bodies)}"
+        if self.heaviest is not None:
+            shared += f", {value_of(self.heaviest, 'N')} on the most loaded"
         out = f"{value_of(self.force, 'N')} on the body {self.kind}{shared}: "
         area = f"{number(self.area * 1e6)} mm²"
         rare = self._rare()
@@ -446,6 +234,9 @@ def press(contact: Contact, body: Body, force: float, *, integrate: bool = True)
         "yields": YIELD * H / (1.6 if kind == "flat" else 1.0),
         "particles_held": None if contact.two_body else float(every * hertz.area),
     }
+    one = float(body.load_on_one(force, contact.E_ss))
+    if abs(one * body.bodies / force - 1) > 1e-9:
+        given["heaviest"] = one
     if not integrate:
         return Pressed(**given)
     found = _integrals(contact, body, force, hertz)
@@ -494,7 +285,7 @@ def _integrals_of(share: float, found: dict[str, Any]) -> dict[str, float | None
 
 
 def _integrals(contact: Contact, body: Body, force: float, hertz: Hertz) -> dict[str, Any]:
-    shape, one, why = body.conjunction, force / body.bodies, ""
+    shape, one, why = body.conjunction, float(body.load_on_one(force, contact.E_ss)), ""
     try:
         if isinstance(shape, Line):
             roller = rough_cylinder(contact, radius=shape.R, load=one / shape.length, quick=True)

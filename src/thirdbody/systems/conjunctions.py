@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -93,9 +93,40 @@ class Point(Value):
 
         shape = elliptic_hertz(max(self.ratio, 1 / self.ratio))
         R_g = self.R / math.sqrt(self.ratio)
-        depth = (1.5 * load / (E * shape.root_R_F * math.sqrt(R_g))) ** (2 / 3)
-        area = math.pi * shape.R_A * R_g * depth
+        area = math.pi * shape.R_A * R_g * self.approach(load, E=E)
         return Hertz(area, load / area, 1.5 * load / area)
+
+    def approach(self, load: Number, *, E: Number) -> Number:
+        """How much nearer distant points of the bodies come under a load [m].
+
+        Parameters
+        ----------
+        load : float or array
+            w [N].
+        E : float or array
+            E' = 2E* [Pa].
+        """
+        from ..reference import elliptic_hertz
+
+        shape = elliptic_hertz(max(self.ratio, 1 / self.ratio))
+        R_g = self.R / math.sqrt(self.ratio)
+        return (1.5 * load / (E * shape.root_R_F * math.sqrt(R_g))) ** (2 / 3)
+
+    def semi_axes(self, load: Number, *, E: Number) -> tuple[Any, Any]:
+        """Half the ellipse along the motion, and across it [m].
+
+        Parameters
+        ----------
+        load : float or array
+            w [N].
+        E : float or array
+            E' = 2E* [Pa].
+        """
+        from ..reference import elliptic_hertz
+
+        k = elliptic_hertz(max(self.ratio, 1 / self.ratio)).k
+        larger = np.sqrt(self.hertz(load, E=E).area / (math.pi * k))
+        return (k * larger, larger) if self.ratio <= 1 else (larger, k * larger)
 
     def intensity(self, load: Number) -> Number:
         """The load that film formulas take [N].
@@ -149,6 +180,19 @@ class Line(Value):
         b = np.sqrt(8 * self.intensity(load) * self.R / (math.pi * E))
         area = 2 * b * self.length
         return Hertz(area, load / area, 4 / math.pi * load / area)
+
+    def semi_axes(self, load: Number, *, E: Number) -> tuple[Any, Any]:
+        """Half the line along the motion, and across it [m].
+
+        Parameters
+        ----------
+        load : float or array
+            w [N].
+        E : float or array
+            E' = 2E* [Pa].
+        """
+        b = self.hertz(load, E=E).area / (2 * self.length)
+        return b, np.full_like(b, 0.5 * self.length)
 
     def intensity(self, load: Number) -> Number:
         """The load that film formulas take, per length [N/m].

@@ -228,10 +228,10 @@ class ContactProbability(Value):
         up = np.diff(self.of_one(step * places), prepend=0.0)
         down = np.diff(self.of_one(step * (places + 1) * (1 - 2 * SURE)), prepend=0.0)
         place = np.floor(loads / step * (1 + SURE)).astype(int)
-        return np.array([_compound(self.in_the_way, each)[place] for each in (up, down)])
+        return np.array([compound(self.in_the_way, each)[place] for each in (up, down)])
 
 
-def _compound(N: float, mass: Array) -> Array:
+def compound(N: float, mass: Array) -> Array:
     """P(S ≤ j) of a Poisson sum S over places 0, 1, 2, … of these masses, at every place j."""
     weight = N * np.arange(len(mass)) * mass
     g = np.zeros(len(mass))  # probability of each place, over exp(log_scale)

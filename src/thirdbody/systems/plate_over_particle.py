@@ -95,7 +95,7 @@ class PlateOverParticle(Value):
     plate: Material
     flat: Material
     thickness: float = quantity("t", "m", "thickness of the plate", gt=0, usual=0.1)
-    pressure: float = quantity("p", "Pa", "pressure on the plate", gt=0)
+    pressure: float = quantity("p", "Pa", "pressure on the plate", gt=0, usual=1e3)
     law: AbstractParticleLaw = Series()
 
     @property

@@ -10,6 +10,8 @@ TABS = (
     "error_bars",
     "outputs",
     "film",
+    "connector",
+    "plate",
     "explicit",
     "design",
     "take_away",

@@ -5,6 +5,8 @@ COMMANDS = (
     "solve",
     "sweep",
     "film",
+    "probability",
+    "plate",
     "explicit",
     "assess",
     "design",

@@ -11,12 +11,23 @@ from ...quantities.progress import heartbeat
 from ...quantities.say import number, value_of
 from ...quantities.tables import Table
 from ...version import __version__
-from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile, argument, option, read_study
+from ..options import (
+    AsJson,
+    FilterText,
+    Force,
+    ParquetFile,
+    Settings,
+    XlsxFile,
+    argument,
+    option,
+    read_study,
+)
 from ..show import ALL, MOST_ROWS, some, terminal
 from ..streams import TableFiles, figure_format, print_json, tell_written, warn_of, write_figure
 
 if TYPE_CHECKING:
     from ...study import FilmResult
+    from ...study.dirty_oil import DirtyOil
 
 __all__ = ["command"]
 
@@ -43,20 +54,27 @@ class Options:
     parquet: ParquetFile = None
     force: Force = False
     figure: Path | None = option("--figure", "Draw the curve over speed.", "FILE")
+    filter_text: FilterText = None
     settings: Settings = None
 
 
 def command(options: Options) -> None:
     """Film, load shares and friction of a lubricated contact, at one speed or over many."""
     from ...study import run_film
+    from ...study.dirty_oil import dirty_oil, need_particles, read_filter
 
+    fine = None if options.filter_text is None else read_filter(options.filter_text)
     files = TableFiles(options.csv, options.xlsx, options.parquet)
     asked = read_study(options.study, options.settings, writes=[*files, options.figure])
+    if fine is not None:
+        need_particles(asked)
     files.need(options.figure, force=options.force)
     if options.figure is not None:
         figure_format(options.figure)  # refused before long work
     with heartbeat("film"):
         result = run_film(asked)
+        oil = dirty_oil(asked)
+        filtered = None if fine is None else dirty_oil(asked, filter=fine)
     warn_of(result.run_warnings)
     files.write(*result.table())
     tell_written(*files.paths)
@@ -65,17 +83,22 @@ def command(options: Options) -> None:
 
         write_figure(options.figure, stribeck(result.states, result.regime_speeds))
     if options.as_json:
-        print_json(result.to_dict())
+        found = {"oil": oil, "oil_filtered": filtered}
+        told = {name: each.to_dict() for name, each in found.items() if each is not None}
+        print_json(result.to_dict() | told)
     else:
-        _show(result)
+        _show(result, oil, filtered)
 
 
-def _show(result: FilmResult) -> None:
-    """The result for a reader: the point or the curve, then in words."""
+def _show(result: FilmResult, oil: DirtyOil | None, filtered: DirtyOil | None) -> None:
+    """The result for a reader: the answer, the point or the curve, then in words."""
     from ...views.film_words import bodies, point, summary
 
     console = terminal()
     console.print(f"{result.title} (thirdbody {__version__})")
+    if oil is not None:
+        _show_oil(console, oil, filtered)
+    _show_bearing(console, result)
     states, sigma = result.states, result.study.contact.roughness.sigma
     console.print(f"{bodies(result)}, sigma = {value_of(sigma, 'm')}")
     total = len(states["speed"])
@@ -91,6 +114,41 @@ def _show(result: FilmResult) -> None:
         console.print(f"{MOST_ROWS} of {total} speeds shown; --csv FILE writes all\n")
     for sentence in summary(result):
         console.print(sentence)
+
+
+def _show_oil(console: Any, oil: DirtyOil, filtered: DirtyOil | None) -> None:
+    """What the particles of the oil do, before and after a filter where there is one."""
+    from ...views import oil_words as words
+
+    if filtered is not None:
+        console.print(words.filter_answer(oil, filtered))
+    for sentence in words.answer(oil):
+        console.print(sentence)
+    if filtered is None:
+        table = Table(
+            words.HEADS, right=True, words=words.HEADS[:1], drop=words.DROP, more=ALL,
+            legend=words.MEANS,
+        )  # fmt: skip
+        for row in words.rows(oil):
+            table.add_row(*row)
+    else:
+        table = Table(("", "before", "after the filter"))
+        for row in words.filter_rows(oil, filtered):
+            table.add_row(*row)
+    console.print(table)
+
+
+def _show_bearing(console: Any, result: FilmResult) -> None:
+    """How the bodies of a bearing share its load."""
+    from ...views import bearing_words as words
+
+    if not words.shares_load(result.study):
+        return
+    console.print(words.sharing(result.study))
+    table = Table(words.HEADS, right=True, drop=words.DROP, more=ALL, legend=words.MEANS)
+    for row in words.rows(result.study):
+        table.add_row(*row)
+    console.print(table)
 
 
 def _curve(result: FilmResult) -> Any:

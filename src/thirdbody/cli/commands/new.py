@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+import sys
 from importlib import resources
 from pathlib import Path
 from typing import Annotated
@@ -10,30 +12,42 @@ from typing import Annotated
 import typer
 
 from ...errors import InvalidValue, Problem
-from ..streams import tell_written
 from .schema import schema_text
 
 __all__ = ["KINDS", "command"]
 
 KINDS = (
+    "ball-bearing",
     "ball-screw",
+    "roller-bearing",
+    "gear",
+    "linear-guide",
     "rolling-bearing",
     "additive",
     "electrical",
+    "connector",
+    "wafer-chuck",
     "two-body",
     "measured-surface",
 )
 
 
+SIZED = ("ball-bearing",)
+"""Kinds that have sizes of their own."""
+FIRST = re.compile(r"^#   thirdbody (solve|film|probability|plate)\b", re.MULTILINE)
+"""What the head of a file says to type first."""
 SCHEMA = "study.schema.json"
 
 
 def command(
     kind: Annotated[str, typer.Argument(metavar="KIND", help=f"One of {', '.join(KINDS)}.")],
-    measured: Annotated[
-        Path | None,
+    which: Annotated[
+        str | None,
         typer.Argument(
-            metavar="[FILE]", help="The file of a measured-surface.", show_default=False
+            metavar="[WHICH]",
+            help="Of a ball-bearing its designation, 6205, or dimensions in mm, 25x52x15; of a "
+            "measured-surface its file.",
+            show_default=False,
         ),
     ] = None,
     out: Annotated[
@@ -53,14 +67,16 @@ def command(
     from ...quantities.files import need_folders, write_text
     from ...quantities.nearest import guess
     from ...quantities.units import say
+    from ...study.bearing_file import bearing_file
 
     problems: list[str] = []
+    measured = Path(which) if which is not None and kind not in SIZED else None
     if kind not in KINDS:
         hint = guess(kind, KINDS, otherwise=None)
         problems.append(Problem("KIND", f"{kind} must be one of {', '.join(KINDS)}", hint=hint))
     elif measured is not None and kind != "measured-surface":
         problems.append(f"FILE {measured} goes with measured-surface; {kind} needs none")
-    if measured is not None and not measured.is_file():
+    elif measured is not None and not measured.is_file():
         problems.append(f"FILE {measured}: there is no such file")
     target = out or Path(f"{kind}.toml")
     if not problems and target.exists():
@@ -71,8 +87,11 @@ def command(
         problems.append(f"--out {target} is the name of the schema; choose another")
     if problems:
         raise InvalidValue(*problems)
-    need_folders(target)
     text = resources.files("thirdbody").joinpath(f"data/studies/{kind}.toml").read_text("utf-8")
+    if which is not None and kind in SIZED:
+        text = bearing_file(text, which)
+    first = FIRST.search(text)
+    assert first is not None
     if out is not None:
         text = text.replace(f"{kind}.toml", str(out))
     if measured is not None:
@@ -83,6 +102,7 @@ def command(
         for line in ("[asperity_law]", 'name = "field"', 'spectrum = "measured"'):
             text = text.replace(line, f"# {line}")
         text = text.replace("thirdbody surface FILE", f"thirdbody surface {say(str(measured))}")
+    need_folders(target)
     written = {target: text}
     if schema:
         written[target] = f"#:schema ./{SCHEMA}\n{text}"
@@ -90,5 +110,5 @@ def command(
             written[beside] = schema_text()
     for file, content in written.items():
         write_text(file, content)
-        tell_written(file)
-    print(f"thirdbody solve {target}")
+        print(f"written: {file}", file=sys.stderr)
+    print(f"thirdbody {first[1]} {target}")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ..options import Force, Settings, StudyFile, read_study
-from ..streams import tell_written, warn_of
+from ..options import FilterText, Force, Settings, StudyFile, read_study
+from ..streams import warn_of
 
 __all__ = ["command"]
 
@@ -23,24 +24,31 @@ def command(
         typer.Option("--out", metavar="FILE", help="The page, one HTML file; report.html else."),
     ] = None,
     force: Force = False,
+    filter_text: FilterText = None,
     settings: Settings = None,
 ) -> None:
     """A report to hand on: answer, figures, tables, error bars and sources, in one file."""
     from ...quantities.files import read_bytes, write_text
     from ...quantities.progress import stages
+    from ...quantities.units import say
+    from ...study.dirty_oil import need_particles, read_filter
     from ...views.report import PARTS, report
     from ..own_files import need_places
 
+    fine = None if filter_text is None else read_filter(filter_text)
     target = out or USUAL
     asked = read_study(study, settings, writes=[target])
+    if fine is not None:
+        need_particles(asked)
     need_places([(target, "page")], force=force)
     text = read_bytes(study, "a study file").decode("utf-8-sig")
     given = "".join(f"# --set {setting}\n" for setting in settings or ())
+    given += "" if filter_text is None else f"# --filter {say(filter_text)}\n"
     with stages("report", len(PARTS)) as progress:
         file = f"{text.rstrip()}\n\n{given}".rstrip() + "\n"
-        found = report(asked, file=file, progress=progress)
+        found = report(asked, file=file, progress=progress, filter=fine)
         progress(PARTS[-1])
         page = found.html()
     warn_of(found.result.run_warnings)
     write_text(target, page)
-    tell_written(target)
+    print(f"written: {target}", file=sys.stderr)

@@ -17,16 +17,19 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ...errors import InvalidValue
 from ...numerics.chebyshev import PiecewiseChebyshev
+from ...populations.strength import WeibullStrength
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ...populations.materials import Material
     from ..base import OneParticle, Squeezed
 
     Array = NDArray[np.float64]
 
-__all__ = ["Tension", "at_centre", "at_equator", "confined", "tension"]
+__all__ = ["Tension", "at_centre", "at_equator", "breaks", "confined", "tension"]
 
 HARMONICS = 6000
 LOWEST = 1e-9
@@ -265,3 +268,16 @@ class Tension:
 def tension(particle: OneParticle, nu: float, confinement: str) -> Tension:
     """The cached tension inside one particle."""
     return Tension(particle, nu, confinement)
+
+
+def breaks(particle: OneParticle, material: Material, *, x: float, squeeze: float) -> bool:
+    """Whether most particles of this diameter [m] have broken at a squeeze δ/x on their way there.
+
+    Of a material that has no strength none has.
+    """
+    try:
+        strength = WeibullStrength.of(material)
+    except InvalidValue:
+        return False
+    met = tension(particle, material.nu, strength.confinement).met(np.array([squeeze]))
+    return bool(x > strength.least(material) and met[0] > strength.of_size(x))

@@ -13,6 +13,7 @@ from ...equilibrium.transitions import Critical
 from ...equilibrium.words import load_of
 from ...populations.materials import Material
 from ...study import FilmResult, Study, StudyResult
+from ...study.dirty_oil import DirtyOil
 from ...study.one_surface import OneSurface
 
 
@@ -29,6 +30,8 @@ class Found:
     file: str = field(repr=False, default="")
     film: FilmResult | None = field(repr=False, default=None)
     pressed: OneSurface | str | None = field(repr=False, default=None)
+    oil: DirtyOil | None = field(repr=False, default=None)
+    oil_filtered: DirtyOil | None = field(repr=False, default=None)
 
     @property
     def contact(self) -> Contact:

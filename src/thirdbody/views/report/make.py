@@ -23,7 +23,9 @@ from ...equilibrium.transitions import Transitions
 from ...errors import InvalidValue, RangeWarning, ThirdBodyError
 from ...quantities.progress import Stages, counted, nested
 from ...study import Study, run_film, run_study
+from ...study.dirty_oil import dirty_oil
 from ...study.one_surface import OneSurface, one_surface
+from ...systems.oil_filter import Filter
 from .found import some_of
 from .page import MOST_SAMPLES, Report, most_samples
 
@@ -41,7 +43,11 @@ PARTS = ("states", "error bars", "which inputs matter", "figures")
 
 
 def report(
-    study: Study, *, file: str = "", progress: Callable[[str], None] = lambda part: None
+    study: Study,
+    *,
+    file: str = "",
+    progress: Callable[[str], None] = lambda part: None,
+    filter: Filter | None = None,
 ) -> Report:
     """Everything that the page of a study tells.
 
@@ -53,6 +59,8 @@ def report(
         The study file, to be printed at the end.
     progress : callable, optional
         Gets the name of each part of the work, as it begins.
+    filter : Filter, optional
+        Of a lubricated contact with particles: the oil before and behind it, side by side.
 
     Returns
     -------
@@ -122,6 +130,8 @@ def report(
             file=file,
             film=None if study.film is None else run_film(study),
             pressed=pressed,
+            oil=dirty_oil(study),
+            oil_filtered=None if filter is None else dirty_oil(study, filter=filter),
         )
 
 

@@ -18,6 +18,7 @@ from ...quantities.say import join_words, signed, value_of
 from ...version import __version__
 from ..assess_page import pictures as pictures_of
 from ..html import document, figure, section, text_table, words
+from ..oil_words import answer, filter_answer
 from .figures import figures_of
 from .found import Found
 from .sentences import answer_sentences, ranked_inputs, strongest_inputs
@@ -26,6 +27,7 @@ from .tables import (
     critical_section,
     explicit_section,
     film_section,
+    oil_section,
     outputs_section,
     states_table,
 )
@@ -80,6 +82,8 @@ class Report(Found):
     pressed : OneSurface, str or None
         One small surface pressed point by point, where the study has a table [explicit]; or why
         it could not be.
+    oil, oil_filtered : DirtyOil or None
+        What the particles of the oil do, before and after a filter.
     """
 
     def sentences(self) -> tuple[str, ...]:
@@ -96,6 +100,7 @@ class Report(Found):
                 "<section", "<section class=lead", 1
             ),
             *_warnings(self),
+            *oil_section(self),
             *film_section(self),
             section("Figures", figures_of(self), name="figures"),
             section("States", states_table(self), name="states"),
@@ -116,8 +121,13 @@ class Report(Found):
 
 
 def _answer(report: Found) -> list[str]:
-    body = report.result.force_sentences
-    return [f"<p>{words(sentence)}</p>" for sentence in (*body, *answer_sentences(report))]
+    first: list[str] = []
+    if report.oil is not None:
+        if report.oil_filtered is not None:
+            first.append(filter_answer(report.oil, report.oil_filtered))
+        first += answer(report.oil)
+    told = (*first, *report.result.force_sentences, *answer_sentences(report))
+    return [f"<p>{words(sentence)}</p>" for sentence in told]
 
 
 def _warnings(report: Found) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
@@ -28,6 +29,14 @@ STATES = ("F_star", "pressure", "h", "d_star", "A_t", "A_ss")
 
 SHARED = ("A_sa", "particle_load_share", "particle_area_share", "mode")
 """Columns of the table of states, and those that particles add."""
+
+
+def _with_legend(
+    heads: Sequence[str], rows: list[list[str]], means: Mapping[str, str]
+) -> list[str]:
+    """A table, and what its heads mean below it (HTML)."""
+    told = "; ".join(f"{head}: {means[head]}" for head in heads if head in means)
+    return [text_table(heads, rows), f"<p class=soft>{words(told)}.</p>"]
 
 
 def states_table(report: Found) -> list[str]:
@@ -106,6 +115,23 @@ def outputs_section(report: Found) -> list[str]:
             )
         out += [f"<h3>{escape(output.title)}</h3>", table(head, rows)]
     return [section("What else the contact does", out, name="outputs")]
+
+
+def oil_section(report: Found) -> list[str]:
+    """What each population does in the oil, before and after a filter, and who shares."""
+    from .. import bearing_words, oil_words
+
+    out = []
+    if report.oil is not None and report.oil_filtered is not None:
+        rows = oil_words.filter_rows(report.oil, report.oil_filtered)
+        out.append(text_table(("", "before", "after the filter"), rows))
+    elif report.oil is not None:
+        out += _with_legend(oil_words.HEADS, oil_words.rows(report.oil), oil_words.MEANS)
+    if bearing_words.shares_load(report.study):
+        out.append(f"<p>{words(bearing_words.sharing(report.study))}</p>")
+        rows = bearing_words.rows(report.study)
+        out += _with_legend(bearing_words.HEADS, rows, bearing_words.MEANS)
+    return [section("What the oil carries", out, name="oil")] if out else []
 
 
 def film_section(report: Found) -> list[str]:

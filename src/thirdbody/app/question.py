@@ -1,0 +1,149 @@
+"""A tab that answers one question: the answer at once, then the entries, a figure and a table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from nicegui import ui
+
+from .fields import Field, fields_of
+from .figures import Figure, empty
+from .inputs import Inputs
+from .state import Answer, State
+from .text import with_micro
+from .widgets import facts, put, table
+
+__all__ = ["Question", "QuestionTab", "Shown"]
+
+
+class Shown(NamedTuple):
+    """What is shown of an answer: plain words, numbers and a figure."""
+
+    answer: list[str]
+    facts: list[tuple[str, str]]
+    notes: list[str]
+    heads: tuple[str, ...]
+    rows: list[list[str]]
+    figure: Figure
+
+
+class Question(NamedTuple):
+    """What a tab asks.
+
+    Parameters
+    ----------
+    table : str
+        The table of the study that holds what is asked.
+    about : str
+        What the tab is for.
+    kind : type
+        The class that the table stands for.
+    own : tuple of Field
+        Entries of the table beside those of the class, first.
+    start : dict
+        The table where the study has none.
+    left_out : tuple of str
+        Fields of the class that have no entry.
+    contents : callable
+        What is shown of an answer, and of the start where the study has no such table.
+    """
+
+    table: str
+    about: str
+    kind: type
+    own: tuple[Field, ...]
+    start: dict[str, Any]
+    left_out: tuple[str, ...]
+    contents: Callable[[Answer], Shown]
+
+
+class QuestionTab:
+    """One question, its answer first."""
+
+    def __init__(self, state: State, question: Question) -> None:
+        self.state, self.question = state, question
+        self.inputs = Inputs(state, self._renewed)
+        self.there: Any = None
+        """Whether there were entries."""
+        self.answer: Answer | None = None
+        name = question.table
+        ui.label(question.about).classes("hint")
+        self.none = ui.label("Add particles at the side: without them there is nothing to ask.")
+        self.words = ui.column().classes("w-full gap-1")
+        with ui.element("div").classes("figures w-full"):
+            with ui.column().classes("w-full"):
+                self._form()
+            self.beside = ui.column().classes("w-full gap-1")
+            with self.beside:
+                self.facts = ui.row().classes("facts w-full")
+                self.plot = put(ui.plotly(empty(360)).classes("w-full"), {"data-figure": name})
+                self.rows = ui.column().classes("w-full")
+                self.notes = ui.column().classes("w-full gap-0")
+
+    def _renewed(self) -> None:
+        self._form.refresh()
+
+    @ui.refreshable_method
+    def _form(self) -> None:
+        self.inputs.shown.clear()
+        question, name = self.question, self.question.table
+        with ui.column().classes("w-full gap-2 narrow"):
+            if not isinstance(self.state.get(name), dict):
+                values = ", ".join(f"{key} {value}" for key, value in question.start.items())
+                ui.label(with_micro(f"Shown for {values}.")).classes("hint")
+                ui.button("Change these", icon="edit", on_click=self._begun).props(
+                    f'no-caps data-path="{name}.add"'
+                )
+                return
+            for field in (*question.own, *fields_of(question.kind)):
+                if field.name not in question.left_out:
+                    self.inputs.field((name,), field)
+            ui.button("Remove", icon="delete", on_click=self._removed).props(
+                f'flat dense no-caps data-path="{name}.remove"'
+            )
+            self.inputs.rest = ui.column().classes("w-full")
+
+    def _begun(self) -> None:
+        self.inputs.change(self.question.table, self.question.start)
+
+    def _removed(self) -> None:
+        self.inputs.change(self.question.table, None)
+
+    async def draw(self) -> None:
+        """The answer of the study as it is now."""
+        there = isinstance(self.state.get(self.question.table), dict)
+        if there != self.there:
+            self.there = there
+            self._renewed()
+        self.inputs.tell()
+        answer = self.state.answer
+        assert answer is not None
+        self.none.set_visibility(answer.contact.two_body)
+        for part in (self.words, self.beside):
+            part.set_visibility(not answer.contact.two_body)
+        if answer.contact.two_body or answer is self.answer:
+            return
+        shown: Shown = await self.state.ask(self.question.contents)
+        self.answer = answer
+        self._show(shown)
+
+    def _show(self, shown: Shown) -> None:
+        name = self.question.table
+        self.words.clear()
+        with self.words:
+            for i, text in enumerate(shown.answer):
+                said = ui.label(with_micro(text)).classes("whole-contact" if i == 0 else "")
+                put(said, {"data-fact": f"{name}: answer {i}"})
+        self.facts.clear()
+        with self.facts:
+            facts(shown.facts, f"{name}: ")
+        self.plot.update_figure(shown.figure)
+        self.rows.clear()
+        with self.rows:
+            heads = {f"c{i}": head for i, head in enumerate(shown.heads)}
+            table(name, heads, [dict(zip(heads, row, strict=True)) for row in shown.rows])
+        self.notes.clear()
+        with self.notes:
+            for text in shown.notes:
+                ui.label(with_micro(text)).classes("hint")

@@ -1,0 +1,91 @@
+"""Wafers, films and plates on a chuck: how high they stand over a particle."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+import numpy as np
+
+from ...study.plate import AskedPlate
+from ...study.run_plate import run_plate
+from ...systems.chuck import Chuck
+from ...systems.connector import name_of
+from ...views.plate_words import answer, facts, heads, rows, uncertainty
+from ..fields import Field
+from ..figures import figure, line, plain
+from ..question import Question, QuestionTab, Shown
+from ..state import Answer, State
+
+__all__ = ["START", "TITLE", "build", "contents_of"]
+
+TITLE = "Wafer"
+START: dict[str, Any] = {"thickness": "775 um", "pressure": "80 kPa"}
+REACH, POINTS = 10.0, 33
+GRAIN = Field(
+    name="grain",
+    kind="text",
+    label="particle x [m]",
+    about="diameters to tell of, with commas between; without them quantiles of the dust",
+)
+
+
+def _question_of(answer: Answer) -> AskedPlate:
+    """What the study asks, or the start where it has no such table."""
+    if (own := answer.study.plate) is not None:
+        return own
+    contact = answer.contact
+    chuck = Chuck(
+        thickness=775e-6,
+        pressure=80e3,
+        surfaces=contact.surfaces,
+        particles=contact.populations,
+        law=contact.particle_law,
+    )
+    return AskedPlate(title="", chuck=chuck, grains=np.empty(0))
+
+
+def contents_of(answer_of_study: Answer) -> Shown:
+    """The answer in words, numbers and a curve over the size of the particle."""
+    asked = _question_of(answer_of_study)
+    found, chuck = run_plate(asked), asked.chuck
+    sizes = np.geomspace(found.grain.min() / REACH, found.grain.max() * REACH, POINTS)
+    traces = []
+    for i, dust in enumerate(chuck.particles):
+        heights = [chuck.over(float(x), dust).height for x in sizes]
+        traces.append(line(1e6 * sizes, 1e9 * np.array(heights), plain(name_of(dust, i)), i))
+    traces.append(line(1e6 * sizes, 1e9 * sizes, "as high as the particle", 5))
+    if chuck.limit is not None:
+        level = np.full(2, 1e9 * chuck.limit)
+        traces.append(line(1e6 * sizes[[0, -1]], level, "limit", 3))
+    return Shown(
+        answer=answer(found),
+        facts=list(facts(found).items()),
+        notes=[*uncertainty(found), *(f"Note: {text}" for text in found.run_warnings)],
+        heads=heads(found),
+        rows=rows(found),
+        figure=figure(
+            traces,
+            x="diameter of the particle [µm]",
+            y="height of the plate [nm]",
+            title="How high the plate stands",
+            ylog=True,
+        ),
+    )
+
+
+QUESTION = Question(
+    table="plate",
+    about="How high does a wafer, film or plate stand over a particle on its chuck? The plate is "
+    "the first surface at the side, the chuck the second, and the particles are those there.",
+    kind=Chuck,
+    own=(GRAIN,),
+    start=START,
+    left_out=("law",),
+    contents=contents_of,
+)
+
+
+def build(state: State, again: Callable[[], None]) -> Callable[[], Awaitable[None]]:
+    """The answer, entries, a curve and a table."""
+    return QuestionTab(state, QUESTION).draw

@@ -1,0 +1,73 @@
+"""Commands that answer one question of a study: the answer, a table, and what is left open."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+from ..quantities.tables import Table
+from ..version import __version__
+from .show import ALL, MOST_ROWS, some, terminal
+from .streams import TableFiles, remark, warn_of
+
+__all__ = ["give_answer", "read_question"]
+
+Asked = TypeVar("Asked")
+
+
+def read_question(
+    load: Callable[[Path, Iterable[str]], Asked],
+    file: Path,
+    settings: list[str] | None,
+    files: TableFiles,
+    *,
+    force: bool,
+) -> Asked:
+    """What a study file asks, and places for the files of its answer."""
+    from ..quantities.files import refuse_clashes
+    from ..study.whole import files_of
+
+    asked = load(file, settings or ())
+    if files.paths:
+        refuse_clashes(files.paths, files_of(file, settings or ()))
+    files.need(force=force)
+    return asked
+
+
+def give_answer(
+    found: Any,
+    files: TableFiles,
+    *,
+    as_json: bool,
+    answer: Sequence[str],
+    heads: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    means: Mapping[str, str],
+    last: Sequence[str],
+) -> None:
+    """The answer first, then the table, then what moves it most; warnings at the very end."""
+    files.write(*found.table())
+    for path in files.paths:
+        print(f"written: {path}", file=sys.stderr)
+    if as_json:
+        print(json.dumps(found.to_dict(), indent=1, allow_nan=False))
+    else:
+        console = terminal()
+        console.print(f"{found.title} (thirdbody {__version__})\n")
+        for sentence in answer:
+            console.print(sentence)
+        table = Table(heads, right=True, more=ALL, legend=means)
+        for i in some(len(rows)):
+            table.add_row(*rows[i])
+        console.print(table)
+        if len(rows) > MOST_ROWS:
+            console.print(f"{MOST_ROWS} of {len(rows)} rows shown; --csv FILE writes all")
+        for sentence in last:
+            console.print(sentence)
+        sys.stdout.flush()
+    for sentence in found.asked.assumed:
+        remark(sentence)
+    warn_of(found.warnings)

@@ -1,0 +1,53 @@
+"""``thirdbody plate``: how high a wafer, film or plate stands over a particle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ...quantities.progress import heartbeat
+from ..answers import give_answer, read_question
+from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile
+from ..streams import TableFiles, warn_of
+
+__all__ = ["command", "warn_of"]
+
+
+def command(
+    study: Annotated[
+        Path,
+        typer.Argument(
+            metavar="STUDY.toml",
+            help="A study file with tables [surfaces], [particles], [plate]; "
+            "`thirdbody new wafer-chuck` writes one.",
+        ),
+    ],
+    as_json: AsJson = False,
+    csv_file: Annotated[
+        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per particle.")
+    ] = None,
+    xlsx_file: XlsxFile = None,
+    parquet_file: ParquetFile = None,
+    force: Force = False,
+    settings: Settings = None,
+) -> None:
+    """How high a wafer, film or plate stands over a particle, and how often too high."""
+    from ...study.run_plate import load_plate, run_plate
+    from ...views.plate_words import MEANS, answer, heads, rows, uncertainty
+
+    files = TableFiles(csv_file, xlsx_file, parquet_file)
+    asked = read_question(load_plate, study, settings, files, force=force)
+    with heartbeat("plate"):
+        found = run_plate(asked)
+    give_answer(
+        found,
+        files,
+        as_json=as_json,
+        answer=answer(found),
+        heads=heads(found),
+        rows=rows(found),
+        means=MEANS,
+        last=uncertainty(found),
+    )

@@ -1,0 +1,53 @@
+"""``thirdbody probability``: how often a connector, relay or switch fails to close on dust."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ...quantities.progress import heartbeat
+from ..answers import give_answer, read_question
+from ..options import AsJson, Force, ParquetFile, Settings, XlsxFile
+from ..streams import TableFiles, warn_of
+
+__all__ = ["command", "warn_of"]
+
+
+def command(
+    study: Annotated[
+        Path,
+        typer.Argument(
+            metavar="STUDY.toml",
+            help="A study file with tables [surfaces], [particles], [connector]; "
+            "`thirdbody new connector` writes one.",
+        ),
+    ],
+    as_json: AsJson = False,
+    csv_file: Annotated[
+        Path | None, typer.Option("--csv", metavar="FILE", help="Write one row per force.")
+    ] = None,
+    xlsx_file: XlsxFile = None,
+    parquet_file: ParquetFile = None,
+    force: Force = False,
+    settings: Settings = None,
+) -> None:
+    """How often a connector, relay or switch fails to close because of dust."""
+    from ...study.run_connector import load_connector, run_connector
+    from ...views.connector_words import HEADS, MEANS, answer, rows, uncertainty
+
+    files = TableFiles(csv_file, xlsx_file, parquet_file)
+    asked = read_question(load_connector, study, settings, files, force=force)
+    with heartbeat("probability"):
+        found = run_connector(asked)
+    give_answer(
+        found,
+        files,
+        as_json=as_json,
+        answer=answer(found),
+        heads=HEADS,
+        rows=rows(found),
+        means=MEANS,
+        last=uncertainty(found),
+    )

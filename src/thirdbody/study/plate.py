@@ -1,0 +1,93 @@
+"""The table [plate]: a wafer, film or plate held on a chuck or a flat, with dust under it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..errors import InvalidValue
+from ..laws.particle.series import Series
+from ..quantities.value import quantity
+from ..systems.chuck import Chuck
+from .amounts import amounts
+from .connector import populations_of
+from .fields import about_of
+from .reader import Key, Reader, Table, get
+
+__all__ = ["TABLE", "AskedPlate", "plate_of"]
+
+GRAIN = quantity(
+    "x", "m", "diameters of particles of which the height is told", gt=0, usual=0.1
+).metadata["quantity"]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class AskedPlate:
+    """What a study says of a plate on a chuck.
+
+    Parameters
+    ----------
+    title : str
+        As in the file.
+    chuck : Chuck
+        Plate, chuck and dust.
+    grains : array (M,)
+        Diameters x of particles of which the height is asked [m]; empty where none is named.
+    notes : tuple of str
+        What is allowed but looks like a slip.
+    assumed : tuple of str
+        What was taken for what the file does not say.
+    """
+
+    title: str
+    chuck: Chuck
+    grains: np.ndarray
+    notes: tuple[str, ...] = ()
+    assumed: tuple[str, ...] = ()
+
+
+def _plate(reader: Reader, path: str, data: Any) -> Any:
+    """The plate, as a table of what it is given."""
+    keys = {
+        **reader.keys_of(Chuck, path, data),
+        "grain": Key(
+            amounts(reader, f"{path}.grain", GRAIN, get(data, "grain")),
+            False,
+            about_of("grain", GRAIN),
+        ),
+    }
+    return reader.table(path, keys, dict)
+
+
+def plate_of(reader: Reader, values: dict[str, Any]) -> AskedPlate:
+    """The plate, from the objects that the tables of its study stand for."""
+    given = dict(values["plate"])
+    grains = np.sort(given.pop("grain", np.empty(0)))
+    dust = populations_of(values)
+    if not dust:
+        raise InvalidValue(
+            "a plate without particles lies flat: add a table [particles] that says what they "
+            'are, e.g. material = "quartz", distribution = "monodisperse", mean = "5 um", '
+            'areal_density = "1e4 / m^2"'
+        )
+    law = values.get("particle_law", Series())
+    whole = given | {"surfaces": values["surfaces"], "particles": dust, "law": law}
+    made = reader.make(Chuck, "plate", whole)
+    return AskedPlate(
+        title=values.get("title", ""),
+        chuck=made,
+        grains=grains,
+        notes=tuple(reader.notes),
+        assumed=tuple(reader.assumed),
+    )
+
+
+TABLE = Table(
+    name="plate",
+    read=_plate,
+    about='a wafer, film or plate on a flat, e.g. thickness = "775 um", pressure = "80 kPa"; '
+    "thirdbody new wafer-chuck writes a whole study",
+    role="study",
+)

@@ -1,0 +1,293 @@
+"""A study of a connector: how often its contacts stay open on dust, and what that hangs on."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import Note
+from ..quantities.plain_data import plain_data
+from ..quantities.record import Record, column, declared_columns
+from ..quantities.say import percent
+from ..systems.connector import Connector
+from ..version import __version__
+from .connector import AskedConnector, connector_of
+from .overrides import override
+from .toml import read
+from .whole import read_tables
+
+__all__ = ["ConnectorResult", "WhatIf", "load_connector", "run_connector"]
+
+NEEDED = frozenset({"surfaces", "particles", "connector"})
+AROUND = (0.25, 0.5, 1.0, 2.0, 4.0)
+"""Forces of the table over the one that is asked for."""
+SIZES, HARDNESS = 1.25, 1.2
+"""What sizes and hardness may be off by, as factors."""
+VAGUE = 0.2
+"""Width of the bounds over the failure from which a note tells of it."""
+CITATIONS = (
+    "Williamson, Greenwood, Harris 1956, Proc. R. Soc. A 237, 560, doi:10.1098/rspa.1956.0197",
+    "Panjer 1981, ASTIN Bulletin 12, 22, doi:10.1017/S0515036100006796",
+)
+
+
+def load_connector(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedConnector:
+    """The connector of a study file, which needs no roughness and no load.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file with tables [surfaces], [particles] and [connector].
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+
+    Raises
+    ------
+    InvalidValue
+        Every mistake of the file.
+    """
+    data = override(read(Path(path)), list(overrides))
+    return read_tables(data, Path(path).parent, connector_of, lambda t: t.name in NEEDED)
+
+
+@dataclass(frozen=True, kw_only=True)
+class WhatIf(Record):
+    """What the failure of the connector would be if something were otherwise."""
+
+    what: str
+    """What is uncertain, in words."""
+    values: tuple[float, ...]
+    """What the answer is at the ends."""
+    between: str
+    """From what to what it is changed."""
+    action: str
+    """What to do about it."""
+    code: str = ""
+    """What it is about, where others look for it."""
+
+    @property
+    def low(self) -> float:
+        """The least of the answers."""
+        return min(self.values)
+
+    @property
+    def high(self) -> float:
+        """The largest."""
+        return max(self.values)
+
+    @property
+    def ratio(self) -> float:
+        """The largest over the least."""
+        return self.high / self.low if self.low > 0 else np.inf if self.high > 0 else 1.0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ConnectorResult(Record, Mapping[str, Any]):
+    """What `run_connector` finds; indexed, it is the plain data of `to_dict`.
+
+    Attributes
+    ----------
+    asked : AskedConnector
+    places : tuple of int
+        The forces that were asked for, among those of the table.
+    what_ifs : tuple of WhatIf
+        What the answer hangs on, the most first.
+    run_warnings : tuple of str
+        What is to be said of the answer.
+    """
+
+    asked: AskedConnector
+    places: tuple[int, ...]
+    force: np.ndarray = column("W", "N", "contact force of each contact")
+    failure: np.ndarray = column("f", "1", "how often one spot stays open")
+    failure_low: np.ndarray = column("f_low", "1", "the least that rounding allows")
+    failure_high: np.ndarray = column("f_high", "1", "the most that rounding allows")
+    failure_of_all: np.ndarray = column("f_all", "1", "how often the connector stays open")
+    in_the_way: float = 0.0
+    threshold: float = 0.0
+    what_ifs: tuple[WhatIf, ...] = ()
+    run_warnings: tuple[str, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """Of the study, where it has none "Connector"."""
+        return self.asked.title or "Connector"
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What reading and computing warn of, one sentence each."""
+        return tuple(dict.fromkeys((*self.asked.notes, *self.run_warnings)))
+
+    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+        """Columns, a row a force, and their units."""
+        told = declared_columns(type(self))
+        columns = {name: plain_data(getattr(self, name)) for name in told}
+        return columns, {name: each.unit for name, each in told.items()}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return {
+            "title": self.asked.title,
+            "version": __version__,
+            "inputs": {
+                "connector": self.asked.connector.to_dict(),
+                "force": plain_data(self.asked.forces),
+            },
+            "states": self.table()[0],
+            "in_the_way": self.in_the_way,
+            "threshold": self.threshold,
+            "what_ifs": [each.to_dict() for each in self.what_ifs],
+            "warnings": list(self.warnings),
+            "citations": list(CITATIONS),
+        }
+
+    def __getitem__(self, key: str) -> Any:
+        return self.to_dict()[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.to_dict())
+
+    def __len__(self) -> int:
+        return len(self.to_dict())
+
+
+def run_connector(asked: AskedConnector) -> ConnectorResult:
+    """How often a connector stays open, under the forces of its study.
+
+    One force is told with others about it.
+
+    Parameters
+    ----------
+    asked : AskedConnector
+        As `load_connector` reads it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import thirdbody as tb
+    >>> from thirdbody.study.connector import AskedConnector
+    >>> bronze = tb.materials["CuSn8"]
+    >>> dust = tb.Particles(material=tb.materials["quartz"], areal_density=1e5,
+    ...                     diameter=tb.LogNormal(median=8e-6, gsd=1.5))
+    >>> plug = Connector(radius=2e-3, surfaces=tb.MaterialPair(bronze, bronze), particles=dust,
+    ...                  contacts=20)
+    >>> found = run_connector(AskedConnector(title="", connector=plug, forces=np.array([0.5])))
+    >>> [f"{each:.4f}" for each in found.failure_of_all]
+    ['0.0652', '0.0230', '0.0048', '0.0005', '0.0000']
+    """
+    plug, forces = asked.connector, asked.forces
+    one = len(forces) == 1
+    shown = forces[0] * np.array(AROUND) if one else forces
+    bounds = np.array([plug.bounds(float(force)) for force in shown])
+    middle = bounds.mean(axis=1)
+    found = ConnectorResult(
+        asked=asked,
+        places=(AROUND.index(1.0),) if one else tuple(range(len(forces))),
+        force=shown,
+        failure=middle,
+        failure_low=bounds[:, 0],
+        failure_high=bounds[:, 1],
+        failure_of_all=np.array([plug.of_all(each) for each in middle]),
+        in_the_way=plug.in_the_way,
+        threshold=plug.threshold,
+    )
+    at = found.places[0]
+    notes = [*_bounds_note(found, at), *_breaking_note(plug)]
+    what_ifs = _what_ifs(plug, float(shown[at]))
+    return ConnectorResult(
+        **{name: getattr(found, name) for name in found.__dataclass_fields__}
+        | {"what_ifs": what_ifs, "run_warnings": tuple(notes)}
+    )
+
+
+def _what_ifs(plug: Connector, force: float) -> tuple[WhatIf, ...]:
+    """What the answer hangs on, each varied alone."""
+
+    def failures(*plugs: Connector) -> tuple[float, ...]:
+        return tuple(each.failure_of_all(force) for each in plugs)
+
+    def with_dust(number: float = 1.0, size: float = 1.0) -> Connector:
+        return plug.replace(
+            particles=tuple(
+                dust.replace(
+                    areal_density=dust.areal_density * number, diameter=dust.diameter.scaled(size)
+                )
+                for dust in plug.particles
+            )
+        )
+
+    def with_hardness(factor: float) -> Connector:
+        pair = plug.surfaces
+        return plug.replace(
+            surfaces=pair.replace(
+                first=pair.first.replace(H=pair.first.H * factor),
+                second=pair.second.replace(H=pair.second.H * factor),
+            )
+        )
+
+    out = [
+        WhatIf(
+            what="the number of particles",
+            between="half and twice as many",
+            action="count the dust on your contacts, e.g. from a tape lift",
+            values=failures(with_dust(0.5), with_dust(2.0)),
+        ),
+        WhatIf(
+            what="the size of the particles",
+            between=f"{percent(1 - 1 / SIZES)} smaller and {percent(SIZES - 1)} larger",
+            action="measure the sizes of the dust on your contacts, above all the largest",
+            values=failures(with_dust(size=1 / SIZES), with_dust(size=SIZES)),
+        ),
+        WhatIf(
+            what="the hardness of the contacts",
+            between=f"{percent(1 - 1 / HARDNESS)} softer and {percent(HARDNESS - 1)} harder",
+            action="measure the hardness of the plated contact itself",
+            values=failures(with_hardness(1 / HARDNESS), with_hardness(HARDNESS)),
+        ),
+    ]
+    if plug.wipe > 0 and plug.pushed_aside is None:
+        out.append(
+            WhatIf(
+                what="what the wipe pushes aside",
+                between="all of the dust before it and none, as taken",
+                action="give connector.pushed_aside from a test with and without wipe",
+                code="wipe",
+                values=failures(plug.replace(pushed_aside=1.0), plug),
+            )
+        )
+    return tuple(sorted(out, key=lambda each: -each.ratio))
+
+
+def _bounds_note(found: ConnectorResult, at: int) -> list[Note]:
+    """Where rounding blurs the answer."""
+    low, high = found.failure_low[at], found.failure_high[at]
+    if not high > 0 or (high - low) < VAGUE * high:
+        return []
+    return [
+        Note(
+            f"one contact stays open between {low:.2g} and {high:.2g} of the time: the force is at "
+            "a jump, where particles of one size are just pressed in",
+            code="jump",
+            effect=(high - low) / high,
+            action='give the dust its spread of sizes, e.g. distribution = "log-normal"',
+        )
+    ]
+
+
+def _breaking_note(plug: Connector) -> list[Note]:
+    """Dust that is not pressed in whole."""
+    return [
+        Note(
+            f"most particles of {name} of the mean size would break before they are pressed in; "
+            "they count as whole, so that the contacts fail less often than told where the pieces "
+            "carry less, and more often where they spread",
+            code="brittle",
+            action="take the answer for dust that stays whole, or measure with and without force",
+        )
+        for name in plug.breaking()
+    ]

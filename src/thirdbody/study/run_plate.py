@@ -1,0 +1,290 @@
+"""A study of a plate on a chuck: how high it stands over particles, and how often too high."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import Note
+from ..populations.particles import Particles
+from ..quantities.plain_data import plain_data
+from ..quantities.record import Record, column, declared_columns
+from ..quantities.say import percent, value_of
+from ..systems.chuck import Chuck
+from ..systems.connector import name_of
+from ..systems.plate_over_particle import THIN, Bump
+from ..version import __version__
+from .overrides import override
+from .plate import AskedPlate, plate_of
+from .run_connector import HARDNESS, WhatIf
+from .toml import read
+from .whole import read_tables
+
+__all__ = ["PlateResult", "load_plate", "run_plate"]
+
+NEEDED = frozenset({"surfaces", "particles", "plate"})
+QUANTILES = (0.5, 0.9, 0.99, 0.999)
+"""Particles of the table where no diameters are asked for, by number."""
+THICKNESS = 1.1
+CITATIONS = ("Timoshenko, Woinowsky-Krieger, Theory of Plates and Shells, 2nd ed., ch. 3",)
+
+
+def load_plate(path: str | os.PathLike[str], overrides: Iterable[str] = ()) -> AskedPlate:
+    """The plate of a study file, which needs no roughness and no load.
+
+    Parameters
+    ----------
+    path : path-like
+        A TOML file with tables [surfaces], [particles] and [plate].
+    overrides : iterable of str, optional
+        As those of `thirdbody.load_study`.
+
+    Raises
+    ------
+    InvalidValue
+        Every mistake of the file.
+    """
+    data = override(read(Path(path)), list(overrides))
+    return read_tables(data, Path(path).parent, plate_of, lambda t: t.name in NEEDED)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PlateResult(Record, Mapping[str, Any]):
+    """What `run_plate` finds; indexed, it is the plain data of `to_dict`.
+
+    Attributes
+    ----------
+    asked : AskedPlate
+    at : int
+        The particle that the answer tells of: the largest of the table.
+    bumps, none : float or None
+        Mean number of bumps above the limit [1], and how often there is none [1].
+    lifting : tuple of float
+        Diameter of the particle of each kind that lifts the plate to the limit [m].
+    what_ifs : tuple of WhatIf
+        What the answer hangs on, the most first: of heights [m], or of bumps above the limit.
+    run_warnings : tuple of str
+        What is to be said of the answer.
+    """
+
+    asked: AskedPlate
+    at: int
+    grain: np.ndarray = column("x", "m", "diameter of the particle")
+    particles: list[str] = column("", "", "which kind of particle")
+    height: np.ndarray = column("h", "m", "how high the plate stands above the particle")
+    width: np.ndarray = column("2b", "m", "diameter of the bump")
+    force: np.ndarray = column("F", "N", "force on the particle")
+    thin: np.ndarray = column("", "", "whether the bump is wide against the thickness")
+    bumps: float | None = None
+    none: float | None = None
+    lifting: tuple[float, ...] = ()
+    what_ifs: tuple[WhatIf, ...] = ()
+    run_warnings: tuple[str, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """Of the study, where it has none "Plate"."""
+        return self.asked.title or "Plate"
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What reading and computing warn of, one sentence each."""
+        return tuple(dict.fromkeys((*self.asked.notes, *self.run_warnings)))
+
+    def table(self) -> tuple[dict[str, list[Any]], dict[str, str]]:
+        """Columns, a row a particle, and their units."""
+        told = declared_columns(type(self))
+        columns = {name: plain_data(getattr(self, name)) for name in told}
+        return columns, {name: each.unit for name, each in told.items()}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, ready for JSON."""
+        return {
+            "title": self.asked.title,
+            "version": __version__,
+            "inputs": {"plate": self.asked.chuck.to_dict()},
+            "states": self.table()[0],
+            "bumps": self.bumps,
+            "none": self.none,
+            "lifting": list(self.lifting),
+            "what_ifs": [each.to_dict() for each in self.what_ifs],
+            "warnings": list(self.warnings),
+            "citations": list(CITATIONS),
+        }
+
+    def __getitem__(self, key: str) -> Any:
+        return self.to_dict()[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.to_dict())
+
+    def __len__(self) -> int:
+        return len(self.to_dict())
+
+
+def run_plate(asked: AskedPlate) -> PlateResult:
+    """How high a plate stands over particles of its study, and how often above its limit.
+
+    Parameters
+    ----------
+    asked : AskedPlate
+        As `load_plate` reads it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import thirdbody as tb
+    >>> silicon = tb.Material(E=160e9, nu=0.22, H=12e9)
+    >>> dust = tb.Particles(material=tb.materials["SiO2"], areal_density=1e4,
+    ...                     diameter=tb.LogNormal(median=3e-6, gsd=1.8))
+    >>> chuck = Chuck(surfaces=tb.MaterialPair(silicon, tb.materials["SiC"]), thickness=775e-6,
+    ...               pressure=80e3, particles=dust)
+    >>> found = run_plate(AskedPlate(title="", chuck=chuck, grains=np.array([5e-6])))
+    >>> f"{found.height[0] * 1e9:.1f} nm high, {found.width[0] * 1e3:.1f} mm wide"
+    '57.6 nm high, 8.3 mm wide'
+    """
+    chuck = asked.chuck
+    wanted = [
+        (dust, name_of(dust, i), float(x))
+        for i, dust in enumerate(chuck.particles)
+        for x in (asked.grains if len(asked.grains) else dust.diameter.ppf(np.array(QUANTILES)))
+    ]
+    # of one size there is one quantile
+    wanted = [each for i, each in enumerate(wanted) if each not in wanted[:i]]
+    found = [chuck.over(x, dust) for dust, _, x in wanted]
+    at = int(np.argmax([bump.height for bump in found]))
+    whole = chuck.limit is not None and chuck.diameter is not None
+    bumps = chuck.bumps_above(chuck.limit) if whole and chuck.limit is not None else None
+    lifting = () if chuck.limit is None else tuple(
+        chuck.lifting(chuck.limit, dust) for dust in chuck.particles
+    )  # fmt: skip
+    return PlateResult(
+        asked=asked,
+        at=at,
+        grain=np.array([x for _, _, x in wanted]),
+        particles=[name for _, name, _ in wanted],
+        height=np.array([bump.height for bump in found]),
+        width=np.array([2 * bump.radius for bump in found]),
+        force=np.array([bump.force for bump in found]),
+        thin=np.array([bump.thin for bump in found]),
+        bumps=bumps,
+        none=None if bumps is None else math.exp(-bumps),
+        lifting=lifting,
+        what_ifs=_what_ifs(chuck, wanted[at][0], wanted[at][2], counted=bumps is not None),
+        run_warnings=(*_warnings(chuck, found), *_breaking(chuck, wanted, found)),
+    )
+
+
+def _what_ifs(chuck: Chuck, dust: Particles, grain: float, *, counted: bool) -> tuple[WhatIf, ...]:
+    """What the number of bumps, or else the height, hangs on, each varied alone."""
+
+    def heights(*chucks: Chuck, sizes: tuple[float, ...] = (1.0,)) -> tuple[float, ...]:
+        if counted:
+            return tuple(each.bumps_above(each.limit or 0.0) for each in chucks)
+        return tuple(each.over(size * grain, dust).height for each in chucks for size in sizes)
+
+    def with_hardness(factor: float) -> Chuck:
+        pair = chuck.surfaces
+        first, second = (each.replace(H=each.H * factor) for each in (pair.first, pair.second))
+        return chuck.replace(surfaces=pair.replace(first=first, second=second))
+
+    def varied(change: Callable[[float], Chuck], factor: float) -> tuple[float, ...]:
+        return heights(change(1 / factor), change(factor))
+
+    out = [
+        WhatIf(
+            what="the hardness of plate and chuck",
+            between=f"{percent(1 - 1 / HARDNESS)} softer and {percent(HARDNESS - 1)} harder",
+            action="measure both near the surface, coatings included",
+            values=varied(with_hardness, HARDNESS),
+        ),
+        WhatIf(
+            what="the thickness of the plate",
+            between=f"{percent(THICKNESS - 1)} more and as much less",
+            action="give plate.thickness as measured",
+            values=varied(lambda part: chuck.replace(thickness=chuck.thickness * part), THICKNESS),
+        ),
+    ]
+    if counted:
+
+        def with_dust(number: float) -> Chuck:
+            kinds = [k.replace(areal_density=k.areal_density * number) for k in chuck.particles]
+            return chuck.replace(particles=tuple(kinds))
+
+        out.append(
+            WhatIf(
+                what="the number of particles",
+                between="half and twice as many",
+                action="count them on the back of a plate, by size",
+                values=varied(with_dust, 2.0),
+            )
+        )
+    else:
+        out.append(
+            WhatIf(
+                what="the size of the particle",
+                between="20 % smaller and 25 % larger",
+                action="give plate.grain as measured",
+                values=heights(chuck, sizes=(0.8, 1.25)),
+            )
+        )
+    return tuple(sorted(out, key=lambda each: -each.ratio))
+
+
+def _warnings(chuck: Chuck, found: list[Bump]) -> list[Note]:
+    """Where the theory of thin plates ends."""
+    out = []
+    t = chuck.thickness
+    if stiff := [bump.height for bump in found if not bump.thin]:
+        out.append(
+            Note(
+                f"heights up to {value_of(max(stiff), 'm', 3)} are of bumps narrower than "
+                f"{2 * THIN:g} thicknesses, where a plate also shears and gives way locally",
+                code="thin plate",
+                action="take these as orders of magnitude; larger particles (plate.grain) decide",
+            )
+        )
+    if steep := [bump.height for bump in found if bump.height > t / 2]:
+        out.append(
+            Note(
+                f"{value_of(max(steep), 'm', 3)} is more than half the thickness: a plate so bent "
+                "is stretched, too, and stands lower",
+                code="stretched plate",
+                action="take it as an upper end, or look at smaller particles (plate.grain)",
+            )
+        )
+    if chuck.diameter is not None and any(2 * bump.radius > chuck.diameter for bump in found):
+        out.append(
+            Note(
+                "a bump is wider than the plate: it tilts on the particle instead of lying flat "
+                "around it",
+                code="wide bump",
+                action="raise plate.pressure, or look at smaller particles (plate.grain)",
+            )
+        )
+    return out
+
+
+def _breaking(
+    chuck: Chuck, wanted: list[tuple[Particles, str, float]], found: list[Bump]
+) -> list[Note]:
+    """Particles that would break under the plate: the smallest of each kind."""
+    smallest: dict[str, float] = {}
+    for (dust, name, x), bump in zip(wanted, found, strict=True):
+        if chuck.breaks(bump, dust):
+            smallest[name] = min(x, smallest.get(name, math.inf))
+    return [
+        Note(
+            f"most particles of {name} from {value_of(x, 'm', 3)} on would break: their pieces are "
+            "smaller, and the plate stands lower than told",
+            code="brittle",
+            action="take heights from there on as an upper end",
+        )
+        for name, x in smallest.items()
+    ]

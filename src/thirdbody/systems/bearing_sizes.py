@@ -1,0 +1,151 @@
+"""What a designation of a deep-groove ball bearing stands for: dimensions, balls, clearance."""
+
+from __future__ import annotations
+
+import math
+import re
+import tomllib
+from functools import cache
+from importlib import resources
+from typing import Any, NamedTuple
+
+from ..errors import InvalidValue, Problem
+from ..quantities.nearest import guess
+from ..quantities.units import say
+from .machine_elements import BallBearing
+
+__all__ = ["DESIGNATIONS", "BearingSize", "bearing_size"]
+
+FILL = 0.6
+"""Part of the pitch circle that balls of a Conrad bearing take, in angle."""
+BALL = 0.3
+"""Ball diameter over half the room between bore and outer diameter, halved: D_w = 0.3 (D − d)."""
+
+
+@cache
+def _table() -> dict[str, Any]:
+    text = resources.files("thirdbody").joinpath("data/bearings.toml").read_text("utf-8")
+    return tomllib.loads(text)
+
+
+DESIGNATIONS = tuple(_table()["size"])
+"""Designations that are known."""
+
+
+class BearingSize(NamedTuple):
+    """What a designation, or the dimensions of a bearing, stand for.
+
+    Examples
+    --------
+    >>> found = bearing_size("6205-2RS/C3")
+    >>> found.name, found.outer_diameter, found.balls, found.clearance
+    ('6205', 0.052, 9, (1.3e-05, 2.8e-05))
+    """
+
+    name: str
+    """Designation, or the dimensions as given."""
+    bore: float
+    """d [m]."""
+    outer_diameter: float
+    """D [m]."""
+    width: float
+    """B [m]."""
+    balls: int
+    """Z [1]."""
+    ball_diameter: float
+    """D_w [m]."""
+    clearance: tuple[float, float]
+    """Least and most radial internal clearance of its class, unmounted [m]."""
+    clearance_class: str
+    """Of ISO 5753: C2, CN, C3 or C4."""
+    estimated: bool
+    """Whether number and diameter of the balls follow from the dimensions alone."""
+
+    def bearing(self, **others: Any) -> BallBearing:
+        """The bearing, with the least clearance of its class unless another is given."""
+        given = {
+            "bore": self.bore,
+            "outer_diameter": self.outer_diameter,
+            "ball_diameter": self.ball_diameter,
+            "balls": float(self.balls),
+            "clearance": self.clearance[0],
+        }
+        return BallBearing(**(given | others))
+
+
+def bearing_size(which: str) -> BearingSize:
+    """The bearing of a designation such as 6205 or 6305-2RS/C3, or of dimensions as 25x52x15.
+
+    Parameters
+    ----------
+    which : str
+        Series 6000, 6200 and 6300 from 10 to 60 mm bore; C2, C3 or C4 after it names the class of
+        clearance, and other suffixes count for nothing. Or bore x outer diameter x width [mm].
+
+    Returns
+    -------
+    BearingSize
+
+    Raises
+    ------
+    InvalidValue
+        Another designation, or dimensions of no bearing.
+
+    Notes
+    -----
+    Dimensions are those of ISO 15, clearances those of ISO 5753. Number and diameter of the balls
+    are typical values, from memory; of bare dimensions they are D_w = 0.3 (D − d), and as many as
+    fill 0.6 of the circle. The file ``data/bearings.toml`` says what was confirmed where.
+    """
+    text = which.strip().upper().replace("×", "X")
+    if sides := re.fullmatch(r"([\d.]+)\s*X\s*([\d.]+)\s*X\s*([\d.]+)\s*(?:MM)?(.*)", text):
+        bore, outer, width = (float(each) for each in sides.groups()[:3])
+        return _of_dimensions(which, bore, outer, width, sides[4])
+    known = _table()["size"]
+    found = re.match(r"(\d{4,5})(?!\d)(.*)", text)
+    if found is None or found[1] not in known:
+        hint = guess(found[1] if found else text, known, otherwise=None) if text else None
+        raise InvalidValue(
+            Problem(
+                "",
+                f"{say(which)} must be a deep-groove ball bearing 6000 to 6012, 6200 to 6212 or "
+                '6300 to 6312, or its bore x outer diameter x width in mm, e.g. "25x52x15"',
+                hint=hint or "",
+            )
+        )
+    bore, outer, width, balls, ball = known[found[1]]
+    name, limits = _clearance(bore, found[2])
+    d, D, B = _mm(bore), _mm(outer), _mm(width)
+    return BearingSize(found[1], d, D, B, balls, _mm(ball), limits, name, False)
+
+
+def _of_dimensions(which: str, bore: float, outer: float, width: float, suffix: str) -> BearingSize:
+    """The bearing with balls as large and as many as usual."""
+    largest = _table()["clearance"]["bores"][-1]
+    if not (0 < bore < outer and width > 0):
+        raise InvalidValue(
+            f"{say(which)}: bore, outer diameter and width in mm must rise from bore to outer "
+            'diameter and be above 0, e.g. "25x52x15"'
+        )
+    if bore > largest:
+        raise InvalidValue(f"{say(which)}: the bore must be at most {largest} mm")
+    ball = round(BALL * (outer - bore), 3)
+    balls = max(3, round(FILL * math.pi / math.asin(2 * ball / (bore + outer))))
+    name, limits = _clearance(bore, suffix)
+    return BearingSize(
+        which.strip(), _mm(bore), _mm(outer), _mm(width), balls, _mm(ball), limits, name, True
+    )
+
+
+def _clearance(bore: float, suffix: str) -> tuple[str, tuple[float, float]]:
+    """Name and limits [m] of the class of clearance, normal unless the suffix names another."""
+    told = _table()["clearance"]
+    asked = re.search(r"(?<![A-Z0-9])(C[N234])(?![0-9])", suffix)
+    name = asked[1] if asked else "CN"
+    row = next(i for i, top in enumerate(told["bores"]) if bore <= top)
+    least, most = told[name][row]
+    return name, (round(1e-6 * least, 9), round(1e-6 * most, 9))
+
+
+def _mm(value: float) -> float:
+    return round(1e-3 * value, 9)

@@ -1,0 +1,402 @@
+r"""Connectors: how often a pair of contacts fails to close because of dust.
+
+One pair is that of `contact_probability`: a sphere or crossed cylinders come down on particles at
+random. Here there are several kinds of them, the contacts wipe, and pairs stand side by side and
+in series:
+
+.. math::
+
+    f = 1 - P(W), \qquad f_{all} = 1 - (1 - f^m)^n
+
+for n contacts in series, each of m spots of which one is enough. Dust that conducts closes the
+circuit, too, wherever it is squeezed. The wipe moves the sphere by s along the flat. A particle
+lies in the way over a disc of radius :math:`\sqrt{2R_s x}` about the spot; those that were under
+the first spot and lie outside the last are left behind, and of those in front the share c is
+pushed aside, so that at the place :math:`u = r^2/(2R_s x)` there are, of all,
+
+.. math:: w(u) = 1 - c\,[1 - \theta(u, s)], \qquad
+          \int_0^u \theta\,du = \frac{\text{area in both discs}}{\pi\,2R_s x} .
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..errors import InvalidValue
+from ..laws.particle.series import Series
+from ..laws.particle.tension import breaks
+from ..populations.distributions import Monodisperse
+from ..populations.materials import MaterialPair
+from ..populations.particles import Particles
+from ..quantities.say import value_of
+from ..quantities.units import say
+from ..quantities.value import Value, items_of, quantity
+from .contact_probability import CELLS, MOST_CELLS, PER_PARTICLE, SURE, compound
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from ..laws.base import AbstractParticleLaw
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Connector"]
+
+BY_MATERIAL = "by material"
+CLASSES = 300
+"""Classes of size, equally wide in ln x."""
+SHARED = 20.0
+"""Loads of a curve within this factor share their steps."""
+SQUEEZES = 4096
+"""Squeezes at which the load of a particle is tabled."""
+HEIGHTS, COARSE = 40, 256
+"""Heights at which contacts stand on insulating dust, where other dust conducts, and steps
+of the load there."""
+NONE = 1e-15
+"""Classes with less than this part of all particles are left out."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Connector(Value):
+    r"""Contacts in series that close on dust.
+
+    .. math:: f_{all} = 1 - (1 - f^m)^n
+
+    Parameters
+    ----------
+    radius : float
+        Radius R_s of the sphere that meets a flat, or of both crossed cylinders [m].
+    surfaces : MaterialPair
+        The two contacts.
+    particles : Particles or sequence of Particles
+        Dust: of each kind material, diameters x, particles per area η_a.
+    contacts : float, optional
+        Contacts in series n, all of which must close [1].
+    parallel : float, optional
+        Spots m of each contact of which one is enough, as of a bifurcated spring [1].
+    wipe : float, optional
+        Way s along the flat after touch [m].
+    pushed_aside : float, optional
+        Part c of the particles before the wipe that it pushes aside [1]. Nobody can predict it;
+        without it none is, and the wipe changes nothing.
+    conducting : tuple of str, optional
+        Names of the kinds of dust that conduct; ``"by material"`` for those whose resistivity is
+        known.
+    law : AbstractParticleLaw, optional
+        What one particle does between the contacts.
+
+    Raises
+    ------
+    InvalidValue
+        A radius that is not above the largest particle, particles that break, names that no dust
+        has, or numbers of contacts that are not whole.
+
+    Notes
+    -----
+    As `thirdbody.systems.contact_probability.ContactProbability`, with the same limits. All
+    contacts meet dust of their own, so that they fail independently. A particle stays where it
+    lies on the flat unless it is pushed aside. Where dust conducts, the contacts stand at the
+    height h at which insulating particles carry the load, and fail if no conducting one is taller:
+    :math:`f = \int e^{-N_c(h)}\,dF(h)` with the distribution F of that height.
+
+    Examples
+    --------
+    >>> import thirdbody as tb
+    >>> bronze = tb.materials["CuSn8"]
+    >>> dust = tb.Particles(material=tb.materials["quartz"], areal_density=1e6,
+    ...                     diameter=tb.Monodisperse(mean=10e-6))
+    >>> plug = Connector(radius=2e-3, surfaces=tb.MaterialPair(bronze, bronze), particles=dust,
+    ...                  contacts=20)
+    >>> f"{plug.failure(0.0):.4f} of one, {plug.failure_of_all(0.0):.2f} of 20, without force"
+    '0.1181 of one, 0.92 of 20, without force'
+    """
+
+    radius: float = quantity(
+        "R_s", "m", "radius of the sphere or crossed cylinders", gt=0, usual=10
+    )
+    surfaces: MaterialPair
+    particles: tuple[Particles, ...]
+    contacts: float = quantity("n", "1", "contacts in series", default=1.0, ge=1, le=1e6)
+    parallel: float = quantity(
+        "m", "1", "spots of each contact of which one is enough", default=1.0, ge=1, le=100
+    )
+    wipe: float = quantity("s", "m", "way along the flat after touch", default=0.0, ge=0)
+    pushed_aside: float | None = quantity(
+        "c", "1", "part of the dust before the wipe that it pushes aside", default=None, ge=0, le=1
+    )
+    conducting: tuple[str, ...] = ()
+    law: AbstractParticleLaw = Series()
+
+    def __post_init__(self) -> None:
+        several = (self.particles,) if isinstance(self.particles, Particles) else self.particles
+        object.__setattr__(self, "particles", items_of(several))
+        given = (self.conducting,) if isinstance(self.conducting, str) else self.conducting
+        object.__setattr__(self, "conducting", tuple(given))
+        Value.__post_init__(self)
+
+    def _problems(self) -> list[str]:
+        out: list[str] = []
+        for name in ("contacts", "parallel"):
+            if getattr(self, name) % 1:
+                out.append(f"Connector.{name} = {getattr(self, name):g} must be a whole number")
+        names = [name_of(dust, i) for i, dust in enumerate(self.particles)]
+        for name in self.conducting:
+            if name not in (*names, BY_MATERIAL):
+                known = ", ".join(map(say, names))
+                out.append(f"Connector.conducting = {say(name)} must name particles, here {known}")
+        for dust, name in zip(self.particles, names, strict=True):
+            if dust.strength is not None:
+                out.append(
+                    f"{name}: particles that break are not followed here; leave out strength"
+                )
+            largest = dust.diameter.support[1]
+            if self.radius <= largest:
+                out.append(
+                    f"Connector.radius = {value_of(self.radius, 'm')} must be above the largest "
+                    f"particle of {name}, {value_of(largest, 'm')}: contacts come down on dust, "
+                    "not on boulders"
+                )
+        return out
+
+    # ------------------------------------------------------------------ what lies in the way
+    @property
+    def in_the_way(self) -> float:
+        """Mean number N of particles that keep one pair apart, after the wipe [1]."""
+        return sum(kind.number(0.0) for kind in self._kinds())
+
+    @property
+    def threshold(self) -> float:
+        """Load of the mean particle in the way, squeezed to its diameter [N]."""
+        kinds = self._kinds()
+        weight = sum(float(kind.each.sum()) for kind in kinds)
+        return sum(float(kind.each @ (kind.most * kind.x**2)) for kind in kinds) / weight
+
+    @property
+    def reach(self) -> float:
+        """Radius of the disc in which the mean particle in the way lies [m]."""
+        kinds = self._kinds()
+        weight = sum(float(kind.each.sum()) for kind in kinds)
+        mean = sum(float(kind.each @ kind.x) for kind in kinds) / weight
+        return math.sqrt(2 * self.radius * mean)
+
+    def breaking(self) -> list[str]:
+        """Kinds of dust whose mean particle in the way would break before it is pressed in."""
+        return [
+            kind.name
+            for kind in self._kinds()
+            if breaks(kind.one, kind.material, x=kind.mean, squeeze=1.0)
+        ]
+
+    def _kinds(self, *, conduct: bool | None = None) -> list[_Kind]:
+        return [
+            _Kind(self, dust, name_of(dust, i))
+            for i, dust in enumerate(self.particles)
+            if dust.areal_density > 0 and conduct in (None, self._conducts(dust, name_of(dust, i)))
+        ]
+
+    def _conducts(self, dust: Particles, name: str) -> bool:
+        by_material = BY_MATERIAL in self.conducting and dust.material.resistivity is not None
+        return by_material or name in self.conducting
+
+    # ------------------------------------------------------------------ how often it fails
+    def failure(self, load: float) -> float:
+        """How often one pair stays open: in the middle of `bounds`.
+
+        Parameters
+        ----------
+        load : float
+            Load W [N].
+        """
+        return float(np.mean(self.bounds(load)))
+
+    def failure_of_all(self, load: float) -> float:
+        """How often a connector of all its contacts stays open.
+
+        Parameters
+        ----------
+        load : float
+            Load W on each contact [N].
+        """
+        return self.of_all(self.failure(load))
+
+    def failures(self, loads: ArrayLike) -> Array:
+        """How often one pair stays open under many loads: as `failure`, for a curve.
+
+        Parameters
+        ----------
+        loads : array_like
+            Loads W [N].
+        """
+        every = np.asarray(loads, float)
+        if self.conducting:
+            return np.array([self.failure(float(load)) for load in every])
+        out, left = np.empty(len(every)), every.copy()
+        kinds = self._kinds(conduct=False)
+        while np.any(left >= 0):
+            here = left >= left.max() / SHARED
+            out[here] = np.mean(_open(kinds, left[here], 0.0), axis=0)
+            left[here] = -1.0
+        return out
+
+    def of_all(self, failure: float) -> float:
+        """How often n contacts of m spots stay open.
+
+        Parameters
+        ----------
+        failure : float
+            How often one spot does [1].
+        """
+        return -math.expm1(self.contacts * math.log1p(-min(failure**self.parallel, 1 - 1e-16)))
+
+    def bounds(self, load: float) -> tuple[float, float]:
+        """What the failure of one pair lies between, the load of each particle rounded.
+
+        Parameters
+        ----------
+        load : float
+            Load W [N].
+
+        Raises
+        ------
+        InvalidValue
+            A load below zero or not finite.
+        """
+        if not (math.isfinite(load) and load >= 0):
+            raise InvalidValue("load must be finite and not below 0 N")
+        insulating, conductors = self._kinds(conduct=False), self._kinds(conduct=True)
+        if not conductors:
+            low, high = _open(insulating, np.array([load]), 0.0)
+            return float(low[0]), float(high[0])
+        if not insulating:
+            return 0.0, 0.0
+        largest = max(float(kind.x.max()) for kind in insulating)
+        heights = np.array([0.0, *np.geomspace(largest / 300, largest, HEIGHTS)])
+        one = np.array([load])
+        above = np.array([_open(insulating, one, h) for h in heights])[:, :, 0]
+        closed = np.exp([-sum(kind.number(h) for kind in conductors) for h in heights])
+        between = above[:-1] - above[1:]
+        low = between[:, 0] @ closed[:-1] + above[-1, 0] * closed[-1]
+        high = between[:, 1] @ closed[1:] + above[-1, 1] * closed[-1]
+        return float(min(low, high)), float(max(low, high))
+
+
+def name_of(dust: Particles, i: int) -> str:
+    """What a kind of dust is called."""
+    return dust.name or dust.material.name or f"particles {i + 1}"
+
+
+class _Kind:
+    """One kind of dust in classes of size: how many are in the way, and what each carries."""
+
+    def __init__(self, plug: Connector, dust: Particles, name: str) -> None:
+        self.name, self.material = name, dust.material
+        law: Any = (dust.law or plug.law).of_shape(dust.shape)  # type: ignore[attr-defined]
+        self.one = law.one(surfaces=plug.surfaces, particle=dust.material)
+        self.x, weight = _classes(dust)
+        self.each = 2 * math.pi * plug.radius * dust.areal_density * weight
+        """In the way before the wipe, at touch."""
+        self.k = plug.wipe / np.sqrt(2 * plug.radius * self.x)
+        """Wipe over the radius of the disc."""
+        self.aside = plug.pushed_aside or 0.0 if plug.wipe > 0 else 0.0
+
+    @property
+    def mean(self) -> float:
+        """Diameter of the mean particle in the way [m]."""
+        return float(self.each @ self.x / self.each.sum())
+
+    @cached_property
+    def curve(self) -> tuple[Array, Array]:
+        """Squeezes ε, and the load over x² there [Pa], which never falls."""
+        kinks = np.asarray(self.one.kinks)
+        eps = np.unique([*np.linspace(0, 1, SQUEEZES + 1), *kinks[kinks < 1]])
+        return eps, np.maximum.accumulate(np.asarray(self.one.at(eps).load, float))
+
+    @property
+    def most(self) -> float:
+        """Load over x² of a particle squeezed to its diameter [Pa]."""
+        return float(self.curve[1][-1])
+
+    def within(self, u: Array) -> Array:
+        """Particles of each class nearer than u = r²/(2 R_s x)."""
+        inside = np.maximum(u, 0.0)
+        if not self.aside:
+            return self.each * inside
+        return self.each * ((1 - self.aside) * inside + self.aside * overlap(inside, self.k))
+
+    def number(self, height: float) -> float:
+        """Particles in the way while the contacts stand at this height [m]."""
+        return float(self.within(1 - height / self.x).sum())
+
+    def number_below(self, loads: Array, height: float) -> Array:
+        """Those of them that carry no more than these loads [N]."""
+        eps, load = self.curve
+        reach = 1 - height / self.x
+        all_ = self.within(reach)
+        out = np.empty(len(loads))
+        for i in range(0, len(loads), 256):
+            some = loads[i : i + 256, None] / self.x**2
+            squeeze = np.interp(some * (1 + SURE), load, eps, right=1.0)
+            out[i : i + 256] = (all_ - self.within(reach - squeeze)).sum(axis=1)
+        return out
+
+
+def _classes(dust: Particles) -> tuple[Array, Array]:
+    """Diameters, and what each adds to the mean diameter."""
+    x, weight = [], []
+    for share, each in dust.diameter.components:
+        if isinstance(each, Monodisperse):
+            x.append(np.array([each.mean]))
+            weight.append(np.array([share * each.mean]))
+            continue
+        low, high = each.support
+        low = max(low, float(each.ppf(1e-9)), 1e-4 * high)
+        edges = np.unique([each.support[0], *np.geomspace(low, high, CLASSES + 1), *each.kinks])
+        first, second = (each.partial_moment(n, edges[:-1], edges[1:]) for n in (1, 2))
+        some = first > NONE * first.sum()
+        x.append(second[some] / first[some])
+        weight.append(share * first[some])
+    return np.concatenate(x), np.concatenate(weight)
+
+
+def _open(kinds: list[_Kind], loads: Array, height: float) -> tuple[Array, Array]:
+    """How often these particles carry more than loads at a height: bounds [1]."""
+    number = sum(kind.number(height) for kind in kinds)
+    top = float(loads.max())
+    if not number > 0 or top == 0:
+        none = np.full(len(loads), -math.expm1(-number))
+        return none, none
+    step = top / min(max(CELLS if height == 0 else COARSE, PER_PARTICLE * number), MOST_CELLS)
+    if len(kinds) == 1 and len(kinds[0].x) == 1 and height == 0:
+        jump = kinds[0].most * float(kinds[0].x[0]) ** 2
+        if jump < top + step:  # the jumps of one size lie on multiples of the step
+            step = jump / math.ceil(jump / step)
+    places = np.asarray(step * np.arange(math.floor(top / step * (1 + SURE)) + 1), float)
+    at = np.floor(loads / step * (1 + SURE)).astype(int)
+    out = []
+    for ends in (places, np.asarray((places + step) * (1 - 2 * SURE), float)):
+        below = np.sum([kind.number_below(ends, height) for kind in kinds], axis=0)
+        mass = np.diff(below, prepend=0.0) / number
+        out.append(np.maximum(1 - compound(number, mass)[at], 0.0))
+    return out[1], out[0]
+
+
+def overlap(u: ArrayLike, k: ArrayLike) -> Array:
+    """Area shared by a disc of radius √u and one of radius 1 whose centres are k apart, over π.
+
+    >>> overlap([0.25, 1.0, 1.0], [0.0, 0.0, 2.0]).tolist()
+    [0.25, 1.0, 0.0]
+    """
+    u, k = np.broadcast_arrays(np.asarray(u, float), np.asarray(k, float))
+    r = np.sqrt(u)
+    apart, within = k >= 1 + r, k <= np.abs(1 - r)
+    safe_k, safe_r = np.where(apart | within, 1.0, k), np.where(apart | within, 1.0, r)
+    first = np.arccos(np.clip((safe_k**2 + safe_r**2 - 1) / (2 * safe_k * safe_r), -1, 1))
+    second = np.arccos(np.clip((safe_k**2 + 1 - safe_r**2) / (2 * safe_k), -1, 1))
+    sides = (safe_k + safe_r) ** 2 - 1, 1 - (safe_k - safe_r) ** 2
+    lens = safe_r**2 * first + second - 0.5 * np.sqrt(np.maximum(sides[0] * sides[1], 0.0))
+    return np.where(apart, 0.0, np.where(within, np.minimum(u, 1.0), lens / np.pi))

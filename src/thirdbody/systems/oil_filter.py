@@ -1,0 +1,183 @@
+r"""A filter in the line to a contact: what it lets through, from the β ratios of its data sheet.
+
+.. math:: \beta_x = \frac{N_{up}(>x)}{N_{down}(>x)} \quad\Rightarrow\quad
+          N_{down}(>x) = N_{up}(>x)/\beta_x
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self
+
+import numpy as np
+
+from ..errors import InvalidValue
+from ..populations.distributions import Distribution, PowerLaw
+from ..quantities.units import say, to_si
+from ..quantities.value import Value, several
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Array = NDArray[np.float64]
+
+__all__ = ["Filter"]
+
+FINEST = 0.5
+"""Size from which a filter holds something, over the smallest one of its data sheet, where that
+names one size alone."""
+CLASSES = 24
+"""Sections of the sizes behind a filter."""
+STEEPEST = 100.0
+"""Largest exponent of the number over size within a section."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Filter(Value):
+    r"""A filter by its β ratios at sizes, as ISO 16889 measures them.
+
+    .. math:: \ln\beta_x\ \text{straight over}\ \ln x\ \text{between the sizes}
+
+    Parameters
+    ----------
+    sizes : tuple of float
+        Increasing sizes x [m], of the scale µm(c).
+    betas : tuple of float
+        Particles larger than each before the filter over those behind it β_x [1], at least 1.
+
+    Notes
+    -----
+    Beyond the largest size β stays; below the smallest the line through the first two goes on to
+    β = 1. With one size alone the filter holds nothing below half of it (an assumption). The oil
+    passes the filter once, on its way to the contact. Data sheets hold for the test dust, flow and
+    fluid of the test; in a machine β is lower where flow pulsates.
+
+    References
+    ----------
+    ISO 16889: multi-pass test (β ratio).
+
+    Examples
+    --------
+    >>> fine = Filter.from_text("5=75, 10=1000")
+    >>> fine.beta([5e-6, 20e-6]).round(6).tolist()
+    [75.0, 1000.0]
+    """
+
+    sizes: tuple[float, ...] = several("m", "sizes at which β is known")
+    betas: tuple[float, ...] = several("1", "particles before over particles behind the filter")
+
+    def _problems(self) -> list[str]:
+        x, beta = self.sizes, self.betas
+        if not x or len(x) != len(beta):
+            return [f"Filter has {len(x)} sizes and {len(beta)} betas; give one for each size"]
+        out = []
+        if any(not (math.isfinite(v) and v > 0) for v in x) or any(
+            b <= a for a, b in zip(x, x[1:], strict=False)
+        ):
+            out.append("Filter.sizes must increase and start above 0 [m]")
+        if any(not (math.isfinite(v) and v >= 1) for v in beta):
+            out.append("Filter.betas must be at least 1: a filter adds no particles")
+        elif any(b < a for a, b in zip(beta, beta[1:], strict=False)):
+            out.append(
+                "Filter.betas must not fall: a filter that holds small ones holds large ones"
+            )
+        return out
+
+    @classmethod
+    def from_text(cls, text: str) -> Self:
+        """A filter from ``"5=75, 10=1000"``: sizes in µm(c) unless they have a unit, and their β.
+
+        Parameters
+        ----------
+        text : str
+            Pairs of a size and its β ratio.
+        """
+        sizes, betas = [], []
+        for pair in filter(None, re.split(r"[,;]\s*", text.strip())):
+            left, equals, right = pair.partition("=")
+            left = re.sub(r"^\s*(beta|β)_?\s*|\(c\)\s*$", "", left).strip()
+            try:
+                if not equals:
+                    raise InvalidValue(f"{say(pair)} has no '='")
+                plain = re.fullmatch(r"[\d.]+(e-?\d+)?", left)
+                sizes.append(1e-6 * float(left) if plain else to_si(left, "m"))
+                betas.append(to_si(right.strip(), "1"))
+            except (InvalidValue, ValueError) as error:
+                why = error.problems[0] if isinstance(error, InvalidValue) else str(error)
+                raise InvalidValue(
+                    f'{why}; a filter is written as on its data sheet, size [µm]=β: "5=75, 10=1000"'
+                ) from None
+        order = np.argsort(sizes, kind="stable")
+        return cls(sizes=tuple(sizes[i] for i in order), betas=tuple(betas[i] for i in order))
+
+    def _line(self) -> tuple[Array, Array]:
+        """ln x and ln β of the line, two points at least."""
+        known, logs = np.log(self.sizes), np.log(self.betas)
+        if len(known) > 1:
+            return known, logs
+        return np.array([known[0] + math.log(FINEST), known[0]]), np.array([0.0, logs[0]])
+
+    @property
+    def _finest(self) -> float:
+        """The size from which it holds something [m]."""
+        known, logs = self._line()
+        rise = logs[1] - logs[0]
+        if rise == 0:
+            return 0.0
+        return math.exp(known[0] - logs[0] * (known[1] - known[0]) / rise)
+
+    def beta(self, x: ArrayLike) -> Array:
+        """β ratios at sizes x [m].
+
+        Parameters
+        ----------
+        x : float or array
+            Sizes [m].
+        """
+        at, (known, logs) = np.log(np.asarray(x, float)), self._line()
+        slope = (logs[1] - logs[0]) / (known[1] - known[0])
+        below = np.maximum(logs[0] + slope * (at - known[0]), 0.0)
+        return np.exp(np.where(at < known[0], below, np.interp(at, known, logs)))
+
+    def behind(self, number: float, diameter: Distribution) -> tuple[float, Distribution]:
+        """Particles per volume n [1/m³] and their sizes behind the filter.
+
+        Parameters
+        ----------
+        number : float
+            Particles per volume before it [1/m³].
+        diameter : Distribution
+            Their sizes by number.
+
+        Raises
+        ------
+        InvalidValue
+            All particles are of one size.
+        """
+        low, high = diameter.support
+        if not 0 < low < high:
+            raise InvalidValue(
+                "a filter needs sizes that are spread: particles of one size have no count above it"
+            )
+        own = [x for x in (*self.sizes, self._finest, *diameter.kinks) if low < x < high]
+        edges = np.unique([*np.geomspace(low, high, CLASSES + 1), *own])
+        above = number * np.array([float(diameter.partial_moment(0, x, high)) for x in edges])
+        above[-1] = 0.0
+        beta = self.beta(edges)
+        left = above / beta
+        if not left[0] > 0:
+            return 0.0, diameter
+        # −dN/dx behind, N/β, at both ends of each section, in which β is a power of x
+        power = np.diff(np.log(beta)) / np.diff(np.log(edges))
+        ends = (edges[:-1], np.nextafter(edges[1:], 0.0))
+        logs = [
+            np.log(np.maximum((number * diameter.pdf(x) + N * power / x) / b, 1e-300))
+            for x, N, b in zip(ends, (above[:-1], above[1:]), (beta[:-1], beta[1:]), strict=True)
+        ]
+        slopes = -(logs[1] - logs[0]) / np.diff(np.log(edges)) - 1
+        counts = np.maximum(left[:-1] - left[1:], 0.0)
+        slopes = np.where(counts > 0, np.clip(slopes, -STEEPEST, STEEPEST), 0.0)
+        found = PowerLaw(edges=tuple(edges), counts=tuple(counts), slopes=tuple(slopes))
+        return float(left[0]), found

@@ -1,0 +1,70 @@
+"""How the bodies of a bearing share its load, in words and as a table."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..quantities.say import number, value_of
+from ..study.whole import Study
+from ..systems.machine_elements import RadialBearing
+
+__all__ = ["DROP", "HEADS", "MEANS", "rows", "shares_load", "sharing"]
+
+HEADS = ("place", "load", "p_0 inner", "p_0 outer", "ellipse inner", "ellipse outer")
+MEANS = {
+    "place": "angle from the direction of the load",
+    "p_0 inner": "largest Hertz pressure on the inner ring",
+    "ellipse inner": "whole axes, along and across the motion",
+}
+"""What the heads mean."""
+DROP = ("ellipse outer", "ellipse inner")
+"""Columns in the order in which they go where the width is small."""
+
+
+def shares_load(study: Study) -> bool:
+    """Whether the body of a study is a bearing whose bodies share one radial load."""
+    own = isinstance(study.body, RadialBearing)
+    return own and study.forces is not None and len(study.forces) == 1
+
+
+def sharing(study: Study) -> str:
+    """How many carry, and how much the most loaded one, in a sentence."""
+    body: Any = study.body
+    force = float(study.forces[0])  # type: ignore[index]
+    found = body.share_load(force, study.contact.E_ss)
+    even = body.replace(clearance=0.0).share_load(force, study.contact.E_ss)
+    name = body.rolling_bodies
+    parts = [number(each.largest * body.bodies / force, 3) for each in (found, even)]
+    return (
+        f"Of {number(body.bodies)} {name} {found.carrying} carry, the most loaded "
+        f"{value_of(found.largest, 'N')}, {parts[0]} F_r/Z "
+        f"(Sjövall's integral with {value_of(body.clearance, 'm')} clearance, epsilon = "
+        f"{number(found.eps, 3)}; without clearance {parts[1]} "
+        f"F_r/Z, Stribeck); the sum over the {name} is {number(found.balance, 4)} of the load."
+    )
+
+
+def rows(study: Study) -> list[list[str]]:
+    """A row for each place at which a body carries, both sides of the load together."""
+    body: Any = study.body
+    E_star = study.contact.E_ss
+    found = body.share_load(float(study.forces[0]), E_star)  # type: ignore[index]
+    out = []
+    for angle, load in zip(found.angles, found.loads, strict=True):
+        if angle < -1e-9 or load <= 0:
+            continue
+        both = "± " if 1e-9 < angle < math.pi - 1e-9 else ""
+        sides = [body.on_ring(ring) for ring in ("inner", "outer")]
+        pressures = [
+            value_of(float(each.hertz(load, E=2 * E_star).maximum), "Pa", 3) for each in sides
+        ]
+        axes = [" × ".join(_lengths(each.semi_axes(load, E=2 * E_star))) for each in sides]
+        out.append([f"{both}{np.degrees(angle):.0f} deg", value_of(load, "N"), *pressures, *axes])
+    return out
+
+
+def _lengths(axes: tuple[Any, Any]) -> list[str]:
+    return [value_of(2 * float(each), "m", 3) for each in axes]

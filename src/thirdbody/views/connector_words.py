@@ -1,0 +1,120 @@
+"""A connector in dust in words: how often it fails to close, and what that hangs on."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from ..quantities.say import join_words, number, percent, value_of
+from ..systems.connector import name_of
+
+if TYPE_CHECKING:
+    from ..study.run_connector import ConnectorResult
+
+__all__ = ["HEADS", "MEANS", "answer", "facts", "once_in", "rows", "uncertainty"]
+
+RARE, OFTEN = 1e-12, 0.1
+HEADS = ("contact force", "one contact open", "connector open", "fails once in")
+MEANS = {
+    "one contact open": "how often dust keeps one contact open",
+    "connector open": "how often any of its contacts stays open",
+    "fails once in": "closings",
+}
+
+
+def once_in(failure: float) -> str:
+    """How often, as people say it.
+
+    >>> once_in(0.0048), once_in(0.35), once_in(0.0)
+    ('once in 208 closings (0.48 %)', 'in 35 % of all closings', 'never')
+    >>> once_in(1e-13)
+    'less than once in 10¹² closings'
+    """
+    if failure <= 0:
+        return "never"
+    if failure < RARE:
+        return "less than once in 10¹² closings"
+    if failure >= OFTEN:
+        return f"in {percent(failure)} of all closings"
+    return f"once in {_count(failure)} closings ({percent(failure)})"
+
+
+def _count(failure: float) -> str:
+    """One over it, to three digits.
+
+    >>> _count(0.0048), _count(2.6e-5), _count(1.5e-9)
+    ('208', '38 500', '6.67×10⁸')
+    """
+    turns = 1 / failure
+    if turns >= 1e7:
+        return number(turns, 3)
+    digits = max(2 - math.floor(math.log10(turns)), -9)
+    return f"{round(turns, digits):,.0f}".replace(",", " ")
+
+
+def answer(found: ConnectorResult) -> list[str]:
+    """How often it fails, in one or two sentences."""
+    plug = found.asked.connector
+    many = _makes(found)
+    out: list[str] = []
+    for i in sorted({found.places[0], found.places[-1]}):
+        force, one, every = (
+            float(c[i]) for c in (found.force, found.failure, found.failure_of_all)
+        )
+        what = "connector" if many else "contact"
+        said = f"Under {value_of(force, 'N')} the {what} fails to close {once_in(every)}"
+        if many and not out:
+            said += f": of its {many}, each stays open on dust {once_in(one)}"
+        out.append(f"{said}.")
+    if len(out) == 1:
+        kinds = join_words([name_of(dust, i) for i, dust in enumerate(plug.particles)])
+        out.append(
+            f"On average {number(found.in_the_way, 3)} particles ({kinds}) lie where the metal "
+            f"meets; pressing in the mean one takes {value_of(found.threshold, 'N', 3)}."
+        )
+    return out
+
+
+def _makes(found: ConnectorResult) -> str:
+    """What the connector is made of, empty for a single contact."""
+    plug = found.asked.connector
+    n, m = int(plug.contacts), int(plug.parallel)
+    series = f"{n} contacts in series" if n > 1 else ""
+    if m == 1:
+        return series
+    return f"{series} with {m} spots each" if series else f"{m} spots, of which one is enough"
+
+
+def uncertainty(found: ConnectorResult) -> list[str]:
+    """What moves the answer most, and what the wipe may do: a sentence each, with what to do."""
+    every = [each for each in found.what_ifs if each.ratio > 1]
+    heads = ["Most uncertain"] + ["Besides"] * len(every)
+    return [
+        f"{head}: {each.what}. With {each.between} it fails {once_in(each.low)} to "
+        f"{once_in(each.high)}; {each.action}."
+        for head, each in zip(heads, every, strict=False)
+        if each is every[0] or each.code == "wipe"
+    ]
+
+
+def rows(found: ConnectorResult) -> list[list[str]]:
+    """The table: a row a force."""
+    out = []
+    for i, force in enumerate(found.force):
+        every = float(found.failure_of_all[i])
+        turns = "-" if every < RARE else _count(every)
+        shown = [percent(float(each), least=RARE) for each in (found.failure[i], every)]
+        out.append([value_of(float(force), "N"), *shown, turns])
+    return out
+
+
+def facts(found: ConnectorResult) -> dict[str, str]:
+    """Named numbers of the force that is asked for."""
+    i = found.places[0]
+    return {
+        "connector open": percent(float(found.failure_of_all[i]), least=RARE),
+        "one contact open": percent(float(found.failure[i]), least=RARE),
+        "particles in the way": number(found.in_the_way, 3),
+        "force that presses the mean one in": value_of(found.threshold, "N", 3),
+        "they lie within": value_of(found.asked.connector.reach, "m", 3),
+    }

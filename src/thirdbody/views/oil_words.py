@@ -1,0 +1,185 @@
+"""What the particles of an oil do, in words: the answer first, then a table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from ..quantities.say import join_words, number, percent, value_of
+from ..study.dirty_oil import DirtyOil, Life, PopulationDents
+
+__all__ = ["DROP", "HEADS", "MEANS", "answer", "filter_answer", "filter_rows", "rows"]
+
+HEADS = ("population", "load", "dents/h", "mm²/pass", "depth", "5 % above", "deepest", "width")
+MEANS = {
+    "load": "its part of the whole load",
+    "dents/h": "dents in the whole track per hour",
+    "mm²/pass": "dents per mm² of track and overrolling",
+    "depth": "mean of the dents, an upper bound",
+    "5 % above": "depth that one in twenty exceeds",
+    "deepest": "of an hour (median)",
+    "width": "mean diameter of the dents",
+}
+"""What the heads mean."""
+DROP = ("width", "mm²/pass", "deepest", "load")
+"""Columns in the order in which they go where the width is small."""
+
+
+def answer(found: DirtyOil) -> list[str]:
+    """Which population dents, who carries, and what life is left: a sentence each."""
+    out = [_dents(found.populations, found.where), _carries(found)]
+    if found.life is not None:
+        out.append(_life(found.life))
+    return out
+
+
+def _dents(parts: Sequence[PopulationDents], where: str) -> str:
+    """Who dents most often and who deepest."""
+    if not any(each.per_hour > 0 for each in parts):
+        return f"Nothing dents {where}: no particle of the oil is larger than the film and hard."
+    often = max(parts, key=lambda each: each.per_hour)
+    known = [each for each in parts if math.isfinite(each.depth_p95)]
+    deep = max(known, key=lambda each: each.depth_p95) if known else None
+    if deep is None:
+        return (
+            f"{_capital(often.name)} is flattened in {where}: {_rate(often)} marks an hour, "
+            f"{value_of(often.width, 'm', 3)} wide, of a depth that is not known."
+        )
+    if deep is often:
+        most = "" if len(parts) == 1 else " most often and deepest"
+        rest = [each for each in parts if each is not often]
+        told = f"{_capital(often.name)} dents {where}{most}: {_number_and_depth(often)}"
+        return told + "".join(f"; {each.name}: {_number_and_depth(each)}" for each in rest) + "."
+    others = [each for each in parts if each not in (deep, often)]
+    return (
+        f"{_capital(deep.name)} dents {where} deepest: {_number_and_depth(deep)}; {often.name} "
+        f"dents it most often: {_number_and_depth(often)}"
+        + "".join(f"; {each.name}: {_number_and_depth(each)}" for each in others)
+        + "."
+    )
+
+
+def _number_and_depth(each: PopulationDents) -> str:
+    if not each.per_hour > 0:
+        return "no dents"
+    told = f"{_rate(each)} dents an hour"
+    if math.isnan(each.depth):
+        return f"{_rate(each)} flat marks an hour, {value_of(each.width, 'm', 3)} wide"
+    return (
+        f"{told}, {value_of(each.depth, 'm', 3)} deep on average, one in twenty beyond "
+        f"{value_of(each.depth_p95, 'm', 3)}"
+    )
+
+
+def _carries(found: DirtyOil) -> str:
+    parts = [f"{each.name} {_share(each.load_share)}" for each in found.populations]
+    return (
+        f"The film of {value_of(found.film, 'm', 3)} carries {_share(found.film_share)} of the "
+        f"load at {value_of(found.speed, 'm/s', 3)} (lambda = {number(found.lambda_ratio, 2)}), "
+        f"{join_words([f'asperities {_share(found.asperity_share)}', *parts])}."
+    )
+
+
+def _life(life: Life) -> str:
+    kappa = f"kappa = {number(life.kappa, 3)}"
+    if life.why:
+        return f"With {kappa} and oil {life.code} ISO 281 gives no life factor: {life.why}."
+    lost = (
+        "as in clean oil"
+        if life.a_ISO >= 0.995 * life.clean
+        else f"{number(life.clean, 2)} in clean oil"
+    )
+    hours = "" if math.isnan(life.hours) else f", {_count(life.hours)} h of rating life"
+    return (
+        f"By ISO 281 oil {life.code} with {kappa} has e_C = {number(life.e_C, 2)}, and the life "
+        f"factor a_ISO is {number(life.a_ISO, 2)} ({lost}){hours}."
+    )
+
+
+def rows(found: DirtyOil) -> list[list[str]]:
+    """A row a population, under `HEADS`."""
+    return [
+        [
+            each.name,
+            _share(each.load_share),
+            _rate(each),
+            number(1e-6 * each.per_overrolling, 2),
+            _length(each.depth, each),
+            _length(each.depth_p95, each),
+            _length(each.deepest, each),
+            _length(each.width, each),
+        ]
+        for each in found.populations
+    ]
+
+
+def _length(value: float, each: PopulationDents) -> str:
+    return "-" if not each.per_hour > 0 else value_of(value, "m", 3)
+
+
+def filter_answer(before: DirtyOil, after: DirtyOil) -> str:
+    """What a filter changes, in a sentence."""
+    dents = [sum(each.per_hour for each in found.populations) for found in (before, after)]
+    told = f"The filter takes the dents from {_count(dents[0])} to {_count(dents[1])} an hour"
+    if dents[1] > 0 and dents[0] > dents[1]:
+        told += f", {number(dents[0] / dents[1], 2)} times fewer"
+    lives = (before.life, after.life)
+    if lives[0] is not None and lives[1] is not None:
+        told += f", the oil from {lives[0].code} to {lives[1].code}"
+        a = [each.a_ISO for each in lives]  # type: ignore[union-attr]
+        if all(map(math.isfinite, a)):
+            told += f", and a_ISO from {number(a[0], 2)} to {number(a[1], 2)}"
+            told += f", {number(a[1] / a[0], 2)} times the life"
+    return f"{told}."
+
+
+def filter_rows(before: DirtyOil, after: DirtyOil) -> list[list[str]]:
+    """The same numbers before and after a filter, a row each: name, before, after."""
+    out: list[tuple[str, list[str]]] = []
+
+    def add(name: str, how: Sequence[str]) -> None:
+        out.append((name, list(how)))
+
+    both = (before, after)
+    if before.life is not None and after.life is not None:
+        lives = (before.life, after.life)
+        add("ISO 4406 code", [each.code for each in lives])
+        add("e_C", [number(each.e_C, 2) for each in lives])
+        add("life factor a_ISO", [number(each.a_ISO, 2) for each in lives])
+        if not math.isnan(before.life.hours):
+            add("rating life [h]", [_count(each.hours) for each in lives])
+        add("kappa", [number(each.kappa, 3) for each in lives])
+    add("lambda", [number(each.lambda_ratio, 2) for each in both])
+    add("load on the film", [_share(each.film_share) for each in both])
+    add("load on asperities", [_share(each.asperity_share) for each in both])
+    for i, part in enumerate(before.populations):
+        pair = (part, after.populations[i])
+        add(f"{part.name}: load", [_share(each.load_share) for each in pair])
+        add(f"{part.name}: dents an hour", [_rate(each) for each in pair])
+        add(
+            f"{part.name}: dents per mm² and pass",
+            [number(1e-6 * each.per_overrolling, 2) for each in pair],
+        )
+        add(f"{part.name}: depth", [_length(each.depth, each) for each in pair])
+        add(f"{part.name}: 5 % deeper than", [_length(each.depth_p95, each) for each in pair])
+        add(f"{part.name}: deepest of an hour", [_length(each.deepest, each) for each in pair])
+    return [[name, *how] for name, how in out]
+
+
+def _rate(each: PopulationDents) -> str:
+    return _count(each.per_hour)
+
+
+def _count(value: float) -> str:
+    """A number of dents as people say it."""
+    if not math.isfinite(value):
+        return number(value)
+    return number(float(f"{value:.2g}"), 6 if 1 <= value < 1e6 else 2)
+
+
+def _share(value: float) -> str:
+    return percent(value, least=1e-6)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -1,0 +1,99 @@
+"""A plate on a chuck in words: how high it stands over a particle, and how often too high."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..quantities.say import number, percent, value_of
+from ..systems.connector import name_of
+
+if TYPE_CHECKING:
+    from ..study.run_plate import PlateResult
+
+__all__ = ["MEANS", "answer", "facts", "heads", "rows", "uncertainty"]
+
+MEANS = {
+    "plate stands": "height above the chuck over the particle",
+    "of its size": "that over the particle's diameter",
+    "bump wide": "diameter of what is lifted",
+    "force": "on the particle",
+}
+FEW = 1e-6
+
+
+def answer(found: PlateResult) -> list[str]:
+    """How high it stands, and how often too high, in one or two sentences."""
+    i, chuck = found.at, found.asked.chuck
+    height, grain = float(found.height[i]), float(found.grain[i])
+    out = [
+        f"The plate stands {value_of(height, 'm', 3)} high over a particle of "
+        f"{value_of(grain, 'm', 3)} ({found.particles[i]}), {percent(height / grain, digits=2)} of "
+        f"its diameter, on a bump {value_of(float(found.width[i]), 'm', 3)} wide."
+    ]
+    if chuck.limit is None:
+        return out
+    limit = value_of(chuck.limit, "m")
+    kinds = zip(found.lifting, chuck.particles, strict=True)
+    sizes = ", ".join(
+        f"{value_of(x, 'm', 3)} ({name_of(dust, i)})" for i, (x, dust) in enumerate(kinds)
+    )
+    if found.bumps is None or found.none is None:
+        return [*out, f"Particles from {sizes} on lift it above the limit of {limit}."]
+    return [
+        *out,
+        f"Above the limit of {limit} there are {number(found.bumps, 3, least=FEW)} bumps on a "
+        f"plate, and {percent(found.none, least=FEW)} of the plates have none: particles from "
+        f"{sizes} on lift it so high.",
+    ]
+
+
+def uncertainty(found: PlateResult) -> list[str]:
+    """What moves the answer most, by how much, and what to do about it."""
+    most = found.what_ifs[0]
+    if not most.ratio > 1:
+        return []
+    if found.bumps is None:
+        ends = f"it stands {value_of(most.low, 'm', 3)} to {value_of(most.high, 'm', 3)} high"
+    else:
+        low, high = (number(each, 3, least=FEW) for each in (most.low, most.high))
+        ends = f"there are {low} to {high} bumps above the limit"
+    return [f"Most uncertain: {most.what}. With {most.between} {ends}; {most.action}."]
+
+
+def _columns(found: PlateResult, i: int) -> dict[str, str]:
+    """The cells of one particle by their heads; its kind where there are several."""
+    kinds = {"of": found.particles[i]} if len(found.asked.chuck.particles) > 1 else {}
+    height, grain = float(found.height[i]), float(found.grain[i])
+    return {
+        "particle": value_of(grain, "m", 3),
+        **kinds,
+        "plate stands": value_of(height, "m", 3),
+        "of its size": percent(height / grain, digits=2, least=FEW),
+        "bump wide": value_of(float(found.width[i]), "m", 3),
+        "force": value_of(float(found.force[i]), "N", 3),
+    }
+
+
+def heads(found: PlateResult) -> tuple[str, ...]:
+    """The heads of the table."""
+    return tuple(_columns(found, 0))
+
+
+def rows(found: PlateResult) -> list[list[str]]:
+    """The table: a row a particle."""
+    return [list(_columns(found, i).values()) for i in range(len(found.grain))]
+
+
+def facts(found: PlateResult) -> dict[str, str]:
+    """Named numbers of the particle that the answer tells of."""
+    i = found.at
+    out = {
+        "particle": value_of(float(found.grain[i]), "m", 3),
+        "plate stands": value_of(float(found.height[i]), "m", 3),
+        "bump wide": value_of(float(found.width[i]), "m", 3),
+        "force on the particle": value_of(float(found.force[i]), "N", 3),
+    }
+    if found.bumps is not None:
+        out["bumps above the limit"] = number(found.bumps, 3, least=FEW)
+        out["plates without one"] = percent(found.none, least=FEW)
+    return out

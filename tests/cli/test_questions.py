@@ -1,0 +1,182 @@
+"""``thirdbody probability`` and ``thirdbody plate``: the answer first, and one message a mistake."""
+
+import csv
+import json
+import math
+import tomllib
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from thirdbody import cli
+from thirdbody.study import check
+from thirdbody.study.run_connector import load_connector, run_connector
+from thirdbody.study.run_plate import load_plate, run_plate
+
+FILES = {"probability": "connector", "plate": "wafer-chuck"}
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+
+def said(done):
+    assert done.exit_code == 0, done.stderr
+    return " ".join(done.stdout.split())
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    for kind in FILES.values():
+        assert run("new", kind).exit_code == 0
+    return tmp_path
+
+
+def test_how_often_a_connector_fails_to_close():
+    told = said(run("probability", "connector.toml"))
+    found = run_connector(load_connector("connector.toml"))
+    (at,) = found.places
+    every = found.failure_of_all[at]
+    assert f"Under 0.5 N the connector fails to close once in {1 / every:.0f} closings" in told
+    assert "of its 20 contacts in series, each stays open on dust" in told
+    assert told.index("fails to close") < told.index("contact force") < told.index("Most uncertain")
+    assert "tape lift" in told or "measure the sizes" in told
+
+
+def test_how_high_a_wafer_stands_over_a_grain():
+    done = run("plate", "wafer-chuck.toml")
+    told = said(done)
+    assert "The plate stands 410 nm high over a particle of 10 µm (quartz)" in told
+    assert "Above the limit of 50 nm there are 1.78 bumps on a plate" in told
+    assert "16.8 % of the plates have none" in told
+    assert done.stderr.count("warning: ") == 3
+
+
+@pytest.mark.parametrize(("command", "kind"), FILES.items())
+def test_json_and_csv_hold_the_same_numbers(command, kind):
+    done = run(command, f"{kind}.toml", "--json", "--csv", "rows.csv")
+    data = json.loads(done.stdout)
+    with Path("rows.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    name = "force" if command == "probability" else "grain"
+    unit = "N" if command == "probability" else "m"
+    assert [float(row[f"{name} [{unit}]"]) for row in rows] == data["states"][name]
+    assert data["warnings"] == json.loads(run(command, f"{kind}.toml", "--json").stdout)["warnings"]
+    assert {"title", "version", "inputs", "what_ifs", "citations"} <= data.keys()
+
+
+@pytest.mark.parametrize(("command", "kind"), FILES.items())
+def test_every_line_fits_80_columns(command, kind):
+    done = run(command, f"{kind}.toml")
+    assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+@pytest.mark.parametrize(("command", "kind"), FILES.items())
+def test_neither_roughness_nor_load_is_needed(command, kind):
+    data = Path(f"{kind}.toml").read_text("utf-8").split("[roughness]")[0]
+    Path("short.toml").write_text(data, "utf-8")
+    assert run(command, "short.toml").stdout == run(command, f"{kind}.toml").stdout
+
+
+def test_the_same_study_is_solved_under_its_own_pressure():
+    plug = check(tomllib.loads(Path("connector.toml").read_text("utf-8")))
+    # Hertz: mean pressure W/(π a²), a³ = 3 W R/(4 E*)
+    a = (3 * 0.5 * 2e-3 / (4 * (115e9 / (1 - 0.34**2)) / 2)) ** (1 / 3)
+    assert plug.values[0] == pytest.approx(0.5 / (math.pi * a**2), rel=1e-9)
+    wafer = check(tomllib.loads(Path("wafer-chuck.toml").read_text("utf-8")))
+    assert wafer.values.tolist() == [80e3]
+    assert wafer.plate.chuck.limit == 50e-9
+
+
+def test_several_forces_are_told_at_their_ends():
+    told = said(run("probability", "connector.toml", "--set", 'connector.force=["0.2 N", "2 N"]'))
+    assert "Under 200 mN" in told or "Under 0.2 N" in told
+    assert "Under 2 N" in told
+
+
+def test_a_bifurcated_contact_fails_less_often():
+    one = run_connector(load_connector("connector.toml"))
+    two = run_connector(load_connector("connector.toml", ["connector.parallel=2"]))
+    assert two.failure_of_all[2] == pytest.approx(20 * one.failure[2] ** 2, rel=1e-3)
+    assert "with 2 spots each" in said(
+        run("probability", "connector.toml", "--set", "connector.parallel=2")
+    )
+
+
+def test_a_wipe_of_unknown_effect_is_told_with_both_ends():
+    told = said(run("probability", "connector.toml", "--set", "connector.wipe=0.3 mm"))
+    assert "what the wipe pushes aside" in told
+    assert "give connector.pushed_aside" in told
+    known = said(
+        run("probability", "connector.toml", "--set", "connector.wipe=0.3 mm",
+            "--set", "connector.pushed_aside=0.9")
+    )  # fmt: skip
+    assert "what the wipe pushes aside" not in known
+
+
+def test_a_plate_without_a_limit_tells_its_height_alone():
+    text = Path("wafer-chuck.toml").read_text("utf-8")
+    kept = [line for line in text.splitlines() if not line.startswith("limit")]
+    Path("wafer-chuck.toml").write_text("\n".join(kept), "utf-8")
+    told = said(run("plate", "wafer-chuck.toml"))
+    assert "bumps on a plate" not in told
+    assert "Most uncertain: the size of the particle" in told
+    assert run_plate(load_plate("wafer-chuck.toml")).bumps is None
+
+
+@pytest.mark.parametrize(
+    ("command", "setting", "words"),
+    [
+        ("probability", "connector.force=2 mm", "connector.force"),
+        ("probability", "connector.contacts=2.5", "connector.contacts = 2.5 must be a whole"),
+        ("probability", "connector.pushed_aside=3", "connector.pushed_aside"),
+        ("probability", "connector.radius=5 um", "above the largest particle"),
+        ("probability", "connector.wiping=1 mm", "did you mean wipe?"),
+        ("probability", 'connector.conducting="gold"', "must name particles"),
+        ("probability", "particles.strength=material", "break"),
+        ("plate", "plate.thickness=-1 mm", "plate.thickness"),
+        ("plate", "plate.pressure=80", "kPa"),
+        ("plate", "plate.touching=2", "plate.touching"),
+        ("plate", "plate.grains=1 um", "did you mean grain?"),
+        ("plate", "particles.iso14644=12", "no class of ISO 14644-1"),
+    ],
+)
+def test_one_clear_message_a_mistake(command, setting, words):
+    done = run(command, f"{FILES[command]}.toml", "--set", setting)
+    assert done.exit_code == 2
+    assert done.stdout == ""
+    assert words in " ".join(done.stderr.split())
+    assert done.stderr.count("error: ") == 1
+
+
+@pytest.mark.parametrize(("command", "kind"), FILES.items())
+def test_a_study_of_another_kind_says_what_is_missing(command, kind):
+    other = "wafer-chuck" if kind == "connector" else "connector"
+    done = run(command, f"{other}.toml")
+    assert done.exit_code == 2
+    assert done.stderr.count("error: ") == 1
+    assert f"thirdbody new {kind}" in " ".join(done.stderr.split())
+
+
+def test_without_dust_there_is_nothing_to_ask():
+    text = Path("connector.toml").read_text("utf-8")
+    data = text[: text.index("[particles]")]
+    Path("clean.toml").write_text(data, "utf-8")
+    done = run("probability", "clean.toml")
+    assert done.exit_code == 2
+    assert "particles" in done.stderr
+    assert done.stderr.count("error: ") == 1
+
+
+@pytest.mark.parametrize(
+    ("command", "kind", "page"),
+    [("probability", "connector", "connector.md"), ("plate", "wafer-chuck", "wafer.md")],
+)
+def test_the_book_shows_what_is_printed(command, kind, page):
+    text = (Path(__file__).parents[2] / "docs" / page).read_text("utf-8")
+    shown = text.split("```text\n")[1].split("```")[0]
+    printed = [line.rstrip() for line in run(command, f"{kind}.toml").stdout.splitlines()]
+    assert shown.splitlines() == printed[2:]

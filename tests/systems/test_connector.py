@@ -1,0 +1,219 @@
+"""Connectors on dust: against Poisson limits, the law of one kind of dust, and drawn particles."""
+
+import math
+
+import numpy as np
+import pytest
+
+import thirdbody as tb
+from thirdbody.systems.connector import Connector, overlap
+from thirdbody.systems.contact_probability import ContactProbability
+
+BRONZE = tb.materials["CuSn8"]
+PAIR = tb.MaterialPair(BRONZE, BRONZE)
+LAW = tb.particle.Series(deep="off")
+RADIUS = 2e-3
+
+
+def dust(number, sizes=None, material="quartz", **more):
+    """So many particles in the way of one contact, on average."""
+    sizes = sizes or tb.Monodisperse(mean=10e-6)
+    return tb.Particles(
+        material=tb.materials[material],
+        diameter=sizes,
+        areal_density=number / (2 * math.pi * RADIUS * sizes.moment(1)),
+        **more,
+    )
+
+
+def plug(*kinds, **more):
+    return Connector(**(dict(radius=RADIUS, surfaces=PAIR, particles=kinds, law=LAW) | more))
+
+
+@pytest.mark.parametrize("number", [1e-6, 0.25, 3.0, 40.0])
+def test_without_force_one_particle_is_enough(number):
+    assert plug(dust(number)).failure(0.0) == pytest.approx(-math.expm1(-number), rel=1e-12)
+    both = plug(dust(number, name="a"), dust(2 * number, name="b"))
+    assert both.failure(0.0) == pytest.approx(-math.expm1(-3 * number), rel=1e-12)
+
+
+@pytest.mark.parametrize("n", [1, 20, 1000])
+@pytest.mark.parametrize("m", [1, 2])
+def test_in_series_all_must_close_and_of_parallel_spots_one(n, m):
+    many = plug(dust(0.01), contacts=n, parallel=m)
+    one = many.failure(0.05)
+    closes = (1 - one**m) ** n
+    assert many.failure_of_all(0.05) == pytest.approx(1 - closes, rel=1e-9)
+    rare = plug(dust(1e-7), contacts=n, parallel=m)
+    f = rare.failure(0.0) ** m
+    assert rare.failure_of_all(0.0) == pytest.approx(n * f, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "sizes",
+    [tb.Monodisperse(mean=8e-6), tb.LogNormal(median=8e-6, gsd=1.5)],
+    ids=["one size", "log-normal"],
+)
+def test_one_kind_of_dust_is_that_of_contact_probability(sizes):
+    kind = dust(1.3, sizes)
+    alone = ContactProbability(radius=RADIUS, surfaces=PAIR, particles=kind, law=LAW)
+    several = plug(kind)
+    assert several.in_the_way == pytest.approx(alone.in_the_way, rel=1e-9)
+    for load in np.array([0.1, 0.5, 0.99, 1.0, 2.5]) * alone.threshold:
+        low, high = several.bounds(load)
+        assert low <= high
+        assert high - low < 4e-3
+        assert several.failure(load) == pytest.approx(1 - alone.probability(load), abs=2e-3)
+
+
+def test_a_curve_is_its_points():
+    spread = plug(dust(1.3, tb.LogNormal(median=8e-6, gsd=1.4)))
+    loads = np.geomspace(1e-3, 2.0, 25)
+    expected = [spread.failure(float(load)) for load in loads]
+    assert spread.failures(loads) == pytest.approx(expected, rel=0.03, abs=1e-4)
+    kinds = dust(0.3, name="sand"), dust(0.3, material="CuSn8", name="debris")
+    mixed = plug(*kinds, conducting=["debris"])
+    assert mixed.failures([0.05])[0] == mixed.failure(0.05)
+    assert spread.failures([0.0, 0.1])[0] == spread.failure(0.0)
+
+
+def test_two_halves_are_the_whole():
+    whole = plug(dust(0.8))
+    halves = plug(dust(0.4, name="a"), dust(0.4, name="b"))
+    for load in (0.02, 0.1, 0.3):
+        assert halves.failure(load) == pytest.approx(whole.failure(load), abs=1e-3)
+
+
+def test_a_wipe_that_pushes_nothing_aside_changes_nothing():
+    still, wiped = plug(dust(0.8)), plug(dust(0.8), wipe=0.1e-3)
+    assert wiped.failure(0.05) == still.failure(0.05)
+
+
+def test_a_long_wipe_leaves_what_it_does_not_push_aside():
+    """Discs of radius √(2 R x) that do not meet: a thinned Poisson number."""
+    reach = math.sqrt(2 * RADIUS * 10e-6)
+    for part in (0.3, 1.0):
+        long = plug(dust(0.8), wipe=2 * reach, pushed_aside=part)
+        fewer = plug(dust(0.8 * (1 - part)) if part < 1 else dust(1e-30))
+        assert long.failure(0.0) == pytest.approx(fewer.failure(0.0), rel=1e-9, abs=1e-15)
+        assert long.failure(0.05) == pytest.approx(fewer.failure(0.05), rel=1e-9, abs=1e-15)
+
+
+def test_a_short_wipe_pushes_aside_what_two_discs_do_not_share():
+    reach = math.sqrt(2 * RADIUS * 10e-6)
+    k = 0.5
+    shared = (2 * math.acos(k / 2) - 0.5 * k * math.sqrt(4 - k**2)) / math.pi
+    short = plug(dust(0.8), wipe=k * reach, pushed_aside=1.0)
+    assert short.in_the_way == pytest.approx(0.8 * shared, rel=1e-12)
+    assert short.failure(0.0) == pytest.approx(-math.expm1(-0.8 * shared), rel=1e-12)
+
+
+def test_the_area_that_discs_share_against_drawn_points():
+    rng = np.random.default_rng(3)
+    points = rng.uniform(-1, 1, (400_000, 2))
+    for u, k in ((0.3, 0.2), (0.3, 0.7), (1.0, 1.2), (0.8, 1.6)):
+        inside = np.hypot(*points.T) <= 1
+        other = np.hypot(points[:, 0] - k, points[:, 1]) <= math.sqrt(u)
+        expected = 4 * np.mean(inside & other) / math.pi
+        assert float(overlap(u, k)) == pytest.approx(expected, abs=4e-3)
+
+
+def drawn(kinds, reach, rng, draws):
+    """Particles of every kind thrown on discs: which draw, place, diameter; in µm and metres."""
+    for kind in kinds:
+        count = rng.poisson(math.pi * reach**2 * kind.areal_density, draws)
+        of = np.repeat(np.arange(draws), count)
+        r, phi = reach * np.sqrt(rng.uniform(size=len(of))), rng.uniform(0, 2 * np.pi, len(of))
+        yield of, r * np.cos(phi), r * np.sin(phi), kind.diameter.sample(rng, len(of))
+
+
+@pytest.mark.parametrize("part", [0.5, 1.0])
+def test_a_wipe_against_drawn_particles(part):
+    """Each particle: in the way at last, and there at first or not pushed aside."""
+    sizes = tb.LogNormal(median=8e-6, gsd=1.3)
+    kind, wipe, draws = dust(1.5, sizes), 0.12e-3, 30_000
+    wiped = plug(kind, wipe=wipe, pushed_aside=part)
+    rng = np.random.default_rng(8)
+    reach = math.sqrt(2 * RADIUS * sizes.support[1])
+    ((of, x, y, size),) = drawn([kind], reach, rng, draws)
+    gap = (x**2 + y**2) / (2 * RADIUS)
+    before = ((x - wipe) ** 2 + y**2) / (2 * RADIUS) < size
+    stays = before | (rng.uniform(size=len(of)) > part)
+    force = LAW.single(size, gap, surfaces=PAIR, particle=kind.material)["force"]
+    carried = np.bincount(of, np.where(stays, force, 0.0), minlength=draws)
+    for load in np.array([0.1, 0.5, 1.3]) * wiped.threshold:
+        open_ = np.mean(carried > load)
+        error = 4 * math.sqrt(max(open_ * (1 - open_), 1e-4) / draws)
+        low, high = wiped.bounds(load)
+        assert low - error <= open_ <= high + error, load
+
+
+def test_dust_that_conducts_against_drawn_particles():
+    """The height at which insulating particles carry, and whether a conducting one is taller."""
+    kinds = [dust(0.7, name="sand"), dust(0.5, material="CuSn8", name="debris")]
+    mixed = plug(*kinds, conducting=("debris",))
+    rng = np.random.default_rng(9)
+    draws, reach = 4000, math.sqrt(2 * RADIUS * 10e-6)
+    sand, debris = drawn(kinds, reach, rng, draws)
+    heights = np.linspace(0, 10e-6, 300)
+    for load in np.array([0.2, 0.7]) * mixed.threshold:
+        gap, size = (sand[1] ** 2 + sand[2] ** 2) / (2 * RADIUS), sand[3]
+        found = np.zeros(draws)
+        for h in heights:  # the least height at which they carry no more than the load
+            force = LAW.single(size, gap + h, surfaces=PAIR, particle=kinds[0].material)["force"]
+            found += np.bincount(sand[0], force, minlength=draws) > load
+        stands = np.where(found > 0, found * heights[1], 0.0)
+        tallest = np.full(draws, -1.0)
+        np.maximum.at(
+            tallest, debris[0], debris[3] - (debris[1] ** 2 + debris[2] ** 2) / (2 * RADIUS)
+        )
+        open_ = np.mean((stands > 0) & (tallest < stands))
+        error = 4 * math.sqrt(open_ * (1 - open_) / draws) + 4e-3
+        assert mixed.failure(load) == pytest.approx(open_, abs=error)
+
+
+def test_dust_that_only_conducts_never_keeps_a_circuit_open():
+    assert plug(dust(3.0, name="debris"), conducting=("debris",)).failure(0.01) == 0.0
+
+
+def test_by_material_metal_conducts_and_sand_does_not():
+    kinds = dust(0.7, name="sand"), dust(0.5, material="CuSn8", name="debris")
+    named, told = plug(*kinds, conducting=("debris",)), plug(*kinds, conducting="by material")
+    assert told.failure(0.05) == named.failure(0.05)
+    sand = plug(dust(0.7), conducting="by material")
+    assert sand.failure(0.05) == plug(dust(0.7)).failure(0.05)
+
+
+def test_dust_that_conducts_closes_more_often_than_dust_that_does_not():
+    kinds = dust(0.7, name="sand"), dust(0.5, material="CuSn8", name="debris")
+    insulating, alone = plug(*kinds), plug(kinds[0])
+    mixed = plug(*kinds, conducting=("debris",))
+    for load in (0.0, 0.02, 0.1):
+        assert mixed.failure(load) <= alone.failure(load) + 2e-3
+        assert alone.failure(load) <= insulating.failure(load) + 2e-3
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"radius": 5e-6}, "above the largest particle"),
+        ({"contacts": 2.5}, "must be a whole number"),
+        ({"pushed_aside": 1.2}, "pushed_aside"),
+        ({"conducting": ("gold",)}, "must name particles"),
+    ],
+)
+def test_what_is_no_connector(changes, words):
+    with pytest.raises(tb.InvalidValue, match=words):
+        plug(dust(1.0), **changes)
+
+
+def test_particles_that_break_are_refused():
+    strong = tb.WeibullStrength.of(tb.materials["quartz"])
+    with pytest.raises(tb.InvalidValue, match="break"):
+        plug(dust(1.0, strength=strong))
+
+
+@pytest.mark.parametrize("load", [-1.0, math.nan, math.inf])
+def test_loads_that_are_none(load):
+    with pytest.raises(tb.InvalidValue, match="load must be finite"):
+        plug(dust(1.0)).bounds(load)
